@@ -1,0 +1,340 @@
+//! Reading a case file and turning it into a scenario, with errors that name the place.
+
+use std::{
+    fs::File,
+    io::Read,
+    ops::Range,
+    path::{Path, PathBuf},
+};
+
+use toml::de::{DeTable, DeValue};
+
+use super::Case;
+use crate::{
+    check::{Check, Finding},
+    error::{Error, InputError, nearest},
+    material::{Library, MaterialTable},
+    scenario::Scenario,
+};
+
+/// Largest case or material file that is read.
+pub const MAX_FILE_BYTES: u64 = 1 << 20;
+
+/// Reads a case file and everything that it names.
+///
+/// # Errors
+/// [`Error::Read`] when a file cannot be read, [`Error::Input`] when its content is not valid.
+pub fn load(path: impl AsRef<Path>) -> Result<Scenario, Error> {
+    let path = path.as_ref();
+    let text = read_text(path)?;
+    let name = case_name(path);
+    let directory = path.parent().map(Path::to_path_buf).unwrap_or_default();
+    resolve(&name, &path.display().to_string(), text, Some(&directory))
+}
+
+/// Reads a case from a text; `name` stands for the file in messages.
+///
+/// # Errors
+/// [`Error::Input`] when the text is not a valid case. A text cannot name material files.
+pub fn load_str(name: &str, text: &str) -> Result<Scenario, Error> {
+    resolve(name, name, text.to_owned(), None)
+}
+
+/// Cases live as `NAME/scenario.toml`; a file with another name is called after itself.
+fn case_name(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let folder = std::path::absolute(path).ok().and_then(|path| {
+        let folder = path.parent()?.file_name()?;
+        Some(folder.to_string_lossy().into_owned())
+    });
+    match folder {
+        Some(folder) if stem == "scenario" => folder,
+        _ => stem.into_owned(),
+    }
+}
+
+fn resolve(
+    name: &str,
+    file: &str,
+    text: String,
+    directory: Option<&PathBuf>,
+) -> Result<Scenario, Error> {
+    let document = Document {
+        file: file.to_owned(),
+        text,
+    };
+    let case: Case = document.parse()?;
+    let mut findings = Vec::new();
+    case.check(&mut Check::new(&mut findings));
+    document.report(findings)?;
+
+    let mut library = Library::built_in().clone();
+    library.add(&case.materials, &format!("{name} (this case)"));
+    for (i, relative) in case.material_files.iter().enumerate() {
+        let Some(directory) = directory else {
+            let finding = Finding {
+                key: format!("material_files.{i}"),
+                message: "a case that comes from no file cannot name material files".to_owned(),
+                help: "put the materials into its `materials` table".to_owned(),
+            };
+            return Err(document.place(finding).into());
+        };
+        let path = directory.join(relative);
+        let document = Document {
+            file: path.display().to_string(),
+            text: read_text(&path)?,
+        };
+        let table: MaterialTable = document.parse()?;
+        let mut findings = Vec::new();
+        for (id, material) in &table {
+            material.check(&mut Check::new(&mut findings).within(id));
+        }
+        document.report(findings)?;
+        library.add(&table, &relative.display().to_string());
+    }
+
+    let mut findings = Vec::new();
+    let scenario = Scenario::resolve(name, case, &library, &mut Check::new(&mut findings));
+    document.report(findings)?;
+    scenario.ok_or_else(|| {
+        let finding = Finding {
+            key: String::new(),
+            message: "the case could not be resolved".to_owned(),
+            help: String::new(),
+        };
+        document.place(finding).into()
+    })
+}
+
+impl Case {
+    fn check(&self, check: &mut Check<'_>) {
+        self.projectile.check(&mut check.within("projectile"));
+        self.target.check(&mut check.within("target"));
+        self.chain.check(&mut check.within("chain"));
+        for (id, material) in &self.materials {
+            material.check(&mut check.within("materials").within(id));
+        }
+    }
+}
+
+/// Reads a text file of a sensible size, saying plainly what is wrong with it.
+fn read_text(path: &Path) -> Result<String, Error> {
+    let fail = |reason: String, source| Error::Read {
+        path: path.to_path_buf(),
+        reason,
+        source,
+    };
+    let metadata = std::fs::metadata(path).map_err(|error| {
+        let reason = match error.kind() {
+            std::io::ErrorKind::NotFound if path.is_symlink() => {
+                "it is a symbolic link to a file that does not exist".to_owned()
+            }
+            std::io::ErrorKind::NotFound => {
+                "there is no such file; `percuss new NAME` writes a starter case".to_owned()
+            }
+            _ => error.to_string(),
+        };
+        fail(reason, Some(error))
+    })?;
+    if metadata.is_dir() {
+        let scenario = path.join("scenario.toml");
+        let hint = if scenario.is_file() {
+            format!("; did you mean `{}`?", scenario.display())
+        } else {
+            String::new()
+        };
+        return Err(fail(format!("it is a directory{hint}"), None));
+    }
+    if !metadata.is_file() {
+        return Err(fail("it is not a regular file".to_owned(), None));
+    }
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes))
+        .map_err(|error| fail(error.to_string(), Some(error)))?;
+    if bytes.len() as u64 > MAX_FILE_BYTES {
+        let reason = format!(
+            "it is larger than {} KiB, the limit for a text file",
+            MAX_FILE_BYTES / 1024
+        );
+        return Err(fail(reason, None));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let offset = error.utf8_error().valid_up_to();
+        let line = 1 + error.as_bytes()[..offset]
+            .iter()
+            .filter(|&&b| b == b'\n')
+            .count();
+        let reason =
+            format!("byte {offset} in line {line} is not UTF-8 text; save the file as UTF-8");
+        fail(reason, None)
+    })
+}
+
+/// A text with the name of its file: turns findings and parse errors into errors with a place.
+pub(crate) struct Document {
+    pub(crate) file: String,
+    pub(crate) text: String,
+}
+
+impl Document {
+    pub(crate) fn parse<T: serde::de::DeserializeOwned>(&self) -> Result<T, Error> {
+        toml::from_str(&self.text).map_err(|error| self.parse_error(&error).into())
+    }
+
+    /// Fails with the first finding, if there is one.
+    pub(crate) fn report(&self, findings: Vec<Finding>) -> Result<(), Error> {
+        match findings.into_iter().next() {
+            Some(finding) => Err(self.place(finding).into()),
+            None => Ok(()),
+        }
+    }
+
+    fn place(&self, finding: Finding) -> InputError {
+        InputError {
+            file: self.file.clone(),
+            text: self.text.clone(),
+            span: self.span_of(&finding.key),
+            key: finding.key,
+            message: finding.message,
+            help: finding.help,
+        }
+    }
+
+    fn parse_error(&self, error: &toml::de::Error) -> InputError {
+        let span = error.span().unwrap_or(0..0);
+        let (message, help) = reword(error.message());
+        let key = self.key_at(&span, &message);
+        InputError {
+            file: self.file.clone(),
+            text: self.text.clone(),
+            span,
+            key,
+            message,
+            help,
+        }
+    }
+
+    /// Bytes of the value under a key, or of the innermost table that exists on the way to it.
+    fn span_of(&self, key: &str) -> Range<usize> {
+        let Ok(root) = DeTable::parse(&self.text) else {
+            return 0..0;
+        };
+        let mut span = 0..0;
+        let mut table = Some(root.get_ref());
+        let mut array = None;
+        for part in key.split('.').filter(|part| !part.is_empty()) {
+            let value = match (table, array) {
+                (Some(table), _) => table.get(part),
+                (None, Some(array)) => {
+                    let array: &toml::de::DeArray<'_> = array;
+                    part.parse::<usize>()
+                        .ok()
+                        .and_then(|index| array.get(index))
+                }
+                (None, None) => None,
+            };
+            let Some(value) = value else { break };
+            span = value.span();
+            table = value.get_ref().as_table();
+            array = value.get_ref().as_array();
+        }
+        span
+    }
+
+    /// Dotted key of the innermost value that holds a place.
+    fn key_at(&self, span: &Range<usize>, message: &str) -> String {
+        let Ok(root) = DeTable::parse(&self.text) else {
+            return String::new();
+        };
+        let mut path = Vec::new();
+        descend(root.get_ref(), span, &mut path);
+        if let Some(unknown) = message
+            .strip_prefix("unknown key `")
+            .and_then(|m| m.split('`').next())
+            && path.last().is_none_or(|last| last != unknown)
+        {
+            path.push(unknown.to_owned());
+        }
+        path.join(".")
+    }
+}
+
+fn descend(table: &DeTable<'_>, span: &Range<usize>, path: &mut Vec<String>) {
+    for (key, value) in table {
+        let on_key = key.span().start <= span.start && span.end <= key.span().end;
+        if on_key {
+            path.push(key.get_ref().to_string());
+            return;
+        }
+        // A table written under a header holds keys beyond the header's own span, so every table is searched.
+        let length = path.len();
+        path.push(key.get_ref().to_string());
+        if descend_value(value.get_ref(), span, path) {
+            return;
+        }
+        if value.span().start <= span.start
+            && span.end <= value.span().end
+            && !value.span().is_empty()
+        {
+            return;
+        }
+        path.truncate(length);
+    }
+}
+
+fn descend_value(value: &DeValue<'_>, span: &Range<usize>, path: &mut Vec<String>) -> bool {
+    let length = path.len();
+    match value {
+        DeValue::Table(table) => descend(table, span, path),
+        DeValue::Array(array) => {
+            for (i, item) in array.iter().enumerate() {
+                path.push(i.to_string());
+                if descend_value(item.get_ref(), span, path)
+                    || (item.span().start <= span.start && span.end <= item.span().end)
+                {
+                    return true;
+                }
+                path.truncate(length);
+            }
+        }
+        _ => {}
+    }
+    path.len() > length
+}
+
+/// Rewords a message of the TOML reader in the terms of a user, and splits off what helps.
+fn reword(message: &str) -> (String, String) {
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    let suggest = |what: &str| match quoted.split_first() {
+        Some((name, allowed)) if !allowed.is_empty() => {
+            let near = nearest(name, allowed.iter().copied())
+                .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+            (
+                format!("unknown {what} `{}`", crate::units::shorten(name)),
+                format!("{near}allowed: {}", allowed.join(", ")),
+            )
+        }
+        Some((name, _)) => (
+            format!("unknown {what} `{}`", crate::units::shorten(name)),
+            "no key is allowed here".to_owned(),
+        ),
+        None => (message.to_owned(), String::new()),
+    };
+    if message.starts_with("unknown field") {
+        return suggest("key");
+    }
+    if message.starts_with("unknown variant") {
+        return suggest("value");
+    }
+    if let Some(name) = message.strip_prefix("missing field ") {
+        return (
+            format!("the key {name} is missing"),
+            format!("add {name} to this table"),
+        );
+    }
+    match message.split_once('\n') {
+        Some((first, rest)) => (first.to_owned(), rest.replace('\n', "; ")),
+        None => (message.to_owned(), String::new()),
+    }
+}

@@ -1,0 +1,244 @@
+use std::{borrow::Cow, fmt};
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use crate::{
+    check::{Check, limits},
+    units::{Length, Pressure},
+};
+
+/// What is struck: one plate, several layers, a rigid wall or a constant pressure.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Target {
+    /// Material of a target of one layer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Thickness of a target of one layer, or `"semi-infinite"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<Thickness>,
+    /// Layers from the struck face to the back, in place of `material` and `thickness`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub layers: Vec<Layer>,
+    /// What holds the back face; `fixed` when not given, `non-reflecting` behind a semi-infinite layer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub back_face: Option<BackFace>,
+    /// Diameter of the column of target that is modelled [m]; the projectile's when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column_diameter: Option<Length>,
+    /// `true` for a rigid, frictionless wall: a Taylor test.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub rigid_wall: bool,
+    /// A target that resists with a constant pressure on the projectile's face [Pa], and nothing else.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub constant_pressure: Option<Pressure>,
+}
+
+/// One layer of a target.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Layer {
+    /// Id or family of a material of the library, or id of one of the case's own.
+    pub material: String,
+    /// Thickness, or `"semi-infinite"` for the last layer.
+    pub thickness: Thickness,
+}
+
+/// What holds the back face of a target.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BackFace {
+    /// Does not move; waves come back.
+    #[default]
+    Fixed,
+    /// Moves freely; waves come back with the other sign.
+    Free,
+    /// Lets elastic waves leave, as if the column went on.
+    NonReflecting,
+}
+
+impl BackFace {
+    /// Name as the file has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fixed => "fixed",
+            Self::Free => "free",
+            Self::NonReflecting => "non-reflecting",
+        }
+    }
+}
+
+/// Thickness of a layer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Thickness {
+    /// A plate [m].
+    Finite(Length),
+    /// So thick that its back face does not matter.
+    SemiInfinite,
+}
+
+const SEMI_INFINITE: &str = "semi-infinite";
+
+impl<'de> Deserialize<'de> for Thickness {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+
+        impl serde::de::Visitor<'_> for Visitor {
+            type Value = Thickness;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "a thickness such as \"25 mm\", or \"{SEMI_INFINITE}\"")
+            }
+
+            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Thickness, E> {
+                if text.trim() == SEMI_INFINITE {
+                    return Ok(Thickness::SemiInfinite);
+                }
+                text.parse()
+                    .map(Thickness::Finite)
+                    .map_err(|error| E::custom(format!("{error}; or write \"{SEMI_INFINITE}\"")))
+            }
+        }
+
+        deserializer.deserialize_any(Visitor)
+    }
+}
+
+impl Serialize for Thickness {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Finite(length) => length.serialize(serializer),
+            Self::SemiInfinite => serializer.serialize_str(SEMI_INFINITE),
+        }
+    }
+}
+
+impl JsonSchema for Thickness {
+    fn schema_name() -> Cow<'static, str> {
+        "Thickness".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "anyOf": [generator.subschema_for::<Length>(), { "const": SEMI_INFINITE }],
+        })
+    }
+}
+
+impl Target {
+    /// The layers, whether the target is written as one plate or as several layers, with the keys they stand under.
+    pub(crate) fn layers_with_keys(&self) -> Vec<(String, Layer)> {
+        match (&self.material, self.thickness) {
+            (Some(material), Some(thickness)) if self.layers.is_empty() => {
+                let layer = Layer {
+                    material: material.clone(),
+                    thickness,
+                };
+                vec![("target".to_owned(), layer)]
+            }
+            _ => self
+                .layers
+                .iter()
+                .enumerate()
+                .map(|(i, layer)| (format!("target.layers.{i}"), layer.clone()))
+                .collect(),
+        }
+    }
+
+    pub(super) fn check(&self, check: &mut Check<'_>) {
+        let plate = self.material.is_some() || self.thickness.is_some();
+        let kinds = [
+            (plate, "material and thickness"),
+            (!self.layers.is_empty(), "layers"),
+            (self.rigid_wall, "rigid_wall"),
+            (self.constant_pressure.is_some(), "constant_pressure"),
+        ];
+        let given: Vec<&str> = kinds
+            .iter()
+            .filter(|kind| kind.0)
+            .map(|kind| kind.1)
+            .collect();
+        match given.as_slice() {
+            [] => check.fail(
+                "",
+                "the target is not described",
+                "give `material` and `thickness`, or `layers`, or `rigid_wall = true`, or `constant_pressure`",
+            ),
+            [_] => {}
+            _ => check.fail(
+                "",
+                format!("the target is described in several ways: {}", given.join("; ")),
+                "keep one of them",
+            ),
+        }
+        if plate && self.material.is_none() {
+            check.fail(
+                "",
+                "the target has a thickness but no material",
+                "add `material`",
+            );
+        }
+        if plate && self.thickness.is_none() {
+            check.fail(
+                "",
+                "the target has a material but no thickness",
+                "add `thickness`, for example thickness = \"25 mm\" or thickness = \"semi-infinite\"",
+            );
+        }
+        if let Some(Thickness::Finite(thickness)) = self.thickness {
+            check.quantity("thickness", thickness, limits::LENGTH);
+        }
+        for (i, layer) in self.layers.iter().enumerate() {
+            let mut check = check.within(&format!("layers.{i}"));
+            match layer.thickness {
+                Thickness::Finite(thickness) => {
+                    check.quantity("thickness", thickness, limits::LENGTH);
+                }
+                Thickness::SemiInfinite if i + 1 < self.layers.len() => check.fail(
+                    "thickness",
+                    "a semi-infinite layer has layers behind it",
+                    "only the last layer can be semi-infinite",
+                ),
+                Thickness::SemiInfinite => {}
+            }
+        }
+        if let Some(diameter) = self.column_diameter {
+            check.quantity("column_diameter", diameter, limits::DIAMETER);
+        }
+        if let Some(pressure) = self.constant_pressure {
+            check.quantity("constant_pressure", pressure, limits::CONTACT_PRESSURE);
+        }
+        let semi_infinite = self.thickness == Some(Thickness::SemiInfinite)
+            || self
+                .layers
+                .last()
+                .is_some_and(|layer| layer.thickness == Thickness::SemiInfinite);
+        if semi_infinite
+            && self
+                .back_face
+                .is_some_and(|face| face != BackFace::NonReflecting)
+        {
+            check.fail(
+                "back_face",
+                "a semi-infinite target has no back face that is fixed or free",
+                "remove `back_face`, or give a thickness",
+            );
+        }
+        let solid = plate || !self.layers.is_empty();
+        if self.back_face.is_some() && !solid {
+            check.fail(
+                "back_face",
+                "a rigid wall or a constant pressure has no back face",
+                "remove `back_face`",
+            );
+        }
+        if self.column_diameter.is_some() && !solid {
+            check.fail(
+                "column_diameter",
+                "a rigid wall or a constant pressure has no column of material",
+                "remove `column_diameter`",
+            );
+        }
+    }
+}

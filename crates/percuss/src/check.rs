@@ -1,0 +1,173 @@
+//! Range checks that remember which key they looked at.
+
+use crate::units::{Dimension, Quantity, display, significant};
+
+/// Smallest and largest value allowed, in SI units, both included.
+#[derive(Debug, Clone, Copy)]
+pub struct Limits {
+    /// Smallest value allowed.
+    pub min: f64,
+    /// Largest value allowed.
+    pub max: f64,
+}
+
+/// A finding of a check, before it is tied to a place in a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// Key in dotted form.
+    pub key: String,
+    /// What is wrong.
+    pub message: String,
+    /// What is allowed and what to do.
+    pub help: String,
+}
+
+/// Collects findings; keys are relative to the table it stands in.
+#[derive(Debug)]
+pub struct Check<'a> {
+    prefix: String,
+    findings: &'a mut Vec<Finding>,
+}
+
+impl<'a> Check<'a> {
+    /// A check at the root of a file.
+    pub fn new(findings: &'a mut Vec<Finding>) -> Self {
+        Self {
+            prefix: String::new(),
+            findings,
+        }
+    }
+
+    /// A check one table further in.
+    pub fn within(&mut self, table: &str) -> Check<'_> {
+        Check {
+            prefix: self.key(table),
+            findings: self.findings,
+        }
+    }
+
+    fn key(&self, key: &str) -> String {
+        match (self.prefix.is_empty(), key.is_empty()) {
+            (true, _) => key.to_owned(),
+            (false, true) => self.prefix.clone(),
+            (false, false) => format!("{}.{key}", self.prefix),
+        }
+    }
+
+    /// Reports a finding at a key; an empty key is the table itself.
+    pub fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+        let key = self.key(key);
+        self.findings.push(Finding {
+            key,
+            message: message.into(),
+            help: help.into(),
+        });
+    }
+
+    /// Reports a quantity outside its limits.
+    pub fn quantity<D: Dimension>(&mut self, key: &str, value: Quantity<D>, limits: Limits) {
+        // Written so that NaN is reported too.
+        if !(limits.min..=limits.max).contains(&value.si()) {
+            self.fail(
+                key,
+                format!("{value} is out of range"),
+                format!(
+                    "allowed: {} to {}",
+                    display::<D>(limits.min),
+                    display::<D>(limits.max)
+                ),
+            );
+        }
+    }
+
+    /// Reports a plain number outside its limits.
+    pub fn number(&mut self, key: &str, value: f64, limits: Limits) {
+        if !(limits.min..=limits.max).contains(&value) {
+            self.fail(
+                key,
+                format!("{} is out of range", significant(value, 6)),
+                format!(
+                    "allowed: {} to {}",
+                    significant(limits.min, 6),
+                    significant(limits.max, 6)
+                ),
+            );
+        }
+    }
+}
+
+/// Limits of what a case or a material may hold: wide enough for any real one, narrow enough to catch a slip of units.
+pub mod limits {
+    use super::Limits;
+
+    const fn limits(min: f64, max: f64) -> Limits {
+        Limits { min, max }
+    }
+
+    /// Length of a projectile or a layer [m].
+    pub const LENGTH: Limits = limits(1e-5, 100.0);
+    /// Diameter [m].
+    pub const DIAMETER: Limits = limits(1e-5, 10.0);
+    /// Mass [kg].
+    pub const MASS: Limits = limits(1e-9, 1e5);
+    /// Impact speed [m/s].
+    pub const IMPACT_SPEED: Limits = limits(0.0, 10_000.0);
+    /// Density [kg/m3].
+    pub const DENSITY: Limits = limits(10.0, 25_000.0);
+    /// Young's modulus [Pa].
+    pub const YOUNGS_MODULUS: Limits = limits(1e6, 1.5e12);
+    /// Poisson's ratio.
+    pub const POISSONS_RATIO: Limits = limits(0.0, 0.499);
+    /// Flow stress [Pa].
+    pub const FLOW_STRESS: Limits = limits(1e3, 2e10);
+    /// Hardening coefficient of a Johnson–Cook law [Pa].
+    pub const HARDENING_COEFFICIENT: Limits = limits(0.0, 1e11);
+    /// Exponent of a power law; at 1 it would not meet the elastic line.
+    pub const HARDENING_EXPONENT: Limits = limits(0.0, 0.95);
+    /// Hardening exponent of a Johnson–Cook or Steinberg law.
+    pub const JOHNSON_COOK_EXPONENT: Limits = limits(0.0, 2.0);
+    /// Rate coefficient C.
+    pub const RATE_COEFFICIENT: Limits = limits(0.0, 1.0);
+    /// Thermal softening exponent m.
+    pub const THERMAL_EXPONENT: Limits = limits(0.05, 10.0);
+    /// Strain rate [1/s].
+    pub const STRAIN_RATE: Limits = limits(1e-8, 1e9);
+    /// Steinberg's β.
+    pub const STEINBERG_BETA: Limits = limits(0.0, 1e6);
+    /// Plastic strain.
+    pub const PLASTIC_STRAIN: Limits = limits(0.0, 100.0);
+    /// Pressure coefficient of the shear modulus [1/Pa].
+    pub const PRESSURE_COEFFICIENT: Limits = limits(0.0, 1e-9);
+    /// Temperature coefficient of the shear modulus [1/K].
+    pub const TEMPERATURE_COEFFICIENT: Limits = limits(0.0, 1e-2);
+    /// Specific heat [J/(kg K)].
+    pub const SPECIFIC_HEAT: Limits = limits(50.0, 10_000.0);
+    /// Temperature [K].
+    pub const TEMPERATURE: Limits = limits(1.0, 6000.0);
+    /// Ratio of yield stress to Young's modulus; a stronger solid than E/10 does not exist.
+    pub const YIELD_TO_MODULUS: Limits = limits(5e-5, 0.1);
+    /// Speed of a wave in a thin bar [m/s].
+    pub const BAR_WAVE_SPEED: Limits = limits(250.0, 20_000.0);
+    /// Factor on the flow stress of a target.
+    pub const CONSTRAINT_FACTOR: Limits = limits(0.1, 20.0);
+    /// Border-shear coefficient C.
+    pub const BORDER_SHEAR: Limits = limits(0.0, 10.0);
+    /// Courant number.
+    pub const COURANT: Limits = limits(1e-4, 1.0);
+    /// Strain at which an element erodes.
+    pub const EROSION_STRAIN: Limits = limits(0.05, 20.0);
+    /// Coefficient of artificial viscosity.
+    pub const VISCOSITY: Limits = limits(0.0, 10.0);
+    /// Fraction of critical damping.
+    pub const DAMPING: Limits = limits(0.0, 2.0);
+    /// Fraction of plastic work that becomes heat.
+    pub const HEAT_FRACTION: Limits = limits(0.0, 1.0);
+    /// End of a run [s].
+    pub const TIME: Limits = limits(1e-9, 10.0);
+    /// Nose length in units of the body's diameter, cone.
+    pub const CONE_RATIO: Limits = limits(0.1, 20.0);
+    /// Caliber-radius-head of an ogive.
+    pub const CALIBER_RADIUS_HEAD: Limits = limits(0.5, 50.0);
+    /// Contact pressure of a constant-pressure target [Pa].
+    pub const CONTACT_PRESSURE: Limits = limits(1e3, 1e11);
+}

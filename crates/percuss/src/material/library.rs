@@ -1,0 +1,116 @@
+//! The library of materials: built-in records, and those of a case.
+
+use std::{
+    collections::BTreeMap,
+    sync::{Arc, LazyLock},
+};
+
+use super::{Material, MaterialTable};
+use crate::{
+    case::Document,
+    check::{Check, Finding},
+    error::{Error, nearest},
+};
+
+/// Built-in material files. Adding one is one file in `materials/` and one line here.
+const FILES: &[(&str, &str)] = &[(
+    "woodward1982.toml",
+    include_str!("../../materials/woodward1982.toml"),
+)];
+
+/// A material with its id and the place it comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MaterialEntry {
+    /// Id: the name of its table.
+    pub id: String,
+    /// File or case that holds it.
+    pub origin: String,
+    /// The record.
+    pub material: Arc<Material>,
+}
+
+/// Materials by id and by family.
+#[derive(Debug, Clone, Default)]
+pub struct Library {
+    entries: BTreeMap<String, MaterialEntry>,
+}
+
+static BUILT_IN: LazyLock<Result<Library, Error>> = LazyLock::new(|| {
+    let mut library = Library::default();
+    for (file, text) in FILES {
+        let document = Document {
+            file: (*file).to_owned(),
+            text: (*text).to_owned(),
+        };
+        let table: MaterialTable = document.parse()?;
+        let mut findings: Vec<Finding> = Vec::new();
+        for (id, material) in &table {
+            material.check(&mut Check::new(&mut findings).within(id));
+        }
+        document.report(findings)?;
+        library.add(&table, file);
+    }
+    Ok(library)
+});
+
+impl Library {
+    /// The materials that the program ships.
+    ///
+    /// # Panics
+    /// When a shipped file is not valid, which the library's own tests rule out.
+    pub fn built_in() -> &'static Self {
+        match &*BUILT_IN {
+            Ok(library) => library,
+            Err(error) => panic!("built-in materials: {error}"),
+        }
+    }
+
+    /// Adds records; one with an id that exists already replaces it.
+    pub fn add(&mut self, table: &MaterialTable, origin: &str) {
+        for (id, material) in table {
+            let entry = MaterialEntry {
+                id: id.clone(),
+                origin: origin.to_owned(),
+                material: Arc::new(material.clone()),
+            };
+            self.entries.insert(id.clone(), entry);
+        }
+    }
+
+    /// All records in the order of their ids.
+    pub fn iter(&self) -> impl Iterator<Item = &MaterialEntry> {
+        self.entries.values()
+    }
+
+    /// The record with this id, or the recommended one of the family with this name.
+    pub fn find(&self, name: &str) -> Option<&MaterialEntry> {
+        self.entries.get(name).or_else(|| {
+            self.iter().find(|entry| {
+                entry.material.recommended && entry.material.family.as_deref() == Some(name)
+            })
+        })
+    }
+
+    /// The records of a family, or of the family that a record belongs to.
+    pub fn rivals<'a>(
+        &'a self,
+        entry: &'a MaterialEntry,
+    ) -> impl Iterator<Item = &'a MaterialEntry> {
+        self.iter().filter(move |other| {
+            other.id != entry.id
+                && other.material.family.is_some()
+                && other.material.family == entry.material.family
+        })
+    }
+
+    /// The id or family nearest to a mistyped name.
+    pub fn nearest(&self, name: &str) -> Option<String> {
+        let families = self
+            .iter()
+            .filter_map(|entry| entry.material.family.as_deref());
+        nearest(
+            name,
+            families.chain(self.entries.keys().map(String::as_str)),
+        )
+    }
+}

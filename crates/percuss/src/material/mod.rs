@@ -1,0 +1,147 @@
+//! Materials: elastic constants, a strength law and where every number comes from.
+
+mod library;
+mod references;
+mod sanity;
+mod strength;
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::units::{Density, Pressure, SpecificHeat, StrainRate, Temperature};
+
+pub use library::{Library, MaterialEntry};
+pub use references::{Reference, references};
+pub use strength::*;
+
+/// One parameter set of a material, as a file holds it.
+///
+/// Rival sets for the same material stay separate records of one `family`; one of them is recommended.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Plain name, for example `OFHC copper`.
+    pub name: String,
+    /// Group of rival records that describe the same material; its recommended record answers to this name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub family: Option<String>,
+    /// Temper, heat treatment or condition.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<String>,
+    /// Whether this record answers to the name of its family.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub recommended: bool,
+    /// How far the numbers can be trusted.
+    #[serde(default)]
+    pub trust: Trust,
+    /// Bibliography keys of the works that the numbers come from.
+    #[serde(default)]
+    pub sources: Vec<String>,
+    /// What a user should know before relying on the record.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub note: String,
+    /// Density at rest [kg/m3].
+    pub density: Density,
+    /// Young's modulus [Pa].
+    pub youngs_modulus: Pressure,
+    /// Poisson's ratio.
+    pub poissons_ratio: f64,
+    /// Static yield stress [Pa], for information; the strength law decides.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yield_stress: Option<Pressure>,
+    /// Specific heat [J/(kg K)]; needed for adiabatic heating.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub specific_heat: Option<SpecificHeat>,
+    /// Melting temperature [K].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub melting_temperature: Option<Temperature>,
+    /// Temperature at which the parameters were measured [K].
+    #[serde(default = "room_temperature")]
+    pub room_temperature: Temperature,
+    /// Where the strength law was fitted.
+    #[serde(default, skip_serializing_if = "Validity::is_empty")]
+    pub validity: Validity,
+    /// The strength law.
+    pub strength: Strength,
+}
+
+fn room_temperature() -> Temperature {
+    Temperature::new(293.0)
+}
+
+impl Material {
+    /// Speed of a longitudinal wave in a thin elastic bar [m/s].
+    pub fn bar_wave_speed(&self) -> f64 {
+        (self.youngs_modulus.si() / self.density.si()).sqrt()
+    }
+
+    /// Acoustic impedance of a thin elastic bar per area [kg/(m2 s)].
+    pub fn bar_impedance(&self) -> f64 {
+        (self.youngs_modulus.si() * self.density.si()).sqrt()
+    }
+
+    /// Shear modulus [Pa].
+    pub fn shear_modulus(&self) -> f64 {
+        self.youngs_modulus.si() / (2.0 * (1.0 + self.poissons_ratio))
+    }
+
+    /// Bulk modulus [Pa].
+    pub fn bulk_modulus(&self) -> f64 {
+        self.youngs_modulus.si() / (3.0 * (1.0 - 2.0 * self.poissons_ratio))
+    }
+}
+
+/// How far the numbers of a record can be trusted.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize, JsonSchema,
+)]
+pub enum Trust {
+    /// Read in two independent readable places.
+    A,
+    /// One secondary source that names its primary source.
+    B,
+    /// Secondary source without a named primary one, or values put together from several.
+    C,
+    /// Supplied by the user; not judged.
+    #[default]
+    #[serde(rename = "user")]
+    User,
+}
+
+impl Trust {
+    /// What the letter means, in words.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::A => "read in two independent places",
+            Self::B => "one secondary source that names its primary source",
+            Self::C => "indicative: primary source not named, or put together from several",
+            Self::User => "supplied by the user; not judged",
+        }
+    }
+}
+
+/// Range in which a strength law was fitted; outside it a run warns.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Validity {
+    /// Largest plastic strain.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plastic_strain_max: Option<f64>,
+    /// Largest strain rate [1/s].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub strain_rate_max: Option<StrainRate>,
+    /// Largest temperature [K].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature_max: Option<Temperature>,
+}
+
+impl Validity {
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// A file of materials: one table a record, the table's name being the material's id.
+pub type MaterialTable = BTreeMap<String, Material>;

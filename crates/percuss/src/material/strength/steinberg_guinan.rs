@@ -1,0 +1,141 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{FlowState, FlowStress, PreparedStrength, StrengthLaw};
+use crate::{
+    check::{Check, limits},
+    material::Material,
+    units::{InversePressure, InverseTemperature, Pressure},
+};
+
+/// Steinberg–Cochran–Guinan strength \[steinberg1996\].
+///
+/// `Y = min(Y₀ [1 + β(ε_i + ε_p)]ⁿ, Y_max) · G(P, T)/G₀`, with `G/G₀ = 1 + A P − B (T − 300 K)`, not less than 0.
+/// Compression of the lattice (the factor `η^{1/3}`) is left out: at the pressures of a thin rod it is below 1 %.
+/// The law has no rate dependence; it was made for strain rates above 1e5 1/s.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SteinbergGuinan {
+    /// Initial yield stress Y₀ [Pa].
+    pub y0: Pressure,
+    /// Largest work-hardened yield stress [Pa].
+    pub y_max: Pressure,
+    /// Hardening coefficient β.
+    pub beta: f64,
+    /// Hardening exponent n.
+    pub n: f64,
+    /// Plastic strain of the material before impact ε_i.
+    #[serde(default)]
+    pub initial_plastic_strain: f64,
+    /// Pressure coefficient of the shear modulus A [1/Pa]; zero where the source gives none.
+    #[serde(default = "no_pressure_effect")]
+    pub pressure_coefficient: InversePressure,
+    /// Temperature coefficient of the shear modulus B [1/K]; zero where the source gives none.
+    #[serde(default = "no_temperature_effect")]
+    pub temperature_coefficient: InverseTemperature,
+}
+
+fn no_pressure_effect() -> InversePressure {
+    InversePressure::new(0.0)
+}
+
+fn no_temperature_effect() -> InverseTemperature {
+    InverseTemperature::new(0.0)
+}
+
+const REFERENCE_TEMPERATURE: f64 = 300.0;
+
+#[derive(Debug)]
+struct Prepared {
+    law: SteinbergGuinan,
+    factor: f64,
+}
+
+impl SteinbergGuinan {
+    fn work_hardened(&self, plastic_strain: f64) -> f64 {
+        let hardened =
+            (1.0 + self.beta * (self.initial_plastic_strain + plastic_strain)).powf(self.n);
+        (self.y0.si() * hardened).min(self.y_max.si())
+    }
+}
+
+impl PreparedStrength for Prepared {
+    fn flow_stress(&self, state: &FlowState) -> FlowStress {
+        let law = &self.law;
+        let softening =
+            law.temperature_coefficient.si() * (state.temperature - REFERENCE_TEMPERATURE);
+        let stiffening = law.pressure_coefficient.si() * state.pressure.max(0.0);
+        let scale = self.factor * (1.0 + stiffening - softening).max(0.0);
+        let hardened = law.work_hardened(state.plastic_strain);
+        let strain_slope = if hardened < law.y_max.si() {
+            law.n * law.beta * hardened
+                / (1.0 + law.beta * (law.initial_plastic_strain + state.plastic_strain))
+        } else {
+            0.0
+        };
+        FlowStress {
+            stress: hardened * scale,
+            strain_slope: strain_slope * scale,
+            rate_slope: 0.0,
+        }
+    }
+}
+
+impl StrengthLaw for SteinbergGuinan {
+    fn prepare(&self, _: &Material, factor: f64) -> Box<dyn PreparedStrength> {
+        Box::new(Prepared { law: *self, factor })
+    }
+
+    fn flow_stress_at_unit_strain(&self, _: &Material) -> Option<f64> {
+        Some(self.work_hardened(1.0))
+    }
+
+    fn initial_yield_stress(&self, _: &Material) -> Option<f64> {
+        Some(self.work_hardened(0.0))
+    }
+
+    fn equation(&self) -> &'static str {
+        "σ = min(Y₀ [1 + β(ε_i + ε_p)]ⁿ, Y_max) · [1 + A P − B (T − 300 K)]"
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, String)> {
+        vec![
+            ("Y₀ (y0)", self.y0.to_string()),
+            ("Y_max (y_max)", self.y_max.to_string()),
+            ("β (beta)", self.beta.to_string()),
+            ("n", self.n.to_string()),
+            ("ε_i", self.initial_plastic_strain.to_string()),
+            ("A", self.pressure_coefficient.to_string()),
+            ("B", self.temperature_coefficient.to_string()),
+        ]
+    }
+
+    fn check(&self, check: &mut Check<'_>) {
+        check.quantity("y0", self.y0, limits::FLOW_STRESS);
+        check.quantity("y_max", self.y_max, limits::FLOW_STRESS);
+        check.number("beta", self.beta, limits::STEINBERG_BETA);
+        check.number("n", self.n, limits::JOHNSON_COOK_EXPONENT);
+        check.number(
+            "initial_plastic_strain",
+            self.initial_plastic_strain,
+            limits::PLASTIC_STRAIN,
+        );
+        check.quantity(
+            "pressure_coefficient",
+            self.pressure_coefficient,
+            limits::PRESSURE_COEFFICIENT,
+        );
+        check.quantity(
+            "temperature_coefficient",
+            self.temperature_coefficient,
+            limits::TEMPERATURE_COEFFICIENT,
+        );
+        if self.y_max.si() < self.y0.si() {
+            check.fail(
+                "y_max",
+                format!("y_max = {} is below y0 = {}", self.y_max, self.y0),
+                "the work-hardened yield stress cannot be below the initial one",
+            );
+        }
+    }
+}

@@ -1,0 +1,421 @@
+//! Quantities with units: `"850 m/s"` in a file, `f64` in SI units inside.
+//!
+//! A [`Quantity`] carries its dimension in its type, so a mass cannot be read where a length is due.
+//!
+//! ```
+//! use percuss::units::{Length, Velocity};
+//! let diameter: Length = "4.8 mm".parse().unwrap();
+//! assert!((diameter.si() - 4.8e-3).abs() < 1e-18);
+//! let error = "4.8 kg".parse::<Length>().unwrap_err();
+//! assert!(error.to_string().contains("`kg` is a unit of mass"));
+//! assert_eq!(Velocity::new(230.0).to_string(), "230 m/s");
+//! ```
+
+mod dimension;
+
+use std::{borrow::Cow, fmt, marker::PhantomData, str::FromStr};
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+pub use dimension::*;
+
+/// A number with a physical dimension, held in SI units.
+pub struct Quantity<D> {
+    si: f64,
+    dimension: PhantomData<fn() -> D>,
+}
+
+impl<D: Dimension> Quantity<D> {
+    /// Wraps a value given in SI units.
+    pub const fn new(si: f64) -> Self {
+        Self {
+            si,
+            dimension: PhantomData,
+        }
+    }
+
+    /// The value in SI units.
+    pub const fn si(self) -> f64 {
+        self.si
+    }
+}
+
+impl<D> Clone for Quantity<D> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<D> Copy for Quantity<D> {}
+
+impl<D> PartialEq for Quantity<D> {
+    fn eq(&self, other: &Self) -> bool {
+        self.si == other.si
+    }
+}
+
+impl<D: Dimension> fmt::Debug for Quantity<D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+/// Writes the value in the unit of its dimension that reads best, to six significant digits.
+impl<D: Dimension> fmt::Display for Quantity<D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&display::<D>(self.si))
+    }
+}
+
+/// Writes an SI value in the unit of its dimension that reads best, to six significant digits.
+pub fn display<D: Dimension>(si: f64) -> String {
+    let unit = D::DISPLAY
+        .iter()
+        .filter_map(|symbol| D::UNITS.iter().find(|unit| unit.symbol == *symbol))
+        .find(|unit| (si / unit.factor).abs() >= 1.0)
+        .or_else(|| {
+            let smallest = if si == 0.0 {
+                D::DISPLAY.first()
+            } else {
+                D::DISPLAY.last()
+            };
+            D::UNITS.iter().find(|unit| Some(&unit.symbol) == smallest)
+        });
+    match unit {
+        Some(unit) => format!(
+            "{} {}",
+            significant((si - unit.offset) / unit.factor, 6),
+            unit.symbol
+        ),
+        None => significant(si, 6),
+    }
+}
+
+/// Writes a number with at most `digits` significant digits and no trailing zeros.
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{}", value + 0.0);
+    }
+    let magnitude = value.abs().log10().floor() as i32;
+    if !(-4..9).contains(&magnitude) {
+        let text = format!("{value:.*e}", digits.saturating_sub(1));
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        return if mantissa.contains('.') {
+            format!(
+                "{}e{exponent}",
+                mantissa.trim_end_matches('0').trim_end_matches('.')
+            )
+        } else {
+            text.clone()
+        };
+    }
+    let decimals = (digits as i32 - 1 - magnitude).max(0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// Why a text is no quantity of the dimension that was due.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum QuantityError {
+    /// The text does not start with a number.
+    #[error("`{text}` is not a number with a unit\n{expected}")]
+    NoNumber {
+        /// The text found.
+        text: String,
+        /// What is due, with an example and the units allowed.
+        expected: String,
+    },
+    /// The number is infinite or too large for a 64-bit float.
+    #[error("`{text}` is not a finite number\n{expected}")]
+    NotFinite {
+        /// The text found.
+        text: String,
+        /// What is due, with an example and the units allowed.
+        expected: String,
+    },
+    /// A number without its unit.
+    #[error("the unit is missing after `{text}`\n{expected}")]
+    NoUnit {
+        /// The text found.
+        text: String,
+        /// What is due, with an example and the units allowed.
+        expected: String,
+    },
+    /// A unit that belongs to another dimension.
+    #[error("`{unit}` is a unit of {found}, but {due} is due here\n{expected}")]
+    WrongDimension {
+        /// The unit found.
+        unit: String,
+        /// The dimension it belongs to.
+        found: &'static str,
+        /// The dimension that is due.
+        due: &'static str,
+        /// What is due, with an example and the units allowed.
+        expected: String,
+    },
+    /// A unit that nobody knows.
+    #[error("`{unit}` is not a known unit\n{expected}")]
+    UnknownUnit {
+        /// The unit found.
+        unit: String,
+        /// What is due, with an example and the units allowed.
+        expected: String,
+    },
+}
+
+fn expected<D: Dimension>() -> String {
+    let units: Vec<&str> = D::UNITS.iter().map(|unit| unit.symbol).collect();
+    format!(
+        "write {} as a quoted number with a unit, for example \"{}\"; units: {}",
+        D::ARTICLE_NAME,
+        D::EXAMPLE,
+        units.join(", ")
+    )
+}
+
+/// Splits `"4.8 mm"` into its number and its unit.
+fn split_number(text: &str) -> Option<(f64, &str)> {
+    let end = text
+        .find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c)))
+        .unwrap_or(text.len());
+    // Shorten until it reads as a number, so that the `e` of an unknown unit such as `3 ells` is not taken for an exponent.
+    (1..=end)
+        .rev()
+        .filter(|&cut| text.is_char_boundary(cut))
+        .find_map(|cut| {
+            let number = text[..cut].parse::<f64>().ok()?;
+            Some((number, text[cut..].trim()))
+        })
+}
+
+/// Brings the many ways to write a unit to one: `kg/m³` and `kg/m^3` to `kg/m3`, `μs` to `us`.
+fn normalise(unit: &str) -> String {
+    unit.chars()
+        .filter_map(|c| match c {
+            '³' => Some('3'),
+            '²' => Some('2'),
+            '^' => None,
+            'µ' | 'μ' => Some('u'),
+            '·' | '*' => Some(' '),
+            other => Some(other),
+        })
+        .collect::<String>()
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+fn find_unit(units: &'static [Unit], name: &str) -> Option<&'static Unit> {
+    units
+        .iter()
+        .find(|unit| unit.symbol == name || unit.aliases.contains(&name))
+}
+
+impl<D: Dimension> FromStr for Quantity<D> {
+    type Err = QuantityError;
+
+    fn from_str(text: &str) -> Result<Self, QuantityError> {
+        let text = text.trim();
+        let Some((number, unit)) = split_number(text) else {
+            return Err(QuantityError::NoNumber {
+                text: shorten(text),
+                expected: expected::<D>(),
+            });
+        };
+        if unit.is_empty() {
+            return Err(QuantityError::NoUnit {
+                text: shorten(text),
+                expected: expected::<D>(),
+            });
+        }
+        let name = normalise(unit);
+        let Some(unit) = find_unit(D::UNITS, &name) else {
+            let other = ALL_DIMENSIONS
+                .iter()
+                .find(|dimension| find_unit(dimension.units, &name).is_some());
+            return Err(match other {
+                Some(other) => QuantityError::WrongDimension {
+                    unit: shorten(unit),
+                    found: other.name,
+                    due: D::ARTICLE_NAME,
+                    expected: expected::<D>(),
+                },
+                None => QuantityError::UnknownUnit {
+                    unit: shorten(unit),
+                    expected: expected::<D>(),
+                },
+            });
+        };
+        let si = number * unit.factor + unit.offset;
+        if !si.is_finite() {
+            return Err(QuantityError::NotFinite {
+                text: shorten(text),
+                expected: expected::<D>(),
+            });
+        }
+        Ok(Self::new(si))
+    }
+}
+
+/// Cuts a text that is quoted in a message to 40 characters.
+pub(crate) fn shorten(text: &str) -> String {
+    if text.chars().count() <= 40 {
+        text.to_owned()
+    } else {
+        text.chars().take(39).chain(['…']).collect()
+    }
+}
+
+impl<'de, D: Dimension> Deserialize<'de> for Quantity<D> {
+    fn deserialize<De: Deserializer<'de>>(deserializer: De) -> Result<Self, De::Error> {
+        struct Visitor<D>(PhantomData<D>);
+
+        impl<D: Dimension> serde::de::Visitor<'_> for Visitor<D> {
+            type Value = Quantity<D>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "{} such as \"{}\"", D::ARTICLE_NAME, D::EXAMPLE)
+            }
+
+            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Self::Value, E> {
+                text.parse().map_err(E::custom)
+            }
+
+            fn visit_f64<E: serde::de::Error>(self, value: f64) -> Result<Self::Value, E> {
+                Err(E::custom(QuantityError::NoUnit {
+                    text: format!("{value}"),
+                    expected: expected::<D>(),
+                }))
+            }
+
+            fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<Self::Value, E> {
+                Err(E::custom(QuantityError::NoUnit {
+                    text: format!("{value}"),
+                    expected: expected::<D>(),
+                }))
+            }
+        }
+
+        deserializer.deserialize_any(Visitor(PhantomData))
+    }
+}
+
+impl<D: Dimension> Serialize for Quantity<D> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&self.to_string())
+    }
+}
+
+impl<D: Dimension> JsonSchema for Quantity<D> {
+    fn schema_name() -> Cow<'static, str> {
+        D::TYPE_NAME.into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let units: Vec<String> = D::UNITS
+            .iter()
+            .flat_map(|unit| std::iter::once(&unit.symbol).chain(unit.aliases))
+            .map(|symbol| {
+                symbol
+                    .replace('.', "\\.")
+                    .replace('(', "\\(")
+                    .replace(')', "\\)")
+            })
+            .collect();
+        let pattern = format!(
+            r"^\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?\s*({})\s*$",
+            units.join("|")
+        );
+        let description = format!(
+            "{} as a number with a unit; units: {}",
+            D::ARTICLE_NAME,
+            D::UNITS
+                .iter()
+                .map(|unit| unit.symbol)
+                .collect::<Vec<_>>()
+                .join(", ")
+        );
+        json_schema!({
+            "type": "string",
+            "description": description,
+            "pattern": pattern,
+            "examples": [D::EXAMPLE],
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn si<D: Dimension>(text: &str) -> f64 {
+        text.parse::<Quantity<D>>()
+            .unwrap_or_else(|error| panic!("{error}"))
+            .si()
+    }
+
+    fn close(a: f64, b: f64) {
+        assert!((a - b).abs() <= 1e-12 * b.abs(), "{a} is not {b}");
+    }
+
+    #[test]
+    fn reads_the_units_of_the_field() {
+        close(si::<dimension::OfLength>("4.8 mm"), 4.8e-3);
+        close(si::<dimension::OfLength>(".5inch"), 0.0127);
+        close(si::<dimension::OfVelocity>("1000 ft/s"), 304.8);
+        close(si::<dimension::OfMass>("100 grain"), 6.479891e-3);
+        close(si::<dimension::OfMass>("12.7 g"), 0.0127);
+        close(si::<dimension::OfPressure>("443 MPa"), 443e6);
+        close(si::<dimension::OfPressure>("1 psi"), 6894.757293168361);
+        close(si::<dimension::OfPressure>("50 ksi"), 344.73786465841805e6);
+        close(si::<dimension::OfDensity>("8500 kg/m3"), 8500.0);
+        close(si::<dimension::OfDensity>("8.5 g/cm³"), 8500.0);
+        close(si::<dimension::OfTime>("12 µs"), 12e-6);
+        close(si::<dimension::OfTime>("12 μs"), 12e-6);
+        close(si::<dimension::OfTemperature>("20 celsius"), 293.15);
+        close(si::<dimension::OfTemperature>("293.15 kelvin"), 293.15);
+        close(
+            si::<dimension::OfAngle>("180 degrees"),
+            std::f64::consts::PI,
+        );
+        close(si::<dimension::OfSpecificHeat>("383 J/(kg K)"), 383.0);
+        close(si::<dimension::OfStrainRate>("1e-3 1/s"), 1e-3);
+    }
+
+    #[test]
+    fn says_what_is_wrong() {
+        let message = |text: &str| text.parse::<Length>().unwrap_err().to_string();
+        assert!(message("4.8").starts_with("the unit is missing after `4.8`"));
+        assert!(message("4.8 kg").starts_with("`kg` is a unit of mass, but a length is due here"));
+        assert!(message("3 ells").starts_with("`ells` is not a known unit"));
+        assert!(message("nan mm").starts_with("`nan mm` is not a number with a unit"));
+        assert!(message("1e999 mm").starts_with("`1e999 mm` is not a finite number"));
+        assert!(message("").starts_with("`` is not a number"));
+        assert!(message("mm 4").contains("units: m, cm, mm, um, in, ft, mil"));
+    }
+
+    #[test]
+    fn displays_in_the_unit_that_reads_best() {
+        assert_eq!(Length::new(4.8e-3).to_string(), "4.8 mm");
+        assert_eq!(Pressure::new(114e9).to_string(), "114 GPa");
+        assert_eq!(Pressure::new(443e6).to_string(), "443 MPa");
+        assert_eq!(Time::new(4.864e-9).to_string(), "4.864 ns");
+        assert_eq!(Temperature::new(294.0).to_string(), "294 K");
+        assert_eq!(Length::new(0.0).to_string(), "0 m");
+        assert_eq!(significant(1234567.0, 6), "1234567");
+        assert_eq!(significant(0.000012345678, 6), "1.23457e-5");
+    }
+
+    #[test]
+    fn display_reads_back() {
+        for si in [1e-9, 0.32e-3, 1.0, 4.25e7] {
+            let text = Length::new(si).to_string();
+            close(text.parse::<Length>().unwrap().si(), si);
+        }
+    }
+}
