@@ -1,0 +1,188 @@
+//! From a scenario to the chain at the moment of impact.
+
+use std::f64::consts::PI;
+
+use super::{
+    part::{Part, Role, constraint_factor},
+    solver::LARGEST_STRAIN_STEP,
+    state::{Books, End, Segment, State},
+};
+use crate::{
+    case::{BackFace, Kinematics},
+    scenario::{Plate, Scenario, TargetBody},
+};
+
+/// Thickness that stands for a semi-infinite layer, in lengths of the projectile: deeper than any projectile of
+/// comparable density goes.
+const SEMI_INFINITE_LENGTHS: f64 = 4.0;
+
+/// Thickness of a layer as it is modelled [m].
+pub(super) fn modelled_thickness(plate: &Plate, scenario: &Scenario) -> f64 {
+    plate
+        .thickness
+        .unwrap_or(SEMI_INFINITE_LENGTHS * scenario.projectile.length)
+}
+
+/// Elements of each layer: shared by thickness, at least one each.
+fn layer_elements(plates: &[Plate], scenario: &Scenario) -> Vec<usize> {
+    let total: f64 = plates.iter().map(|p| modelled_thickness(p, scenario)).sum();
+    let elements = scenario.chain.target_elements() as f64;
+    plates
+        .iter()
+        .map(|plate| {
+            let share = elements * modelled_thickness(plate, scenario) / total;
+            (share.round() as usize).max(1)
+        })
+        .collect()
+}
+
+pub(super) fn build(scenario: &Scenario) -> State {
+    let options = &scenario.chain;
+    let rod = &scenario.projectile;
+    let rod_elements = options.projectile_elements();
+    let mut parts = vec![Part::new(
+        Role::Projectile,
+        &rod.material,
+        rod.mass / (rod.material.density.si() * rod.length),
+        rod_elements,
+        1.0,
+        options,
+    )];
+    let mut lengths = vec![rod.length];
+    let mut end = End::Free;
+    match &scenario.target {
+        TargetBody::Layers {
+            layers,
+            back_face,
+            column_diameter,
+        } => {
+            let area = PI * column_diameter * column_diameter / 4.0;
+            for (plate, elements) in layers.iter().zip(layer_elements(layers, scenario)) {
+                let material = &plate.material;
+                let factor = constraint_factor(options.constraint_factor(), material);
+                let mut part = Part::new(Role::Target, material, area, elements, factor, options);
+                let flow_stress = material.strength.law().flow_stress_at_unit_strain(material);
+                part.friction_per_length =
+                    options.border_shear() * PI * column_diameter * flow_stress.unwrap_or(0.0);
+                parts.push(part);
+                lengths.push(modelled_thickness(plate, scenario));
+            }
+            end = match (back_face, layers.last()) {
+                (BackFace::Fixed, _) => End::Fixed,
+                (BackFace::NonReflecting, Some(last)) => {
+                    End::Dashpot(last.material.bar_impedance() * area)
+                }
+                (BackFace::Free, _) | (_, None) => End::Free,
+            };
+        }
+        TargetBody::RigidWall => {
+            parts.push(Part::new(Role::Target, &rod.material, 0.0, 0, 1.0, options));
+            lengths.push(0.0);
+            end = End::Fixed;
+        }
+        TargetBody::ConstantPressure(_) => {}
+    }
+    let mut state = assemble(parts, &lengths, end);
+    if let TargetBody::ConstantPressure(pressure) = scenario.target {
+        state.friction[rod_elements] = pressure * state.parts[0].area;
+    }
+    for velocity in &mut state.velocity[..=rod_elements] {
+        *velocity = scenario.impact_speed;
+    }
+    // At the first step the elements at the interface see the whole impact speed.
+    let smallest = state
+        .rest_length
+        .iter()
+        .copied()
+        .fold(f64::INFINITY, f64::min);
+    let first_step = LARGEST_STRAIN_STEP * smallest / scenario.impact_speed;
+    state.stable_step = state.stable_step.min(first_step);
+    state.books.initial_energy = state.energy().kinetic_projectile;
+    state.books.initial_momentum = state.momentum().projectile;
+    state
+}
+
+/// Lines the parts up, the first one ending and the second one starting at 0.
+fn assemble(parts: Vec<Part>, lengths: &[f64], end: End) -> State {
+    let elements: usize = parts.iter().map(|part| part.elements).sum();
+    let nodes = elements + parts.len();
+    let zeros = || vec![0.0; elements];
+    let mut state = State {
+        segments: Vec::new(),
+        closed: vec![true; parts.len() - 1],
+        end,
+        position: vec![0.0; nodes],
+        velocity: vec![0.0; nodes],
+        velocity_before: vec![0.0; nodes],
+        mass: vec![0.0; nodes],
+        force: vec![0.0; nodes],
+        friction: vec![0.0; nodes],
+        rest_length: zeros(),
+        initial_position: zeros(),
+        length: zeros(),
+        strain: zeros(),
+        stress: zeros(),
+        stress_before: zeros(),
+        axial_force: zeros(),
+        viscous_force: zeros(),
+        plastic_axial: zeros(),
+        plastic_strain: zeros(),
+        plastic_step: zeros(),
+        temperature: zeros(),
+        flow_stress: zeros(),
+        eroded: vec![false; elements],
+        time: 0.0,
+        step: 0,
+        time_step: 0.0,
+        stable_step: f64::INFINITY,
+        contact_force: 0.0,
+        back_force: 0.0,
+        books: Books::default(),
+        parts,
+    };
+    let mut first_element = 0;
+    let mut start = -lengths[0];
+    for (p, &length) in lengths.iter().enumerate() {
+        let part = &state.parts[p];
+        let count = part.elements;
+        let first_node = first_element + p;
+        state.segments.push(Segment {
+            part: p,
+            first_node,
+            last_node: first_node + count,
+        });
+        let size = length / count.max(1) as f64;
+        for i in 0..=count {
+            // The last node stands exactly where the next part's first one does.
+            let from_end = (count - i) as f64;
+            state.position[first_node + i] = start + length - size * from_end;
+        }
+        for e in first_element..first_element + count {
+            let node = e + p;
+            let half_mass = 0.5 * part.density * part.area * size;
+            let half_friction = 0.5 * part.friction_per_length * size;
+            for i in [node, node + 1] {
+                state.mass[i] += half_mass;
+                state.friction[i] += half_friction;
+            }
+            state.rest_length[e] = size;
+            state.length[e] = state.position[node + 1] - state.position[node];
+            state.initial_position[e] = 0.5 * (state.position[node] + state.position[node + 1]);
+            state.temperature[e] = part.start_temperature;
+            state.flow_stress[e] =
+                super::element::static_flow_stress(part, 0.0, part.start_temperature, 0.0);
+            let transit = match part.kinematics {
+                Kinematics::Logarithmic => state.length[e] / part.wave_speed,
+                Kinematics::SmallStrain => size / part.wave_speed,
+            };
+            state.stable_step = state.stable_step.min(transit);
+        }
+        first_element += count;
+        start += length;
+    }
+    // The boundary's own impedance stands for everything behind it, border shear included.
+    if let (End::Dashpot(_), Some(friction)) = (end, state.friction.last_mut()) {
+        *friction = 0.0;
+    }
+    state
+}

@@ -1,0 +1,525 @@
+//! One step of explicit central differences, with the books kept so that only integration error is left in them.
+
+use super::{
+    element::{plastic_increment, static_flow_stress},
+    state::{End, Segment, State},
+};
+use crate::{
+    case::{ArtificialViscosity, Kinematics},
+    error::NumericalError,
+};
+
+/// Largest change of strain that one element may make in one step.
+pub(super) const LARGEST_STRAIN_STEP: f64 = 0.03;
+/// Largest growth of the time step from one step to the next.
+const LARGEST_STEP_GROWTH: f64 = 1.05;
+
+/// Numbers that control the steps.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StepControl {
+    pub(super) courant: f64,
+    pub(super) viscosity: ArtificialViscosity,
+    pub(super) damping_ratio: f64,
+    pub(super) erosion_strain: f64,
+}
+
+impl StepControl {
+    fn is_viscous(&self) -> bool {
+        self.viscosity != ArtificialViscosity::default() || self.damping_ratio > 0.0
+    }
+}
+
+impl State {
+    /// Advances by one step.
+    pub(super) fn advance(&mut self, control: &StepControl) -> Result<(), NumericalError> {
+        let previous = self.time_step;
+        let mut time_step = control.courant * self.stable_step;
+        if previous > 0.0 {
+            time_step = time_step.min(LARGEST_STEP_GROWTH * previous);
+        }
+        self.collect_forces(control);
+        // Velocities live half a step behind positions: the kick spans the two half steps around the current time.
+        self.kick(0.5 * (previous + time_step), control.is_viscous());
+        self.close_gaps(time_step);
+        self.drift(control, time_step)?;
+        self.time += time_step;
+        self.time_step = time_step;
+        self.step += 1;
+        self.erode(control.erosion_strain);
+        Ok(())
+    }
+
+    fn collect_forces(&mut self, control: &StepControl) {
+        self.force.fill(0.0);
+        let viscous = control.is_viscous();
+        for segment in &self.segments {
+            let offset = segment.part;
+            for e in segment.elements() {
+                let node = e + offset;
+                let mut force = self.axial_force[e];
+                if viscous {
+                    force += self.viscous_force[e];
+                }
+                self.force[node] -= force;
+                self.force[node + 1] += force;
+            }
+        }
+    }
+
+    /// New velocities from forces, friction, contact and the boundary.
+    fn kick(&mut self, kick: f64, viscous: bool) {
+        self.velocity_before.copy_from_slice(&self.velocity);
+        self.contact_force = 0.0;
+        let last_segment = self.segments.len() - 1;
+        // Whether the contact before a segment was closed when the kick began: it may open on the way.
+        let mut joined_ahead = false;
+        for s in 0..=last_segment {
+            let Segment {
+                first_node,
+                last_node,
+                ..
+            } = self.segments[s];
+            let from = first_node + usize::from(joined_ahead);
+            let joined_behind = s < last_segment && self.closed[s];
+            let is_boundary = s == last_segment && self.end != End::Free;
+            let to = last_node + 1 - usize::from(joined_behind || is_boundary);
+            for i in from..to {
+                self.kick_free(i, kick);
+            }
+            if is_boundary && from <= last_node {
+                self.kick_boundary(last_node, kick);
+            }
+            if joined_behind {
+                self.kick_contact(s, kick);
+            }
+            joined_ahead = joined_behind;
+        }
+        if viscous {
+            self.book_viscous_work(kick);
+        }
+    }
+
+    fn book_viscous_work(&mut self, kick: f64) {
+        let mut work = 0.0;
+        for segment in &self.segments {
+            for e in segment.elements() {
+                let (a, b) = (e + segment.part, e + segment.part + 1);
+                let before = self.velocity_before[a] - self.velocity_before[b];
+                let after = self.velocity[a] - self.velocity[b];
+                work += self.viscous_force[e] * 0.5 * (before + after) * kick;
+            }
+        }
+        self.books.viscous_work += work;
+    }
+
+    fn kick_free(&mut self, i: usize, kick: f64) {
+        let change = self.force[i] * kick / self.mass[i];
+        self.velocity[i] = if self.friction[i] > 0.0 {
+            let before = self.velocity[i];
+            let limit = self.friction[i] * kick / self.mass[i];
+            let after = rub(before, change, limit);
+            self.book_friction(self.mass[i], before, change, after);
+            after
+        } else {
+            self.velocity[i] + change
+        };
+    }
+
+    fn book_friction(&mut self, mass: f64, before: f64, change: f64, after: f64) {
+        let impulse = mass * (before + change - after);
+        self.books.friction_impulse += impulse;
+        self.books.friction_work += impulse * 0.5 * (before + after);
+    }
+
+    fn kick_boundary(&mut self, i: usize, kick: f64) {
+        match self.end {
+            End::Free => self.kick_free(i, kick),
+            End::Fixed => {
+                self.velocity[i] = 0.0;
+                self.books.support_impulse += self.force[i] * kick;
+                self.back_force = self.force[i];
+            }
+            End::Dashpot(impedance) => {
+                let inertia = self.mass[i] / kick;
+                let before = self.velocity[i];
+                let after = ((inertia - 0.5 * impedance) * before + self.force[i])
+                    / (inertia + 0.5 * impedance);
+                let mean = 0.5 * (before + after);
+                self.velocity[i] = after;
+                self.back_force = impedance * mean;
+                self.books.support_impulse += impedance * mean * kick;
+                self.books.boundary_work += impedance * mean * mean * kick;
+            }
+        }
+    }
+
+    /// Moves the two nodes of a closed contact as one, or lets them part when the contact would pull.
+    fn kick_contact(&mut self, s: usize, kick: f64) {
+        let (a, b) = (self.segments[s].last_node, self.segments[s + 1].first_node);
+        let fixed = self.is_fixed(b);
+        let (before, combined_mass) = if fixed {
+            (0.0, f64::INFINITY)
+        } else {
+            let mass = self.mass[a] + self.mass[b];
+            let momentum = self.mass[a] * self.velocity[a] + self.mass[b] * self.velocity[b];
+            (momentum / mass, mass)
+        };
+        // Both nodes start the kick with their common velocity; what that costs is the loss of a plastic impact.
+        for i in [a, b] {
+            let jump = before - self.velocity[i];
+            self.book_jump(i, jump, -self.time_step);
+            if fixed && i == a {
+                self.books.support_impulse -= self.mass[i] * jump;
+            }
+            self.velocity_before[i] = before;
+        }
+        let contact_force = if fixed {
+            self.velocity[a] = 0.0;
+            self.velocity[b] = 0.0;
+            self.force[a]
+        } else {
+            let change = (self.force[a] + self.force[b]) * kick / combined_mass;
+            let friction = self.friction[a] + self.friction[b];
+            let after = rub(before, change, friction * kick / combined_mass);
+            self.velocity[a] = after;
+            self.velocity[b] = after;
+            let own_friction = friction_force(
+                self.friction[a],
+                friction,
+                combined_mass,
+                before,
+                change,
+                after,
+                kick,
+            );
+            self.force[a] + own_friction - self.mass[a] * (after - before) / kick
+        };
+        if contact_force < 0.0 {
+            self.closed[s] = false;
+            self.velocity[a] = before;
+            self.velocity[b] = before;
+            self.kick_free(a, kick);
+            if self.is_boundary(b) {
+                self.kick_boundary(b, kick);
+            } else {
+                self.kick_free(b, kick);
+            }
+            return;
+        }
+        if fixed {
+            self.books.support_impulse += (self.force[a] + self.force[b]) * kick;
+            self.back_force = self.force[a] + self.force[b];
+        } else {
+            let change = (self.force[a] + self.force[b]) * kick / combined_mass;
+            self.book_friction(combined_mass, before, change, self.velocity[a]);
+        }
+        if Some(s) == self.tip_segment() {
+            self.contact_force = contact_force;
+        }
+    }
+
+    fn is_boundary(&self, i: usize) -> bool {
+        self.end != End::Free && self.segments.last().is_some_and(|last| last.last_node == i)
+    }
+
+    fn is_fixed(&self, i: usize) -> bool {
+        self.end == End::Fixed && self.is_boundary(i)
+    }
+
+    /// Books the energy of a sudden change of a node's velocity.
+    ///
+    /// A kick does its work at the mean of the velocities before and after it, the springs do theirs at the velocities of
+    /// the two drifts around it: a jump between kick and drift leaves half a drift's work to book. `drift` is the length
+    /// of the drift on the jump's side of the kick, negative when the jump comes before the kick.
+    fn book_jump(&mut self, i: usize, jump: f64, drift: f64) {
+        let velocity = self.velocity[i];
+        let kinetic = 0.5 * self.mass[i] * ((velocity + jump).powi(2) - velocity.powi(2));
+        self.books.contact_loss -= kinetic - 0.5 * drift * self.force[i] * jump;
+    }
+
+    /// Closes every gap that would overlap at the end of the step, so that it is zero then.
+    fn close_gaps(&mut self, time_step: f64) {
+        for s in 0..self.closed.len() {
+            if self.closed[s] {
+                continue;
+            }
+            let (a, b) = (self.segments[s].last_node, self.segments[s + 1].first_node);
+            let gap = self.position[b] - self.position[a];
+            let approach = self.velocity[a] - self.velocity[b];
+            if gap - approach * time_step > 0.0 {
+                continue;
+            }
+            let allowed = gap.max(0.0) / time_step;
+            let (share_a, share_b) = if self.is_fixed(b) {
+                (1.0, 0.0)
+            } else {
+                let mass = self.mass[a] + self.mass[b];
+                (self.mass[b] / mass, self.mass[a] / mass)
+            };
+            let change = approach - allowed;
+            for (i, jump) in [(a, -share_a * change), (b, share_b * change)] {
+                self.book_jump(i, jump, time_step);
+                self.velocity[i] += jump;
+            }
+            if self.is_fixed(b) {
+                self.books.support_impulse += self.mass[a] * change;
+            }
+            self.closed[s] = true;
+        }
+    }
+
+    /// Moves the nodes and updates every element.
+    fn drift(&mut self, control: &StepControl, time_step: f64) -> Result<(), NumericalError> {
+        for segment in &self.segments {
+            for i in segment.first_node..=segment.last_node {
+                self.position[i] += self.velocity[i] * time_step;
+            }
+        }
+        let viscous = control.is_viscous();
+        let mut stable_step = f64::INFINITY;
+        for s in 0..self.segments.len() {
+            let segment = self.segments[s];
+            let part = &self.parts[segment.part];
+            let role = part.role as usize;
+            let mut plastic_work = 0.0;
+            for e in segment.elements() {
+                let node = e + segment.part;
+                let rest = self.rest_length[e];
+                let length = self.position[node + 1] - self.position[node];
+                let strain = match part.kinematics {
+                    Kinematics::Logarithmic => {
+                        if length <= 0.0 {
+                            return Err(self.inverted(e));
+                        }
+                        (rest / length).ln()
+                    }
+                    Kinematics::SmallStrain => (rest - length) / rest,
+                };
+                let trial = part.modulus * (strain - self.plastic_axial[e]);
+                let mut stress = trial;
+                let mut plastic_step = 0.0;
+                if trial.abs() > self.flow_stress[e] {
+                    let increment = plastic_increment(
+                        part,
+                        trial,
+                        self.plastic_strain[e],
+                        self.temperature[e],
+                        time_step,
+                    );
+                    plastic_step = increment.copysign(trial);
+                    stress = trial - part.modulus * plastic_step;
+                    self.plastic_axial[e] += plastic_step;
+                    self.plastic_strain[e] += increment;
+                    self.temperature[e] +=
+                        part.heating * 0.5 * (self.stress[e] + stress).abs() * increment;
+                    self.flow_stress[e] = static_flow_stress(
+                        part,
+                        self.plastic_strain[e],
+                        self.temperature[e],
+                        stress.abs() / 3.0,
+                    );
+                }
+                plastic_work +=
+                    0.5 * part.area * rest * self.stress[e] * (self.plastic_step[e] + plastic_step);
+                self.plastic_step[e] = plastic_step;
+                self.stress_before[e] = self.stress[e];
+                self.stress[e] = stress;
+                self.strain[e] = strain;
+                self.length[e] = length;
+                let (area, transit) = match part.kinematics {
+                    // The force falls off faster than the stress as the area grows: the tangent is E + σ.
+                    Kinematics::Logarithmic => (
+                        part.area * rest / length,
+                        length / (part.wave_speed * (1.0 + 0.5 * (stress / part.modulus).max(0.0))),
+                    ),
+                    Kinematics::SmallStrain => (part.area, rest / part.wave_speed),
+                };
+                self.axial_force[e] = stress * area;
+                let approach = self.velocity[node] - self.velocity[node + 1];
+                let mut limit = transit;
+                if viscous {
+                    let closing = approach.max(0.0);
+                    let mut ratio = control.damping_ratio;
+                    if closing > 0.0 {
+                        ratio += control.viscosity.linear
+                            + control.viscosity.quadratic * closing / part.wave_speed;
+                    }
+                    self.viscous_force[e] =
+                        ratio * part.density * part.wave_speed * area * approach;
+                    limit *= (1.0 + ratio * ratio).sqrt() - ratio;
+                }
+                if approach.abs() * limit > LARGEST_STRAIN_STEP * length {
+                    limit = LARGEST_STRAIN_STEP * length.abs() / approach.abs();
+                }
+                stable_step = stable_step.min(limit);
+            }
+            self.books.plastic[role] += plastic_work;
+        }
+        self.stable_step = stable_step;
+        Ok(())
+    }
+
+    fn inverted(&self, element: usize) -> NumericalError {
+        NumericalError {
+            what: "an element was compressed to nothing".to_owned(),
+            step: self.step,
+            time_us: self.time * 1e6,
+            element: Some(element),
+            remedy: "lower `chain.courant` or `chain.erosion_strain`".to_owned(),
+        }
+    }
+
+    /// Takes out the elements whose strain has passed the limit, booking what leaves with them.
+    fn erode(&mut self, limit: f64) {
+        let mut s = 0;
+        while s < self.segments.len() {
+            let segment = self.segments[s];
+            let found = segment.elements().find(|&e| self.strain[e].abs() >= limit);
+            match found {
+                // The segment at `s` is another one afterwards: look again.
+                Some(e) => self.remove_element(s, e),
+                None => s += 1,
+            }
+        }
+    }
+
+    fn remove_element(&mut self, s: usize, e: usize) {
+        let segment = self.segments[s];
+        let part = &self.parts[segment.part];
+        let half_mass = 0.5 * part.density * part.area * self.rest_length[e];
+        let half_friction = 0.5 * part.friction_per_length * self.rest_length[e];
+        self.books.eroded_energy += self.elastic_energy(e, part);
+        let left = e + segment.part;
+        for i in [left, left + 1] {
+            let velocity = self.velocity[i];
+            self.books.eroded_energy += 0.5 * half_mass * velocity * velocity;
+            self.books.eroded_momentum += half_mass * velocity;
+            self.mass[i] -= half_mass;
+            self.friction[i] = (self.friction[i] - half_friction).max(0.0);
+        }
+        self.eroded[e] = true;
+        let before = Segment {
+            last_node: left,
+            ..segment
+        };
+        let after = Segment {
+            first_node: left + 1,
+            ..segment
+        };
+        // A node without an element has no mass left and goes too.
+        let is_last = s + 1 == self.segments.len();
+        let kept: Vec<Segment> = [before, after]
+            .into_iter()
+            .filter(|piece| !piece.elements().is_empty())
+            .collect();
+        match kept.len() {
+            2 => self.closed.insert(s, false),
+            1 => {
+                // The contact on the side of the lost node is open now.
+                let lost_front = before.elements().is_empty();
+                let contact = if lost_front {
+                    s.checked_sub(1)
+                } else {
+                    Some(s)
+                };
+                if let Some(contact) = contact.filter(|&c| c < self.closed.len()) {
+                    self.closed[contact] = false;
+                }
+                if !lost_front && is_last {
+                    self.end = End::Free;
+                }
+            }
+            _ => {
+                // The whole segment is gone: its two contacts become one, open.
+                if is_last {
+                    self.closed.pop();
+                    self.end = End::Free;
+                } else {
+                    self.closed.remove(s);
+                    if s > 0 {
+                        self.closed[s - 1] = false;
+                    }
+                }
+            }
+        }
+        self.segments.splice(s..=s, kept);
+    }
+}
+
+/// Part of the friction on a pair of nodes that acts on the first of them [N].
+fn friction_force(
+    own_limit: f64,
+    limit: f64,
+    mass: f64,
+    before: f64,
+    change: f64,
+    after: f64,
+    kick: f64,
+) -> f64 {
+    if limit == 0.0 {
+        return 0.0;
+    }
+    let impulse = mass * (after - before - change);
+    impulse / kick * own_limit / limit
+}
+
+/// Velocity after a kick with dry friction.
+///
+/// `change` is what the forces alone would add and `limit` the most that friction can take away. The motion within the
+/// step is followed exactly: friction slows, holds the node if it can, and opposes the motion that starts afresh.
+pub(super) fn rub(before: f64, change: f64, limit: f64) -> f64 {
+    if limit == 0.0 {
+        return before + change;
+    }
+    if before == 0.0 {
+        return if change.abs() <= limit {
+            0.0
+        } else {
+            change - limit.copysign(change)
+        };
+    }
+    let sign = before.signum();
+    let loss = limit - sign * change;
+    if loss <= 0.0 || before.abs() >= loss {
+        return before + change - sign * limit;
+    }
+    if change.abs() <= limit {
+        return 0.0;
+    }
+    let rest = 1.0 - before.abs() / loss;
+    let after = rest * (change + sign * limit);
+    // Where the node turns almost symmetrically, the mean velocity would let friction push: it may not.
+    let friction = after - before - change;
+    if friction * (before + after) > 0.0 {
+        before + change
+    } else {
+        after
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rub;
+
+    #[test]
+    fn friction_holds_slows_and_never_pushes() {
+        assert_eq!(rub(0.0, 0.5, 1.0), 0.0);
+        assert_eq!(rub(0.0, 1.5, 1.0), 0.5);
+        assert_eq!(rub(3.0, -0.5, 1.0), 1.5);
+        assert_eq!(rub(0.5, -0.2, 1.0), 0.0);
+        for i in 0..200 {
+            for j in 0..200 {
+                let (before, change) = (i as f64 * 0.05 - 5.0, j as f64 * 0.05 - 5.0);
+                for limit in [0.1, 1.0, 3.0] {
+                    let after = rub(before, change, limit);
+                    let friction = after - before - change;
+                    assert!(friction.abs() <= limit + 1e-12);
+                    assert!(
+                        friction * (before + after) <= 1e-12,
+                        "{before} {change} {limit}"
+                    );
+                }
+            }
+        }
+    }
+}

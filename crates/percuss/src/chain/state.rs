@@ -1,0 +1,179 @@
+//! State of the chain: nodes joined by elements, in segments that touch, part or meet again.
+//!
+//! Position is measured from the struck face, positive into the target; force and stress are positive in compression.
+//! Part `p` has one node more than it has elements, so element `e` of part `p` joins the nodes `e + p` and `e + p + 1`.
+
+use super::part::{Part, Role};
+use crate::ledger::{EnergyLedger, MomentumLedger};
+
+/// What holds the last node of the chain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum End {
+    Free,
+    Fixed,
+    /// Viscous boundary that takes up a wave without reflecting it \[lysmer1969\]; its impedance [N s/m].
+    Dashpot(f64),
+}
+
+/// A run of nodes joined by elements of one part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Segment {
+    pub(super) part: usize,
+    pub(super) first_node: usize,
+    pub(super) last_node: usize,
+}
+
+impl Segment {
+    pub(super) fn elements(self) -> std::ops::Range<usize> {
+        self.first_node - self.part..self.last_node - self.part
+    }
+}
+
+/// Work and impulse that have gone where the state itself does not show them.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Books {
+    pub(super) initial_energy: f64,
+    pub(super) initial_momentum: f64,
+    pub(super) plastic: [f64; 2],
+    pub(super) friction_work: f64,
+    pub(super) viscous_work: f64,
+    pub(super) contact_loss: f64,
+    pub(super) boundary_work: f64,
+    pub(super) eroded_energy: f64,
+    pub(super) support_impulse: f64,
+    pub(super) friction_impulse: f64,
+    pub(super) eroded_momentum: f64,
+}
+
+/// Nodes, elements and books at one time. Node velocities stand half a step behind the positions.
+#[derive(Debug)]
+pub(super) struct State {
+    pub(super) parts: Vec<Part>,
+    /// From the projectile's tail to the target's back.
+    pub(super) segments: Vec<Segment>,
+    /// `closed[s]`: whether segments `s` and `s + 1` touch.
+    pub(super) closed: Vec<bool>,
+    pub(super) end: End,
+
+    pub(super) position: Vec<f64>,
+    pub(super) velocity: Vec<f64>,
+    /// Velocities at the start of the current kick.
+    pub(super) velocity_before: Vec<f64>,
+    pub(super) mass: Vec<f64>,
+    pub(super) force: Vec<f64>,
+    /// Largest friction force on each node [N].
+    pub(super) friction: Vec<f64>,
+
+    pub(super) rest_length: Vec<f64>,
+    pub(super) initial_position: Vec<f64>,
+    pub(super) length: Vec<f64>,
+    pub(super) strain: Vec<f64>,
+    pub(super) stress: Vec<f64>,
+    pub(super) stress_before: Vec<f64>,
+    pub(super) axial_force: Vec<f64>,
+    pub(super) viscous_force: Vec<f64>,
+    /// Axial plastic strain, compression positive.
+    pub(super) plastic_axial: Vec<f64>,
+    /// Accumulated plastic strain.
+    pub(super) plastic_strain: Vec<f64>,
+    /// Axial plastic strain of the last step.
+    pub(super) plastic_step: Vec<f64>,
+    pub(super) temperature: Vec<f64>,
+    /// Flow stress at the current plastic strain, without rate effect.
+    pub(super) flow_stress: Vec<f64>,
+    pub(super) eroded: Vec<bool>,
+
+    pub(super) time: f64,
+    pub(super) step: u64,
+    pub(super) time_step: f64,
+    /// Largest stable time step of the current state.
+    pub(super) stable_step: f64,
+    pub(super) contact_force: f64,
+    pub(super) back_force: f64,
+    pub(super) books: Books,
+}
+
+impl State {
+    /// Part and node range of the projectile's frontmost segment; `None` when all of it has eroded.
+    pub(super) fn tip_segment(&self) -> Option<usize> {
+        self.segments
+            .iter()
+            .rposition(|segment| self.parts[segment.part].role == Role::Projectile)
+    }
+
+    /// The target's first segment that still has material.
+    pub(super) fn face_segment(&self) -> Option<usize> {
+        self.segments.iter().position(|segment| {
+            self.parts[segment.part].role == Role::Target && !segment.elements().is_empty()
+        })
+    }
+
+    /// Mass and momentum of the projectile.
+    pub(super) fn projectile_motion(&self) -> (f64, f64) {
+        let mut sums = (0.0, 0.0);
+        for segment in &self.segments {
+            if self.parts[segment.part].role == Role::Projectile {
+                for i in segment.first_node..=segment.last_node {
+                    sums.0 += self.mass[i];
+                    sums.1 += self.mass[i] * self.velocity[i];
+                }
+            }
+        }
+        sums
+    }
+
+    /// Elastic energy of an element between two steps: the form that central differences conserve.
+    pub(super) fn elastic_energy(&self, element: usize, part: &Part) -> f64 {
+        let volume = part.area * self.rest_length[element];
+        volume * self.stress_before[element] * self.stress[element] / (2.0 * part.modulus)
+    }
+
+    pub(super) fn energy(&self) -> EnergyLedger {
+        let mut kinetic = [0.0; 2];
+        let mut elastic = [0.0; 2];
+        for segment in &self.segments {
+            let part = &self.parts[segment.part];
+            let role = part.role as usize;
+            for i in segment.first_node..=segment.last_node {
+                kinetic[role] += 0.5 * self.mass[i] * self.velocity[i] * self.velocity[i];
+            }
+            for e in segment.elements() {
+                elastic[role] += self.elastic_energy(e, part);
+            }
+        }
+        let books = &self.books;
+        EnergyLedger {
+            initial: books.initial_energy,
+            kinetic_projectile: kinetic[0],
+            kinetic_target: kinetic[1],
+            elastic_projectile: elastic[0],
+            elastic_target: elastic[1],
+            plastic_projectile: books.plastic[0],
+            plastic_target: books.plastic[1],
+            border_shear: books.friction_work,
+            viscous: books.viscous_work,
+            contact: books.contact_loss,
+            boundary: books.boundary_work,
+            eroded: books.eroded_energy,
+        }
+    }
+
+    pub(super) fn momentum(&self) -> MomentumLedger {
+        let mut momentum = [0.0; 2];
+        for segment in &self.segments {
+            let role = self.parts[segment.part].role as usize;
+            for i in segment.first_node..=segment.last_node {
+                momentum[role] += self.mass[i] * self.velocity[i];
+            }
+        }
+        let books = &self.books;
+        MomentumLedger {
+            initial: books.initial_momentum,
+            projectile: momentum[0],
+            target: momentum[1],
+            support: books.support_impulse,
+            border_shear: books.friction_impulse,
+            eroded: books.eroded_momentum,
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! Time histories of a run, thinned as it grows so that memory stays flat.
+
+use crate::ledger::{EnergyLedger, MomentumLedger};
+
+/// One moment of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Time [s].
+    pub time: f64,
+    /// Time step number.
+    pub step: u64,
+    /// Speed of the projectile's front end [m/s].
+    pub tip_velocity: f64,
+    /// Speed of the projectile's rear end [m/s].
+    pub tail_velocity: f64,
+    /// Speed of the target's struck face, the crater floor [m/s].
+    pub interface_velocity: f64,
+    /// Mean speed of the projectile [m/s].
+    pub mean_velocity: f64,
+    /// Position of the projectile's front end below the original face [m].
+    pub tip_position: f64,
+    /// Position of the crater floor below the original face [m].
+    pub depth: f64,
+    /// Current length of the projectile [m].
+    pub projectile_length: f64,
+    /// Force between projectile and target [N].
+    pub contact_force: f64,
+    /// Force on the back face [N].
+    pub back_force: f64,
+    /// Energy book.
+    pub energy: EnergyLedger,
+    /// Momentum book.
+    pub momentum: MomentumLedger,
+}
+
+/// State of one element at one moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ElementState {
+    /// Part: 0 is the projectile, 1 the first layer of the target.
+    pub part: usize,
+    /// Initial position of its middle, struck face at 0, depth positive [m].
+    pub initial_position: f64,
+    /// Current position of its middle [m].
+    pub position: f64,
+    /// Current length [m].
+    pub length: f64,
+    /// Axial stress, compression positive [Pa].
+    pub stress: f64,
+    /// Axial strain, compression positive.
+    pub strain: f64,
+    /// Equivalent plastic strain.
+    pub plastic_strain: f64,
+    /// Current diameter [m].
+    pub diameter: f64,
+    /// Temperature [K].
+    pub temperature: f64,
+}
+
+/// State along the axis at one moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    /// Time [s].
+    pub time: f64,
+    /// Elements from the projectile's tail to the target's back face; eroded ones are left out.
+    pub elements: Vec<ElementState>,
+}
+
+/// Histories of a run.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct History {
+    /// Scalars against time.
+    pub samples: Vec<Sample>,
+    /// State along the axis against time.
+    pub profiles: Vec<Profile>,
+}
+
+/// Samples kept lie between this number and half of it.
+const MOST_SAMPLES: usize = 1600;
+/// Profiles kept lie between this number and half of it.
+const MOST_PROFILES: usize = 400;
+
+/// Collects histories of a run of unknown length: when it is full, it drops every other entry and doubles its stride.
+#[derive(Debug)]
+pub(crate) struct Recorder {
+    history: History,
+    sample_stride: u64,
+    profile_stride: u64,
+}
+
+impl Recorder {
+    pub(crate) fn new() -> Self {
+        Self {
+            history: History::default(),
+            sample_stride: 1,
+            profile_stride: 1,
+        }
+    }
+
+    pub(crate) fn wants_sample(&self, step: u64) -> bool {
+        step.is_multiple_of(self.sample_stride)
+    }
+
+    pub(crate) fn wants_profile(&self, step: u64) -> bool {
+        step.is_multiple_of(self.profile_stride)
+    }
+
+    pub(crate) fn sample(&mut self, sample: Sample) {
+        self.history.samples.push(sample);
+        if self.history.samples.len() > MOST_SAMPLES {
+            thin(&mut self.history.samples);
+            self.sample_stride *= 2;
+        }
+    }
+
+    pub(crate) fn profile(&mut self, profile: Profile) {
+        self.history.profiles.push(profile);
+        if self.history.profiles.len() > MOST_PROFILES {
+            thin(&mut self.history.profiles);
+            self.profile_stride *= 2;
+        }
+    }
+
+    pub(crate) fn finish(self) -> History {
+        self.history
+    }
+}
+
+fn thin<T>(entries: &mut Vec<T>) {
+    let mut index = 0;
+    entries.retain(|_| {
+        index += 1;
+        index % 2 == 1
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_run_keeps_few_entries_evenly_spread() {
+        let mut recorder = Recorder::new();
+        for step in 0..100_000 {
+            if recorder.wants_profile(step) {
+                recorder.profile(Profile {
+                    time: step as f64,
+                    elements: Vec::new(),
+                });
+            }
+        }
+        let history = recorder.finish();
+        assert!((MOST_PROFILES / 2..=MOST_PROFILES).contains(&history.profiles.len()));
+        let gaps: Vec<f64> = history
+            .profiles
+            .windows(2)
+            .map(|pair| pair[1].time - pair[0].time)
+            .collect();
+        assert!(gaps.iter().all(|gap| *gap == gaps[0]));
+    }
+}

@@ -1,0 +1,90 @@
+//! Energy and momentum books: every joule and every newton-second of a run has a line.
+
+/// Where the energy of a run is [J].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct EnergyLedger {
+    /// Kinetic energy at the start.
+    pub initial: f64,
+    /// Kinetic energy of the projectile.
+    pub kinetic_projectile: f64,
+    /// Kinetic energy of the target.
+    pub kinetic_target: f64,
+    /// Recoverable elastic energy of the projectile.
+    pub elastic_projectile: f64,
+    /// Recoverable elastic energy of the target.
+    pub elastic_target: f64,
+    /// Plastic work done in the projectile.
+    pub plastic_projectile: f64,
+    /// Plastic work done in the target.
+    pub plastic_target: f64,
+    /// Work against border shear, or against the pressure of a constant-pressure target.
+    pub border_shear: f64,
+    /// Work against artificial viscosity and damping.
+    pub viscous: f64,
+    /// Lost when free ends meet: contact conserves momentum, not energy; it vanishes with the element mass.
+    pub contact: f64,
+    /// Energy that left through a non-reflecting back face.
+    pub boundary: f64,
+    /// Energy that eroded elements carried away.
+    pub eroded: f64,
+}
+
+impl EnergyLedger {
+    /// Labels and values of all lines but the initial energy, in reading order.
+    pub fn lines(&self) -> [(&'static str, f64); 11] {
+        [
+            ("kinetic, projectile", self.kinetic_projectile),
+            ("kinetic, target", self.kinetic_target),
+            ("elastic, projectile", self.elastic_projectile),
+            ("elastic, target", self.elastic_target),
+            ("plastic, projectile", self.plastic_projectile),
+            ("plastic, target", self.plastic_target),
+            ("border shear", self.border_shear),
+            ("viscosity and damping", self.viscous),
+            ("contact", self.contact),
+            ("through back face", self.boundary),
+            ("eroded", self.eroded),
+        ]
+    }
+
+    /// Sum of all lines but the initial energy [J].
+    pub fn total(&self) -> f64 {
+        self.lines().iter().map(|line| line.1).sum()
+    }
+
+    /// Part of the initial energy that no line accounts for; 0 when nothing moved at the start.
+    pub fn residual(&self) -> f64 {
+        if self.initial == 0.0 {
+            return self.total();
+        }
+        (self.total() - self.initial) / self.initial
+    }
+}
+
+/// Where the momentum of a run is [N s], along the direction of the shot.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MomentumLedger {
+    /// Momentum at the start.
+    pub initial: f64,
+    /// Momentum of the projectile.
+    pub projectile: f64,
+    /// Momentum of the target.
+    pub target: f64,
+    /// Impulse taken by a fixed back face, a wall or a non-reflecting boundary.
+    pub support: f64,
+    /// Impulse taken by border shear, or by a constant-pressure target.
+    pub border_shear: f64,
+    /// Momentum that eroded elements carried away.
+    pub eroded: f64,
+}
+
+impl MomentumLedger {
+    /// Part of the initial momentum that no line accounts for; 0 when nothing moved at the start.
+    pub fn residual(&self) -> f64 {
+        let total = self.projectile + self.target + self.support + self.border_shear + self.eroded;
+        if self.initial == 0.0 {
+            return total;
+        }
+        (total - self.initial) / self.initial
+    }
+}

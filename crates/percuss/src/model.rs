@@ -1,0 +1,115 @@
+//! Models: what every one of them offers, and the list of all.
+
+use std::ops::ControlFlow;
+
+use crate::{Error, Scenario, chain::Chain, error::nearest, outcome::RunResult};
+
+/// A way to compute what becomes of a shot.
+pub trait Model: Sync {
+    /// Name on the command line and in results.
+    fn name(&self) -> &'static str;
+
+    /// One line that says what it is.
+    fn summary(&self) -> &'static str;
+
+    /// What it takes and what it does not, in words, one line each.
+    fn guard(&self) -> &'static [&'static str];
+
+    /// Why the model does not apply to a case, if it does not.
+    fn not_applicable(&self, scenario: &Scenario) -> Option<String>;
+
+    /// Computes a case to which the model applies.
+    ///
+    /// # Errors
+    /// [`Error::Numerical`] when the solution fails or its books do not balance; [`Error::Cancelled`].
+    fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error>;
+}
+
+/// All models. Adding one is one file and one line here.
+pub static MODELS: &[&dyn Model] = &[&Chain];
+
+/// The model with this name.
+///
+/// # Errors
+/// [`Error::UnknownModel`].
+pub fn model(name: &str) -> Result<&'static dyn Model, Error> {
+    MODELS
+        .iter()
+        .find(|model| model.name() == name)
+        .copied()
+        .ok_or_else(|| Error::UnknownModel {
+            name: name.to_owned(),
+            suggestion: nearest(name, MODELS.iter().map(|model| model.name())),
+            known: MODELS.iter().map(|model| model.name()).collect(),
+        })
+}
+
+/// Computes a case by a model.
+///
+/// # Errors
+/// [`Error::NotApplicable`] when the model does not apply; otherwise those of [`Model::run`].
+pub fn run(
+    model: &dyn Model,
+    scenario: &Scenario,
+    control: &mut Control<'_>,
+) -> Result<RunResult, Error> {
+    match model.not_applicable(scenario) {
+        Some(reason) => Err(Error::NotApplicable {
+            model: model.name(),
+            reason,
+        }),
+        None => model.run(scenario, control),
+    }
+}
+
+/// How far a run has come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Time step.
+    pub step: u64,
+    /// Time [s].
+    pub time: f64,
+    /// Estimated part done, 0 to 1: of a shot that ends by itself nobody knows the end beforehand.
+    pub fraction: f64,
+    /// Depth reached [m].
+    pub depth: f64,
+}
+
+/// What a caller wants of a run: histories, progress, a way to stop it.
+#[derive(Default)]
+pub struct Control<'a> {
+    /// Whether to keep time histories.
+    pub record: bool,
+    /// Called now and then; [`ControlFlow::Break`] ends the run with [`Error::Cancelled`].
+    pub progress: Option<&'a mut dyn FnMut(Progress) -> ControlFlow<()>>,
+}
+
+impl Control<'_> {
+    /// A run that keeps its time histories.
+    pub fn recording() -> Self {
+        Self {
+            record: true,
+            progress: None,
+        }
+    }
+
+    pub(crate) fn report(&mut self, progress: Progress) -> Result<(), Error> {
+        if let Some(callback) = &mut self.progress
+            && callback(progress).is_break()
+        {
+            return Err(Error::Cancelled {
+                step: progress.step,
+                time_us: progress.time * 1e6,
+            });
+        }
+        Ok(())
+    }
+}
+
+impl std::fmt::Debug for Control<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Control")
+            .field("record", &self.record)
+            .finish_non_exhaustive()
+    }
+}
