@@ -112,8 +112,8 @@ pub mod limits {
     pub const MASS: Limits = limits(1e-9, 1e5);
     /// Impact speed [m/s].
     pub const IMPACT_SPEED: Limits = limits(0.0, 10_000.0);
-    /// Density [kg/m3].
-    pub const DENSITY: Limits = limits(10.0, 25_000.0);
+    /// Density [kg/m3]; the lightest structural foams weigh about 15.
+    pub const DENSITY: Limits = limits(15.0, 25_000.0);
     /// Young's modulus [Pa].
     pub const YOUNGS_MODULUS: Limits = limits(1e6, 1.5e12);
     /// Poisson's ratio.
@@ -122,6 +122,8 @@ pub mod limits {
     pub const FLOW_STRESS: Limits = limits(1e3, 2e10);
     /// Hardening coefficient of a Johnson–Cook law [Pa].
     pub const HARDENING_COEFFICIENT: Limits = limits(0.0, 1e11);
+    /// Ratio B/A of a Johnson–Cook law that hardens.
+    pub const HARDENING_TO_YIELD: Limits = limits(0.015, 300.0);
     /// Exponent of a power law; at 1 it would not meet the elastic line.
     pub const HARDENING_EXPONENT: Limits = limits(0.0, 0.95);
     /// Hardening exponent of a Johnson–Cook or Steinberg law.
@@ -136,10 +138,10 @@ pub mod limits {
     pub const STEINBERG_BETA: Limits = limits(0.0, 1e6);
     /// Plastic strain.
     pub const PLASTIC_STRAIN: Limits = limits(0.0, 100.0);
-    /// Pressure coefficient of the shear modulus [1/Pa].
-    pub const PRESSURE_COEFFICIENT: Limits = limits(0.0, 1e-9);
-    /// Temperature coefficient of the shear modulus [1/K].
-    pub const TEMPERATURE_COEFFICIENT: Limits = limits(0.0, 1e-2);
+    /// Pressure coefficient of the shear modulus [1/Pa], where it is not zero.
+    pub const PRESSURE_COEFFICIENT: Limits = limits(1e-12, 1e-9);
+    /// Temperature coefficient of the shear modulus [1/K], where it is not zero.
+    pub const TEMPERATURE_COEFFICIENT: Limits = limits(1e-6, 1e-2);
     /// Specific heat [J/(kg K)].
     pub const SPECIFIC_HEAT: Limits = limits(50.0, 10_000.0);
     /// Temperature [K].

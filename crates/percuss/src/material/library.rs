@@ -12,11 +12,24 @@ use crate::{
     error::{Error, nearest},
 };
 
+macro_rules! files {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("../../materials/", $name)))),*]
+    };
+}
+
 /// Built-in material files. Adding one is one file in `materials/` and one line here.
-const FILES: &[(&str, &str)] = &[(
+const FILES: &[(&str, &str)] = files![
+    "borvik2002.toml",
+    "floresjohnson2011.toml",
+    "johnson1983.toml",
+    "johnson1989.toml",
+    "lesuer2001.toml",
+    "payette.toml",
+    "steinberg1996.toml",
+    "vaango.toml",
     "woodward1982.toml",
-    include_str!("../../materials/woodward1982.toml"),
-)];
+];
 
 /// A material with its id and the place it comes from.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,6 +4,8 @@ mod library;
 mod references;
 mod sanity;
 mod strength;
+#[cfg(test)]
+mod tests;
 
 use std::collections::BTreeMap;
 

@@ -30,7 +30,11 @@ static REFERENCES: LazyLock<BTreeMap<String, Reference>> = LazyLock::new(|| {
                 .author()
                 .unwrap_or_default()
                 .into_iter()
-                .map(|person| person.name)
+                .map(|person| {
+                    format!("{} {}", person.prefix, person.name)
+                        .trim()
+                        .to_owned()
+                })
                 .collect();
             let year = match entry.date() {
                 Ok(PermissiveType::Typed(date)) => match date.value {

@@ -1,10 +1,13 @@
 //! Checks that every material passes on load: wide enough for any real solid, narrow enough to catch a slip of 1000.
 
-use super::Material;
+use super::{FlowState, Material};
 use crate::{
     check::{Check, limits},
     units::Pressure,
 };
+
+/// Plastic strain at which a hardened flow stress is judged: every impact reaches it, and fits hold there.
+const HARDENED_STRAIN: f64 = 0.1;
 
 impl Material {
     pub(crate) fn check(&self, check: &mut Check<'_>) {
@@ -54,12 +57,22 @@ impl Material {
         }
         let key = format!("strength.{}", self.strength.key());
         self.strength.law().check(&mut check.within(&key));
-        self.check_ratio(
+        let law = self.strength.law();
+        let yields = self.check_ratio(
             check,
             &key,
             "initial yield stress",
-            self.strength.law().initial_yield_stress(self),
+            law.initial_yield_stress(self),
         );
+        // One slip, one finding: a wrong yield stress is in the hardened stress as well.
+        if yields {
+            self.check_ratio(
+                check,
+                &key,
+                "flow stress at a plastic strain of 0.1",
+                self.hardened_flow_stress(),
+            );
+        }
         self.check_ratio(
             check,
             "yield_stress",
@@ -68,10 +81,37 @@ impl Material {
         );
     }
 
-    fn check_ratio(&self, check: &mut Check<'_>, key: &str, what: &str, stress: Option<f64>) {
-        let Some(stress) = stress else { return };
+    /// Flow stress at [`HARDENED_STRAIN`], slow and at room temperature; `None` for a law that never flows.
+    fn hardened_flow_stress(&self) -> Option<f64> {
+        self.strength.law().initial_yield_stress(self)?;
+        let state = FlowState {
+            plastic_strain: HARDENED_STRAIN,
+            strain_rate: 0.0,
+            temperature: self.room_temperature.si(),
+            pressure: 0.0,
+        };
+        Some(
+            self.strength
+                .law()
+                .prepare(self, 1.0)
+                .flow_stress(&state)
+                .stress,
+        )
+    }
+
+    /// Whether the stress is a fraction of Young's modulus that a solid can have.
+    fn check_ratio(
+        &self,
+        check: &mut Check<'_>,
+        key: &str,
+        what: &str,
+        stress: Option<f64>,
+    ) -> bool {
+        let Some(stress) = stress else { return true };
         let ratio = stress / self.youngs_modulus.si();
-        if !(limits::YIELD_TO_MODULUS.min..=limits::YIELD_TO_MODULUS.max).contains(&ratio) {
+        let possible =
+            (limits::YIELD_TO_MODULUS.min..=limits::YIELD_TO_MODULUS.max).contains(&ratio);
+        if !possible {
             check.fail(
                 key,
                 format!(
@@ -86,5 +126,51 @@ impl Material {
                 ),
             );
         }
+        possible
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::Finding;
+
+    fn findings(text: &str) -> Vec<Finding> {
+        let material: Material = toml::from_str(text).unwrap();
+        let mut findings = Vec::new();
+        material.check(&mut Check::new(&mut findings));
+        findings
+    }
+
+    /// A solid like a stiff polymer: far from the metals of the library.
+    fn polymer(hardening: &str) -> String {
+        format!(
+            "name = 'polymer'\ndensity = '1100 kg/m3'\nyoungs_modulus = '3 GPa'\npoissons_ratio = 0.4\n\
+             strength.johnson_cook = {{ a = '50 MPa', b = '{hardening}', n = 0.3, c = 0.03, m = 1.0 }}"
+        )
+    }
+
+    #[test]
+    fn solids_that_are_no_metals_pass() {
+        assert_eq!(findings(&polymer("5 MPa")), []);
+        assert_eq!(findings(&polymer("0 MPa")), []);
+        let foam = "name = 'foam'\ndensity = '30 kg/m3'\nyoungs_modulus = '20 MPa'\npoissons_ratio = 0.1\n\
+                    strength.perfectly_plastic = { flow_stress = '400 kPa' }";
+        assert_eq!(findings(foam), []);
+    }
+
+    #[test]
+    fn hardening_beyond_the_modulus_is_one_finding() {
+        let found = findings(&polymer("5 GPa"));
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].key, "strength.johnson_cook");
+        assert!(found[0].message.contains("plastic strain of 0.1"));
+    }
+
+    #[test]
+    fn hardening_too_small_for_its_yield_stress_is_a_finding() {
+        let found = findings(&polymer("5 kPa"));
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].key, "strength.johnson_cook.b");
     }
 }

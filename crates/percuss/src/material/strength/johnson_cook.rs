@@ -141,6 +141,18 @@ impl StrengthLaw for JohnsonCook {
     fn check(&self, check: &mut Check<'_>) {
         check.quantity("a", self.a, limits::FLOW_STRESS);
         check.quantity("b", self.b, limits::HARDENING_COEFFICIENT);
+        let ratio = self.b.si() / self.a.si();
+        let allowed = limits::HARDENING_TO_YIELD;
+        if self.b.si() > 0.0 && !(allowed.min..=allowed.max).contains(&ratio) {
+            check.fail(
+                "b",
+                format!("b = {} is {ratio:.2e} of a = {}", self.b, self.a),
+                format!(
+                    "hardening solids lie between {} and {}: is one of them off by a factor of 1000? write 0 for no hardening",
+                    allowed.min, allowed.max
+                ),
+            );
+        }
         check.number("n", self.n, limits::JOHNSON_COOK_EXPONENT);
         check.number("c", self.c, limits::RATE_COEFFICIENT);
         check.number("m", self.m, limits::THERMAL_EXPONENT);

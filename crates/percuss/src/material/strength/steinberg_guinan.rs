@@ -120,16 +120,21 @@ impl StrengthLaw for SteinbergGuinan {
             self.initial_plastic_strain,
             limits::PLASTIC_STRAIN,
         );
-        check.quantity(
-            "pressure_coefficient",
-            self.pressure_coefficient,
-            limits::PRESSURE_COEFFICIENT,
-        );
-        check.quantity(
-            "temperature_coefficient",
-            self.temperature_coefficient,
-            limits::TEMPERATURE_COEFFICIENT,
-        );
+        // Zero means that the source gives no coefficient.
+        if self.pressure_coefficient.si() != 0.0 {
+            check.quantity(
+                "pressure_coefficient",
+                self.pressure_coefficient,
+                limits::PRESSURE_COEFFICIENT,
+            );
+        }
+        if self.temperature_coefficient.si() != 0.0 {
+            check.quantity(
+                "temperature_coefficient",
+                self.temperature_coefficient,
+                limits::TEMPERATURE_COEFFICIENT,
+            );
+        }
         if self.y_max.si() < self.y0.si() {
             check.fail(
                 "y_max",
