@@ -1,4 +1,22 @@
-//! percuss
+//! First-order impact and penetration mechanics: what strikes what, how fast, how deep it goes, and how far to trust that.
+//!
+//! A [`Scenario`] comes from a case file; a [`model::Model`] computes it; a [`outcome::RunResult`] carries the numbers, the
+//! energy and momentum books and the warnings. Everything inside is in SI units, compression positive.
+//!
+//! ```
+//! use percuss::{case, model::{self, Control}};
+//!
+//! let scenario = case::load_str("example", r#"
+//!     projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+//!     target = { material = "aluminium-2024-t351", thickness = "25 mm" }
+//! "#)?;
+//! let result = model::run(model::model("chain")?, &scenario, &mut Control::default())?;
+//! let depth_mm = result.depth_of_penetration.unwrap() * 1e3;
+//! assert!(depth_mm > 0.03 && depth_mm < 0.05);
+//! assert!(result.energy_residual < 1e-3 && result.momentum_residual < 1e-12);
+//! # Ok::<(), percuss::Error>(())
+//! ```
+
 pub mod case;
 pub mod chain;
 pub mod check;
@@ -9,6 +27,8 @@ pub mod material;
 pub mod model;
 pub mod outcome;
 pub mod scenario;
+pub mod summary;
 pub mod units;
+
 pub use error::{Error, InputError, NumericalError};
 pub use scenario::Scenario;

@@ -46,7 +46,7 @@ impl Outcome {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Termination {
-    /// The tip has stopped and neither depth nor dissipated energy grew over two round trips of a wave in the projectile.
+    /// The tip has stopped and neither depth nor dissipated energy grew over a round trip of a wave in the projectile.
     Quiescent,
     /// The tip's speed reached zero (scheme `published`, paper section 3.6).
     TipStopped,
@@ -67,7 +67,7 @@ impl Termination {
     pub fn in_words(self) -> &'static str {
         match self {
             Self::Quiescent => {
-                "tip stopped; neither depth nor dissipation grew over two round trips of a wave"
+                "tip stopped; neither depth nor dissipation grew over a round trip of a wave"
             }
             Self::TipStopped => "the tip's speed reached zero",
             Self::PassedBackFace => "crater floor passed the original back face",

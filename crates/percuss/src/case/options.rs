@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::{
     check::{Check, limits},
-    units::Time,
+    units::{Mass, Time},
 };
 
 /// Options of the model `chain`; a key that is not given has the default that the scheme states.
@@ -91,7 +91,7 @@ pub struct ArtificialViscosity {
 }
 
 /// Readings of the paper where its text leaves a choice.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PublishedOptions {
     /// How rod and target are joined.
@@ -102,6 +102,12 @@ pub struct PublishedOptions {
     pub border_shear: PublishedBorderShear,
     /// Stiffness of a spring below the strain at which the elastic line meets the power law.
     pub small_strain: SmallStrainStiffness,
+    /// Lengths of rod and target that deform in the contact spring of the `chain` interface.
+    pub contact_spring: ContactSpring,
+    /// Mass of the target column [kg]; density times volume when not given.
+    ///
+    /// Table 1 prints 1.22 g, where its own density and size give 1.26 g.
+    pub target_mass: Option<Mass>,
 }
 
 /// How rod and target are joined in the published scheme.
@@ -111,8 +117,22 @@ pub enum Interface {
     /// Every mass has its own equation; a contact spring with both stiffnesses in series joins rod and target (eq. 22).
     #[default]
     Chain,
-    /// The first masses of rod and target move as one from the impact speed on (eq. 15 taken literally).
+    /// The first masses of rod and target move as one from the impact speed on (eq. 15 taken literally) and are stopped
+    /// by the target's springs alone.
     Joined,
+    /// As `joined`, and the rod's next spring pushes the joined mass from behind.
+    JoinedPushed,
+}
+
+/// Contact spring of the `chain` interface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactSpring {
+    /// Half an element of each: the masses stand in the middle of their elements.
+    #[default]
+    HalfElements,
+    /// A whole element of each.
+    WholeElements,
 }
 
 /// Time step of the published scheme.
@@ -121,8 +141,10 @@ pub enum Interface {
 pub enum PublishedTimeStep {
     /// `Δt = 0.1 sqrt(m/K)`: what the numbers of Table 1 follow.
     #[default]
+    #[serde(rename = "table-1")]
     Table1,
     /// `Δt = 0.1 · 2 sqrt(m/K)`: equation (21) as printed.
+    #[serde(rename = "equation-21")]
     Equation21,
 }
 
@@ -141,15 +163,15 @@ pub enum PublishedBorderShear {
     None,
 }
 
-/// Stiffness of a spring of the published scheme at small strain, where the power law alone is infinitely stiff.
+/// Stiffness of a spring of the published scheme at small strain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SmallStrainStiffness {
-    /// The elastic stiffness `E A/l` is the largest.
+    /// The power law down to zero strain, where it is infinitely stiff (eqs 13 and 14 as printed).
     #[default]
-    Elastic,
-    /// The power law down to zero strain.
     PowerLaw,
+    /// The elastic stiffness `E A/l` is the largest.
+    Elastic,
 }
 
 /// Factor on a target's flow stress.
@@ -357,6 +379,9 @@ impl ChainOptions {
         }
         if self.max_steps == Some(0) {
             check.fail("max_steps", "0 steps is out of range", "allowed: 1 or more");
+        }
+        if let Some(mass) = self.published().target_mass {
+            check.quantity("published.target_mass", mass, limits::MASS);
         }
         self.check_scheme(check);
     }

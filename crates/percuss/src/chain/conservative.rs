@@ -1,6 +1,6 @@
 //! Scheme `conservative`: the run from impact to its end.
 
-use super::{mesh, part::Role, solver::StepControl, state::State};
+use super::{mesh, part::Role, solver::StepControl, state::State, warnings::warnings};
 use crate::{
     Error, Scenario,
     case::ErosionStrain,
@@ -149,10 +149,10 @@ impl<'a> Conservative<'a> {
             state.tip_segment(),
         ) {
             (TargetBody::Layers { .. }, Some(face), _) => {
-                state.position[state.segments[face].first_node]
+                state.nodes[state.segments[face].first_node].position
             }
             (TargetBody::ConstantPressure(_), _, Some(tip)) => {
-                state.position[state.segments[tip].last_node]
+                state.nodes[state.segments[tip].last_node].position
             }
             _ => 0.0,
         }
@@ -175,7 +175,7 @@ impl<'a> Conservative<'a> {
         watch.touched |= tip_closed;
         if watch.at_rest.is_none() {
             // The tail is the last to hear of the impact: no need to sum up before it slows down.
-            let tail_slowed = state.velocity[0] < self.scenario.impact_speed * 0.5;
+            let tail_slowed = state.nodes[0].velocity < self.scenario.impact_speed * 0.5;
             if tail_slowed && state.projectile_motion().1 <= 0.0 {
                 watch.at_rest = Some((state.time, depth));
             }
@@ -195,10 +195,10 @@ impl<'a> Conservative<'a> {
         (passed || state.face_segment().is_none()).then_some(Termination::PassedBackFace)
     }
 
-    /// Whether the shot is over: looked at once in two round trips of a wave in the projectile.
+    /// Whether the shot is over: looked at once in a round trip of a wave in the projectile.
     fn is_quiet(&mut self) -> bool {
         let rod = &self.scenario.projectile;
-        let window = 4.0 * rod.length / rod.material.bar_wave_speed();
+        let window = 2.0 * rod.length / rod.material.bar_wave_speed();
         if self.state.time < self.watch.window_start + window {
             return false;
         }
@@ -214,7 +214,10 @@ impl<'a> Conservative<'a> {
         watch.window_dissipation = dissipation;
         watch.window_depth = watch.largest_depth;
         watch.touched = false;
-        let over = !touched || (watch.at_rest.is_some() && !deepening);
+        // A projectile that is still being pushed back has not got its rebound speed yet.
+        let (mass, momentum) = self.state.projectile_motion();
+        let still = (momentum / mass).abs() <= REST_FRACTION * self.scenario.impact_speed;
+        let over = !touched || (watch.at_rest.is_some() && !deepening && still);
         over && !flowing
     }
 
@@ -234,13 +237,12 @@ impl<'a> Conservative<'a> {
             }
             .into())
         };
-        // Written so that NaN fails too.
-        if !(energy.abs() <= ENERGY_TOLERANCE) {
+        if energy.is_nan() || energy.abs() > ENERGY_TOLERANCE {
             return fail(format!(
                 "the energy book is off by {energy:.2e} of the initial energy, more than {ENERGY_TOLERANCE:e},"
             ));
         }
-        if !(momentum.abs() <= MOMENTUM_TOLERANCE) {
+        if momentum.is_nan() || momentum.abs() > MOMENTUM_TOLERANCE {
             return fail(format!(
                 "the momentum book is off by {momentum:.2e} of the initial momentum, more than {MOMENTUM_TOLERANCE:e},"
             ));
@@ -287,16 +289,18 @@ impl<'a> Conservative<'a> {
             .segments
             .iter()
             .filter(|segment| state.parts[segment.part].role == Role::Projectile)
-            .map(|segment| state.position[segment.last_node] - state.position[segment.first_node])
+            .map(|segment| {
+                state.nodes[segment.last_node].position - state.nodes[segment.first_node].position
+            })
             .sum();
         Sample {
             time: state.time,
             step: state.step,
-            tip_velocity: tip.map_or(0.0, |i| state.velocity[i]),
-            tail_velocity: state.velocity[tail],
-            interface_velocity: face.map_or(0.0, |i| state.velocity[i]),
+            tip_velocity: tip.map_or(0.0, |i| state.nodes[i].velocity),
+            tail_velocity: state.nodes[tail].velocity,
+            interface_velocity: face.map_or(0.0, |i| state.nodes[i].velocity),
             mean_velocity: if mass > 0.0 { momentum / mass } else { 0.0 },
-            tip_position: tip.map_or(0.0, |i| state.position[i]),
+            tip_position: tip.map_or(0.0, |i| state.nodes[i].position),
             depth: self.depth(),
             projectile_length,
             contact_force: state.contact_force,
@@ -318,14 +322,14 @@ impl<'a> Conservative<'a> {
                 let node = e + segment.part;
                 elements.push(ElementState {
                     part: segment.part,
-                    initial_position: state.initial_position[e],
-                    position: 0.5 * (state.position[node] + state.position[node + 1]),
-                    length: state.length[e],
-                    stress: state.stress[e],
-                    strain: state.strain[e],
-                    plastic_strain: state.plastic_strain[e],
-                    diameter: part.diameter_at(state.strain[e]),
-                    temperature: state.temperature[e],
+                    initial_position: state.elements[e].initial_position,
+                    position: 0.5 * (state.nodes[node].position + state.nodes[node + 1].position),
+                    length: state.elements[e].length,
+                    stress: state.elements[e].stress,
+                    strain: state.elements[e].strain,
+                    plastic_strain: state.elements[e].plastic_strain,
+                    diameter: part.diameter_at(state.elements[e].strain),
+                    temperature: state.elements[e].temperature,
                 });
             }
         }
@@ -381,6 +385,7 @@ impl<'a> Conservative<'a> {
             result.depth_of_penetration =
                 Some(self.watch.at_rest.map_or(largest, |(_, depth)| depth));
         }
+        result.warnings = warnings(self.scenario, &result, self.control.erosion_strain);
         result
     }
 
@@ -393,19 +398,22 @@ impl<'a> Conservative<'a> {
         let mut first = 0;
         for part in &state.parts {
             for e in first..first + part.elements {
-                let (strain, temperature) = (state.plastic_strain[e], state.temperature[e]);
-                let rest = state.rest_length[e];
-                let unloaded = part.length_at(rest, state.plastic_axial[e]);
+                let (strain, temperature) = (
+                    state.elements[e].plastic_strain,
+                    state.elements[e].temperature,
+                );
+                let rest = state.elements[e].rest_length;
+                let unloaded = part.length_at(rest, state.elements[e].plastic_axial);
                 match part.role {
                     Role::Projectile => {
                         let largest = &mut result.largest_plastic_strain.0;
                         *largest = largest.max(strain);
                         result.largest_temperature.0 =
                             result.largest_temperature.0.max(temperature);
-                        result.eroded_elements.0 += usize::from(state.eroded[e]);
-                        if !state.eroded[e] {
+                        result.eroded_elements.0 += usize::from(state.elements[e].eroded);
+                        if !state.elements[e].eroded {
                             length += unloaded;
-                            let here = part.diameter_at(state.plastic_axial[e]);
+                            let here = part.diameter_at(state.elements[e].plastic_axial);
                             diameter = Some(diameter.map_or(here, |most| most.max(here)));
                         }
                     }
@@ -414,8 +422,8 @@ impl<'a> Conservative<'a> {
                         *largest = largest.max(strain);
                         result.largest_temperature.1 =
                             result.largest_temperature.1.max(temperature);
-                        result.eroded_elements.1 += usize::from(state.eroded[e]);
-                        permanent_depth += if state.eroded[e] {
+                        result.eroded_elements.1 += usize::from(state.elements[e].eroded);
+                        permanent_depth += if state.elements[e].eroded {
                             rest
                         } else {
                             rest - unloaded

@@ -1,73 +1,131 @@
 //! Constitutive update of one element.
 
-use super::part::Part;
-use crate::material::FlowState;
+use super::{part::Part, state::Element};
+use crate::{case::Kinematics, material::FlowState};
 
-/// Flow stress without rate effect [Pa].
+/// Flow stress without rate effect and its slope with plastic strain [Pa].
 pub(super) fn static_flow_stress(
     part: &Part,
     plastic_strain: f64,
     temperature: f64,
     pressure: f64,
-) -> f64 {
-    let state = FlowState {
+) -> (f64, f64) {
+    let flow = part.strength.flow_stress(&FlowState {
         plastic_strain,
         strain_rate: 0.0,
         temperature,
         pressure,
-    };
-    part.strength.flow_stress(&state).stress
+    });
+    (flow.stress, flow.strain_slope)
 }
 
-/// Plastic strain of this step that brings a trial stress back to the yield surface.
-///
-/// Solves `|σ_trial| − E Δ = Y(ε_p + Δ, Δ/Δt, T)` for Δ by Newton's method, held inside a bracket.
-pub(super) fn plastic_increment(
-    part: &Part,
-    trial: f64,
-    plastic_strain: f64,
-    temperature: f64,
-    time_step: f64,
-) -> f64 {
-    let trial = trial.abs();
-    let (mut low, mut high) = (0.0, trial / part.modulus);
-    let mut increment = 0.0;
-    for _ in 0..100 {
-        let rate = if part.rate_effects {
-            increment / time_step
-        } else {
-            0.0
+impl Element {
+    /// Brings the element to a new length over a time step and returns the plastic work done between the half steps
+    /// around the current time, per volume.
+    ///
+    /// The work that belongs to a time is its stress times half the plastic strain of the steps before and after it: with
+    /// that, kinetic, elastic and plastic energy of a chain of small strain add up to rounding.
+    pub(super) fn deform(&mut self, part: &Part, length: f64, time_step: f64) -> f64 {
+        self.length = length;
+        self.strain = match part.kinematics {
+            Kinematics::Logarithmic => (self.rest_length / length).ln(),
+            Kinematics::SmallStrain => (self.rest_length - length) / self.rest_length,
         };
-        let flow = part.strength.flow_stress(&FlowState {
-            plastic_strain: plastic_strain + increment,
-            strain_rate: rate,
-            temperature,
-            pressure: trial / 3.0,
-        });
-        let excess = trial - part.modulus * increment - flow.stress;
-        if excess.abs() <= 1e-13 * trial {
-            return increment;
+        let trial = part.modulus * (self.strain - self.plastic_axial);
+        self.stress_before = self.stress;
+        self.stress = trial;
+        let step_before = self.plastic_step;
+        self.plastic_step = 0.0;
+        if trial.abs() > self.flow_stress {
+            self.flow(part, trial, time_step);
         }
-        if excess > 0.0 {
-            low = increment;
-        } else {
-            high = increment;
-        }
-        let rate_slope = if part.rate_effects {
-            flow.rate_slope / time_step
-        } else {
-            0.0
+        self.axial_force = match part.kinematics {
+            Kinematics::Logarithmic => self.stress * part.area * self.rest_length / length,
+            Kinematics::SmallStrain => self.stress * part.area,
         };
-        let newton = increment + excess / (part.modulus + flow.strain_slope + rate_slope);
-        let next = if newton > low && newton < high {
-            newton
-        } else {
-            0.5 * (low + high)
-        };
-        if next == increment || high - low <= 1e-15 * high {
-            return next;
-        }
-        increment = next;
+        0.5 * self.stress_before * (step_before + self.plastic_step)
     }
-    increment
+
+    /// Returns a trial stress to the yield surface.
+    fn flow(&mut self, part: &Part, trial: f64, time_step: f64) {
+        let increment = self.plastic_increment(part, trial.abs(), time_step);
+        self.plastic_step = increment.copysign(trial);
+        self.stress = trial - part.modulus * self.plastic_step;
+        self.plastic_axial += self.plastic_step;
+        self.plastic_strain += increment;
+        let work = 0.5 * (self.stress_before + self.stress).abs() * increment;
+        self.temperature += part.heating * work;
+        (self.flow_stress, self.flow_slope) = static_flow_stress(
+            part,
+            self.plastic_strain,
+            self.temperature,
+            self.stress.abs() / 3.0,
+        );
+    }
+
+    /// Solves `|σ_trial| − E Δ = Y(ε_p + Δ, Δ/Δt, T)` for Δ by Newton's method, held inside a bracket.
+    fn plastic_increment(&self, part: &Part, trial: f64, time_step: f64) -> f64 {
+        let (mut low, mut high) = (0.0, trial / part.modulus);
+        // The flow stress at the start of the step is known: the first Newton step costs no evaluation of the law.
+        let mut increment =
+            ((trial - self.flow_stress) / (part.modulus + self.flow_slope)).clamp(low, high);
+        for _ in 0..100 {
+            let rate = if part.rate_effects {
+                increment / time_step
+            } else {
+                0.0
+            };
+            let flow = part.strength.flow_stress(&FlowState {
+                plastic_strain: self.plastic_strain + increment,
+                strain_rate: rate,
+                temperature: self.temperature,
+                pressure: trial / 3.0,
+            });
+            let excess = trial - part.modulus * increment - flow.stress;
+            if excess.abs() <= 1e-12 * trial {
+                return increment;
+            }
+            if excess > 0.0 {
+                low = increment;
+            } else {
+                high = increment;
+            }
+            let rate_slope = if part.rate_effects {
+                flow.rate_slope / time_step
+            } else {
+                0.0
+            };
+            let newton = increment + excess / (part.modulus + flow.strain_slope + rate_slope);
+            let next = if newton > low && newton < high {
+                newton
+            } else {
+                0.5 * (low + high)
+            };
+            if next == increment || high - low <= 1e-15 * high {
+                return next;
+            }
+            increment = next;
+        }
+        increment
+    }
+
+    /// Largest stable time step of the undamped element [s]: the time a wave takes through it.
+    pub(super) fn stable_step(&self, part: &Part) -> f64 {
+        match part.kinematics {
+            // The force grows faster than the stress as the area grows: the tangent is E + σ, and 1/sqrt(1 + x) > 1 − x/2.
+            Kinematics::Logarithmic => {
+                let stiffening = 0.5 * (self.stress / part.modulus).clamp(0.0, 1.0);
+                self.length * part.slowness * (1.0 - stiffening)
+            }
+            Kinematics::SmallStrain => self.rest_length * part.slowness,
+        }
+    }
+
+    /// Current cross-sectional area [m2].
+    pub(super) fn area(&self, part: &Part) -> f64 {
+        match part.kinematics {
+            Kinematics::Logarithmic => part.area * self.rest_length / self.length,
+            Kinematics::SmallStrain => part.area,
+        }
+    }
 }

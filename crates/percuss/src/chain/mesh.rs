@@ -3,12 +3,13 @@
 use std::f64::consts::PI;
 
 use super::{
+    element::static_flow_stress,
     part::{Part, Role, constraint_factor},
     solver::LARGEST_STRAIN_STEP,
-    state::{Books, End, Segment, State},
+    state::{Books, Element, End, Node, Segment, State},
 };
 use crate::{
-    case::{BackFace, Kinematics},
+    case::BackFace,
     scenario::{Plate, Scenario, TargetBody},
 };
 
@@ -84,17 +85,14 @@ pub(super) fn build(scenario: &Scenario) -> State {
     }
     let mut state = assemble(parts, &lengths, end);
     if let TargetBody::ConstantPressure(pressure) = scenario.target {
-        state.friction[rod_elements] = pressure * state.parts[0].area;
+        state.nodes[rod_elements].friction = pressure * state.parts[0].area;
     }
-    for velocity in &mut state.velocity[..=rod_elements] {
-        *velocity = scenario.impact_speed;
+    for node in &mut state.nodes[..=rod_elements] {
+        node.velocity = scenario.impact_speed;
     }
     // At the first step the elements at the interface see the whole impact speed.
-    let smallest = state
-        .rest_length
-        .iter()
-        .copied()
-        .fold(f64::INFINITY, f64::min);
+    let lengths = state.elements.iter().map(|element| element.rest_length);
+    let smallest = lengths.fold(f64::INFINITY, f64::min);
     let first_step = LARGEST_STRAIN_STEP * smallest / scenario.impact_speed;
     state.stable_step = state.stable_step.min(first_step);
     state.books.initial_energy = state.energy().kinetic_projectile;
@@ -106,31 +104,12 @@ pub(super) fn build(scenario: &Scenario) -> State {
 fn assemble(parts: Vec<Part>, lengths: &[f64], end: End) -> State {
     let elements: usize = parts.iter().map(|part| part.elements).sum();
     let nodes = elements + parts.len();
-    let zeros = || vec![0.0; elements];
     let mut state = State {
         segments: Vec::new(),
         closed: vec![true; parts.len() - 1],
         end,
-        position: vec![0.0; nodes],
-        velocity: vec![0.0; nodes],
-        velocity_before: vec![0.0; nodes],
-        mass: vec![0.0; nodes],
-        force: vec![0.0; nodes],
-        friction: vec![0.0; nodes],
-        rest_length: zeros(),
-        initial_position: zeros(),
-        length: zeros(),
-        strain: zeros(),
-        stress: zeros(),
-        stress_before: zeros(),
-        axial_force: zeros(),
-        viscous_force: zeros(),
-        plastic_axial: zeros(),
-        plastic_strain: zeros(),
-        plastic_step: zeros(),
-        temperature: zeros(),
-        flow_stress: zeros(),
-        eroded: vec![false; elements],
+        nodes: vec![Node::default(); nodes],
+        elements: vec![Element::default(); elements],
         time: 0.0,
         step: 0,
         time_step: 0.0,
@@ -155,34 +134,36 @@ fn assemble(parts: Vec<Part>, lengths: &[f64], end: End) -> State {
         for i in 0..=count {
             // The last node stands exactly where the next part's first one does.
             let from_end = (count - i) as f64;
-            state.position[first_node + i] = start + length - size * from_end;
+            state.nodes[first_node + i].position = start + length - size * from_end;
         }
         for e in first_element..first_element + count {
             let node = e + p;
             let half_mass = 0.5 * part.density * part.area * size;
             let half_friction = 0.5 * part.friction_per_length * size;
-            for i in [node, node + 1] {
-                state.mass[i] += half_mass;
-                state.friction[i] += half_friction;
+            for node in &mut state.nodes[node..=node + 1] {
+                node.mass += half_mass;
+                node.friction += half_friction;
             }
-            state.rest_length[e] = size;
-            state.length[e] = state.position[node + 1] - state.position[node];
-            state.initial_position[e] = 0.5 * (state.position[node] + state.position[node + 1]);
-            state.temperature[e] = part.start_temperature;
-            state.flow_stress[e] =
-                super::element::static_flow_stress(part, 0.0, part.start_temperature, 0.0);
-            let transit = match part.kinematics {
-                Kinematics::Logarithmic => state.length[e] / part.wave_speed,
-                Kinematics::SmallStrain => size / part.wave_speed,
+            let (back, front) = (state.nodes[node].position, state.nodes[node + 1].position);
+            let (flow_stress, flow_slope) =
+                static_flow_stress(part, 0.0, part.start_temperature, 0.0);
+            state.elements[e] = Element {
+                rest_length: front - back,
+                length: front - back,
+                initial_position: 0.5 * (front + back),
+                temperature: part.start_temperature,
+                flow_stress,
+                flow_slope,
+                ..Element::default()
             };
-            state.stable_step = state.stable_step.min(transit);
+            state.stable_step = state.stable_step.min((front - back) / part.wave_speed);
         }
         first_element += count;
         start += length;
     }
     // The boundary's own impedance stands for everything behind it, border shear included.
-    if let (End::Dashpot(_), Some(friction)) = (end, state.friction.last_mut()) {
-        *friction = 0.0;
+    if let (End::Dashpot(_), Some(last)) = (end, state.nodes.last_mut()) {
+        last.friction = 0.0;
     }
     state
 }

@@ -4,10 +4,13 @@ mod conservative;
 mod element;
 mod mesh;
 mod part;
+mod published;
 mod solver;
 mod state;
+mod warnings;
 
-pub use conservative::Conservative;
+pub use conservative::{Conservative, ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
+pub use published::Published;
 
 use crate::{
     Error, Scenario,
@@ -38,18 +41,22 @@ impl Model for Chain {
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
-        (scenario.projectile.nose != Nose::Flat).then(|| {
-            format!(
-                "it has flat-ended rods only, and this nose is {}; leave `projectile.nose` out for a flat end",
+        if scenario.projectile.nose != Nose::Flat {
+            return Some(format!(
+                "it has flat-ended rods only, and this nose is of the shape `{}`; leave `projectile.nose` out for a flat end",
                 scenario.projectile.nose.name()
-            )
-        })
+            ));
+        }
+        match scenario.chain.scheme {
+            Scheme::Conservative => None,
+            Scheme::Published => Published::not_applicable(scenario),
+        }
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
         match scenario.chain.scheme {
             Scheme::Conservative => Conservative::new(scenario).run(control),
-            Scheme::Published => unimplemented!(),
+            Scheme::Published => Published::new(scenario)?.run(control),
         }
     }
 }

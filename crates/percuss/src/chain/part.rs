@@ -23,6 +23,8 @@ pub(super) struct Part {
     pub(super) modulus: f64,
     pub(super) density: f64,
     pub(super) wave_speed: f64,
+    /// Inverse of the wave speed [s/m].
+    pub(super) slowness: f64,
     pub(super) area: f64,
     pub(super) strength: Box<dyn PreparedStrength>,
     /// Temperature rise per plastic work per volume [K m3/J]; 0 without heating.
@@ -57,6 +59,7 @@ impl Part {
             modulus: material.youngs_modulus.si(),
             density: material.density.si(),
             wave_speed: material.bar_wave_speed(),
+            slowness: 1.0 / material.bar_wave_speed(),
             area,
             strength: material.strength.law().prepare(material, factor),
             heating,

@@ -1,8 +1,8 @@
 //! One step of explicit central differences, with the books kept so that only integration error is left in them.
 
 use super::{
-    element::{plastic_increment, static_flow_stress},
-    state::{End, Segment, State},
+    part::Part,
+    state::{Element, End, Segment, State},
 };
 use crate::{
     case::{ArtificialViscosity, Kinematics},
@@ -27,6 +27,20 @@ impl StepControl {
     fn is_viscous(&self) -> bool {
         self.viscosity != ArtificialViscosity::default() || self.damping_ratio > 0.0
     }
+
+    /// Sets the viscous force of an element whose ends approach at a speed; returns the factor on its stable step.
+    ///
+    /// With a damping ratio ξ, central differences with lagged velocities are stable up to `sqrt(1 + ξ²) − ξ` of the
+    /// undamped limit.
+    fn damp(&self, element: &mut Element, part: &Part, approach: f64) -> f64 {
+        let mut ratio = self.damping_ratio;
+        if approach > 0.0 {
+            ratio += self.viscosity.linear + self.viscosity.quadratic * approach * part.slowness;
+        }
+        element.viscous_force =
+            ratio * part.density * part.wave_speed * element.area(part) * approach;
+        (1.0 + ratio * ratio).sqrt() - ratio
+    }
 }
 
 impl State {
@@ -37,7 +51,7 @@ impl State {
         if previous > 0.0 {
             time_step = time_step.min(LARGEST_STEP_GROWTH * previous);
         }
-        self.collect_forces(control);
+        self.collect_forces();
         // Velocities live half a step behind positions: the kick spans the two half steps around the current time.
         self.kick(0.5 * (previous + time_step), control.is_viscous());
         self.close_gaps(time_step);
@@ -49,26 +63,24 @@ impl State {
         Ok(())
     }
 
-    fn collect_forces(&mut self, control: &StepControl) {
-        self.force.fill(0.0);
-        let viscous = control.is_viscous();
+    fn collect_forces(&mut self) {
+        for node in &mut self.nodes {
+            node.force = 0.0;
+            node.velocity_before = node.velocity;
+        }
         for segment in &self.segments {
-            let offset = segment.part;
-            for e in segment.elements() {
-                let node = e + offset;
-                let mut force = self.axial_force[e];
-                if viscous {
-                    force += self.viscous_force[e];
-                }
-                self.force[node] -= force;
-                self.force[node + 1] += force;
+            let nodes = &mut self.nodes[segment.first_node..=segment.last_node];
+            let elements = &self.elements[segment.elements()];
+            for (i, element) in elements.iter().enumerate() {
+                let force = element.axial_force + element.viscous_force;
+                nodes[i].force -= force;
+                nodes[i + 1].force += force;
             }
         }
     }
 
     /// New velocities from forces, friction, contact and the boundary.
     fn kick(&mut self, kick: f64, viscous: bool) {
-        self.velocity_before.copy_from_slice(&self.velocity);
         self.contact_force = 0.0;
         let last_segment = self.segments.len() - 1;
         // Whether the contact before a segment was closed when the kick began: it may open on the way.
@@ -104,24 +116,24 @@ impl State {
         for segment in &self.segments {
             for e in segment.elements() {
                 let (a, b) = (e + segment.part, e + segment.part + 1);
-                let before = self.velocity_before[a] - self.velocity_before[b];
-                let after = self.velocity[a] - self.velocity[b];
-                work += self.viscous_force[e] * 0.5 * (before + after) * kick;
+                let before = self.nodes[a].velocity_before - self.nodes[b].velocity_before;
+                let after = self.nodes[a].velocity - self.nodes[b].velocity;
+                work += self.elements[e].viscous_force * 0.5 * (before + after) * kick;
             }
         }
         self.books.viscous_work += work;
     }
 
     fn kick_free(&mut self, i: usize, kick: f64) {
-        let change = self.force[i] * kick / self.mass[i];
-        self.velocity[i] = if self.friction[i] > 0.0 {
-            let before = self.velocity[i];
-            let limit = self.friction[i] * kick / self.mass[i];
+        let change = self.nodes[i].force * kick / self.nodes[i].mass;
+        self.nodes[i].velocity = if self.nodes[i].friction > 0.0 {
+            let before = self.nodes[i].velocity;
+            let limit = self.nodes[i].friction * kick / self.nodes[i].mass;
             let after = rub(before, change, limit);
-            self.book_friction(self.mass[i], before, change, after);
+            self.book_friction(self.nodes[i].mass, before, change, after);
             after
         } else {
-            self.velocity[i] + change
+            self.nodes[i].velocity + change
         };
     }
 
@@ -135,17 +147,17 @@ impl State {
         match self.end {
             End::Free => self.kick_free(i, kick),
             End::Fixed => {
-                self.velocity[i] = 0.0;
-                self.books.support_impulse += self.force[i] * kick;
-                self.back_force = self.force[i];
+                self.nodes[i].velocity = 0.0;
+                self.books.support_impulse += self.nodes[i].force * kick;
+                self.back_force = self.nodes[i].force;
             }
             End::Dashpot(impedance) => {
-                let inertia = self.mass[i] / kick;
-                let before = self.velocity[i];
-                let after = ((inertia - 0.5 * impedance) * before + self.force[i])
+                let inertia = self.nodes[i].mass / kick;
+                let before = self.nodes[i].velocity;
+                let after = ((inertia - 0.5 * impedance) * before + self.nodes[i].force)
                     / (inertia + 0.5 * impedance);
                 let mean = 0.5 * (before + after);
-                self.velocity[i] = after;
+                self.nodes[i].velocity = after;
                 self.back_force = impedance * mean;
                 self.books.support_impulse += impedance * mean * kick;
                 self.books.boundary_work += impedance * mean * mean * kick;
@@ -160,31 +172,32 @@ impl State {
         let (before, combined_mass) = if fixed {
             (0.0, f64::INFINITY)
         } else {
-            let mass = self.mass[a] + self.mass[b];
-            let momentum = self.mass[a] * self.velocity[a] + self.mass[b] * self.velocity[b];
+            let mass = self.nodes[a].mass + self.nodes[b].mass;
+            let momentum = self.nodes[a].mass * self.nodes[a].velocity
+                + self.nodes[b].mass * self.nodes[b].velocity;
             (momentum / mass, mass)
         };
         // Both nodes start the kick with their common velocity; what that costs is the loss of a plastic impact.
         for i in [a, b] {
-            let jump = before - self.velocity[i];
+            let jump = before - self.nodes[i].velocity;
             self.book_jump(i, jump, -self.time_step);
             if fixed && i == a {
-                self.books.support_impulse -= self.mass[i] * jump;
+                self.books.support_impulse -= self.nodes[i].mass * jump;
             }
-            self.velocity_before[i] = before;
+            self.nodes[i].velocity_before = before;
         }
         let contact_force = if fixed {
-            self.velocity[a] = 0.0;
-            self.velocity[b] = 0.0;
-            self.force[a]
+            self.nodes[a].velocity = 0.0;
+            self.nodes[b].velocity = 0.0;
+            self.nodes[a].force
         } else {
-            let change = (self.force[a] + self.force[b]) * kick / combined_mass;
-            let friction = self.friction[a] + self.friction[b];
+            let change = (self.nodes[a].force + self.nodes[b].force) * kick / combined_mass;
+            let friction = self.nodes[a].friction + self.nodes[b].friction;
             let after = rub(before, change, friction * kick / combined_mass);
-            self.velocity[a] = after;
-            self.velocity[b] = after;
+            self.nodes[a].velocity = after;
+            self.nodes[b].velocity = after;
             let own_friction = friction_force(
-                self.friction[a],
+                self.nodes[a].friction,
                 friction,
                 combined_mass,
                 before,
@@ -192,12 +205,12 @@ impl State {
                 after,
                 kick,
             );
-            self.force[a] + own_friction - self.mass[a] * (after - before) / kick
+            self.nodes[a].force + own_friction - self.nodes[a].mass * (after - before) / kick
         };
         if contact_force < 0.0 {
             self.closed[s] = false;
-            self.velocity[a] = before;
-            self.velocity[b] = before;
+            self.nodes[a].velocity = before;
+            self.nodes[b].velocity = before;
             self.kick_free(a, kick);
             if self.is_boundary(b) {
                 self.kick_boundary(b, kick);
@@ -207,11 +220,11 @@ impl State {
             return;
         }
         if fixed {
-            self.books.support_impulse += (self.force[a] + self.force[b]) * kick;
-            self.back_force = self.force[a] + self.force[b];
+            self.books.support_impulse += (self.nodes[a].force + self.nodes[b].force) * kick;
+            self.back_force = self.nodes[a].force + self.nodes[b].force;
         } else {
-            let change = (self.force[a] + self.force[b]) * kick / combined_mass;
-            self.book_friction(combined_mass, before, change, self.velocity[a]);
+            let change = (self.nodes[a].force + self.nodes[b].force) * kick / combined_mass;
+            self.book_friction(combined_mass, before, change, self.nodes[a].velocity);
         }
         if Some(s) == self.tip_segment() {
             self.contact_force = contact_force;
@@ -232,9 +245,9 @@ impl State {
     /// the two drifts around it: a jump between kick and drift leaves half a drift's work to book. `drift` is the length
     /// of the drift on the jump's side of the kick, negative when the jump comes before the kick.
     fn book_jump(&mut self, i: usize, jump: f64, drift: f64) {
-        let velocity = self.velocity[i];
-        let kinetic = 0.5 * self.mass[i] * ((velocity + jump).powi(2) - velocity.powi(2));
-        self.books.contact_loss -= kinetic - 0.5 * drift * self.force[i] * jump;
+        let velocity = self.nodes[i].velocity;
+        let kinetic = 0.5 * self.nodes[i].mass * ((velocity + jump).powi(2) - velocity.powi(2));
+        self.books.contact_loss -= kinetic - 0.5 * drift * self.nodes[i].force * jump;
     }
 
     /// Closes every gap that would overlap at the end of the step, so that it is zero then.
@@ -244,8 +257,8 @@ impl State {
                 continue;
             }
             let (a, b) = (self.segments[s].last_node, self.segments[s + 1].first_node);
-            let gap = self.position[b] - self.position[a];
-            let approach = self.velocity[a] - self.velocity[b];
+            let gap = self.nodes[b].position - self.nodes[a].position;
+            let approach = self.nodes[a].velocity - self.nodes[b].velocity;
             if gap - approach * time_step > 0.0 {
                 continue;
             }
@@ -253,16 +266,16 @@ impl State {
             let (share_a, share_b) = if self.is_fixed(b) {
                 (1.0, 0.0)
             } else {
-                let mass = self.mass[a] + self.mass[b];
-                (self.mass[b] / mass, self.mass[a] / mass)
+                let mass = self.nodes[a].mass + self.nodes[b].mass;
+                (self.nodes[b].mass / mass, self.nodes[a].mass / mass)
             };
             let change = approach - allowed;
             for (i, jump) in [(a, -share_a * change), (b, share_b * change)] {
                 self.book_jump(i, jump, time_step);
-                self.velocity[i] += jump;
+                self.nodes[i].velocity += jump;
             }
             if self.is_fixed(b) {
-                self.books.support_impulse += self.mass[a] * change;
+                self.books.support_impulse += self.nodes[a].mass * change;
             }
             self.closed[s] = true;
         }
@@ -270,103 +283,36 @@ impl State {
 
     /// Moves the nodes and updates every element.
     fn drift(&mut self, control: &StepControl, time_step: f64) -> Result<(), NumericalError> {
-        for segment in &self.segments {
-            for i in segment.first_node..=segment.last_node {
-                self.position[i] += self.velocity[i] * time_step;
-            }
-        }
         let viscous = control.is_viscous();
         let mut stable_step = f64::INFINITY;
-        for s in 0..self.segments.len() {
-            let segment = self.segments[s];
+        for segment in &self.segments {
             let part = &self.parts[segment.part];
-            let role = part.role as usize;
+            let nodes = &mut self.nodes[segment.first_node..=segment.last_node];
+            for node in nodes.iter_mut() {
+                node.position += node.velocity * time_step;
+            }
+            let elements = &mut self.elements[segment.elements()];
             let mut plastic_work = 0.0;
-            for e in segment.elements() {
-                let node = e + segment.part;
-                let rest = self.rest_length[e];
-                let length = self.position[node + 1] - self.position[node];
-                let strain = match part.kinematics {
-                    Kinematics::Logarithmic => {
-                        if length <= 0.0 {
-                            return Err(self.inverted(e));
-                        }
-                        (rest / length).ln()
-                    }
-                    Kinematics::SmallStrain => (rest - length) / rest,
-                };
-                let trial = part.modulus * (strain - self.plastic_axial[e]);
-                let mut stress = trial;
-                let mut plastic_step = 0.0;
-                if trial.abs() > self.flow_stress[e] {
-                    let increment = plastic_increment(
-                        part,
-                        trial,
-                        self.plastic_strain[e],
-                        self.temperature[e],
-                        time_step,
-                    );
-                    plastic_step = increment.copysign(trial);
-                    stress = trial - part.modulus * plastic_step;
-                    self.plastic_axial[e] += plastic_step;
-                    self.plastic_strain[e] += increment;
-                    self.temperature[e] +=
-                        part.heating * 0.5 * (self.stress[e] + stress).abs() * increment;
-                    self.flow_stress[e] = static_flow_stress(
-                        part,
-                        self.plastic_strain[e],
-                        self.temperature[e],
-                        stress.abs() / 3.0,
-                    );
+            for (pair, element) in nodes.windows(2).zip(elements) {
+                let length = pair[1].position - pair[0].position;
+                if length <= 0.0 && part.kinematics == Kinematics::Logarithmic {
+                    return Err(inverted(self.step, self.time, element.initial_position));
                 }
-                plastic_work +=
-                    0.5 * part.area * rest * self.stress[e] * (self.plastic_step[e] + plastic_step);
-                self.plastic_step[e] = plastic_step;
-                self.stress_before[e] = self.stress[e];
-                self.stress[e] = stress;
-                self.strain[e] = strain;
-                self.length[e] = length;
-                let (area, transit) = match part.kinematics {
-                    // The force falls off faster than the stress as the area grows: the tangent is E + σ.
-                    Kinematics::Logarithmic => (
-                        part.area * rest / length,
-                        length / (part.wave_speed * (1.0 + 0.5 * (stress / part.modulus).max(0.0))),
-                    ),
-                    Kinematics::SmallStrain => (part.area, rest / part.wave_speed),
-                };
-                self.axial_force[e] = stress * area;
-                let approach = self.velocity[node] - self.velocity[node + 1];
-                let mut limit = transit;
+                plastic_work += element.rest_length * element.deform(part, length, time_step);
+                let approach = pair[0].velocity - pair[1].velocity;
+                let mut limit = element.stable_step(part);
                 if viscous {
-                    let closing = approach.max(0.0);
-                    let mut ratio = control.damping_ratio;
-                    if closing > 0.0 {
-                        ratio += control.viscosity.linear
-                            + control.viscosity.quadratic * closing / part.wave_speed;
-                    }
-                    self.viscous_force[e] =
-                        ratio * part.density * part.wave_speed * area * approach;
-                    limit *= (1.0 + ratio * ratio).sqrt() - ratio;
+                    limit *= control.damp(element, part, approach);
                 }
-                if approach.abs() * limit > LARGEST_STRAIN_STEP * length {
+                if approach.abs() * limit > LARGEST_STRAIN_STEP * length.abs() {
                     limit = LARGEST_STRAIN_STEP * length.abs() / approach.abs();
                 }
                 stable_step = stable_step.min(limit);
             }
-            self.books.plastic[role] += plastic_work;
+            self.books.plastic[part.role as usize] += part.area * plastic_work;
         }
         self.stable_step = stable_step;
         Ok(())
-    }
-
-    fn inverted(&self, element: usize) -> NumericalError {
-        NumericalError {
-            what: "an element was compressed to nothing".to_owned(),
-            step: self.step,
-            time_us: self.time * 1e6,
-            element: Some(element),
-            remedy: "lower `chain.courant` or `chain.erosion_strain`".to_owned(),
-        }
     }
 
     /// Takes out the elements whose strain has passed the limit, booking what leaves with them.
@@ -374,7 +320,9 @@ impl State {
         let mut s = 0;
         while s < self.segments.len() {
             let segment = self.segments[s];
-            let found = segment.elements().find(|&e| self.strain[e].abs() >= limit);
+            let found = segment
+                .elements()
+                .find(|&e| self.elements[e].strain.abs() >= limit);
             match found {
                 // The segment at `s` is another one afterwards: look again.
                 Some(e) => self.remove_element(s, e),
@@ -386,18 +334,18 @@ impl State {
     fn remove_element(&mut self, s: usize, e: usize) {
         let segment = self.segments[s];
         let part = &self.parts[segment.part];
-        let half_mass = 0.5 * part.density * part.area * self.rest_length[e];
-        let half_friction = 0.5 * part.friction_per_length * self.rest_length[e];
+        let half_mass = 0.5 * part.density * part.area * self.elements[e].rest_length;
+        let half_friction = 0.5 * part.friction_per_length * self.elements[e].rest_length;
         self.books.eroded_energy += self.elastic_energy(e, part);
         let left = e + segment.part;
         for i in [left, left + 1] {
-            let velocity = self.velocity[i];
+            let velocity = self.nodes[i].velocity;
             self.books.eroded_energy += 0.5 * half_mass * velocity * velocity;
             self.books.eroded_momentum += half_mass * velocity;
-            self.mass[i] -= half_mass;
-            self.friction[i] = (self.friction[i] - half_friction).max(0.0);
+            self.nodes[i].mass -= half_mass;
+            self.nodes[i].friction = (self.nodes[i].friction - half_friction).max(0.0);
         }
-        self.eroded[e] = true;
+        self.elements[e].eroded = true;
         let before = Segment {
             last_node: left,
             ..segment
@@ -443,6 +391,19 @@ impl State {
             }
         }
         self.segments.splice(s..=s, kept);
+    }
+}
+
+fn inverted(step: u64, time: f64, initial_position: f64) -> NumericalError {
+    NumericalError {
+        what: format!(
+            "the element that started at {:.3} mm was compressed to nothing",
+            initial_position * 1e3
+        ),
+        step,
+        time_us: time * 1e6,
+        element: None,
+        remedy: "lower `chain.courant` or `chain.erosion_strain`".to_owned(),
     }
 }
 

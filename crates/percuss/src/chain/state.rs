@@ -29,6 +29,45 @@ impl Segment {
     }
 }
 
+/// A point mass.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Node {
+    pub(super) position: f64,
+    pub(super) velocity: f64,
+    /// Velocity at the start of the current kick.
+    pub(super) velocity_before: f64,
+    pub(super) mass: f64,
+    pub(super) force: f64,
+    /// Largest friction force [N].
+    pub(super) friction: f64,
+}
+
+/// A normal spring with its constitutive state.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Element {
+    pub(super) rest_length: f64,
+    pub(super) length: f64,
+    pub(super) strain: f64,
+    pub(super) stress: f64,
+    pub(super) stress_before: f64,
+    pub(super) axial_force: f64,
+    pub(super) viscous_force: f64,
+    /// Axial plastic strain, compression positive.
+    pub(super) plastic_axial: f64,
+    /// Accumulated plastic strain.
+    pub(super) plastic_strain: f64,
+    /// Axial plastic strain of the last step.
+    pub(super) plastic_step: f64,
+    pub(super) temperature: f64,
+    /// Flow stress at the current plastic strain, without rate effect.
+    pub(super) flow_stress: f64,
+    /// Its slope with plastic strain.
+    pub(super) flow_slope: f64,
+    /// Initial position of its middle.
+    pub(super) initial_position: f64,
+    pub(super) eroded: bool,
+}
+
 /// Work and impulse that have gone where the state itself does not show them.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Books {
@@ -55,33 +94,9 @@ pub(super) struct State {
     pub(super) closed: Vec<bool>,
     pub(super) end: End,
 
-    pub(super) position: Vec<f64>,
-    pub(super) velocity: Vec<f64>,
-    /// Velocities at the start of the current kick.
-    pub(super) velocity_before: Vec<f64>,
-    pub(super) mass: Vec<f64>,
-    pub(super) force: Vec<f64>,
-    /// Largest friction force on each node [N].
-    pub(super) friction: Vec<f64>,
-
-    pub(super) rest_length: Vec<f64>,
-    pub(super) initial_position: Vec<f64>,
-    pub(super) length: Vec<f64>,
-    pub(super) strain: Vec<f64>,
-    pub(super) stress: Vec<f64>,
-    pub(super) stress_before: Vec<f64>,
-    pub(super) axial_force: Vec<f64>,
-    pub(super) viscous_force: Vec<f64>,
-    /// Axial plastic strain, compression positive.
-    pub(super) plastic_axial: Vec<f64>,
-    /// Accumulated plastic strain.
-    pub(super) plastic_strain: Vec<f64>,
-    /// Axial plastic strain of the last step.
-    pub(super) plastic_step: Vec<f64>,
-    pub(super) temperature: Vec<f64>,
-    /// Flow stress at the current plastic strain, without rate effect.
-    pub(super) flow_stress: Vec<f64>,
-    pub(super) eroded: Vec<bool>,
+    pub(super) nodes: Vec<Node>,
+    /// All elements, eroded ones too.
+    pub(super) elements: Vec<Element>,
 
     pub(super) time: f64,
     pub(super) step: u64,
@@ -114,8 +129,8 @@ impl State {
         for segment in &self.segments {
             if self.parts[segment.part].role == Role::Projectile {
                 for i in segment.first_node..=segment.last_node {
-                    sums.0 += self.mass[i];
-                    sums.1 += self.mass[i] * self.velocity[i];
+                    sums.0 += self.nodes[i].mass;
+                    sums.1 += self.nodes[i].mass * self.nodes[i].velocity;
                 }
             }
         }
@@ -124,8 +139,9 @@ impl State {
 
     /// Elastic energy of an element between two steps: the form that central differences conserve.
     pub(super) fn elastic_energy(&self, element: usize, part: &Part) -> f64 {
-        let volume = part.area * self.rest_length[element];
-        volume * self.stress_before[element] * self.stress[element] / (2.0 * part.modulus)
+        let volume = part.area * self.elements[element].rest_length;
+        volume * self.elements[element].stress_before * self.elements[element].stress
+            / (2.0 * part.modulus)
     }
 
     pub(super) fn energy(&self) -> EnergyLedger {
@@ -135,7 +151,8 @@ impl State {
             let part = &self.parts[segment.part];
             let role = part.role as usize;
             for i in segment.first_node..=segment.last_node {
-                kinetic[role] += 0.5 * self.mass[i] * self.velocity[i] * self.velocity[i];
+                kinetic[role] +=
+                    0.5 * self.nodes[i].mass * self.nodes[i].velocity * self.nodes[i].velocity;
             }
             for e in segment.elements() {
                 elastic[role] += self.elastic_energy(e, part);
@@ -163,7 +180,7 @@ impl State {
         for segment in &self.segments {
             let role = self.parts[segment.part].role as usize;
             for i in segment.first_node..=segment.last_node {
-                momentum[role] += self.mass[i] * self.velocity[i];
+                momentum[role] += self.nodes[i].mass * self.nodes[i].velocity;
             }
         }
         let books = &self.books;

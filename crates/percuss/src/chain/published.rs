@@ -1,0 +1,654 @@
+//! Scheme `published`: the equations of the seed paper as printed \[paper, eqs 7–28\], every ambiguous reading selectable.
+//!
+//! Nothing here is improved on: strain is small strain at any strain, springs unload along the loading curve, and
+//! the joined interface gives the first target mass its speed from nothing. The warnings of a run say so.
+
+use std::f64::consts::PI;
+
+use super::solver::rub;
+use crate::{
+    Error, Scenario,
+    case::{
+        BackFace, ContactSpring, Interface, PublishedBorderShear, PublishedOptions,
+        PublishedTimeStep, SmallStrainStiffness,
+    },
+    error::NumericalError,
+    history::{ElementState, Profile, Recorder, Sample},
+    ledger::{EnergyLedger, MomentumLedger},
+    material::{Material, Strength},
+    model::{Control, Progress},
+    outcome::{Outcome, RunResult, Termination},
+    scenario::{Plate, TargetBody},
+};
+
+use super::part::constraint_factor;
+
+const DEFAULT_MAX_STEPS: u64 = 20_000_000;
+const REPORT_INTERVAL: u64 = 4096;
+
+/// Springs of one body: all alike.
+#[derive(Debug, Clone, Copy)]
+struct Springs {
+    /// Length of an element [m].
+    length: f64,
+    /// Elastic stiffness `E A/l` [N/m], equation (7).
+    stiffness: f64,
+    /// `factor σ₀ A` [N]: force at unit strain.
+    strength: f64,
+    exponent: f64,
+    small_strain: SmallStrainStiffness,
+    mass: f64,
+    border_shear: f64,
+}
+
+impl Springs {
+    /// Force at a shortening `u` of a spring of length `length`, equations (8)–(14).
+    fn force(&self, u: f64, length: f64) -> f64 {
+        let strain = u.abs() / length;
+        let plastic = self.strength * strain.powf(self.exponent);
+        let force = match self.small_strain {
+            SmallStrainStiffness::PowerLaw if u == 0.0 => 0.0,
+            SmallStrainStiffness::PowerLaw => plastic,
+            SmallStrainStiffness::Elastic => {
+                plastic.min(self.stiffness * self.length / length * u.abs())
+            }
+        };
+        force.copysign(u)
+    }
+}
+
+/// A run of the published scheme. Index 0 is the mass at the interface in both bodies.
+#[derive(Debug)]
+pub struct Published<'a> {
+    scenario: &'a Scenario,
+    options: PublishedOptions,
+    rod: Springs,
+    target: Springs,
+    thickness: f64,
+    time_step: f64,
+    rod_displacement: Vec<f64>,
+    rod_velocity: Vec<f64>,
+    rod_force: Vec<f64>,
+    target_displacement: Vec<f64>,
+    target_velocity: Vec<f64>,
+    target_force: Vec<f64>,
+    contact_force: f64,
+    back_force: f64,
+    step: u64,
+    spring_work: [f64; 2],
+    friction_work: f64,
+    friction_impulse: f64,
+    support_impulse: f64,
+    peak_force: f64,
+    largest_depth: f64,
+    initial: (f64, f64),
+}
+
+fn law(material: &Material, factor: f64, area: f64) -> Option<(f64, f64)> {
+    match &material.strength {
+        Strength::PowerLaw(law) => Some((factor * law.coefficient.si() * area, law.exponent)),
+        Strength::Elastic(_) => Some((material.youngs_modulus.si() * area, 1.0)),
+        _ => None,
+    }
+}
+
+fn single_plate(scenario: &Scenario) -> Option<(&Plate, f64, f64)> {
+    match &scenario.target {
+        TargetBody::Layers {
+            layers,
+            back_face: BackFace::Fixed,
+            column_diameter,
+        } => match layers.as_slice() {
+            [plate] => Some((plate, plate.thickness?, *column_diameter)),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+impl<'a> Published<'a> {
+    pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
+        let Some((plate, _, _)) = single_plate(scenario) else {
+            return Some(
+                "scheme `published` has one plate of finite thickness with a fixed back face"
+                    .to_owned(),
+            );
+        };
+        for material in [&scenario.projectile.material, &plate.material] {
+            if law(material, 1.0, 1.0).is_none() {
+                return Some(format!(
+                    "scheme `published` has the strength laws power_law and elastic, and {} has {}",
+                    material.name,
+                    material.strength.key()
+                ));
+            }
+        }
+        None
+    }
+
+    /// The chain at the moment of impact.
+    ///
+    /// # Errors
+    /// [`Error::NotApplicable`] for anything but one plate with a fixed back face and power-law or elastic materials.
+    pub fn new(scenario: &'a Scenario) -> Result<Self, Error> {
+        let not_applicable = |reason: String| Error::NotApplicable {
+            model: "chain",
+            reason,
+        };
+        if let Some(reason) = Self::not_applicable(scenario) {
+            return Err(not_applicable(reason));
+        }
+        let (Some((plate, thickness, column)), options) =
+            (single_plate(scenario), scenario.chain.published())
+        else {
+            return Err(not_applicable("no plate".to_owned()));
+        };
+        let chain = &scenario.chain;
+        let body = &scenario.projectile;
+        let springs = |material: &Material,
+                       factor: f64,
+                       diameter: f64,
+                       length: f64,
+                       elements: usize,
+                       mass: f64| {
+            let area = PI * diameter * diameter / 4.0;
+            let size = length / elements as f64;
+            let (strength, exponent) = law(material, factor, area).unwrap_or((0.0, 1.0));
+            let flow_stress = material.strength.law().flow_stress_at_unit_strain(material);
+            Springs {
+                length: size,
+                stiffness: material.youngs_modulus.si() * area / size,
+                strength,
+                exponent,
+                small_strain: options.small_strain,
+                mass: mass / elements as f64,
+                border_shear: chain.border_shear()
+                    * PI
+                    * diameter
+                    * size
+                    * flow_stress.unwrap_or(0.0),
+            }
+        };
+        let (rod_elements, target_elements) =
+            (chain.projectile_elements(), chain.target_elements());
+        let rod = springs(
+            &body.material,
+            1.0,
+            body.diameter,
+            body.length,
+            rod_elements,
+            body.mass,
+        );
+        let factor = constraint_factor(chain.constraint_factor(), &plate.material);
+        let column_mass = plate.material.density.si() * PI * column * column / 4.0 * thickness;
+        let column_mass = options.target_mass.map_or(column_mass, |mass| mass.si());
+        let target = springs(
+            &plate.material,
+            factor,
+            column,
+            thickness,
+            target_elements,
+            column_mass,
+        );
+        // Equations (20) and (21), with the elastic stiffness as the largest.
+        let critical = (rod.mass.min(target.mass) / rod.stiffness.max(target.stiffness)).sqrt();
+        let time_step = 0.1
+            * critical
+            * match options.time_step {
+                PublishedTimeStep::Table1 => 1.0,
+                PublishedTimeStep::Equation21 => 2.0,
+            };
+        let speed = scenario.impact_speed;
+        let mut target_velocity = vec![0.0; target_elements];
+        if options.interface != Interface::Chain {
+            target_velocity[0] = speed;
+        }
+        Ok(Self {
+            scenario,
+            options,
+            rod,
+            target,
+            thickness,
+            time_step,
+            rod_displacement: vec![0.0; rod_elements],
+            rod_velocity: vec![speed; rod_elements],
+            rod_force: vec![0.0; rod_elements],
+            target_displacement: vec![0.0; target_elements],
+            target_velocity,
+            target_force: vec![0.0; target_elements],
+            contact_force: 0.0,
+            back_force: 0.0,
+            step: 0,
+            spring_work: [0.0; 2],
+            friction_work: 0.0,
+            friction_impulse: 0.0,
+            support_impulse: 0.0,
+            peak_force: 0.0,
+            largest_depth: 0.0,
+            initial: (0.5 * body.mass * speed * speed, body.mass * speed),
+        })
+    }
+
+    /// Time step [s].
+    pub fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// Runs until the first penetrator mass stops, section 3.6 of the paper.
+    ///
+    /// # Errors
+    /// [`Error::Numerical`] when the solution is no longer finite; [`Error::Cancelled`].
+    pub fn run(mut self, control: &mut Control<'_>) -> Result<RunResult, Error> {
+        let mut recorder = control.record.then(Recorder::new);
+        let options = &self.scenario.chain;
+        let max_steps = options.max_steps.unwrap_or(DEFAULT_MAX_STEPS);
+        let end_time = options.end_time.map_or(f64::INFINITY, |time| time.si());
+        self.record(&mut recorder);
+        let termination = if self.scenario.impact_speed == 0.0 {
+            Termination::NothingMoves
+        } else {
+            loop {
+                self.advance();
+                self.record(&mut recorder);
+                if self.rod_velocity[0] <= 0.0 {
+                    break Termination::TipStopped;
+                }
+                if !self.rod_velocity[0].is_finite() {
+                    return Err(self.failed());
+                }
+                if self.rod_displacement[0] >= self.thickness {
+                    break Termination::PassedBackFace;
+                }
+                if self.time() >= end_time {
+                    break Termination::EndTime;
+                }
+                if self.step >= max_steps {
+                    break Termination::StepLimit;
+                }
+                if self.step.is_multiple_of(REPORT_INTERVAL) {
+                    control.report(Progress {
+                        step: self.step,
+                        time: self.time(),
+                        fraction: 1.0 - self.rod_velocity[0] / self.scenario.impact_speed,
+                        depth: self.rod_displacement[0],
+                    })?;
+                }
+            }
+        };
+        Ok(self.finish(termination, recorder))
+    }
+
+    fn time(&self) -> f64 {
+        self.step as f64 * self.time_step
+    }
+
+    fn failed(&self) -> Error {
+        NumericalError {
+            what: "a velocity is not finite".to_owned(),
+            step: self.step,
+            time_us: self.time() * 1e6,
+            element: Some(0),
+            remedy: "use scheme = \"conservative\"".to_owned(),
+        }
+        .into()
+    }
+
+    /// One step of equations (22)–(28).
+    fn advance(&mut self) {
+        self.collect_forces();
+        let joined = self.options.interface != Interface::Chain;
+        let rod_before = self.rod_velocity.clone();
+        let target_before = self.target_velocity.clone();
+        let mut joined_velocity = 0.0;
+        if joined {
+            let mut force = self.target_force[0];
+            if self.options.interface == Interface::JoinedPushed {
+                force += self.rod_force[0];
+            }
+            let mut shear = self.target.border_shear;
+            if self.options.border_shear == PublishedBorderShear::FrictionAndPenetrator {
+                shear += self.rod.border_shear;
+            }
+            let mass = self.rod.mass + self.target.mass;
+            joined_velocity = self.kick(self.rod_velocity[0], force, mass, shear, true);
+        }
+        for i in usize::from(joined)..self.rod_velocity.len() {
+            let centre = -(i as f64 + 0.5) * self.rod.length + self.rod_displacement[i];
+            let inside = self.options.border_shear == PublishedBorderShear::FrictionAndPenetrator
+                && centre > 0.0;
+            let shear = if inside { self.rod.border_shear } else { 0.0 };
+            self.rod_velocity[i] = self.kick(
+                self.rod_velocity[i],
+                self.rod_force[i],
+                self.rod.mass,
+                shear,
+                inside,
+            );
+        }
+        let last = self.target_velocity.len() - 1;
+        for i in usize::from(joined)..last.max(usize::from(joined)) {
+            let moves = self.target_displacement[i] != 0.0 || self.target_force[i] != 0.0;
+            self.target_velocity[i] = self.kick(
+                self.target_velocity[i],
+                self.target_force[i],
+                self.target.mass,
+                self.target.border_shear,
+                moves,
+            );
+        }
+        if joined {
+            self.rod_velocity[0] = joined_velocity;
+            self.target_velocity[0] = joined_velocity;
+        }
+        if last > 0 || !joined {
+            // Equation (15): the last target mass is fixed.
+            self.target_velocity[last] = 0.0;
+            self.back_force = self.target_force[last];
+            self.support_impulse += self.target_force[last] * self.time_step;
+        }
+        self.book_springs(&rod_before, &target_before);
+        for (x, v) in self.rod_displacement.iter_mut().zip(&self.rod_velocity) {
+            *x += v * self.time_step;
+        }
+        for (x, v) in self
+            .target_displacement
+            .iter_mut()
+            .zip(&self.target_velocity)
+        {
+            *x += v * self.time_step;
+        }
+        self.step += 1;
+        self.peak_force = self.peak_force.max(self.contact_force);
+        self.largest_depth = self.largest_depth.max(self.rod_displacement[0]);
+    }
+
+    fn collect_forces(&mut self) {
+        self.rod_force.fill(0.0);
+        self.target_force.fill(0.0);
+        for i in 1..self.rod_displacement.len() {
+            let shortening = self.rod_displacement[i] - self.rod_displacement[i - 1];
+            let force = self.rod.force(shortening, self.rod.length);
+            self.rod_force[i - 1] += force;
+            self.rod_force[i] -= force;
+        }
+        for i in 1..self.target_displacement.len() {
+            let shortening = self.target_displacement[i - 1] - self.target_displacement[i];
+            let force = self.target.force(shortening, self.target.length);
+            self.target_force[i - 1] -= force;
+            self.target_force[i] += force;
+        }
+        self.contact_force = match self.options.interface {
+            Interface::Chain => self.series_contact_force(),
+            Interface::Joined | Interface::JoinedPushed => -self.target_force[0],
+        };
+        if self.options.interface == Interface::Chain {
+            self.rod_force[0] -= self.contact_force;
+            self.target_force[0] += self.contact_force;
+        }
+    }
+
+    /// Equation (22): both stiffnesses in series carry the same force; each secant stiffness belongs to its own strain.
+    fn series_contact_force(&self) -> f64 {
+        let shortening = self.rod_displacement[0] - self.target_displacement[0];
+        if shortening <= 0.0 {
+            return 0.0;
+        }
+        let share = match self.options.contact_spring {
+            ContactSpring::HalfElements => 0.5,
+            ContactSpring::WholeElements => 1.0,
+        };
+        let rod = |u: f64| self.rod.force(u, share * self.rod.length);
+        let target = |u: f64| self.target.force(u, share * self.target.length);
+        let (mut low, mut high) = (0.0, shortening);
+        while high - low > 1e-15 * shortening {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if rod(middle) < target(shortening - middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        0.5 * (rod(low) + target(shortening - low))
+    }
+
+    /// New velocity of a mass, with its border shear.
+    fn kick(&mut self, before: f64, force: f64, mass: f64, shear: f64, moves: bool) -> f64 {
+        let change = force * self.time_step / mass;
+        let limit = shear * self.time_step / mass;
+        let after = match self.options.border_shear {
+            PublishedBorderShear::None => before + change,
+            PublishedBorderShear::Constant if moves => before + change - limit,
+            PublishedBorderShear::Constant => before + change,
+            PublishedBorderShear::Friction | PublishedBorderShear::FrictionAndPenetrator => {
+                rub(before, change, limit)
+            }
+        };
+        let impulse = mass * (before + change - after);
+        self.friction_impulse += impulse;
+        self.friction_work += impulse * 0.5 * (before + after);
+        after
+    }
+
+    /// Work done on the springs: force times the mean of the velocities before and after the kick.
+    fn book_springs(&mut self, rod_before: &[f64], target_before: &[f64]) {
+        let power = |force: &[f64], before: &[f64], after: &[f64]| -> f64 {
+            force
+                .iter()
+                .zip(before)
+                .zip(after)
+                .map(|((f, b), a)| -0.5 * f * (b + a))
+                .sum()
+        };
+        self.spring_work[0] +=
+            self.time_step * power(&self.rod_force, rod_before, &self.rod_velocity);
+        self.spring_work[1] +=
+            self.time_step * power(&self.target_force, target_before, &self.target_velocity);
+        if self.options.interface == Interface::Joined {
+            // The rod's next spring does not act on the joined mass: its work there is nobody's.
+            self.spring_work[0] +=
+                self.time_step * 0.5 * self.rod_force[0] * (rod_before[0] + self.rod_velocity[0]);
+        }
+    }
+
+    fn ledgers(&self) -> (EnergyLedger, MomentumLedger) {
+        let kinetic =
+            |velocity: &[f64], mass: f64| velocity.iter().map(|v| 0.5 * mass * v * v).sum();
+        let momentum = |velocity: &[f64], mass: f64| velocity.iter().map(|v| mass * v).sum();
+        let energy = EnergyLedger {
+            initial: self.initial.0,
+            kinetic_projectile: kinetic(&self.rod_velocity, self.rod.mass),
+            kinetic_target: kinetic(&self.target_velocity, self.target.mass),
+            elastic_projectile: self.spring_work[0],
+            elastic_target: self.spring_work[1],
+            border_shear: self.friction_work,
+            ..EnergyLedger::default()
+        };
+        let momentum = MomentumLedger {
+            initial: self.initial.1,
+            projectile: momentum(&self.rod_velocity, self.rod.mass),
+            target: momentum(&self.target_velocity, self.target.mass),
+            support: self.support_impulse,
+            border_shear: self.friction_impulse,
+            eroded: 0.0,
+        };
+        (energy, momentum)
+    }
+
+    fn record(&self, recorder: &mut Option<Recorder>) {
+        let Some(recorder) = recorder else { return };
+        if recorder.wants_sample(self.step) {
+            recorder.sample(self.sample());
+        }
+        if recorder.wants_profile(self.step) {
+            recorder.profile(self.profile());
+        }
+    }
+
+    fn rod_length(&self) -> f64 {
+        let last = self.rod_displacement.len() - 1;
+        self.scenario.projectile.length - (self.rod_displacement[last] - self.rod_displacement[0])
+    }
+
+    fn sample(&self) -> Sample {
+        let (energy, momentum) = self.ledgers();
+        let count = self.rod_velocity.len();
+        Sample {
+            time: self.time(),
+            step: self.step,
+            tip_velocity: self.rod_velocity[0],
+            tail_velocity: self.rod_velocity[count - 1],
+            interface_velocity: self.target_velocity[0],
+            mean_velocity: self.rod_velocity.iter().sum::<f64>() / count as f64,
+            tip_position: self.rod_displacement[0],
+            depth: self.target_displacement[0],
+            projectile_length: self.rod_length(),
+            contact_force: self.contact_force,
+            back_force: self.back_force,
+            energy,
+            momentum,
+        }
+    }
+
+    fn profile(&self) -> Profile {
+        let state = |part: usize,
+                     centre: f64,
+                     shortening: f64,
+                     springs: &Springs,
+                     area: f64,
+                     diameter: f64,
+                     moved: f64| {
+            ElementState {
+                part,
+                initial_position: centre,
+                position: centre + moved,
+                length: springs.length - shortening,
+                stress: springs.force(shortening, springs.length) / area,
+                strain: shortening / springs.length,
+                plastic_strain: 0.0,
+                diameter,
+                temperature: self.scenario.projectile.material.room_temperature.si(),
+            }
+        };
+        let rod = &self.scenario.projectile;
+        let column = single_plate(self.scenario).map_or(rod.diameter, |plate| plate.2);
+        let column_area = PI * column * column / 4.0;
+        let mut elements = Vec::new();
+        for i in (1..self.rod_displacement.len()).rev() {
+            let (behind, ahead) = (self.rod_displacement[i], self.rod_displacement[i - 1]);
+            let centre = -(i as f64) * self.rod.length;
+            let moved = 0.5 * (ahead + behind);
+            elements.push(state(
+                0,
+                centre,
+                behind - ahead,
+                &self.rod,
+                rod.area(),
+                rod.diameter,
+                moved,
+            ));
+        }
+        for i in 1..self.target_displacement.len() {
+            let (behind, ahead) = (self.target_displacement[i - 1], self.target_displacement[i]);
+            let centre = i as f64 * self.target.length;
+            let moved = 0.5 * (ahead + behind);
+            elements.push(state(
+                1,
+                centre,
+                behind - ahead,
+                &self.target,
+                column_area,
+                column,
+                moved,
+            ));
+        }
+        Profile {
+            time: self.time(),
+            elements,
+        }
+    }
+
+    fn finish(self, termination: Termination, recorder: Option<Recorder>) -> RunResult {
+        let history = recorder.map(|mut recorder| {
+            recorder.sample(self.sample());
+            recorder.profile(self.profile());
+            recorder.finish()
+        });
+        let (energy, momentum) = self.ledgers();
+        let stopped = termination == Termination::TipStopped;
+        let outcome = match termination {
+            Termination::PassedBackFace => Outcome::Perforated,
+            Termination::EndTime | Termination::StepLimit => Outcome::OutOfTime,
+            _ => Outcome::AtRest,
+        };
+        let count = self.rod_velocity.len() as f64;
+        let room = self.scenario.projectile.material.room_temperature.si();
+        RunResult {
+            model: "chain",
+            scheme: "published",
+            outcome,
+            termination,
+            depth_of_penetration: Some(self.rod_displacement[0]),
+            largest_depth: Some(self.largest_depth),
+            permanent_depth: None,
+            residual_velocity: self.rod_velocity.iter().sum::<f64>() / count,
+            projectile_final_length: self.rod_length(),
+            projectile_final_diameter: None,
+            projectile_final_mass: self.scenario.projectile.mass,
+            time_to_rest: stopped.then(|| self.time()),
+            peak_force: self.peak_force,
+            end_time: self.time(),
+            steps: self.step,
+            first_time_step: self.time_step,
+            smallest_time_step: self.time_step,
+            eroded_elements: (0, 0),
+            largest_plastic_strain: (0.0, 0.0),
+            largest_temperature: (room, room),
+            energy_residual: energy.residual().abs(),
+            momentum_residual: momentum.residual().abs(),
+            energy,
+            momentum,
+            warnings: self.warnings(stopped),
+            history,
+        }
+    }
+
+    fn warnings(&self, stopped: bool) -> Vec<String> {
+        let mut warnings = vec![
+            "scheme `published` reproduces the paper; its depths are not converged and its strain measure fails at large \
+             strain: for an answer, use scheme `conservative`"
+                .to_owned(),
+        ];
+        let inverted = (1..self.rod_displacement.len())
+            .filter(|&i| self.rod_displacement[i] - self.rod_displacement[i - 1] >= self.rod.length)
+            .count()
+            + (1..self.target_displacement.len())
+                .filter(|&i| {
+                    self.target_displacement[i - 1] - self.target_displacement[i]
+                        >= self.target.length
+                })
+                .count();
+        if inverted > 0 {
+            warnings.push(format!(
+                "{inverted} springs are shorter than nothing: small strain lets elements invert"
+            ));
+        }
+        match self.options.interface {
+            Interface::Chain if stopped => {
+                let face = self.target_displacement[0] * 1e3;
+                warnings.push(format!(
+                    "the target's face moved {face:.4} mm: this depth is the collapse of the contact spring and shrinks \
+                     with the element length"
+                ));
+            }
+            Interface::Chain => {}
+            Interface::Joined | Interface::JoinedPushed => warnings.push(format!(
+                "equation (15) gives the first target mass its speed from nothing: {:.2} % of the shot's momentum",
+                100.0 * self.target.mass * self.scenario.impact_speed / self.initial.1.max(f64::MIN_POSITIVE)
+            )),
+        }
+        warnings
+    }
+}
