@@ -295,7 +295,7 @@ impl State {
             let mut plastic_work = 0.0;
             for (pair, element) in nodes.windows(2).zip(elements) {
                 let length = pair[1].position - pair[0].position;
-                if length <= 0.0 && part.kinematics == Kinematics::Logarithmic {
+                if length <= 0.0 {
                     return Err(inverted(self.step, self.time, element.initial_position));
                 }
                 plastic_work += element.rest_length * element.deform(part, length, time_step);
@@ -405,7 +405,8 @@ fn inverted(step: u64, time: f64, initial_position: f64) -> NumericalError {
         step,
         time_us: time * 1e6,
         element: None,
-        remedy: "lower `chain.courant` or `chain.erosion_strain`".to_owned(),
+        remedy: "use logarithmic kinematics, or lower `chain.courant` or `chain.erosion_strain`"
+            .to_owned(),
     }
 }
 
