@@ -50,6 +50,7 @@ pub struct Series {
     points: Vec<(f64, f64)>,
     errors: Vec<(f64, f64)>,
     style: Style,
+    width: f64,
     color: Option<String>,
 }
 
@@ -61,6 +62,7 @@ impl Series {
             points: points.into_iter().collect(),
             errors: Vec::new(),
             style: Style::Line,
+            width: 1.5,
             color: None,
         }
     }
@@ -68,6 +70,12 @@ impl Series {
     /// Sets how the series is drawn.
     pub fn style(mut self, style: Style) -> Self {
         self.style = style;
+        self
+    }
+
+    /// Sets the width of the line in px; 1.5 otherwise.
+    pub fn width(mut self, width: f64) -> Self {
+        self.width = width;
         self
     }
 
@@ -221,8 +229,15 @@ impl LineChart {
                 if series.style != Style::Markers {
                     plots.push(line(series, run.clone(), &color));
                 }
-                if matches!(series.style, Style::Markers | Style::LineAndMarkers) {
-                    plots.push(markers(series, run, &color, index));
+                // A single point has no line to be seen by.
+                let marked = matches!(series.style, Style::Markers | Style::LineAndMarkers);
+                if marked || run.len() == 1 {
+                    let shape = if marked {
+                        marker(index)
+                    } else {
+                        MarkerShape::Circle
+                    };
+                    plots.push(markers(series, run, &color, shape));
                 }
             }
         }
@@ -296,7 +311,9 @@ fn marker(index: usize) -> MarkerShape {
 }
 
 fn line(series: &Series, run: std::ops::Range<usize>, color: &str) -> Plot {
-    let mut line = LinePlot::new().with_color(color).with_stroke_width(1.5);
+    let mut line = LinePlot::new()
+        .with_color(color)
+        .with_stroke_width(series.width);
     if series.style == Style::Dashed {
         line = line.with_line_style(LineStyle::Custom(DASHES.to_owned()));
     }
@@ -311,11 +328,11 @@ fn line(series: &Series, run: std::ops::Range<usize>, color: &str) -> Plot {
     line.into()
 }
 
-fn markers(series: &Series, run: std::ops::Range<usize>, color: &str, index: usize) -> Plot {
+fn markers(series: &Series, run: std::ops::Range<usize>, color: &str, shape: MarkerShape) -> Plot {
     let mut markers = ScatterPlot::new()
         .with_color(color)
         .with_size(4.0)
-        .with_marker(marker(index));
+        .with_marker(shape);
     // A line draws the error bars of its points itself.
     let errors = series.style == Style::Markers;
     markers.data = run
