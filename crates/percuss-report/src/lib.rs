@@ -37,14 +37,16 @@ mod history_files;
 pub mod palette;
 mod replace_file;
 mod run_figures;
+mod series;
 mod stress_grid;
 mod time_figures;
 
 pub use area_chart::AreaChart;
 pub use axis::Axis;
-pub use chart::{LineChart, Mark, Series, Style};
+pub use chart::LineChart;
 pub use error::ReportError;
 pub use figure::Figure;
 pub use heat_map::HeatMap;
 pub use history_files::write_histories;
 pub use run_figures::run_figures;
+pub use series::{Mark, Series, Style};
