@@ -1,0 +1,197 @@
+//! What all charts share: canvas, captions, axes, grid and the legend beside the plot, where it covers nothing.
+
+use std::sync::Arc;
+
+use kuva::{
+    backend::svg::SvgBackend,
+    plot::legend::{LegendEntry, LegendPosition},
+    render::{
+        annotations::ReferenceLine,
+        layout::{ComputedLayout, Layout, TickFormat},
+        plots::Plot,
+        render::{Scene, render_multiple},
+        theme::Theme,
+    },
+};
+
+use crate::{Axis, Figure};
+
+/// Width of all figures [px].
+pub(crate) const WIDTH: f64 = 860.0;
+/// Height of figures whose content does not ask for another one [px].
+pub(crate) const HEIGHT: f64 = 500.0;
+/// Right margin of a figure without legend [px].
+const RIGHT_MARGIN: f64 = 24.0;
+/// Sizes of title, caption and axis labels [px].
+const TITLE_SIZE: u32 = 17;
+const CAPTION_SIZE: u32 = 12;
+const LABEL_SIZE: u32 = 14;
+/// Mean width of a character, in sizes of the font, rather too much than too little.
+const CHAR_WIDTH: f64 = 0.6;
+
+/// A chart without its content.
+pub(crate) struct Frame<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) title: &'a str,
+    pub(crate) caption: &'a str,
+    pub(crate) x: &'a Axis,
+    pub(crate) y: &'a Axis,
+    /// Smallest and largest value on either axis.
+    pub(crate) x_extent: (f64, f64),
+    pub(crate) y_extent: (f64, f64),
+    pub(crate) height: f64,
+    /// Space at the right that the content draws in itself, in place of a legend [px].
+    pub(crate) right_margin: Option<f64>,
+    pub(crate) legend: Vec<LegendEntry>,
+    pub(crate) marks: Vec<ReferenceLine>,
+}
+
+impl Frame<'_> {
+    /// Draws axes and content; `finish` may add to the drawing, for which it gets the place of the axes.
+    pub(crate) fn draw(
+        self,
+        plots: Vec<Plot>,
+        finish: impl FnOnce(&mut Scene, &ComputedLayout),
+    ) -> Figure {
+        let layout = self.layout();
+        let place = ComputedLayout::from_layout(&layout);
+        let mut scene = render_multiple(plots, layout);
+        finish(&mut scene, &place);
+        Figure {
+            name: self.name.to_owned(),
+            title: match self.caption {
+                "" => self.title.to_owned(),
+                caption => format!("{}: {caption}", self.title),
+            },
+            svg: SvgBackend::new().render_scene(&scene),
+        }
+    }
+
+    fn layout(&self) -> Layout {
+        let mut theme = Theme::light();
+        theme.grid_color = "#e4e4e4".to_owned();
+        let mut layout = Layout::new(self.x_extent, self.y_extent)
+            .with_theme(theme)
+            .with_width(WIDTH)
+            .with_height(self.height)
+            .with_title_size(TITLE_SIZE)
+            .with_label_size(LABEL_SIZE)
+            .with_tick_size(12)
+            .with_body_size(12)
+            .with_grid_line_width(0.8)
+            .with_box_axes()
+            .with_ticks(7)
+            .with_tick_format(TickFormat::Custom(Arc::new(tick_label)))
+            .with_x_label(plain(&self.x.label, usize::MAX))
+            .with_y_label(plain(&self.y.label, usize::MAX));
+        layout.data_x_range = Some(self.x_extent);
+        layout.data_y_range = Some(self.y_extent);
+        if self.x.log {
+            layout = layout.with_log_x();
+        }
+        if self.y.log {
+            layout = layout.with_log_y();
+        }
+        if let Some((low, high)) = self.x.fixed_range(self.x_extent) {
+            layout = layout.with_x_axis_min(low).with_x_axis_max(high);
+        }
+        if let Some((low, high)) = self.y.fixed_range(self.y_extent) {
+            layout = layout.with_y_axis_min(low).with_y_axis_max(high);
+        }
+        for mark in &self.marks {
+            layout = layout.with_reference_line(mark.clone());
+        }
+        let layout = if self.legend.is_empty() {
+            let left = ComputedLayout::from_layout(&layout).margin_left;
+            layout.with_force_margins(left, self.right_margin.unwrap_or(RIGHT_MARGIN))
+        } else {
+            layout
+                .with_legend_entries(self.legend.clone())
+                .with_legend_position(LegendPosition::OutsideRightTop)
+                .with_legend_box(false)
+        };
+        self.fit_texts(layout)
+    }
+
+    /// Adds title and caption and wraps all texts to the space they have: they stand centred on the plot.
+    fn fit_texts(&self, layout: Layout) -> Layout {
+        let place = ComputedLayout::from_layout(&layout);
+        let middle = place.margin_left + 0.5 * place.plot_width();
+        let width = 2.0 * middle.min(WIDTH - middle);
+        let chars = |space: f64, size: u32| (space / (CHAR_WIDTH * f64::from(size))) as usize;
+        let (title, caption) = (chars(width, TITLE_SIZE), chars(width, CAPTION_SIZE));
+        let layout = layout
+            .with_title(plain(self.title, title))
+            .with_x_label_wrap(chars(width, LABEL_SIZE))
+            .with_y_label_wrap(chars(0.8 * self.height, LABEL_SIZE));
+        if self.caption.is_empty() {
+            return layout;
+        }
+        layout
+            .with_subtitle(plain(self.caption, (2 * caption).saturating_sub(10)))
+            .with_subtitle_size(CAPTION_SIZE)
+            .with_subtitle_wrap(caption)
+    }
+}
+
+/// The number at a tick: up to six significant digits, with an exponent where it would be long otherwise.
+pub(crate) fn tick_label(value: f64) -> String {
+    let trimmed = |text: &str| match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text.to_owned(),
+    };
+    let size = value.abs();
+    let label = if size == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e6).contains(&size) {
+        let decimals = (5.0 - size.log10().floor()) as usize;
+        trimmed(&format!("{value:.decimals$}"))
+    } else {
+        let text = format!("{value:.5e}");
+        match text.split_once('e') {
+            Some((mantissa, exponent)) => format!("{}e{exponent}", trimmed(mantissa)),
+            None => text,
+        }
+    };
+    label.replace('-', "\u{2212}")
+}
+
+/// Text as it stands, on one line and not longer than `most` characters: a dollar sign would begin a formula.
+pub(crate) fn plain(text: &str, most: usize) -> String {
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let line = if line.chars().count() > most {
+        let kept: String = line.chars().take(most.saturating_sub(1)).collect();
+        format!("{}…", kept.trim_end())
+    } else {
+        line
+    };
+    line.replace('$', "\\$")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_short_and_exact() {
+        for (value, label) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (-2.5, "\u{2212}2.5"),
+            (0.001, "0.001"),
+            (0.30000000000000004, "0.3"),
+            (100_000.0, "100000"),
+            (2.5e6, "2.5e6"),
+            (-1e-7, "\u{2212}1e\u{2212}7"),
+            (1e300, "1e300"),
+        ] {
+            assert_eq!(tick_label(value), label);
+        }
+    }
+
+    #[test]
+    fn texts_are_shortened_and_hold_no_formulas() {
+        assert_eq!(plain("a  price\nin $", 20), "a price in \\$");
+        assert_eq!(plain("one two three", 8), "one two…");
+    }
+}
