@@ -76,18 +76,21 @@ pub(crate) fn velocity(history: &History, result: &RunResult, caption: &str) -> 
 
 /// `None` when the model knows no force at either face, as for a target that is a given pressure.
 pub(crate) fn force(history: &History, caption: &str) -> Option<Figure> {
-    let curve = |name: &str, value: fn(&Sample) -> f64| {
-        let acts = history.samples.iter().any(|sample| value(sample) != 0.0);
-        acts.then(|| series(name, history, |s| value(s) * 1e-3).width(RINGING))
-    };
-    let curves = [
-        curve("projectile on target", |s| s.contact_force),
-        curve("back face", |s| s.back_force),
-    ];
-    let chart = chart("force-time", "Force against time", "force [kN]", caption);
-    let some = curves.iter().any(Option::is_some);
-    let chart = curves.into_iter().flatten().fold(chart, LineChart::series);
-    some.then(|| chart.draw())
+    let samples = || history.samples.iter();
+    let struck = samples().any(|s| s.contact_force != 0.0);
+    // A wall is both faces in one.
+    let behind = samples().any(|s| s.back_force != 0.0)
+        && samples().any(|s| s.back_force != s.contact_force);
+    let mut chart = chart("force-time", "Force against time", "force [kN]", caption);
+    if struck {
+        let curve = series("projectile on target", history, |s| s.contact_force * 1e-3);
+        chart = chart.series(curve.width(RINGING));
+    }
+    if behind {
+        let curve = series("back face", history, |s| s.back_force * 1e-3);
+        chart = chart.series(curve.width(RINGING));
+    }
+    (struck || behind).then(|| chart.draw())
 }
 
 pub(crate) fn energy(history: &History, caption: &str) -> Option<Figure> {
