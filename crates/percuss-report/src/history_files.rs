@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use percuss::{
     history::{ElementState, Profile, Sample},
-    ledger::EnergyLedger,
+    ledger::{EnergyLedger, MomentumLedger},
     outcome::RunResult,
 };
 
@@ -83,18 +83,15 @@ fn sample_columns() -> Vec<Column<Sample>> {
             s.energy.lines()[line].1
         }));
     }
-    columns.extend([
-        Column::float("momentum_initial_n_s", |s: &Sample| s.momentum.initial),
-        Column::float("momentum_projectile_n_s", |s: &Sample| {
-            s.momentum.projectile
-        }),
-        Column::float("momentum_target_n_s", |s: &Sample| s.momentum.target),
-        Column::float("momentum_support_n_s", |s: &Sample| s.momentum.support),
-        Column::float("momentum_border_shear_n_s", |s: &Sample| {
-            s.momentum.border_shear
-        }),
-        Column::float("momentum_eroded_n_s", |s: &Sample| s.momentum.eroded),
-    ]);
+    columns.push(Column::float("momentum_initial_n_s", |s: &Sample| {
+        s.momentum.initial
+    }));
+    for (line, (label, _)) in MomentumLedger::default().lines().into_iter().enumerate() {
+        let name = format!("momentum_{}_n_s", label.replace(' ', "_"));
+        columns.push(Column::float(name, move |s: &Sample| {
+            s.momentum.lines()[line].1
+        }));
+    }
     columns
 }
 

@@ -12,6 +12,8 @@ use crate::{
 pub const REFINEMENT: u32 = 2;
 /// Factor of safety of a grid-convergence index over three or more meshes \[roache1994\].
 const SAFETY: f64 = 1.25;
+/// The schemes are of second order at best.
+const LARGEST_CREDIBLE_ORDER: f64 = 2.2;
 /// Differences between meshes below this part of the value are rounding, not convergence.
 const NEGLIGIBLE: f64 = 1e-9;
 
@@ -115,6 +117,11 @@ impl Verdict {
             Self::Converging { order, .. } if order < 0.5 => {
                 "converges too slowly to trust an extrapolation: refine further".to_owned()
             }
+            Self::Converging { order, index, .. } if order > LARGEST_CREDIBLE_ORDER => format!(
+                "converges, faster than the scheme can: its differences do not follow a power law yet; the index of ±{:.2} % \
+                 is too small",
+                100.0 * index
+            ),
             Self::Converging { index, .. } => {
                 format!(
                     "converges; uncertainty of the finest mesh ±{:.2} %",

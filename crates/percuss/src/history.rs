@@ -120,7 +120,14 @@ impl Recorder {
         }
     }
 
-    pub(crate) fn finish(self) -> History {
+    /// The history with its last moment, which the stride may have passed over.
+    pub(crate) fn finish(mut self, sample: Sample, profile: Profile) -> History {
+        if self.history.samples.last().map(|last| last.step) != Some(sample.step) {
+            self.history.samples.push(sample);
+        }
+        if self.history.profiles.last().map(|last| last.time) != Some(profile.time) {
+            self.history.profiles.push(profile);
+        }
         self.history
     }
 }
@@ -148,7 +155,7 @@ mod tests {
                 });
             }
         }
-        let history = recorder.finish();
+        let history = recorder.history;
         assert!((MOST_PROFILES / 2..=MOST_PROFILES).contains(&history.profiles.len()));
         let gaps: Vec<f64> = history
             .profiles

@@ -79,9 +79,20 @@ pub struct MomentumLedger {
 }
 
 impl MomentumLedger {
+    /// Labels and values of all lines but the initial momentum, in reading order.
+    pub fn lines(&self) -> [(&'static str, f64); 5] {
+        [
+            ("projectile", self.projectile),
+            ("target", self.target),
+            ("support", self.support),
+            ("border shear", self.border_shear),
+            ("eroded", self.eroded),
+        ]
+    }
+
     /// Part of the initial momentum that no line accounts for; 0 when nothing moved at the start.
     pub fn residual(&self) -> f64 {
-        let total = self.projectile + self.target + self.support + self.border_shear + self.eroded;
+        let total: f64 = self.lines().iter().map(|line| line.1).sum();
         if self.initial == 0.0 {
             return total;
         }

@@ -340,11 +340,7 @@ impl<'a> Conservative<'a> {
     }
 
     fn finish(self, termination: Termination, recorder: Option<Recorder>) -> RunResult {
-        let history = recorder.map(|mut recorder| {
-            recorder.sample(self.sample());
-            recorder.profile(self.profile());
-            recorder.finish()
-        });
+        let history = recorder.map(|recorder| recorder.finish(self.sample(), self.profile()));
         let state = &self.state;
         let mut result = RunResult {
             model: "chain",

@@ -3,6 +3,10 @@
 use super::{part::Part, state::Element};
 use crate::{case::Kinematics, material::FlowState};
 
+/// Imbalance of stress, as a part of the trial stress, from which one more Newton step is exact: convergence is quadratic,
+/// so what is left after it is of the order of its square.
+const NEWTON_TOLERANCE: f64 = 1e-6;
+
 /// Flow stress without rate effect and its slope with plastic strain [Pa].
 pub(super) fn static_flow_stress(
     part: &Part,
@@ -48,27 +52,34 @@ impl Element {
 
     /// Returns a trial stress to the yield surface.
     fn flow(&mut self, part: &Part, trial: f64, time_step: f64) {
-        let increment = self.plastic_increment(part, trial.abs(), time_step);
+        let (increment, flow) = self.plastic_increment(part, trial.abs(), time_step);
         self.plastic_step = increment.copysign(trial);
         self.stress = trial - part.modulus * self.plastic_step;
         self.plastic_axial += self.plastic_step;
         self.plastic_strain += increment;
         let work = 0.5 * (self.stress_before + self.stress).abs() * increment;
         self.temperature += part.heating * work;
-        (self.flow_stress, self.flow_slope) = static_flow_stress(
-            part,
-            self.plastic_strain,
-            self.temperature,
-            self.stress.abs() / 3.0,
-        );
+        (self.flow_stress, self.flow_slope) = if part.strength.depends_on_strain_only() {
+            flow
+        } else {
+            static_flow_stress(
+                part,
+                self.plastic_strain,
+                self.temperature,
+                self.stress.abs() / 3.0,
+            )
+        };
     }
 
     /// Solves `|σ_trial| − E Δ = Y(ε_p + Δ, Δ/Δt, T)` for Δ by Newton's method, held inside a bracket.
-    fn plastic_increment(&self, part: &Part, trial: f64, time_step: f64) -> f64 {
+    ///
+    /// Returns Δ with the flow stress and its slope there.
+    fn plastic_increment(&self, part: &Part, trial: f64, time_step: f64) -> (f64, (f64, f64)) {
         let (mut low, mut high) = (0.0, trial / part.modulus);
         // The flow stress at the start of the step is known: the first Newton step costs no evaluation of the law.
         let mut increment =
             ((trial - self.flow_stress) / (part.modulus + self.flow_slope)).clamp(low, high);
+        let mut found = (self.flow_stress, self.flow_slope);
         for _ in 0..100 {
             let rate = if part.rate_effects {
                 increment / time_step
@@ -81,32 +92,34 @@ impl Element {
                 temperature: self.temperature,
                 pressure: trial / 3.0,
             });
+            let rate_slope = if part.rate_effects {
+                flow.rate_slope / time_step
+            } else {
+                0.0
+            };
             let excess = trial - part.modulus * increment - flow.stress;
-            if excess.abs() <= 1e-12 * trial {
-                return increment;
+            let step = excess / (part.modulus + flow.strain_slope + rate_slope);
+            let newton = increment + step;
+            found = (flow.stress + flow.strain_slope * step, flow.strain_slope);
+            if excess.abs() <= NEWTON_TOLERANCE * trial && newton >= 0.0 {
+                return (newton, found);
             }
             if excess > 0.0 {
                 low = increment;
             } else {
                 high = increment;
             }
-            let rate_slope = if part.rate_effects {
-                flow.rate_slope / time_step
-            } else {
-                0.0
-            };
-            let newton = increment + excess / (part.modulus + flow.strain_slope + rate_slope);
             let next = if newton > low && newton < high {
                 newton
             } else {
                 0.5 * (low + high)
             };
             if next == increment || high - low <= 1e-15 * high {
-                return next;
+                return (next, found);
             }
             increment = next;
         }
-        increment
+        (increment, found)
     }
 
     /// Largest stable time step of the undamped element [s]: the time a wave takes through it.

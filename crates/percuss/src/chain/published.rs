@@ -571,11 +571,7 @@ impl<'a> Published<'a> {
     }
 
     fn finish(self, termination: Termination, recorder: Option<Recorder>) -> RunResult {
-        let history = recorder.map(|mut recorder| {
-            recorder.sample(self.sample());
-            recorder.profile(self.profile());
-            recorder.finish()
-        });
+        let history = recorder.map(|recorder| recorder.finish(self.sample(), self.profile()));
         let (energy, momentum) = self.ledgers();
         let stopped = termination == Termination::TipStopped;
         let outcome = match termination {

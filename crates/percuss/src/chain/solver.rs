@@ -130,17 +130,23 @@ impl State {
             let before = self.nodes[i].velocity;
             let limit = self.nodes[i].friction * kick / self.nodes[i].mass;
             let after = rub(before, change, limit);
-            self.book_friction(self.nodes[i].mass, before, change, after);
+            let impulse = self.book_friction(self.nodes[i].mass, before, change, after);
+            if self.parts.len() == 1 {
+                // Without a target the only friction is the constant pressure on the tip.
+                self.contact_force = impulse / kick;
+            }
             after
         } else {
             self.nodes[i].velocity + change
         };
     }
 
-    fn book_friction(&mut self, mass: f64, before: f64, change: f64, after: f64) {
+    /// Books what friction took and returns its impulse.
+    fn book_friction(&mut self, mass: f64, before: f64, change: f64, after: f64) -> f64 {
         let impulse = mass * (before + change - after);
         self.books.friction_impulse += impulse;
         self.books.friction_work += impulse * 0.5 * (before + after);
+        impulse
     }
 
     fn kick_boundary(&mut self, i: usize, kick: f64) {

@@ -17,6 +17,10 @@ impl PreparedStrength for Elastic {
             rate_slope: 0.0,
         }
     }
+
+    fn depends_on_strain_only(&self) -> bool {
+        true
+    }
 }
 
 impl StrengthLaw for Elastic {

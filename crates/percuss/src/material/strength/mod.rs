@@ -48,6 +48,11 @@ pub struct FlowStress {
 pub trait PreparedStrength: fmt::Debug + Send + Sync {
     /// Flow stress in a state.
     fn flow_stress(&self, state: &FlowState) -> FlowStress;
+
+    /// Whether neither strain rate nor temperature nor pressure matter: then one evaluation a step is enough.
+    fn depends_on_strain_only(&self) -> bool {
+        false
+    }
 }
 
 /// What every strength law says of itself.

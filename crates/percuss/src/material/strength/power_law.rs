@@ -45,6 +45,10 @@ impl PreparedStrength for Prepared {
             rate_slope: 0.0,
         }
     }
+
+    fn depends_on_strain_only(&self) -> bool {
+        true
+    }
 }
 
 impl StrengthLaw for PowerLaw {
