@@ -1,1 +1,50 @@
-//! report
+//! Figures and history files of a run of `percuss`.
+//!
+//! [`run_figures()`] draws a result that holds a time history, each figure as SVG and PNG; [`write_histories`] writes the
+//! history itself as CSV and Parquet. [`LineChart`], [`AreaChart`] and [`HeatMap`] give other figures the same looks.
+//! Text in a PNG is set in DejaVu Sans, which is built in: a machine without fonts draws the same picture.
+//!
+//! ```
+//! use percuss::{case, model};
+//!
+//! let text = r#"
+//!     projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "183 m/s" }
+//!     target = { rigid_wall = true }
+//! "#;
+//! let scenario = case::load_str("taylor", text)?;
+//! let result = model::run(model::model("chain")?, &scenario, &mut model::Control::recording())?;
+//!
+//! let folder = std::env::temp_dir().join("percuss-report-example");
+//! for figure in percuss_report::run_figures(&scenario, &result)? {
+//!     let [svg, _png] = figure.write(&folder)?;
+//!     println!("{}: {}", svg.display(), figure.title);
+//! }
+//! percuss_report::write_histories(&folder, &result)?;
+//! # std::fs::remove_dir_all(folder)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod area_chart;
+mod axial_figures;
+mod axis;
+mod chart;
+mod column;
+mod error;
+mod figure;
+mod frame;
+mod heat_map;
+mod history_files;
+pub mod palette;
+mod replace_file;
+mod run_figures;
+mod stress_grid;
+mod time_figures;
+
+pub use area_chart::AreaChart;
+pub use axis::Axis;
+pub use chart::{LineChart, Mark, Series, Style};
+pub use error::ReportError;
+pub use figure::Figure;
+pub use heat_map::HeatMap;
+pub use history_files::write_histories;
+pub use run_figures::run_figures;

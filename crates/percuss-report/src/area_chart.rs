@@ -1,0 +1,110 @@
+//! Charts of areas that stand on each other.
+
+use kuva::plot::{
+    StackedAreaPlot,
+    legend::{LegendEntry, LegendShape},
+};
+
+use crate::{
+    Axis, Figure,
+    frame::{Frame, HEIGHT, plain},
+    palette,
+};
+
+/// Most characters of a name in the legend.
+const LEGEND_CHARS: usize = 30;
+
+/// A chart of stacked areas, the first one at the bottom.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AreaChart {
+    name: String,
+    title: String,
+    caption: String,
+    x: Axis,
+    y: Axis,
+    positions: Vec<f64>,
+    areas: Vec<(String, Option<String>, Vec<f64>)>,
+}
+
+impl AreaChart {
+    /// An empty chart: file stem, title, axes and the positions along `x` at which all areas have a value.
+    pub fn new(
+        name: impl Into<String>,
+        title: impl Into<String>,
+        x: Axis,
+        y: Axis,
+        positions: impl IntoIterator<Item = f64>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            caption: String::new(),
+            x,
+            y,
+            positions: positions.into_iter().collect(),
+            areas: Vec::new(),
+        }
+    }
+
+    /// Sets the line below the title.
+    pub fn caption(mut self, caption: impl Into<String>) -> Self {
+        self.caption = caption.into();
+        self
+    }
+
+    /// Adds an area: its name, its colour (the next one of [`palette::SERIES`] if none) and its heights.
+    pub fn area(
+        mut self,
+        name: impl Into<String>,
+        color: Option<&str>,
+        heights: impl IntoIterator<Item = f64>,
+    ) -> Self {
+        let color = color.map(str::to_owned);
+        self.areas
+            .push((name.into(), color, heights.into_iter().collect()));
+        self
+    }
+
+    /// Height of the whole stack at each position.
+    pub fn totals(&self) -> Vec<f64> {
+        let total = |i: usize| self.areas.iter().filter_map(|area| area.2.get(i)).sum();
+        (0..self.positions.len()).map(total).collect()
+    }
+
+    /// Draws the chart.
+    pub fn draw(&self) -> Figure {
+        let mut plot = StackedAreaPlot::new()
+            .with_x(self.positions.iter().copied())
+            .with_fill_opacity(1.0)
+            .with_strokes(false);
+        let mut legend = Vec::new();
+        for (index, (name, color, heights)) in self.areas.iter().enumerate() {
+            let color = color.as_deref().unwrap_or(palette::series(index));
+            plot = plot.with_series(heights.iter().copied()).with_color(color);
+            legend.push(LegendEntry {
+                label: plain(name, LEGEND_CHARS),
+                color: color.to_owned(),
+                shape: LegendShape::Rect,
+                dasharray: None,
+            });
+        }
+        // The legend lists areas as they stand on each other, the uppermost first.
+        legend.reverse();
+        let frame = Frame {
+            name: &self.name,
+            title: &self.title,
+            caption: &self.caption,
+            x: &self.x,
+            y: &self.y,
+            x_extent: self.x.extent(self.positions.iter().copied()),
+            y_extent: self
+                .y
+                .extent(self.totals().into_iter().chain(std::iter::once(0.0))),
+            height: HEIGHT,
+            right_margin: None,
+            legend,
+            marks: Vec::new(),
+        };
+        frame.draw(vec![plot.into()], |_, _| {})
+    }
+}

@@ -1,0 +1,138 @@
+//! Figures along the axis of the shot.
+
+use percuss::history::{ElementState, History, Profile};
+
+use crate::{
+    Axis, Figure, HeatMap, LineChart, Mark, Series, Style, palette,
+    run_figures::significant,
+    stress_grid::{StressGrid, spacing},
+};
+
+/// Cells of the x–t diagram along the axis and along time.
+const CELLS: [usize; 2] = [300, 220];
+
+pub(crate) fn strain(history: &History, caption: &str) -> Option<Figure> {
+    let (first, last) = (history.profiles.first()?, history.profiles.last()?);
+    let mut chart = LineChart::new(
+        "strain-profile",
+        "Strain along the axis at the end",
+        Axis::new("initial position [mm], struck face at 0"),
+        Axis::new("strain, compression positive"),
+    )
+    .caption(format!("{caption}; at {} µs", significant(last.time * 1e6)));
+    for part in parts(first) {
+        let name = match part {
+            0 => "projectile".to_owned(),
+            _ if parts(first).len() <= 2 => "target".to_owned(),
+            _ => format!("layer {part}"),
+        };
+        let gap = 1.6 * spacing(first, part);
+        let points = |value: fn(&ElementState) -> f64| {
+            let elements = last.elements.iter().filter(|e| e.part == part);
+            with_gaps(
+                elements.map(|e| (e.initial_position * 1e3, value(e))),
+                gap * 1e3,
+            )
+        };
+        let color = palette::series(part);
+        chart = chart
+            .series(
+                Series::new(format!("{name}, plastic"), points(|e| e.plastic_strain)).color(color),
+            )
+            .series(
+                Series::new(format!("{name}, axial total"), points(|e| e.strain))
+                    .style(Style::Dashed)
+                    .color(color),
+            );
+    }
+    Some(chart.mark(Mark::vertical("", 0.0)).draw())
+}
+
+pub(crate) fn stress(history: &History, caption: &str) -> Option<Figure> {
+    let grid = StressGrid::resample(&history.profiles, CELLS)?;
+    let note = if grid.rows.iter().flatten().any(|stress| stress.is_nan()) {
+        "; grey: eroded"
+    } else {
+        ""
+    };
+    let mega = |row: Vec<f64>| row.into_iter().map(|stress| stress * 1e-6).collect();
+    let map = HeatMap::new(
+        ["stress-xt", "Axial stress over position and time"],
+        [
+            Axis::new("initial position [mm], struck face at 0"),
+            Axis::new("time [µs]"),
+        ],
+        [
+            (grid.positions.0 * 1e3, grid.positions.1 * 1e3),
+            (grid.times.0 * 1e6, grid.times.1 * 1e6),
+        ],
+        "stress [MPa], compression positive",
+        grid.rows.into_iter().map(mega).collect(),
+    )
+    .caption(format!("{caption}{note}"));
+    let map = if grid.positions.1 > 0.0 {
+        map.vertical_line(0.0)
+    } else {
+        map
+    };
+    Some(map.draw())
+}
+
+pub(crate) fn shape(history: &History, caption: &str) -> Option<Figure> {
+    let (first, last) = (history.profiles.first()?, history.profiles.last()?);
+    let (before, after) = (outline(first)?, outline(last)?);
+    let chart = LineChart::new(
+        "rod-shape",
+        "Outline of the projectile at the start and at the end",
+        Axis::new("distance from the front end [mm]"),
+        Axis::new("radius [mm]"),
+    )
+    .caption(format!(
+        "{caption}; end at {} µs",
+        significant(last.time * 1e6)
+    ))
+    .series(Series::new("end", after))
+    .series(
+        Series::new("start", before)
+            .style(Style::Dashed)
+            .color(palette::MARK),
+    );
+    Some(chart.true_to_scale().draw())
+}
+
+fn parts(profile: &Profile) -> Vec<usize> {
+    let mut parts: Vec<usize> = profile.elements.iter().map(|e| e.part).collect();
+    parts.dedup();
+    parts
+}
+
+/// Puts a point without value where neighbours are farther apart than elements are: there something has eroded.
+fn with_gaps(points: impl Iterator<Item = (f64, f64)>, gap: f64) -> Vec<(f64, f64)> {
+    let mut all: Vec<(f64, f64)> = Vec::new();
+    for point in points {
+        if let Some(before) = all.last()
+            && point.0 - before.0 > gap
+        {
+            all.push((f64::NAN, f64::NAN));
+        }
+        all.push(point);
+    }
+    all
+}
+
+/// Closed outline of the projectile in mm, its front end at 0 and its tail at negative positions.
+fn outline(profile: &Profile) -> Option<Vec<(f64, f64)>> {
+    let rod: Vec<&ElementState> = profile.elements.iter().filter(|e| e.part == 0).collect();
+    let (tail, tip) = (rod.first()?, rod.last()?);
+    let front = tip.position + 0.5 * tip.length;
+    let mut upper = vec![(tail.position - 0.5 * tail.length, tail.diameter)];
+    upper.extend(rod.iter().map(|e| (e.position, e.diameter)));
+    upper.push((front, tip.diameter));
+    let upper = upper
+        .iter()
+        .map(|(x, diameter)| ((x - front) * 1e3, 0.5e3 * diameter));
+    let lower = upper.clone().rev().map(|(x, radius)| (x, -radius));
+    let mut points: Vec<(f64, f64)> = upper.chain(lower).collect();
+    points.push(points[0]);
+    Some(points)
+}

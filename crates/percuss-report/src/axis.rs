@@ -1,0 +1,82 @@
+//! Axes of a chart.
+
+use kuva::render::render_utils::auto_nice_range;
+
+/// Ticks that a range is rounded to.
+const TICKS: usize = 5;
+
+/// An axis: its label with the unit in square brackets, its scale and its range.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    pub(crate) label: String,
+    pub(crate) log: bool,
+    range: Option<(f64, f64)>,
+    tight: bool,
+}
+
+impl Axis {
+    /// A linear axis whose range is chosen from the data.
+    pub fn new(label: impl Into<String>) -> Self {
+        Self {
+            label: label.into(),
+            log: false,
+            range: None,
+            tight: false,
+        }
+    }
+
+    /// Makes the scale logarithmic; values that are not positive are left out.
+    pub fn log(mut self) -> Self {
+        self.log = true;
+        self
+    }
+
+    /// Ends the axis where the data end rather than at a round number.
+    pub fn tight(mut self) -> Self {
+        self.tight = true;
+        self
+    }
+
+    /// Sets the range.
+    pub fn range(mut self, from: f64, to: f64) -> Self {
+        self.range = Some((from, to));
+        self
+    }
+
+    /// Whether a value can be shown.
+    pub(crate) fn shows(&self, value: f64) -> bool {
+        value.is_finite() && (!self.log || value > 0.0)
+    }
+
+    /// The range to draw for these values; `None` leaves a logarithmic axis its decades.
+    pub(crate) fn fixed_range(&self, extent: (f64, f64)) -> Option<(f64, f64)> {
+        if self.range.is_some() {
+            return self.range;
+        }
+        if self.log {
+            return None;
+        }
+        let (low, high) = extent;
+        if self.tight && high > low {
+            return Some(extent);
+        }
+        let margin = 0.03 * (high - low);
+        // Data that start at zero start on the axis.
+        let below = if low == 0.0 { 0.0 } else { low - margin };
+        let above = if high == 0.0 { 0.0 } else { high + margin };
+        Some(auto_nice_range(below, above, TICKS))
+    }
+
+    /// Smallest and largest of the values that can be shown; the unit decade or interval if there are none.
+    pub(crate) fn extent(&self, values: impl Iterator<Item = f64>) -> (f64, f64) {
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let extent = values
+            .filter(|value| self.shows(*value))
+            .fold(none, |(low, high), v| (low.min(v), high.max(v)));
+        match (extent.0 <= extent.1, self.log) {
+            (true, _) => extent,
+            (false, true) => (1.0, 10.0),
+            (false, false) => (0.0, 1.0),
+        }
+    }
+}

@@ -1,0 +1,356 @@
+//! Line charts in the looks of this crate.
+
+use kuva::plot::{
+    LinePlot, ScatterPlot,
+    legend::{LegendEntry, LegendShape},
+    line::{LineStyle, ScatterPoint as LinePoint},
+    scatter::{MarkerShape, ScatterPoint},
+};
+use kuva::render::{annotations::ReferenceLine, plots::Plot};
+
+use crate::{
+    Axis, Figure,
+    frame::{Frame, HEIGHT, WIDTH, plain},
+    palette,
+};
+
+/// Dashes of a dashed line and gaps between them [px], short enough for two of them in the legend.
+const DASHES: &str = "5 2.5";
+/// Dashes of a mark [px].
+const MARK_DASHES: &str = "2 2";
+/// Most characters of a name in the legend.
+const LEGEND_CHARS: usize = 30;
+/// Shapes of markers, in the order in which series take them.
+const MARKERS: [MarkerShape; 5] = [
+    MarkerShape::Circle,
+    MarkerShape::Square,
+    MarkerShape::Triangle,
+    MarkerShape::Diamond,
+    MarkerShape::Cross,
+];
+
+/// How a series is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Style {
+    /// A line.
+    #[default]
+    Line,
+    /// A dashed line.
+    Dashed,
+    /// A line with a marker at each point.
+    LineAndMarkers,
+    /// A marker at each point.
+    Markers,
+}
+
+/// A named set of points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    name: String,
+    points: Vec<(f64, f64)>,
+    errors: Vec<(f64, f64)>,
+    style: Style,
+    color: Option<String>,
+}
+
+impl Series {
+    /// Points joined by a line. A point that is not finite leaves a gap.
+    pub fn new(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self {
+            name: name.into(),
+            points: points.into_iter().collect(),
+            errors: Vec::new(),
+            style: Style::Line,
+            color: None,
+        }
+    }
+
+    /// Sets how the series is drawn.
+    pub fn style(mut self, style: Style) -> Self {
+        self.style = style;
+        self
+    }
+
+    /// Sets the colour, such as one of [`palette::SERIES`]; the next free one is taken otherwise.
+    pub fn color(mut self, color: impl Into<String>) -> Self {
+        self.color = Some(color.into());
+        self
+    }
+
+    /// Adds vertical error bars: how far each one reaches below and above its point.
+    pub fn error_bars(mut self, errors: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        self.errors = errors.into_iter().collect();
+        self
+    }
+}
+
+/// A line across the plot at one value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mark {
+    name: String,
+    value: f64,
+    vertical: bool,
+}
+
+impl Mark {
+    /// A horizontal line at `y`; an empty name keeps it out of the legend.
+    pub fn horizontal(name: impl Into<String>, y: f64) -> Self {
+        Self {
+            name: name.into(),
+            value: y,
+            vertical: false,
+        }
+    }
+
+    /// A vertical line at `x`; an empty name keeps it out of the legend.
+    pub fn vertical(name: impl Into<String>, x: f64) -> Self {
+        Self {
+            vertical: true,
+            ..Self::horizontal(name, x)
+        }
+    }
+}
+
+/// A chart of lines and markers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineChart {
+    name: String,
+    title: String,
+    caption: String,
+    x: Axis,
+    y: Axis,
+    series: Vec<Series>,
+    marks: Vec<Mark>,
+    true_to_scale: bool,
+}
+
+impl LineChart {
+    /// An empty chart: file stem, title and axes.
+    pub fn new(name: impl Into<String>, title: impl Into<String>, x: Axis, y: Axis) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            caption: String::new(),
+            x,
+            y,
+            series: Vec::new(),
+            marks: Vec::new(),
+            true_to_scale: false,
+        }
+    }
+
+    /// Sets the line below the title.
+    pub fn caption(mut self, caption: impl Into<String>) -> Self {
+        self.caption = caption.into();
+        self
+    }
+
+    /// Adds a series.
+    pub fn series(mut self, series: Series) -> Self {
+        self.series.push(series);
+        self
+    }
+
+    /// Adds a mark.
+    pub fn mark(mut self, mark: Mark) -> Self {
+        self.marks.push(mark);
+        self
+    }
+
+    /// Gives a unit the same length on both axes, by the height of the figure where that suffices.
+    pub fn true_to_scale(mut self) -> Self {
+        self.true_to_scale = true;
+        self
+    }
+
+    /// Draws the chart.
+    pub fn draw(&self) -> Figure {
+        let shown = || {
+            self.series.iter().flat_map(|series| {
+                series.points.iter().enumerate().map(|(i, &(x, y))| {
+                    let (below, above) = series.errors.get(i).copied().unwrap_or_default();
+                    (x, y, y - below, y + above)
+                })
+            })
+        };
+        let marked = |vertical| {
+            self.marks
+                .iter()
+                .filter(move |mark| mark.vertical == vertical)
+                .map(|mark| mark.value)
+        };
+        let x_values = shown().map(|point| point.0).chain(marked(true));
+        let y_values = shown().flat_map(|point| [point.1, point.2, point.3]);
+        let mut frame = Frame {
+            name: &self.name,
+            title: &self.title,
+            caption: &self.caption,
+            x: &self.x,
+            y: &self.y,
+            x_extent: self.x.extent(x_values),
+            y_extent: self.y.extent(y_values.chain(marked(false))),
+            height: HEIGHT,
+            right_margin: None,
+            legend: self.legend(),
+            marks: self.reference_lines(),
+        };
+        let (mut x, mut y) = (self.x.clone(), self.y.clone());
+        if self.true_to_scale {
+            frame.height = true_to_scale(&mut x, &mut y, frame.x_extent, frame.y_extent);
+            frame.x = &x;
+            frame.y = &y;
+        }
+        frame.draw(self.plots(), |_, _| {})
+    }
+
+    fn color(&self, index: usize) -> String {
+        match &self.series[index].color {
+            Some(color) => color.clone(),
+            None => {
+                let before = self.series[..index].iter();
+                palette::series(before.filter(|s| s.color.is_none()).count()).to_owned()
+            }
+        }
+    }
+
+    fn plots(&self) -> Vec<Plot> {
+        let mut plots = Vec::new();
+        for (index, series) in self.series.iter().enumerate() {
+            let color = self.color(index);
+            for run in self.runs(series) {
+                if series.style != Style::Markers {
+                    plots.push(line(series, run.clone(), &color));
+                }
+                if matches!(series.style, Style::Markers | Style::LineAndMarkers) {
+                    plots.push(markers(series, run, &color, index));
+                }
+            }
+        }
+        plots
+    }
+
+    /// Ranges of points without a gap.
+    fn runs(&self, series: &Series) -> Vec<std::ops::Range<usize>> {
+        let mut runs = Vec::new();
+        let mut start = 0;
+        for (i, &(x, y)) in series.points.iter().enumerate() {
+            if !(self.x.shows(x) && self.y.shows(y)) {
+                runs.push(start..i);
+                start = i + 1;
+            }
+        }
+        runs.push(start..series.points.len());
+        runs.retain(|run| !run.is_empty());
+        runs
+    }
+
+    fn legend(&self) -> Vec<LegendEntry> {
+        let series = self.series.iter().enumerate().map(|(index, series)| {
+            let shape = match series.style {
+                Style::Line | Style::Dashed => LegendShape::Line,
+                Style::Markers | Style::LineAndMarkers => LegendShape::Marker(marker(index)),
+            };
+            let dashes = (series.style == Style::Dashed).then(|| DASHES.to_owned());
+            (&series.name, self.color(index), shape, dashes)
+        });
+        let marks = self.marks.iter().map(|mark| {
+            let dashes = Some(MARK_DASHES.to_owned());
+            (
+                &mark.name,
+                palette::MARK.to_owned(),
+                LegendShape::Line,
+                dashes,
+            )
+        });
+        series
+            .chain(marks)
+            .filter(|entry| !entry.0.is_empty())
+            .map(|(name, color, shape, dasharray)| LegendEntry {
+                label: plain(name, LEGEND_CHARS),
+                color,
+                shape,
+                dasharray,
+            })
+            .collect()
+    }
+
+    fn reference_lines(&self) -> Vec<ReferenceLine> {
+        self.marks
+            .iter()
+            .map(|mark| {
+                let line = if mark.vertical {
+                    ReferenceLine::vertical(mark.value)
+                } else {
+                    ReferenceLine::horizontal(mark.value)
+                };
+                line.with_color(palette::MARK)
+                    .with_stroke_width(1.2)
+                    .with_dasharray(MARK_DASHES)
+            })
+            .collect()
+    }
+}
+
+fn marker(index: usize) -> MarkerShape {
+    MARKERS[index % MARKERS.len()]
+}
+
+fn line(series: &Series, run: std::ops::Range<usize>, color: &str) -> Plot {
+    let mut line = LinePlot::new().with_color(color).with_stroke_width(1.5);
+    if series.style == Style::Dashed {
+        line = line.with_line_style(LineStyle::Custom(DASHES.to_owned()));
+    }
+    line.data = run
+        .map(|i| LinePoint {
+            x: series.points[i].0,
+            y: series.points[i].1,
+            x_err: None,
+            y_err: series.errors.get(i).copied(),
+        })
+        .collect();
+    line.into()
+}
+
+fn markers(series: &Series, run: std::ops::Range<usize>, color: &str, index: usize) -> Plot {
+    let mut markers = ScatterPlot::new()
+        .with_color(color)
+        .with_size(4.0)
+        .with_marker(marker(index));
+    // A line draws the error bars of its points itself.
+    let errors = series.style == Style::Markers;
+    markers.data = run
+        .map(|i| ScatterPoint {
+            x: series.points[i].0,
+            y: series.points[i].1,
+            x_err: None,
+            y_err: series.errors.get(i).copied().filter(|_| errors),
+        })
+        .collect();
+    markers.into()
+}
+
+/// Height of a figure in which a unit has the same length on both axes; the ranges grow where no height suffices.
+fn true_to_scale(x: &mut Axis, y: &mut Axis, x_extent: (f64, f64), y_extent: (f64, f64)) -> f64 {
+    // What captions, tick labels and legend leave of the canvas, near enough [px].
+    const PLOT_WIDTH: f64 = WIDTH - 240.0;
+    const SURROUNDINGS: f64 = 130.0;
+    const PLOT_HEIGHTS: (f64, f64) = (200.0, 520.0);
+    let (Some(x_range), Some(y_range)) = (x.fixed_range(x_extent), y.fixed_range(y_extent)) else {
+        return HEIGHT;
+    };
+    let spans = (x_range.1 - x_range.0, y_range.1 - y_range.0);
+    let wanted = PLOT_WIDTH * spans.1 / spans.0;
+    let height = wanted.clamp(PLOT_HEIGHTS.0, PLOT_HEIGHTS.1);
+    let widen = |range: (f64, f64), factor: f64| {
+        let (middle, half) = (0.5 * (range.0 + range.1), 0.5 * (range.1 - range.0));
+        (middle - half * factor, middle + half * factor)
+    };
+    let (x_range, y_range) = if wanted > height {
+        (widen(x_range, wanted / height), y_range)
+    } else {
+        (x_range, widen(y_range, height / wanted))
+    };
+    *x = x.clone().range(x_range.0, x_range.1);
+    *y = y.clone().range(y_range.0, y_range.1);
+    height + SURROUNDINGS
+}

@@ -1,0 +1,122 @@
+//! Tables: columns that are defined once and written as CSV or as Parquet.
+
+use std::sync::Arc;
+
+use parquet::{
+    basic::{Compression, Repetition, Type as PhysicalType},
+    data_type::{DoubleType, Int64Type},
+    errors::ParquetError,
+    file::{properties::WriterProperties, writer::SerializedFileWriter},
+    schema::types::Type,
+};
+
+use crate::ReportError;
+
+/// What a column holds of a row.
+pub(crate) enum Value<R> {
+    Float(Box<dyn Fn(&R) -> f64>),
+    Integer(Box<dyn Fn(&R) -> i64>),
+}
+
+/// A column of a table whose rows are made from `R`.
+pub(crate) struct Column<R> {
+    name: String,
+    value: Value<R>,
+}
+
+impl<R> Column<R> {
+    pub(crate) fn float(name: impl Into<String>, value: impl Fn(&R) -> f64 + 'static) -> Self {
+        Self {
+            name: name.into(),
+            value: Value::Float(Box::new(value)),
+        }
+    }
+
+    pub(crate) fn integer(name: impl Into<String>, value: impl Fn(&R) -> i64 + 'static) -> Self {
+        Self {
+            name: name.into(),
+            value: Value::Integer(Box::new(value)),
+        }
+    }
+}
+
+/// The table as CSV with a header; numbers have as many digits as it takes to read them back unchanged.
+pub(crate) fn csv<R>(
+    table: &str,
+    columns: &[Column<R>],
+    rows: &[R],
+) -> Result<Vec<u8>, ReportError> {
+    let failure = |source: csv::Error| ReportError::Table {
+        table: table.to_owned(),
+        source: source.into(),
+    };
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer
+        .write_record(columns.iter().map(|column| column.name.as_str()))
+        .map_err(failure)?;
+    for row in rows {
+        let fields = columns.iter().map(|column| match &column.value {
+            Value::Float(value) => format!("{:?}", value(row)),
+            Value::Integer(value) => value(row).to_string(),
+        });
+        writer.write_record(fields).map_err(failure)?;
+    }
+    writer
+        .into_inner()
+        .map_err(|error| failure(error.into_error().into()))
+}
+
+/// The table as Parquet: one row group, columns that are never null, Snappy compression.
+pub(crate) fn parquet<R>(
+    table: &str,
+    columns: &[Column<R>],
+    rows: &[R],
+) -> Result<Vec<u8>, ReportError> {
+    encode(columns, rows).map_err(|source| ReportError::Table {
+        table: table.to_owned(),
+        source: source.into(),
+    })
+}
+
+fn encode<R>(columns: &[Column<R>], rows: &[R]) -> Result<Vec<u8>, ParquetError> {
+    let fields = columns.iter().map(|column| {
+        let kind = match column.value {
+            Value::Float(_) => PhysicalType::DOUBLE,
+            Value::Integer(_) => PhysicalType::INT64,
+        };
+        let field = Type::primitive_type_builder(&column.name, kind)
+            .with_repetition(Repetition::REQUIRED)
+            .build()?;
+        Ok(Arc::new(field))
+    });
+    let fields: Vec<_> = fields.collect::<Result<_, ParquetError>>()?;
+    let schema = Type::group_type_builder("table")
+        .with_fields(fields)
+        .build()?;
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::SNAPPY)
+        .set_created_by(concat!("percuss ", env!("CARGO_PKG_VERSION")).to_owned())
+        .build();
+    let mut file = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
+    let mut group = file.next_row_group()?;
+    let mut columns = columns.iter();
+    while let (Some(mut writer), Some(column)) = (group.next_column()?, columns.next()) {
+        match &column.value {
+            Value::Float(value) => {
+                let values: Vec<f64> = rows.iter().map(value).collect();
+                writer
+                    .typed::<DoubleType>()
+                    .write_batch(&values, None, None)?;
+            }
+            Value::Integer(value) => {
+                let values: Vec<i64> = rows.iter().map(value).collect();
+                writer
+                    .typed::<Int64Type>()
+                    .write_batch(&values, None, None)?;
+            }
+        }
+        writer.close()?;
+    }
+    group.close()?;
+    file.into_inner()
+}

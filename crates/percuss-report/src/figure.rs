@@ -1,0 +1,85 @@
+//! A figure: an SVG drawing, its name and caption, and how it becomes a PNG.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::{Arc, OnceLock},
+};
+
+use resvg::{
+    tiny_skia::{Pixmap, Transform},
+    usvg::{Options, Tree, fontdb::Database},
+};
+
+use crate::{ReportError, replace_file::replace_file};
+
+/// Pixels of a PNG per SVG user unit.
+const PNG_SCALE: f32 = 2.0;
+
+/// A finished drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// File stem.
+    pub name: String,
+    /// One line caption.
+    pub title: String,
+    /// The drawing.
+    pub svg: String,
+}
+
+impl Figure {
+    /// Writes `NAME.svg` and `NAME.png` to a folder, which is made if it does not exist. Files of these names are replaced.
+    ///
+    /// # Errors
+    /// [`ReportError::Write`]; [`ReportError::Figure`].
+    pub fn write(&self, folder: &Path) -> Result<[PathBuf; 2], ReportError> {
+        let png = self.png()?;
+        Ok([
+            replace_file(folder, &format!("{}.svg", self.name), self.svg.as_bytes())?,
+            replace_file(folder, &format!("{}.png", self.name), &png)?,
+        ])
+    }
+
+    /// The figure as a PNG file, two pixels per SVG user unit.
+    ///
+    /// # Errors
+    /// [`ReportError::Figure`].
+    pub fn png(&self) -> Result<Vec<u8>, ReportError> {
+        let failure = |reason: String| ReportError::Figure {
+            name: self.name.clone(),
+            reason,
+        };
+        let options = Options {
+            fontdb: fonts(),
+            font_family: "DejaVu Sans".to_owned(),
+            ..Options::default()
+        };
+        let tree =
+            Tree::from_str(&self.svg, &options).map_err(|error| failure(error.to_string()))?;
+        let size = tree
+            .size()
+            .to_int_size()
+            .scale_by(PNG_SCALE)
+            .ok_or_else(|| failure("it has no area".to_owned()))?;
+        let mut pixels = Pixmap::new(size.width(), size.height())
+            .ok_or_else(|| failure("it is too large".to_owned()))?;
+        let transform = Transform::from_scale(PNG_SCALE, PNG_SCALE);
+        resvg::render(&tree, transform, &mut pixels.as_mut());
+        pixels
+            .encode_png()
+            .map_err(|error| failure(error.to_string()))
+    }
+}
+
+/// The built-in fonts, read once.
+fn fonts() -> Arc<Database> {
+    static FONTS: OnceLock<Arc<Database>> = OnceLock::new();
+    FONTS
+        .get_or_init(|| {
+            let mut fonts = Database::new();
+            fonts.load_font_data(dejavu::sans::regular().to_vec());
+            fonts.load_font_data(dejavu::sans::bold().to_vec());
+            fonts.set_sans_serif_family("DejaVu Sans");
+            Arc::new(fonts)
+        })
+        .clone()
+}

@@ -1,0 +1,24 @@
+//! Colours that people with any common colour vision tell apart.
+
+use kuva::plot::colormap::ColorMap;
+
+/// Colours of lines, in the order in which series take them: those of Okabe and Ito, yellow last.
+pub const SERIES: [&str; 8] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000", "#f0e442",
+];
+
+/// Colour of marks and other auxiliary lines.
+pub const MARK: &str = "#555555";
+
+/// Colour of what has no value in a heat map.
+pub const NO_VALUE: &str = "#b4b4b4";
+
+/// Colour of series `index`; after the last colour the first one returns.
+pub fn series(index: usize) -> &'static str {
+    SERIES[index % SERIES.len()]
+}
+
+/// Diverging colour of a value between -1 (blue) and 1 (red); 0 is nearly white.
+pub fn diverging(value: f64) -> String {
+    ColorMap::RedBlue.map(0.5 - 0.5 * value.clamp(-1.0, 1.0))
+}

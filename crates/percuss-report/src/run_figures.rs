@@ -1,0 +1,95 @@
+//! All figures of one run.
+
+use percuss::{Scenario, outcome::RunResult, scenario::TargetBody};
+
+use crate::{Figure, ReportError, axial_figures, error::history_of, time_figures};
+
+/// Draws all figures that a result has data for.
+///
+/// Against time: `depth-time` (a target that can be penetrated), `length-time` (a rigid wall, or a projectile that
+/// erodes), `velocity-time`, `force-time` and `energy-time` (something moved). Along the axis: `strain-profile`,
+/// `stress-xt` and `rod-shape`.
+///
+/// # Errors
+/// [`ReportError::NoHistory`] when the run kept no history.
+pub fn run_figures(scenario: &Scenario, result: &RunResult) -> Result<Vec<Figure>, ReportError> {
+    let history = history_of(result)?;
+    let caption = caption(scenario);
+    let figures = [
+        time_figures::depth(history, result, &caption),
+        time_figures::length(history, result, &caption),
+        Some(time_figures::velocity(history, result, &caption)),
+        Some(time_figures::force(history, &caption)),
+        time_figures::energy(history, &caption),
+        axial_figures::strain(history, &caption),
+        axial_figures::stress(history, &caption),
+        axial_figures::shape(history, &caption),
+    ];
+    Ok(figures.into_iter().flatten().collect())
+}
+
+/// The case in one line: its title, or what strikes what and how fast.
+fn caption(scenario: &Scenario) -> String {
+    if !scenario.title.trim().is_empty() {
+        return scenario.title.clone();
+    }
+    let rod = &scenario.projectile;
+    let target = match &scenario.target {
+        TargetBody::RigidWall => "a rigid wall".to_owned(),
+        TargetBody::ConstantPressure(pressure) => {
+            format!(
+                "a constant pressure of {} MPa",
+                significant(pressure * 1e-6)
+            )
+        }
+        TargetBody::Layers { layers, .. } => {
+            let name = |layer: &percuss::scenario::Plate| match layer.thickness {
+                Some(thickness) => {
+                    format!("{} mm {}", significant(thickness * 1e3), layer.material_id)
+                }
+                None => format!("thick {}", layer.material_id),
+            };
+            layers.iter().map(name).collect::<Vec<_>>().join(" + ")
+        }
+    };
+    format!(
+        "{} mm × {} mm {} at {} m/s on {target}",
+        significant(rod.length * 1e3),
+        significant(rod.diameter * 1e3),
+        rod.material_id,
+        significant(scenario.impact_speed),
+    )
+}
+
+/// A number to four significant digits, without trailing zeros.
+pub(crate) fn significant(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let decimals = (3.0 - value.abs().log10().floor()).max(0.0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_four_digits() {
+        for (value, text) in [
+            (12.74, "12.74"),
+            (230.0, "230"),
+            (0.0, "0"),
+            (12345.6, "12346"),
+            (0.001_234_56, "0.001235"),
+            (-25.000_001, "-25"),
+        ] {
+            assert_eq!(significant(value), text);
+        }
+    }
+}

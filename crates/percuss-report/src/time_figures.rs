@@ -1,0 +1,154 @@
+//! Figures against time.
+
+use percuss::{
+    history::{History, Sample},
+    outcome::RunResult,
+};
+
+use crate::{AreaChart, Axis, Figure, LineChart, Mark, Series, palette, run_figures::significant};
+
+/// Colours of the lines of the energy book, in its order: dark for the projectile, light for the target.
+const ENERGY_COLORS: [&str; 11] = [
+    "#0072b2", "#56b4e9", // kinetic
+    "#00664b", "#66d1b0", // elastic
+    "#b34700", "#f2a65a", // plastic
+    "#cc79a7", // border shear
+    "#8c8c8c", // viscosity and damping
+    "#3b3b3b", // contact
+    "#f0e442", // through back face
+    "#7a4a9e", // eroded
+];
+/// Lines of the energy book that never exceed this part of the initial energy are added up.
+const MINOR_ENERGY: f64 = 0.005;
+/// Colour of the minor lines.
+const MINOR_COLOR: &str = "#d4d4d4";
+
+pub(crate) fn depth(history: &History, result: &RunResult, caption: &str) -> Option<Figure> {
+    let depth = result.depth_of_penetration?;
+    let chart = chart("depth-time", "Depth against time", "depth [mm]", caption)
+        .series(series("crater floor", history, |s| s.depth * 1e3))
+        .series(series("projectile's tip", history, |s| {
+            s.tip_position * 1e3
+        }))
+        .mark(Mark::horizontal(
+            format!("depth {} mm", significant(depth * 1e3)),
+            depth * 1e3,
+        ));
+    Some(with_time_to_rest(chart, result).draw())
+}
+
+pub(crate) fn length(history: &History, result: &RunResult, caption: &str) -> Option<Figure> {
+    if result.depth_of_penetration.is_some() && result.eroded_elements.0 == 0 {
+        return None;
+    }
+    let unloaded = result.projectile_final_length * 1e3;
+    let chart = chart(
+        "length-time",
+        "Length of the projectile against time",
+        "length [mm]",
+        caption,
+    )
+    .series(series("projectile", history, |s| s.projectile_length * 1e3))
+    .mark(Mark::horizontal(
+        format!("final {} mm", significant(unloaded)),
+        unloaded,
+    ));
+    Some(with_time_to_rest(chart, result).draw())
+}
+
+pub(crate) fn velocity(history: &History, result: &RunResult, caption: &str) -> Figure {
+    let mut chart = chart(
+        "velocity-time",
+        "Velocity against time",
+        "velocity [m/s]",
+        caption,
+    )
+    .series(series("tip", history, |s| s.tip_velocity))
+    .series(series("tail", history, |s| s.tail_velocity));
+    if history.samples.iter().any(|s| s.interface_velocity != 0.0) {
+        chart = chart.series(series("crater floor", history, |s| s.interface_velocity));
+    }
+    let mean = series("projectile's mean", history, |s| s.mean_velocity).color("#000000");
+    with_time_to_rest(chart.series(mean), result).draw()
+}
+
+pub(crate) fn force(history: &History, caption: &str) -> Figure {
+    let mut chart = chart("force-time", "Force against time", "force [kN]", caption).series(
+        series("projectile on target", history, |s| s.contact_force * 1e-3),
+    );
+    if history.samples.iter().any(|s| s.back_force != 0.0) {
+        chart = chart.series(series("back face", history, |s| s.back_force * 1e-3));
+    }
+    chart.draw()
+}
+
+pub(crate) fn energy(history: &History, caption: &str) -> Option<Figure> {
+    energy_chart(history, caption).map(|chart| chart.draw())
+}
+
+/// The energy book in percent of the initial energy; `None` when nothing moved.
+fn energy_chart(history: &History, caption: &str) -> Option<AreaChart> {
+    let samples = &history.samples;
+    let initial = samples.first()?.energy.initial;
+    if initial <= 0.0 {
+        return None;
+    }
+    let percent = |sample: &Sample, line: usize| 100.0 * sample.energy.lines()[line].1 / initial;
+    let largest = |line| {
+        let sizes = samples.iter().map(|sample| percent(sample, line).abs());
+        sizes.fold(0.0, f64::max)
+    };
+    let mut chart = AreaChart::new(
+        "energy-time",
+        "Energy against time",
+        time_axis(),
+        Axis::new("energy [% of initial]").range(0.0, 100.0),
+        samples.iter().map(|sample| sample.time * 1e6),
+    )
+    .caption(caption);
+    let mut minor = Vec::new();
+    for (line, color) in ENERGY_COLORS.iter().enumerate() {
+        let size = largest(line);
+        if size > 100.0 * MINOR_ENERGY {
+            let name = samples[0].energy.lines()[line].0;
+            chart = chart.area(name, Some(color), samples.iter().map(|s| percent(s, line)));
+        } else if size > 0.0 {
+            minor.push(line);
+        }
+    }
+    if !minor.is_empty() {
+        let sum = |sample| minor.iter().map(|line| percent(sample, *line)).sum();
+        let name = match minor[..] {
+            [line] => samples[0].energy.lines()[line].0.to_owned(),
+            _ => format!("others, each < {} %", significant(100.0 * MINOR_ENERGY)),
+        };
+        chart = chart.area(name, Some(MINOR_COLOR), samples.iter().map(sum));
+    }
+    Some(chart)
+}
+
+fn time_axis() -> Axis {
+    Axis::new("time [µs]").tight()
+}
+
+fn chart(name: &str, title: &str, y_label: &str, caption: &str) -> LineChart {
+    LineChart::new(name, title, time_axis(), Axis::new(y_label)).caption(caption)
+}
+
+fn series(name: &str, history: &History, value: impl Fn(&Sample) -> f64) -> Series {
+    let samples = history.samples.iter();
+    Series::new(
+        name,
+        samples.map(|sample| (sample.time * 1e6, value(sample))),
+    )
+}
+
+fn with_time_to_rest(chart: LineChart, result: &RunResult) -> LineChart {
+    match result.time_to_rest {
+        Some(time) => chart.mark(Mark::vertical(
+            format!("rest at {} µs", significant(time * 1e6)),
+            time * 1e6,
+        )),
+        None => chart,
+    }
+}
