@@ -40,6 +40,43 @@ pub fn load_str(name: &str, text: &str) -> Result<Scenario, Error> {
     resolve(name, name, text.to_owned(), None)
 }
 
+/// The materials that a case file can name: the built-in ones, its own and those of its material files.
+///
+/// # Errors
+/// Those of [`load`], but what the case describes beside its materials need not fit together.
+pub fn load_library(path: impl AsRef<Path>) -> Result<Library, Error> {
+    let path = path.as_ref();
+    let document = Document {
+        file: path.display().to_string(),
+        text: read_text(path)?,
+    };
+    let case: Case = document.parse()?;
+    let mut findings = Vec::new();
+    case.check_materials(&mut Check::new(&mut findings));
+    document.report(findings)?;
+    let directory = path.parent().map(Path::to_path_buf).unwrap_or_default();
+    library_of(&case, &document, &case_name(path), Some(&directory))
+}
+
+/// Reads a file of materials.
+///
+/// # Errors
+/// [`Error::Read`] when it cannot be read, [`Error::Input`] when its content is not valid.
+pub fn load_materials(path: impl AsRef<Path>) -> Result<MaterialTable, Error> {
+    let path = path.as_ref();
+    let document = Document {
+        file: path.display().to_string(),
+        text: read_text(path)?,
+    };
+    let table: MaterialTable = document.parse()?;
+    let mut findings = Vec::new();
+    for (id, material) in &table {
+        material.check(&mut Check::new(&mut findings).within(id));
+    }
+    document.report(findings)?;
+    Ok(table)
+}
+
 /// Cases live as `NAME/scenario.toml`; a file with another name is called after itself.
 fn case_name(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -68,31 +105,7 @@ fn resolve(
     case.check(&mut Check::new(&mut findings));
     document.report(findings)?;
 
-    let mut library = Library::built_in().clone();
-    library.add(&case.materials, &format!("{name} (this case)"));
-    for (i, relative) in case.material_files.iter().enumerate() {
-        let Some(directory) = directory else {
-            let finding = Finding {
-                key: format!("material_files.{i}"),
-                message: "a case that comes from no file cannot name material files".to_owned(),
-                help: "put the materials into its `materials` table".to_owned(),
-            };
-            return Err(document.place(finding).into());
-        };
-        let path = directory.join(relative);
-        let document = Document {
-            file: path.display().to_string(),
-            text: read_text(&path)?,
-        };
-        let table: MaterialTable = document.parse()?;
-        let mut findings = Vec::new();
-        for (id, material) in &table {
-            material.check(&mut Check::new(&mut findings).within(id));
-        }
-        document.report(findings)?;
-        library.add(&table, &relative.display().to_string());
-    }
-
+    let library = library_of(&case, &document, name, directory)?;
     let mut findings = Vec::new();
     let scenario = Scenario::resolve(name, case, &library, &mut Check::new(&mut findings));
     document.report(findings)?;
@@ -106,11 +119,51 @@ fn resolve(
     })
 }
 
+/// The built-in materials with those of a case.
+fn library_of(
+    case: &Case,
+    document: &Document,
+    name: &str,
+    directory: Option<&PathBuf>,
+) -> Result<Library, Error> {
+    let mut library = Library::built_in().clone();
+    library.add(&case.materials, &format!("{name} (this case)"));
+    for (i, relative) in case.material_files.iter().enumerate() {
+        let refuse = |message: String, help: &str| {
+            document.place(Finding {
+                key: format!("material_files.{i}"),
+                message,
+                help: help.to_owned(),
+            })
+        };
+        let Some(directory) = directory else {
+            let message = "a case that comes from no file cannot name material files";
+            let help = "put the materials into its `materials` table";
+            return Err(refuse(message.to_owned(), help).into());
+        };
+        let table = match load_materials(directory.join(relative)) {
+            // The case names the file, so the place in the case is what a user has to look at.
+            Err(Error::Read { path, reason, .. }) => {
+                let message = format!("cannot read `{}`: {reason}", path.display());
+                let help = "paths in `material_files` are relative to the case file";
+                return Err(refuse(message, help).into());
+            }
+            other => other?,
+        };
+        library.add(&table, &relative.display().to_string());
+    }
+    Ok(library)
+}
+
 impl Case {
     fn check(&self, check: &mut Check<'_>) {
         self.projectile.check(&mut check.within("projectile"));
         self.target.check(&mut check.within("target"));
         self.chain.check(&mut check.within("chain"));
+        self.check_materials(check);
+    }
+
+    fn check_materials(&self, check: &mut Check<'_>) {
         for (id, material) in &self.materials {
             material.check(&mut check.within("materials").within(id));
         }
@@ -129,9 +182,7 @@ fn read_text(path: &Path) -> Result<String, Error> {
             std::io::ErrorKind::NotFound if path.is_symlink() => {
                 "it is a symbolic link to a file that does not exist".to_owned()
             }
-            std::io::ErrorKind::NotFound => {
-                "there is no such file; `percuss new NAME` writes a starter case".to_owned()
-            }
+            std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
             _ => error.to_string(),
         };
         fail(reason, Some(error))

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::material::MaterialTable;
 
 pub(crate) use load::Document;
-pub use load::{MAX_FILE_BYTES, load, load_str};
+pub use load::{MAX_FILE_BYTES, load, load_library, load_materials, load_str};
 pub use options::*;
 pub use projectile::{Nose, Projectile};
 pub use target::{BackFace, Layer, Target, Thickness};
