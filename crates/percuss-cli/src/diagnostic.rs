@@ -13,6 +13,9 @@ use percuss::InputError;
 
 use crate::terminal;
 
+/// Most characters of a key that are shown.
+const MAX_KEY: usize = 80;
+
 /// Writes a message to standard error. There is nowhere left to say that this failed.
 pub fn print(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());
@@ -29,7 +32,7 @@ pub fn input_error(error: &InputError) -> String {
     if error.span.is_empty() && error.span.start == 0 {
         let mut elements = vec![Element::from(Origin::path(file))];
         if !error.key.is_empty() {
-            let key = format!("key: {}", printable(&error.key));
+            let key = format!("key: {}", name(&error.key));
             elements.push(Level::NOTE.no_name().message(key).into());
         }
         return render(&error.message, &elements, &error.help);
@@ -37,7 +40,7 @@ pub fn input_error(error: &InputError) -> String {
     let place = Excerpt::new(&error.text, error.span.clone());
     let mut annotation = AnnotationKind::Primary.span(place.span.clone());
     if !error.key.is_empty() {
-        annotation = annotation.label(printable(&error.key));
+        annotation = annotation.label(name(&error.key));
     }
     let snippet = Snippet::source(place.text)
         .path(file)
@@ -82,6 +85,15 @@ fn stderr_width() -> usize {
     }
 }
 
+/// A key, cut where it is longer than any that a case has.
+fn name(key: &str) -> String {
+    let key = printable(key);
+    if key.chars().count() <= MAX_KEY {
+        return key;
+    }
+    key.chars().take(MAX_KEY - 1).chain(['…']).collect()
+}
+
 /// Text of a file cannot move the cursor or ring the bell.
 fn printable(text: &str) -> String {
     text.chars()
@@ -106,7 +118,7 @@ impl<'a> Excerpt<'a> {
         let line_end = text[start..].find('\n').map_or(text.len(), |at| start + at);
         let marked = text[start..end.clamp(start, line_end)].trim_end().len();
         Self {
-            text: &text[line_start..line_end],
+            text: text[line_start..line_end].trim_end_matches('\r'),
             span: start - line_start..start - line_start + marked,
             line: 1 + text[..line_start].matches('\n').count(),
         }

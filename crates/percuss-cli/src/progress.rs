@@ -36,15 +36,15 @@ impl Progress {
         if !self.wanted || elapsed < PATIENCE {
             return;
         }
-        if self.bar.is_hidden() {
-            self.bar
-                .set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
-        }
         // An estimate that falls back would only puzzle.
         self.furthest = self.furthest.max(fraction.clamp(0.0, 1.0));
         self.bar.set_position((self.furthest * STEPS as f64) as u64);
         self.bar
             .set_message(format!("{words}{}", time_left(elapsed, self.furthest)));
+        if self.bar.is_hidden() {
+            self.bar
+                .set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
+        }
     }
 
     /// Removes the bar.

@@ -58,11 +58,12 @@ fn outcome(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text:
         ("permanent depth", record.permanent_depth_mm),
     ];
     for (label, value) in lengths {
-        optional(label, mm(value), text);
+        optional(label, mm(value), "none", text);
     }
     optional(
         "time to rest",
         record.time_to_rest_us.map(|time| number(time, "us")),
+        "not reached",
         text,
     );
     let direction = match record.residual_velocity_m_s {
@@ -86,6 +87,7 @@ fn outcome(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text:
         record
             .projectile_final_diameter_mm
             .map(|diameter| of_initial(diameter, rod.diameter * 1e3, "mm")),
+        "none",
         text,
     );
     row(
@@ -117,15 +119,18 @@ fn energy(result: &RunResult, text: &mut String) {
 
 fn books(record: &ResultRecord, text: &mut String) {
     *text += &format!("\n{}\n", bold("books and steps"));
-    let off = |residual: f64| format!("{residual:.1e} of the initial {{}}");
+    let off = |residual: f64, what: &str| match residual {
+        0.0 => format!("0 of the initial {what}"),
+        _ => format!("{residual:.1e} of the initial {what}"),
+    };
     row(
         "energy residual",
-        off(record.energy_residual).replace("{}", "energy"),
+        off(record.energy_residual, "energy"),
         text,
     );
     row(
         "momentum residual",
-        off(record.momentum_residual).replace("{}", "momentum"),
+        off(record.momentum_residual, "momentum"),
         text,
     );
     let steps = format!(
@@ -156,8 +161,8 @@ fn row(label: &str, value: impl AsRef<str>, text: &mut String) {
     *text += &format!("{label:<LABEL$}{}\n", value.as_ref());
 }
 
-fn optional(label: &str, value: Option<String>, text: &mut String) {
-    row(label, value.as_deref().unwrap_or("none"), text);
+fn optional(label: &str, value: Option<String>, otherwise: &str, text: &mut String) {
+    row(label, value.as_deref().unwrap_or(otherwise), text);
 }
 
 fn number(value: f64, unit: &str) -> String {

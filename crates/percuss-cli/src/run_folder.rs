@@ -12,6 +12,22 @@ use crate::{failure::Failure, progress::Progress, terminal};
 /// Name of the copy of the case: one that a user's own file is unlikely to have.
 const CASE_COPY: &str = "case-as-run.toml";
 
+/// Makes a folder, and those it stands in, if it does not exist.
+pub fn make_folder(path: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(path).map_err(|error| {
+        let reason = if path.exists() {
+            "it exists and is no folder".to_owned()
+        } else {
+            error.to_string()
+        };
+        Failure::Write {
+            path: path.to_path_buf(),
+            reason,
+            help: String::new(),
+        }
+    })
+}
+
 /// A folder that can be written.
 pub struct RunFolder {
     path: PathBuf,
@@ -21,7 +37,7 @@ pub struct RunFolder {
 impl RunFolder {
     /// Makes the folder and puts a copy of the case into it.
     pub fn create(path: &Path, case: &Path) -> Result<Self, Failure> {
-        fs::create_dir_all(path).map_err(Failure::write(path))?;
+        make_folder(path)?;
         let text = fs::read(case).map_err(|error| percuss::Error::Read {
             path: case.to_path_buf(),
             reason: error.to_string(),

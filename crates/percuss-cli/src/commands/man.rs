@@ -2,7 +2,7 @@ use std::{fs, path::PathBuf};
 
 use clap::{Args, Command, CommandFactory};
 
-use crate::{cli::Cli, failure::Failure, terminal};
+use crate::{cli::Cli, failure::Failure, run_folder::make_folder, terminal};
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -31,7 +31,7 @@ impl Man {
         let Some(folder) = &self.out else {
             return terminal::print(&page(&program)?);
         };
-        fs::create_dir_all(folder).map_err(Failure::write(folder))?;
+        make_folder(folder)?;
         let mut written = String::from("wrote\n");
         for command in with_subcommands(&program) {
             let man = clap_mangen::Man::new(command.clone());

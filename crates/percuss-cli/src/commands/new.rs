@@ -1,12 +1,12 @@
 use std::{
-    fs::{self, OpenOptions},
+    fs::OpenOptions,
     io::{self, Write},
     path::{Path, PathBuf},
 };
 
 use clap::Args;
 
-use crate::{failure::Failure, terminal};
+use crate::{failure::Failure, run_folder::make_folder, terminal};
 
 /// The case that `percuss new` writes: it runs as it is, and shows every option with its default.
 const STARTER: &str = include_str!("new/starter.toml");
@@ -42,7 +42,7 @@ impl New {
                 help: "for example: percuss new my-shot".to_owned(),
             });
         }
-        fs::create_dir_all(&self.name).map_err(Failure::write(&self.name))?;
+        make_folder(&self.name)?;
         let path = self.name.join("scenario.toml");
         self.write(&path).map_err(|error| Failure::Write {
             path: path.clone(),

@@ -1,4 +1,4 @@
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use comfy_table::{CellAlignment, Table, presets};
 use percuss::material::{Library, MaterialEntry, Trust};
 
 use super::MaterialRecord;
@@ -13,8 +13,6 @@ pub fn list(library: &Library, json: bool) -> Result<(), Failure> {
     let mut table = Table::new();
     table
         .load_style(presets::NOTHING)
-        // Where output is no terminal no width is known, and every material has one line.
-        .set_content_arrangement(ContentArrangement::Dynamic)
         .set_header([
             "id",
             "family",
@@ -32,7 +30,34 @@ pub fn list(library: &Library, json: bool) -> Result<(), Failure> {
     if let Some(column) = table.column_mut(5) {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    terminal::print(&format!("{}\n", table.trim_fmt()))
+    let text = table.trim_fmt();
+    // In a narrow terminal broken columns are hard to read. Elsewhere no width is known: a material has one line.
+    let widest = text.lines().map(|line| line.chars().count()).max();
+    match table.width() {
+        Some(width) if widest > Some(width.into()) => terminal::print(&narrow(library)),
+        _ => terminal::print(&format!("{text}\n")),
+    }
+}
+
+/// The table for a narrow terminal: a few lines a material.
+fn narrow(library: &Library) -> String {
+    let width = terminal::width();
+    let mut text = String::new();
+    for entry in library.iter() {
+        let [id, family, name, state, law, density, trust, sources] = row(entry);
+        let state = match state.as_str() {
+            "" => String::new(),
+            state => format!(", {state}"),
+        };
+        let rest =
+            format!("{name}{state}; {law}, {density} kg/m3; trust {trust}; sources: {sources}");
+        text += &format!(
+            "{}  {family}\n  {}\n",
+            terminal::bold(id),
+            terminal::wrap(&rest, width - 2, 2)
+        );
+    }
+    text
 }
 
 fn row(entry: &MaterialEntry) -> [String; 8] {
