@@ -110,7 +110,7 @@ fn energy(result: &RunResult, text: &mut String) {
         if share.abs() < NEGLIGIBLE {
             continue;
         }
-        let bar = "█".repeat((share.abs() * BAR).round().min(2.0 * BAR) as usize);
+        let bar = "█".repeat((share.max(0.0) * BAR).round().min(2.0 * BAR) as usize);
         let percent = percentage(share);
         *text += format!("  {label:<26}{percent:>7} %  {bar}").trim_end();
         text.push('\n');
