@@ -338,6 +338,12 @@ fn the_schema_has_the_keys_that_case_files_have() {
         "https://json-schema.org/draft/2020-12/schema"
     );
     assert!(schema.get("$id").is_none());
+    assert!(
+        !schema.to_string().contains("null"),
+        "a TOML file has no null"
+    );
+    let scheme = &schema["$defs"]["ChainOptions"]["properties"]["scheme"];
+    assert_eq!(scheme["default"], "conservative");
     let material = "[materials.x]\nname = 'x'\ndensity = '1 g/cm3'\nyoungs_modulus = '1 GPa'\npoissons_ratio = 0.3\n";
     for (definition, case) in [
         ("", "zz = 1".to_owned()),

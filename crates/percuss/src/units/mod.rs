@@ -358,6 +358,10 @@ impl<D: Dimension> JsonSchema for Quantity<D> {
                     .replace('.', "\\.")
                     .replace('(', "\\(")
                     .replace(')', "\\)")
+                    .replace('2', "(\\^?2|²)")
+                    .replace('3', "(\\^?3|³)")
+                    .replace("us", "[uµμ]s")
+                    .replace("um", "[uµμ]m")
             })
             .collect();
         let pattern = format!(
