@@ -5,9 +5,16 @@ use percuss::history::{ElementState, History, Profile};
 use crate::{
     Axis, Figure, HeatMap, LineChart, Mark, Series, Style, palette,
     run_figures::significant,
-    stress_grid::{StressGrid, spacing},
+    stress_grid::{GAP, StressGrid, spacing},
 };
 
+/// Colours of a part: plastic strain, total strain.
+const STRAIN_COLORS: [[&str; 2]; 4] = [
+    ["#0072b2", "#7fd0ff"],
+    ["#d55e00", "#ffb84d"],
+    ["#009e73", "#7fe0c0"],
+    ["#8a3f78", "#f0a8d8"],
+];
 /// Cells of the x–t diagram along the axis and along time.
 const CELLS: [usize; 2] = [300, 220];
 
@@ -26,7 +33,7 @@ pub(crate) fn strain(history: &History, caption: &str) -> Option<Figure> {
             _ if parts(first).len() <= 2 => "target".to_owned(),
             _ => format!("layer {part}"),
         };
-        let gap = 1.6 * spacing(first, part);
+        let gap = GAP * spacing(first, part);
         let points = |value: fn(&ElementState) -> f64| {
             let elements = last.elements.iter().filter(|e| e.part == part);
             with_gaps(
@@ -34,15 +41,16 @@ pub(crate) fn strain(history: &History, caption: &str) -> Option<Figure> {
                 gap * 1e3,
             )
         };
-        let color = palette::series(part);
+        let [plastic, total] = STRAIN_COLORS[part % STRAIN_COLORS.len()];
         chart = chart
             .series(
-                Series::new(format!("{name}, plastic"), points(|e| e.plastic_strain)).color(color),
+                Series::new(format!("{name}, plastic"), points(|e| e.plastic_strain))
+                    .color(plastic),
             )
             .series(
                 Series::new(format!("{name}, axial total"), points(|e| e.strain))
                     .style(Style::Dashed)
-                    .color(color),
+                    .color(total),
             );
     }
     Some(chart.mark(Mark::vertical("", 0.0)).draw())
@@ -80,7 +88,8 @@ pub(crate) fn stress(history: &History, caption: &str) -> Option<Figure> {
 
 pub(crate) fn shape(history: &History, caption: &str) -> Option<Figure> {
     let (first, last) = (history.profiles.first()?, history.profiles.last()?);
-    let (before, after) = (outline(first)?, outline(last)?);
+    let spacing = spacing(first, 0);
+    let (before, after) = (outline(first, spacing)?, outline(last, spacing)?);
     let chart = LineChart::new(
         "rod-shape",
         "Outline of the projectile at the start and at the end",
@@ -120,19 +129,26 @@ fn with_gaps(points: impl Iterator<Item = (f64, f64)>, gap: f64) -> Vec<(f64, f6
     all
 }
 
-/// Closed outline of the projectile in mm, its front end at 0 and its tail at negative positions.
-fn outline(profile: &Profile) -> Option<Vec<(f64, f64)>> {
+/// Closed outline of each piece of the projectile in mm, the front end of the foremost at 0, the tail at negative
+/// positions. `spacing` is the distance of neighbouring elements before impact.
+fn outline(profile: &Profile, spacing: f64) -> Option<Vec<(f64, f64)>> {
     let rod: Vec<&ElementState> = profile.elements.iter().filter(|e| e.part == 0).collect();
-    let (tail, tip) = (rod.first()?, rod.last()?);
+    let tip = rod.last()?;
     let front = tip.position + 0.5 * tip.length;
-    let mut upper = vec![(tail.position - 0.5 * tail.length, tail.diameter)];
-    upper.extend(rod.iter().map(|e| (e.position, e.diameter)));
-    upper.push((front, tip.diameter));
-    let upper = upper
-        .iter()
-        .map(|(x, diameter)| ((x - front) * 1e3, 0.5e3 * diameter));
-    let lower = upper.clone().rev().map(|(x, radius)| (x, -radius));
-    let mut points: Vec<(f64, f64)> = upper.chain(lower).collect();
-    points.push(points[0]);
+    let pieces = rod.chunk_by(|a, b| b.initial_position - a.initial_position <= GAP * spacing);
+    let mut points = Vec::new();
+    for piece in pieces {
+        let (tail, tip) = (piece.first()?, piece.last()?);
+        let mut upper = vec![(tail.position - 0.5 * tail.length, tail.diameter)];
+        upper.extend(piece.iter().map(|e| (e.position, e.diameter)));
+        upper.push((tip.position + 0.5 * tip.length, tip.diameter));
+        let upper = upper
+            .iter()
+            .map(|(x, diameter)| ((x - front) * 1e3, 0.5e3 * diameter));
+        let start = points.len();
+        points.extend(upper.clone());
+        points.extend(upper.rev().map(|(x, radius)| (x, -radius)));
+        points.extend([points[start], (f64::NAN, f64::NAN)]);
+    }
     Some(points)
 }

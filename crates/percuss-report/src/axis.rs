@@ -1,9 +1,9 @@
 //! Axes of a chart.
 
-use kuva::render::render_utils::auto_nice_range;
-
-/// Ticks that a range is rounded to.
-const TICKS: usize = 5;
+/// Part of the extent of the data that an axis leaves free on either side.
+const MARGIN: f64 = 0.04;
+/// Relative difference of numbers that an axis does not tell apart.
+const SAME: f64 = 1e-6;
 
 /// An axis: its label with the unit in square brackets, its scale and its range.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +31,7 @@ impl Axis {
         self
     }
 
-    /// Ends the axis where the data end rather than at a round number.
+    /// Ends the axis where the data end.
     pub fn tight(mut self) -> Self {
         self.tight = true;
         self
@@ -57,14 +57,21 @@ impl Axis {
             return None;
         }
         let (low, high) = extent;
-        if self.tight && high > low {
+        // Values that differ by rounding errors only are one value.
+        let size = low.abs().max(high.abs());
+        if high - low <= SAME * size {
+            return Some(match size {
+                0.0 => (0.0, 1.0),
+                _ => (low - 0.1 * size, high + 0.1 * size),
+            });
+        }
+        if self.tight {
             return Some(extent);
         }
-        let margin = 0.03 * (high - low);
+        let margin = MARGIN * (high - low);
         // Data that start at zero start on the axis.
         let below = if low == 0.0 { 0.0 } else { low - margin };
-        let above = if high == 0.0 { 0.0 } else { high + margin };
-        Some(auto_nice_range(below, above, TICKS))
+        Some((below, high + margin))
     }
 
     /// Smallest and largest of the values that can be shown; the unit decade or interval if there are none.

@@ -9,7 +9,7 @@ use kuva::plot::{
 use kuva::render::{annotations::ReferenceLine, plots::Plot};
 
 use crate::{
-    Axis, Figure,
+    Axis, Figure, Mark, Series, Style,
     frame::{Frame, HEIGHT, WIDTH, plain},
     palette,
 };
@@ -28,88 +28,6 @@ const MARKERS: [MarkerShape; 5] = [
     MarkerShape::Diamond,
     MarkerShape::Cross,
 ];
-
-/// How a series is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Style {
-    /// A line.
-    #[default]
-    Line,
-    /// A dashed line.
-    Dashed,
-    /// A line with a marker at each point.
-    LineAndMarkers,
-    /// A marker at each point.
-    Markers,
-}
-
-/// A named set of points.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Series {
-    name: String,
-    points: Vec<(f64, f64)>,
-    errors: Vec<(f64, f64)>,
-    style: Style,
-    color: Option<String>,
-}
-
-impl Series {
-    /// Points joined by a line. A point that is not finite leaves a gap.
-    pub fn new(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        Self {
-            name: name.into(),
-            points: points.into_iter().collect(),
-            errors: Vec::new(),
-            style: Style::Line,
-            color: None,
-        }
-    }
-
-    /// Sets how the series is drawn.
-    pub fn style(mut self, style: Style) -> Self {
-        self.style = style;
-        self
-    }
-
-    /// Sets the colour, such as one of [`palette::SERIES`]; the next free one is taken otherwise.
-    pub fn color(mut self, color: impl Into<String>) -> Self {
-        self.color = Some(color.into());
-        self
-    }
-
-    /// Adds vertical error bars: how far each one reaches below and above its point.
-    pub fn error_bars(mut self, errors: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        self.errors = errors.into_iter().collect();
-        self
-    }
-}
-
-/// A line across the plot at one value.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Mark {
-    name: String,
-    value: f64,
-    vertical: bool,
-}
-
-impl Mark {
-    /// A horizontal line at `y`; an empty name keeps it out of the legend.
-    pub fn horizontal(name: impl Into<String>, y: f64) -> Self {
-        Self {
-            name: name.into(),
-            value: y,
-            vertical: false,
-        }
-    }
-
-    /// A vertical line at `x`; an empty name keeps it out of the legend.
-    pub fn vertical(name: impl Into<String>, x: f64) -> Self {
-        Self {
-            vertical: true,
-            ..Self::horizontal(name, x)
-        }
-    }
-}
 
 /// A chart of lines and markers.
 #[derive(Debug, Clone, PartialEq)]
@@ -221,8 +139,15 @@ impl LineChart {
                 if series.style != Style::Markers {
                     plots.push(line(series, run.clone(), &color));
                 }
-                if matches!(series.style, Style::Markers | Style::LineAndMarkers) {
-                    plots.push(markers(series, run, &color, index));
+                // A single point has no line to be seen by.
+                let marked = matches!(series.style, Style::Markers | Style::LineAndMarkers);
+                if marked || run.len() == 1 {
+                    let shape = if marked {
+                        marker(index)
+                    } else {
+                        MarkerShape::Circle
+                    };
+                    plots.push(markers(series, run, &color, shape));
                 }
             }
         }
@@ -296,7 +221,9 @@ fn marker(index: usize) -> MarkerShape {
 }
 
 fn line(series: &Series, run: std::ops::Range<usize>, color: &str) -> Plot {
-    let mut line = LinePlot::new().with_color(color).with_stroke_width(1.5);
+    let mut line = LinePlot::new()
+        .with_color(color)
+        .with_stroke_width(series.width);
     if series.style == Style::Dashed {
         line = line.with_line_style(LineStyle::Custom(DASHES.to_owned()));
     }
@@ -311,11 +238,15 @@ fn line(series: &Series, run: std::ops::Range<usize>, color: &str) -> Plot {
     line.into()
 }
 
-fn markers(series: &Series, run: std::ops::Range<usize>, color: &str, index: usize) -> Plot {
+fn markers(series: &Series, run: std::ops::Range<usize>, color: &str, shape: MarkerShape) -> Plot {
     let mut markers = ScatterPlot::new()
         .with_color(color)
-        .with_size(4.0)
-        .with_marker(marker(index));
+        .with_size(match series.style {
+            // Where a line lies on another, so do their points.
+            Style::Dashed => 2.5,
+            _ => 4.0,
+        })
+        .with_marker(shape);
     // A line draws the error bars of its points itself.
     let errors = series.style == Style::Markers;
     markers.data = run

@@ -1,11 +1,13 @@
 //! What all charts share: canvas, captions, axes, grid and the legend beside the plot, where it covers nothing.
 
+use std::sync::Arc;
+
 use kuva::{
     backend::svg::SvgBackend,
     plot::legend::{LegendEntry, LegendPosition},
     render::{
         annotations::ReferenceLine,
-        layout::{ComputedLayout, Layout},
+        layout::{ComputedLayout, Layout, TickFormat},
         plots::Plot,
         render::{Scene, render_multiple},
         theme::Theme,
@@ -20,10 +22,12 @@ pub(crate) const WIDTH: f64 = 860.0;
 pub(crate) const HEIGHT: f64 = 500.0;
 /// Right margin of a figure without legend [px].
 const RIGHT_MARGIN: f64 = 24.0;
-/// Most characters of a caption that fit on the canvas.
-const CAPTION_CHARS: usize = 110;
-/// Most characters of a title that fit on the canvas.
-const TITLE_CHARS: usize = 75;
+/// Sizes of title, caption and axis labels [px].
+const TITLE_SIZE: u32 = 17;
+const CAPTION_SIZE: u32 = 12;
+const LABEL_SIZE: u32 = 14;
+/// Mean width of a character, in sizes of the font, rather too much than too little.
+const CHAR_WIDTH: f64 = 0.6;
 
 /// A chart without its content.
 pub(crate) struct Frame<'a> {
@@ -70,23 +74,18 @@ impl Frame<'_> {
             .with_theme(theme)
             .with_width(WIDTH)
             .with_height(self.height)
-            .with_title(plain(self.title, TITLE_CHARS))
-            .with_title_size(17)
-            .with_label_size(14)
+            .with_title_size(TITLE_SIZE)
+            .with_label_size(LABEL_SIZE)
             .with_tick_size(12)
             .with_body_size(12)
             .with_grid_line_width(0.8)
             .with_box_axes()
             .with_ticks(7)
-            .with_x_label(plain(&self.x.label, TITLE_CHARS))
-            .with_y_label(plain(&self.y.label, TITLE_CHARS));
+            .with_tick_format(TickFormat::Custom(Arc::new(tick_label)))
+            .with_x_label(plain(&self.x.label, usize::MAX))
+            .with_y_label(plain(&self.y.label, usize::MAX));
         layout.data_x_range = Some(self.x_extent);
         layout.data_y_range = Some(self.y_extent);
-        if !self.caption.is_empty() {
-            layout = layout
-                .with_subtitle(plain(self.caption, CAPTION_CHARS))
-                .with_subtitle_size(12);
-        }
         if self.x.log {
             layout = layout.with_log_x();
         }
@@ -102,25 +101,97 @@ impl Frame<'_> {
         for mark in &self.marks {
             layout = layout.with_reference_line(mark.clone());
         }
-        if self.legend.is_empty() {
+        let layout = if self.legend.is_empty() {
             let left = ComputedLayout::from_layout(&layout).margin_left;
-            return layout.with_force_margins(left, self.right_margin.unwrap_or(RIGHT_MARGIN));
+            layout.with_force_margins(left, self.right_margin.unwrap_or(RIGHT_MARGIN))
+        } else {
+            layout
+                .with_legend_entries(self.legend.clone())
+                .with_legend_position(LegendPosition::OutsideRightTop)
+                .with_legend_box(false)
+        };
+        self.fit_texts(layout)
+    }
+
+    /// Adds title and caption and wraps all texts to the space they have: they stand centred on the plot.
+    fn fit_texts(&self, layout: Layout) -> Layout {
+        let place = ComputedLayout::from_layout(&layout);
+        let middle = place.margin_left + 0.5 * place.plot_width();
+        let width = 2.0 * middle.min(WIDTH - middle);
+        let chars = |space: f64, size: u32| (space / (CHAR_WIDTH * f64::from(size))) as usize;
+        let (title, caption) = (chars(width, TITLE_SIZE), chars(width, CAPTION_SIZE));
+        let layout = layout
+            .with_title(plain(self.title, title))
+            .with_x_label_wrap(chars(width, LABEL_SIZE))
+            .with_y_label_wrap(chars(0.8 * self.height, LABEL_SIZE));
+        if self.caption.is_empty() {
+            return layout;
         }
         layout
-            .with_legend_entries(self.legend.clone())
-            .with_legend_position(LegendPosition::OutsideRightTop)
-            .with_legend_box(false)
+            .with_subtitle(plain(self.caption, (2 * caption).saturating_sub(10)))
+            .with_subtitle_size(CAPTION_SIZE)
+            .with_subtitle_wrap(caption)
     }
+}
+
+/// The number at a tick: up to six significant digits, with an exponent where it would be long otherwise.
+pub(crate) fn tick_label(value: f64) -> String {
+    let trimmed = |text: &str| match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text.to_owned(),
+    };
+    let size = value.abs();
+    let label = if size == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e6).contains(&size) {
+        let decimals = (5.0 - size.log10().floor()) as usize;
+        trimmed(&format!("{value:.decimals$}"))
+    } else {
+        let text = format!("{value:.5e}");
+        match text.split_once('e') {
+            Some((mantissa, exponent)) => format!("{}e{exponent}", trimmed(mantissa)),
+            None => text,
+        }
+    };
+    label.replace('-', "\u{2212}")
 }
 
 /// Text as it stands, on one line and not longer than `most` characters: a dollar sign would begin a formula.
 pub(crate) fn plain(text: &str, most: usize) -> String {
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
     let line = if line.chars().count() > most {
-        let kept: String = line.chars().take(most - 1).collect();
+        let kept: String = line.chars().take(most.saturating_sub(1)).collect();
         format!("{}…", kept.trim_end())
     } else {
         line
     };
     line.replace('$', "\\$")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_short_and_exact() {
+        for (value, label) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (-2.5, "\u{2212}2.5"),
+            (0.001, "0.001"),
+            (0.30000000000000004, "0.3"),
+            (100_000.0, "100000"),
+            (2.5e6, "2.5e6"),
+            (-1e-7, "\u{2212}1e\u{2212}7"),
+            (1e300, "1e300"),
+        ] {
+            assert_eq!(tick_label(value), label);
+        }
+    }
+
+    #[test]
+    fn texts_are_shortened_and_hold_no_formulas() {
+        assert_eq!(plain("a  price\nin $", 20), "a price in \\$");
+        assert_eq!(plain("one two three", 8), "one two…");
+    }
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use kuva::plot::LinePlot;
 use kuva::render::{
     color::Color,
     layout::ComputedLayout,
@@ -11,7 +12,7 @@ use kuva::render::{
 
 use crate::{
     Axis, Figure,
-    frame::{Frame, HEIGHT},
+    frame::{Frame, HEIGHT, tick_label},
     palette,
 };
 
@@ -87,7 +88,8 @@ impl HeatMap {
             marks: Vec::new(),
         };
         let limit = self.limit();
-        frame.draw(Vec::new(), |scene, place| {
+        // Axes are drawn only for a plot, so there is one without content.
+        frame.draw(vec![LinePlot::new().into()], |scene, place| {
             self.add_cells(scene, place, limit);
             self.add_lines(scene, place);
             self.add_bar(scene, place, limit);
@@ -187,7 +189,7 @@ impl HeatMap {
             scene.add(line((right, y), (right + 4.0, y), 1.0));
             scene.add(text(
                 (right + 7.0, y + 4.0),
-                &place.colorbar_tick_format.format(value),
+                &tick_label(value),
                 (12, TextAnchor::Start, None),
             ));
         }

@@ -7,25 +7,30 @@ use crate::{Figure, ReportError, axial_figures, error::history_of, time_figures}
 /// Draws all figures that a result has data for.
 ///
 /// Against time: `depth-time` (a target that can be penetrated), `length-time` (a rigid wall, or a projectile that
-/// erodes), `velocity-time`, `force-time` and `energy-time` (something moved). Along the axis: `strain-profile`,
-/// `stress-xt` and `rod-shape`.
+/// erodes), `velocity-time`, `force-time` and `energy-time`. Along the axis: `strain-profile`, `stress-xt` and
+/// `rod-shape`. A run in which nothing moves has but `strain-profile` and `rod-shape`.
 ///
 /// # Errors
 /// [`ReportError::NoHistory`] when the run kept no history.
 pub fn run_figures(scenario: &Scenario, result: &RunResult) -> Result<Vec<Figure>, ReportError> {
     let history = history_of(result)?;
     let caption = caption(scenario);
-    let figures = [
-        time_figures::depth(history, result, &caption),
-        time_figures::length(history, result, &caption),
-        Some(time_figures::velocity(history, result, &caption)),
-        Some(time_figures::force(history, &caption)),
-        time_figures::energy(history, &caption),
-        axial_figures::strain(history, &caption),
-        axial_figures::stress(history, &caption),
-        axial_figures::shape(history, &caption),
-    ];
-    Ok(figures.into_iter().flatten().collect())
+    let (first, last) = (
+        &history.samples[0],
+        &history.samples[history.samples.len() - 1],
+    );
+    let mut figures = Vec::new();
+    if first.time < last.time {
+        figures.extend(time_figures::depth(history, result, &caption));
+        figures.extend(time_figures::length(history, result, &caption));
+        figures.push(time_figures::velocity(history, result, &caption));
+        figures.extend(time_figures::force(history, &caption));
+        figures.extend(time_figures::energy(history, &caption));
+    }
+    figures.extend(axial_figures::strain(history, &caption));
+    figures.extend(axial_figures::stress(history, &caption));
+    figures.extend(axial_figures::shape(history, &caption));
+    Ok(figures)
 }
 
 /// The case in one line: its title, or what strikes what and how fast.
@@ -35,10 +40,10 @@ fn caption(scenario: &Scenario) -> String {
     }
     let rod = &scenario.projectile;
     let target = match &scenario.target {
-        TargetBody::RigidWall => "a rigid wall".to_owned(),
+        TargetBody::RigidWall => "on a rigid wall".to_owned(),
         TargetBody::ConstantPressure(pressure) => {
             format!(
-                "a constant pressure of {} MPa",
+                "against a constant pressure of {} MPa",
                 significant(pressure * 1e-6)
             )
         }
@@ -49,11 +54,12 @@ fn caption(scenario: &Scenario) -> String {
                 }
                 None => format!("thick {}", layer.material_id),
             };
-            layers.iter().map(name).collect::<Vec<_>>().join(" + ")
+            let layers: Vec<String> = layers.iter().map(name).collect();
+            format!("on {}", layers.join(" + "))
         }
     };
     format!(
-        "{} mm × {} mm {} at {} m/s on {target}",
+        "{} mm × {} mm {} at {} m/s {target}",
         significant(rod.length * 1e3),
         significant(rod.diameter * 1e3),
         rod.material_id,

@@ -2,6 +2,9 @@
 
 use percuss::history::{ElementState, Profile};
 
+/// Neighbouring elements farther apart than this many spacings have lost one between them.
+pub(crate) const GAP: f64 = 1.6;
+
 /// Stress on a regular grid over initial position and time.
 #[derive(Debug)]
 pub(crate) struct StressGrid {
@@ -25,10 +28,15 @@ impl StressGrid {
         let edge = |element: &ElementState, side: f64| {
             element.initial_position + side * 0.5 * spacings[element.part.min(spacings.len() - 1)]
         };
-        let positions = (
-            edge(first.elements.first()?, -1.0),
-            edge(first.elements.last()?, 1.0),
-        );
+        let front = edge(first.elements.first()?, -1.0);
+        let back = edge(first.elements.last()?, 1.0);
+        // A rod alone ends at the face: at 0 but for rounding.
+        let back = if back.abs() < 1e-9 * (back - front) {
+            0.0
+        } else {
+            back
+        };
+        let positions = (front, back);
         let times = (first.time, last.time);
         let middle = |range: (f64, f64), i: usize, n: usize| {
             range.0 + (range.1 - range.0) * (i as f64 + 0.5) / n as f64
@@ -86,7 +94,7 @@ fn stresses(profile: &Profile, places: &[f64], spacings: &[f64]) -> Vec<f64> {
         let right = elements.get(after);
         if let (Some(a), Some(b)) = (left, right)
             && a.part == b.part
-            && b.initial_position - a.initial_position <= 1.6 * reach(a)
+            && b.initial_position - a.initial_position <= GAP * reach(a)
         {
             let share = (place - a.initial_position) / (b.initial_position - a.initial_position);
             return a.stress + share * (b.stress - a.stress);

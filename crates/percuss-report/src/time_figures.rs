@@ -5,7 +5,7 @@ use percuss::{
     outcome::RunResult,
 };
 
-use crate::{AreaChart, Axis, Figure, LineChart, Mark, Series, palette, run_figures::significant};
+use crate::{AreaChart, Axis, Figure, LineChart, Mark, Series, Style, run_figures::significant};
 
 /// Colours of the lines of the energy book, in its order: dark for the projectile, light for the target.
 const ENERGY_COLORS: [&str; 11] = [
@@ -20,6 +20,8 @@ const ENERGY_COLORS: [&str; 11] = [
 ];
 /// Lines of the energy book that never exceed this part of the initial energy are added up.
 const MINOR_ENERGY: f64 = 0.005;
+/// Width of lines that ring [px].
+const RINGING: f64 = 1.0;
 /// Colour of the minor lines.
 const MINOR_COLOR: &str = "#d4d4d4";
 
@@ -27,11 +29,9 @@ pub(crate) fn depth(history: &History, result: &RunResult, caption: &str) -> Opt
     let depth = result.depth_of_penetration?;
     let chart = chart("depth-time", "Depth against time", "depth [mm]", caption)
         .series(series("crater floor", history, |s| s.depth * 1e3))
-        .series(series("projectile's tip", history, |s| {
-            s.tip_position * 1e3
-        }))
+        .series(series("projectile's tip", history, |s| s.tip_position * 1e3).style(Style::Dashed))
         .mark(Mark::horizontal(
-            format!("depth {} mm", significant(depth * 1e3)),
+            format!("penetration {} mm", significant(depth * 1e3)),
             depth * 1e3,
         ));
     Some(with_time_to_rest(chart, result).draw())
@@ -50,7 +50,7 @@ pub(crate) fn length(history: &History, result: &RunResult, caption: &str) -> Op
     )
     .series(series("projectile", history, |s| s.projectile_length * 1e3))
     .mark(Mark::horizontal(
-        format!("final {} mm", significant(unloaded)),
+        format!("final, unloaded {} mm", significant(unloaded)),
         unloaded,
     ));
     Some(with_time_to_rest(chart, result).draw())
@@ -63,23 +63,34 @@ pub(crate) fn velocity(history: &History, result: &RunResult, caption: &str) -> 
         "velocity [m/s]",
         caption,
     )
-    .series(series("tip", history, |s| s.tip_velocity))
+    .series(series("tip", history, |s| s.tip_velocity).width(RINGING))
     .series(series("tail", history, |s| s.tail_velocity));
     if history.samples.iter().any(|s| s.interface_velocity != 0.0) {
-        chart = chart.series(series("crater floor", history, |s| s.interface_velocity));
+        let floor = series("crater floor", history, |s| s.interface_velocity);
+        // It coincides with the tip as long as they touch.
+        chart = chart.series(floor.style(Style::Dashed).width(RINGING));
     }
     let mean = series("projectile's mean", history, |s| s.mean_velocity).color("#000000");
     with_time_to_rest(chart.series(mean), result).draw()
 }
 
-pub(crate) fn force(history: &History, caption: &str) -> Figure {
-    let mut chart = chart("force-time", "Force against time", "force [kN]", caption).series(
-        series("projectile on target", history, |s| s.contact_force * 1e-3),
-    );
-    if history.samples.iter().any(|s| s.back_force != 0.0) {
-        chart = chart.series(series("back face", history, |s| s.back_force * 1e-3));
+/// `None` when the model knows no force at either face, as for a target that is a given pressure.
+pub(crate) fn force(history: &History, caption: &str) -> Option<Figure> {
+    let samples = || history.samples.iter();
+    let struck = samples().any(|s| s.contact_force != 0.0);
+    // A wall is both faces in one.
+    let behind = samples().any(|s| s.back_force != 0.0)
+        && samples().any(|s| s.back_force != s.contact_force);
+    let mut chart = chart("force-time", "Force against time", "force [kN]", caption);
+    if struck {
+        let curve = series("projectile on target", history, |s| s.contact_force * 1e-3);
+        chart = chart.series(curve.width(RINGING));
     }
-    chart.draw()
+    if behind {
+        let curve = series("back face", history, |s| s.back_force * 1e-3);
+        chart = chart.series(curve.width(RINGING));
+    }
+    (struck || behind).then(|| chart.draw())
 }
 
 pub(crate) fn energy(history: &History, caption: &str) -> Option<Figure> {
@@ -118,11 +129,17 @@ fn energy_chart(history: &History, caption: &str) -> Option<AreaChart> {
     }
     if !minor.is_empty() {
         let sum = |sample| minor.iter().map(|line| percent(sample, *line)).sum();
-        let name = match minor[..] {
-            [line] => samples[0].energy.lines()[line].0.to_owned(),
-            _ => format!("others, each < {} %", significant(100.0 * MINOR_ENERGY)),
+        let (name, color) = match minor[..] {
+            [line] => (
+                samples[0].energy.lines()[line].0.to_owned(),
+                ENERGY_COLORS[line],
+            ),
+            _ => {
+                let most = significant(100.0 * MINOR_ENERGY);
+                (format!("others, each < {most} %"), MINOR_COLOR)
+            }
         };
-        chart = chart.area(name, Some(MINOR_COLOR), samples.iter().map(sum));
+        chart = chart.area(name, Some(color), samples.iter().map(sum));
     }
     Some(chart)
 }
@@ -150,5 +167,41 @@ fn with_time_to_rest(chart: LineChart, result: &RunResult) -> LineChart {
             time * 1e6,
         )),
         None => chart,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use percuss::{case, model};
+
+    use super::*;
+
+    #[test]
+    fn energies_add_up_to_all_of_the_initial_energy() {
+        for target in [
+            "target = { rigid_wall = true }",
+            "target = { constant_pressure = \"1 GPa\" }",
+            "target = { material = \"aluminium-2024-t351\", thickness = \"50 mm\" }",
+        ] {
+            let projectile =
+                r#"material = "copper", length = "15 mm", diameter = "5 mm", velocity = "600 m/s""#;
+            let text = format!("projectile = {{ {projectile} }}\n{target}");
+            let scenario = case::load_str("case", &text).unwrap();
+            let chain = model::model("chain").unwrap();
+            let result = model::run(chain, &scenario, &mut model::Control::recording()).unwrap();
+            let history = result.history.unwrap();
+            let totals = energy_chart(&history, "").unwrap().totals();
+            assert_eq!(totals.len(), history.samples.len());
+            for total in totals {
+                assert!((total - 100.0).abs() < 0.1, "{target}: {total} %");
+            }
+        }
+    }
+
+    #[test]
+    fn every_line_of_the_energy_book_has_a_colour_of_its_own() {
+        let colors: std::collections::HashSet<_> = ENERGY_COLORS.iter().collect();
+        assert_eq!(colors.len(), ENERGY_COLORS.len());
+        assert!(!colors.contains(&MINOR_COLOR));
     }
 }

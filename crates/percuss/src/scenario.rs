@@ -82,6 +82,18 @@ pub struct Plate {
 }
 
 impl Scenario {
+    /// The same case on a mesh that is `factor` times finer.
+    pub fn refined(&self, factor: u32) -> Self {
+        let finer = |elements: usize| {
+            let elements = u32::try_from(elements).unwrap_or(u32::MAX);
+            Some(elements.saturating_mul(factor))
+        };
+        let mut refined = self.clone();
+        refined.chain.projectile_elements = finer(self.chain.projectile_elements());
+        refined.chain.target_elements = finer(self.chain.target_elements());
+        refined
+    }
+
     /// Looks up materials and works out what is given indirectly; findings go to `check`.
     pub(crate) fn resolve(
         name: &str,

@@ -32,7 +32,7 @@ const QUIET_FRACTION: f64 = 1e-6;
 #[derive(Debug)]
 pub struct Conservative<'a> {
     scenario: &'a Scenario,
-    state: State,
+    pub(super) state: State,
     control: StepControl,
     watch: Watch,
 }

@@ -9,7 +9,7 @@ use super::{
     state::{Books, Element, End, Node, Segment, State},
 };
 use crate::{
-    case::BackFace,
+    case::{BackFace, Kinematics},
     scenario::{Plate, Scenario, TargetBody},
 };
 
@@ -91,10 +91,12 @@ pub(super) fn build(scenario: &Scenario) -> State {
         node.velocity = scenario.impact_speed;
     }
     // At the first step the elements at the interface see the whole impact speed.
-    let lengths = state.elements.iter().map(|element| element.rest_length);
-    let smallest = lengths.fold(f64::INFINITY, f64::min);
-    let first_step = LARGEST_STRAIN_STEP * smallest / scenario.impact_speed;
-    state.stable_step = state.stable_step.min(first_step);
+    if state.parts[0].kinematics == Kinematics::Logarithmic {
+        let lengths = state.elements.iter().map(|element| element.rest_length);
+        let smallest = lengths.fold(f64::INFINITY, f64::min);
+        let first_step = LARGEST_STRAIN_STEP * smallest / scenario.impact_speed;
+        state.stable_step = state.stable_step.min(first_step);
+    }
     state.books.initial_energy = state.energy().kinetic_projectile;
     state.books.initial_momentum = state.momentum().projectile;
     state

@@ -7,6 +7,8 @@ mod part;
 mod published;
 mod solver;
 mod state;
+#[cfg(test)]
+mod tests;
 mod warnings;
 
 pub use conservative::{Conservative, ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};

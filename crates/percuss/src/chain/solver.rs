@@ -11,7 +11,10 @@ use crate::{
 
 /// Largest change of strain that one element may make in one step.
 pub(super) const LARGEST_STRAIN_STEP: f64 = 0.03;
-/// Largest growth of the time step from one step to the next.
+/// Part of the largest time step allowed that is taken, so that the next ones need not be shorter again.
+const STEP_MARGIN: f64 = 0.98;
+/// The time step grows only when it could grow by this factor, and no faster than by the second one.
+const STEP_SLACK: f64 = 1.1;
 const LARGEST_STEP_GROWTH: f64 = 1.05;
 
 /// Numbers that control the steps.
@@ -47,10 +50,7 @@ impl State {
     /// Advances by one step.
     pub(super) fn advance(&mut self, control: &StepControl) -> Result<(), NumericalError> {
         let previous = self.time_step;
-        let mut time_step = control.courant * self.stable_step;
-        if previous > 0.0 {
-            time_step = time_step.min(LARGEST_STEP_GROWTH * previous);
-        }
+        let time_step = choose_time_step(previous, control.courant * self.stable_step);
         self.collect_forces();
         // Velocities live half a step behind positions: the kick spans the two half steps around the current time.
         self.kick(0.5 * (previous + time_step), control.is_viscous());
@@ -295,7 +295,7 @@ impl State {
             let mut plastic_work = 0.0;
             for (pair, element) in nodes.windows(2).zip(elements) {
                 let length = pair[1].position - pair[0].position;
-                if length <= 0.0 && part.kinematics == Kinematics::Logarithmic {
+                if length <= 0.0 {
                     return Err(inverted(self.step, self.time, element.initial_position));
                 }
                 plastic_work += element.rest_length * element.deform(part, length, time_step);
@@ -304,8 +304,10 @@ impl State {
                 if viscous {
                     limit *= control.damp(element, part, approach);
                 }
-                if approach.abs() * limit > LARGEST_STRAIN_STEP * length.abs() {
-                    limit = LARGEST_STRAIN_STEP * length.abs() / approach.abs();
+                if part.kinematics == Kinematics::Logarithmic
+                    && approach.abs() * limit > LARGEST_STRAIN_STEP * length
+                {
+                    limit = LARGEST_STRAIN_STEP * length / approach.abs();
                 }
                 stable_step = stable_step.min(limit);
             }
@@ -403,7 +405,21 @@ fn inverted(step: u64, time: f64, initial_position: f64) -> NumericalError {
         step,
         time_us: time * 1e6,
         element: None,
-        remedy: "lower `chain.courant` or `chain.erosion_strain`".to_owned(),
+        remedy: "use logarithmic kinematics, or lower `chain.courant` or `chain.erosion_strain`"
+            .to_owned(),
+    }
+}
+
+/// Time step after one of length `previous`, when `allowed` is the largest one allowed.
+///
+/// Every change of the time step costs a little energy, so small changes are not made.
+fn choose_time_step(previous: f64, allowed: f64) -> f64 {
+    if previous == 0.0 || allowed < previous {
+        STEP_MARGIN * allowed
+    } else if allowed > STEP_SLACK * previous {
+        LARGEST_STEP_GROWTH * previous
+    } else {
+        previous
     }
 }
 
@@ -444,11 +460,12 @@ pub(super) fn rub(before: f64, change: f64, limit: f64) -> f64 {
     if loss <= 0.0 || before.abs() >= loss {
         return before + change - sign * limit;
     }
-    if change.abs() <= limit {
-        return 0.0;
-    }
-    let rest = 1.0 - before.abs() / loss;
-    let after = rest * (change + sign * limit);
+    let after = if change.abs() <= limit {
+        0.0
+    } else {
+        let rest = 1.0 - before.abs() / loss;
+        rest * (change + sign * limit)
+    };
     // Where the node turns almost symmetrically, the mean velocity would let friction push: it may not.
     let friction = after - before - change;
     if friction * (before + after) > 0.0 {

@@ -1,0 +1,34 @@
+//! Figure of a convergence study.
+
+use percuss::converge::{Study, Verdict};
+
+use crate::{Axis, Figure, LineChart, Mark, Series, Style};
+
+/// Draws one quantity of a study against the number of elements along the projectile.
+pub fn convergence_figure(case: &str, study: &Study, quantity: usize) -> Option<Figure> {
+    let quantity = study.quantities.get(quantity)?;
+    let name = quantity.name.replace('_', " ");
+    let points = study
+        .meshes
+        .iter()
+        .map(|mesh| mesh.projectile_elements as f64)
+        .zip(quantity.values.iter().copied());
+    let mut chart = LineChart::new(
+        format!("convergence-{}", quantity.name.replace('_', "-")),
+        format!("Convergence of the {name}: {case}"),
+        Axis::new("elements along the projectile").log(),
+        Axis::new(format!("{name} [{}]", quantity.unit)),
+    )
+    .series(Series::new("computed", points).style(Style::LineAndMarkers));
+    if let Verdict::Converging {
+        richardson, order, ..
+    } = quantity.verdict
+    {
+        chart = chart.mark(Mark::horizontal(
+            format!("extrapolated, order {order:.2}"),
+            richardson,
+        ));
+    }
+    let fine = quantity.values.last().copied().unwrap_or(f64::NAN);
+    Some(chart.caption(quantity.verdict.in_words(fine)).draw())
+}

@@ -1,0 +1,241 @@
+//! The computations that the checks draw on.
+
+use std::ops::ControlFlow;
+
+use percuss::{
+    Error, Scenario, case,
+    case::{Interface, PublishedBorderShear, PublishedOptions, Scheme, SmallStrainStiffness},
+    model::{self, Control},
+    outcome::RunResult,
+    units::Mass,
+};
+
+use super::OnProgress;
+
+/// Meshes of the paper's figure 8: penetrator and target elements.
+pub(super) const MESHES: [(u32, u32); 5] = [(10, 20), (20, 40), (30, 60), (40, 80), (50, 100)];
+/// Finer meshes, for the conservative scheme and for observed orders.
+pub(super) const FINE_MESHES: [(u32, u32); 3] = [(80, 160), (160, 320), (320, 640)];
+/// Impact speeds [m/s]; the text gives only 230 m/s.
+pub(super) const SPEEDS: [f64; 8] = [100.0, 150.0, 200.0, 230.0, 300.0, 400.0, 500.0, 600.0];
+/// Border-shear constants of the study.
+pub(super) const SHEARS: [f64; 6] = [0.0, 0.1, 0.3, 0.577, 0.8, 1.0];
+/// Speeds of the depth-time curves [m/s].
+pub(super) const TIME_SPEEDS: [f64; 4] = [150.0, 230.0, 400.0, 600.0];
+/// The paper's speed [m/s].
+pub(super) const PAPER_SPEED: f64 = 230.0;
+/// The paper's mesh.
+pub(super) const PAPER_MESH: (u32, u32) = (40, 80);
+
+/// Table 1 as a case file.
+const TABLE_1: &str = r#"
+projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+target = { material = "aluminium-2024-t351", thickness = "25 mm" }
+"#;
+
+/// A scheme with its reading.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Way {
+    Chain,
+    Joined,
+    Conservative,
+}
+
+pub(super) const WAYS: [Way; 3] = [Way::Chain, Way::Joined, Way::Conservative];
+
+impl Way {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Chain => "published, chain",
+            Self::Joined => "published, joined",
+            Self::Conservative => "conservative",
+        }
+    }
+}
+
+/// One run's place in the studies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Key {
+    way: Way,
+    speed: f64,
+    mesh: (u32, u32),
+    shear: f64,
+}
+
+/// All runs.
+pub(super) struct Runs {
+    base: Scenario,
+    done: Vec<(Key, RunResult)>,
+    /// Runs with histories, at [`TIME_SPEEDS`].
+    pub(super) histories: Vec<(Way, f64, RunResult)>,
+    /// Steps of the joined reading by treatment of the border shear.
+    pub(super) joined_steps: Vec<(&'static str, u64)>,
+}
+
+const SHEAR: f64 = 0.577;
+
+fn scenario(base: &Scenario, key: Key) -> Scenario {
+    let mut scenario = base.clone();
+    scenario.impact_speed = key.speed;
+    scenario.chain.projectile_elements = Some(key.mesh.0);
+    scenario.chain.target_elements = Some(key.mesh.1);
+    scenario.chain.border_shear = Some(key.shear);
+    let published = PublishedOptions {
+        // With the printed mass the time step comes out as printed.
+        target_mass: Some(Mass::new(1.22e-3)),
+        ..PublishedOptions::default()
+    };
+    match key.way {
+        Way::Conservative => {}
+        Way::Chain => {
+            scenario.chain.scheme = Scheme::Published;
+            scenario.chain.published = Some(PublishedOptions {
+                small_strain: SmallStrainStiffness::Elastic,
+                ..published
+            });
+        }
+        Way::Joined => {
+            scenario.chain.scheme = Scheme::Published;
+            scenario.chain.published = Some(PublishedOptions {
+                interface: Interface::Joined,
+                ..published
+            });
+        }
+    }
+    scenario
+}
+
+fn run(scenario: &Scenario, record: bool) -> Result<RunResult, Error> {
+    let mut control = Control {
+        record,
+        progress: None,
+    };
+    model::run(model::model("chain")?, scenario, &mut control)
+}
+
+impl Runs {
+    pub(super) fn compute(progress: OnProgress<'_>) -> Result<Self, Error> {
+        let base = case::load_str("paper", TABLE_1)?;
+        let mut keys = Vec::new();
+        for way in WAYS {
+            let key = |speed, mesh, shear| Key {
+                way,
+                speed,
+                mesh,
+                shear,
+            };
+            for speed in SPEEDS {
+                keys.push(key(speed, (10, 20), SHEAR));
+                keys.extend(MESHES[1..].iter().map(|mesh| key(speed, *mesh, SHEAR)));
+            }
+            keys.extend(
+                FINE_MESHES
+                    .iter()
+                    .map(|mesh| key(PAPER_SPEED, *mesh, SHEAR)),
+            );
+            for shear in SHEARS {
+                keys.push(key(PAPER_SPEED, PAPER_MESH, shear));
+                keys.push(key(600.0, PAPER_MESH, shear));
+            }
+        }
+        let total = (keys.len() + WAYS.len() * TIME_SPEEDS.len()) as f64;
+        let mut runs = Self {
+            base,
+            done: Vec::new(),
+            histories: Vec::new(),
+            joined_steps: Vec::new(),
+        };
+        let mut tell = |done: usize| match progress(done as f64 / total) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(Error::Cancelled {
+                step: 0,
+                time_us: 0.0,
+            }),
+        };
+        for (i, key) in keys.into_iter().enumerate() {
+            if !runs.done.iter().any(|(done, _)| *done == key) {
+                runs.done
+                    .push((key, run(&scenario(&runs.base, key), false)?));
+            }
+            tell(i)?;
+        }
+        for way in WAYS {
+            for speed in TIME_SPEEDS {
+                let key = Key {
+                    way,
+                    speed,
+                    mesh: PAPER_MESH,
+                    shear: SHEAR,
+                };
+                runs.histories
+                    .push((way, speed, run(&scenario(&runs.base, key), true)?));
+            }
+        }
+        runs.count_joined_steps()?;
+        tell(total as usize)?;
+        Ok(runs)
+    }
+
+    fn count_joined_steps(&mut self) -> Result<(), Error> {
+        for (name, shear) in [
+            ("none", PublishedBorderShear::None),
+            ("friction on the target", PublishedBorderShear::Friction),
+            ("constant force", PublishedBorderShear::Constant),
+            (
+                "friction on both",
+                PublishedBorderShear::FrictionAndPenetrator,
+            ),
+        ] {
+            let key = Key {
+                way: Way::Joined,
+                speed: PAPER_SPEED,
+                mesh: PAPER_MESH,
+                shear: SHEAR,
+            };
+            let mut scenario = scenario(&self.base, key);
+            if let Some(published) = &mut scenario.chain.published {
+                published.border_shear = shear;
+            }
+            self.joined_steps.push((name, run(&scenario, false)?.steps));
+        }
+        Ok(())
+    }
+
+    /// Table 1 as a scenario of the published scheme.
+    pub(super) fn table_1(&self) -> Scenario {
+        let key = Key {
+            way: Way::Joined,
+            speed: PAPER_SPEED,
+            mesh: PAPER_MESH,
+            shear: SHEAR,
+        };
+        scenario(&self.base, key)
+    }
+
+    fn depth(&self, key: Key) -> f64 {
+        let found = self.done.iter().find(|(done, _)| *done == key);
+        found
+            .and_then(|(_, result)| result.depth_of_penetration)
+            .map_or(f64::NAN, |depth| depth * 1e3)
+    }
+
+    /// Depth on a mesh at a speed [mm].
+    pub(super) fn depth_on(&self, way: Way, speed: f64, mesh: (u32, u32)) -> f64 {
+        self.depth(Key {
+            way,
+            speed,
+            mesh,
+            shear: SHEAR,
+        })
+    }
+
+    /// Depth on the paper's mesh with a border-shear constant [mm].
+    pub(super) fn depth_with(&self, way: Way, speed: f64, shear: f64) -> f64 {
+        self.depth(Key {
+            way,
+            speed,
+            mesh: PAPER_MESH,
+            shear,
+        })
+    }
+}

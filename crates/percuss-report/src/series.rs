@@ -1,0 +1,91 @@
+//! What a line chart shows: series of points, and marks across the plot.
+
+/// How a series is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Style {
+    /// A line.
+    #[default]
+    Line,
+    /// A dashed line.
+    Dashed,
+    /// A line with a marker at each point.
+    LineAndMarkers,
+    /// A marker at each point.
+    Markers,
+}
+
+/// A named set of points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    pub(crate) name: String,
+    pub(crate) points: Vec<(f64, f64)>,
+    pub(crate) errors: Vec<(f64, f64)>,
+    pub(crate) style: Style,
+    pub(crate) width: f64,
+    pub(crate) color: Option<String>,
+}
+
+impl Series {
+    /// Points joined by a line. A point that is not finite leaves a gap.
+    pub fn new(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self {
+            name: name.into(),
+            points: points.into_iter().collect(),
+            errors: Vec::new(),
+            style: Style::Line,
+            width: 1.5,
+            color: None,
+        }
+    }
+
+    /// Sets how the series is drawn.
+    pub fn style(mut self, style: Style) -> Self {
+        self.style = style;
+        self
+    }
+
+    /// Sets the width of the line in px; 1.5 otherwise.
+    pub fn width(mut self, width: f64) -> Self {
+        self.width = width;
+        self
+    }
+
+    /// Sets the colour, such as one of [`crate::palette::SERIES`]; the next free one is taken otherwise.
+    pub fn color(mut self, color: impl Into<String>) -> Self {
+        self.color = Some(color.into());
+        self
+    }
+
+    /// Adds vertical error bars: how far each one reaches below and above its point.
+    pub fn error_bars(mut self, errors: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        self.errors = errors.into_iter().collect();
+        self
+    }
+}
+
+/// A line across the plot at one value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mark {
+    pub(crate) name: String,
+    pub(crate) value: f64,
+    pub(crate) vertical: bool,
+}
+
+impl Mark {
+    /// A horizontal line at `y`; an empty name keeps it out of the legend.
+    pub fn horizontal(name: impl Into<String>, y: f64) -> Self {
+        Self {
+            name: name.into(),
+            value: y,
+            vertical: false,
+        }
+    }
+
+    /// A vertical line at `x`; an empty name keeps it out of the legend.
+    pub fn vertical(name: impl Into<String>, x: f64) -> Self {
+        Self {
+            vertical: true,
+            ..Self::horizontal(name, x)
+        }
+    }
+}

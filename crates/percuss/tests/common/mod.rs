@@ -1,0 +1,80 @@
+//! Cases that several tests build on.
+
+#![allow(dead_code)] // Each test file uses its own part of this.
+
+use percuss::{
+    Scenario, case,
+    history::Sample,
+    model::{self, Control},
+    outcome::RunResult,
+};
+
+/// Reads a case, failing the test with the message a user would see.
+pub fn scenario(text: &str) -> Scenario {
+    case::load_str("test", text).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// Runs a case by the chain model.
+pub fn run(text: &str) -> RunResult {
+    run_with(text, &mut Control::default())
+}
+
+/// Runs a case by the chain model, keeping its histories.
+pub fn run_recorded(text: &str) -> RunResult {
+    run_with(text, &mut Control::recording())
+}
+
+fn run_with(text: &str, control: &mut Control<'_>) -> RunResult {
+    let chain = model::model("chain").unwrap();
+    model::run(chain, &scenario(text), control).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// Mean of a value over the samples of a span of time [s], weighted by time.
+pub fn mean(result: &RunResult, from: f64, to: f64, value: impl Fn(&Sample) -> f64) -> f64 {
+    let samples = &result.history.as_ref().unwrap().samples;
+    let (mut sum, mut time) = (0.0, 0.0);
+    for pair in samples
+        .windows(2)
+        .filter(|pair| pair[0].time >= from && pair[1].time <= to)
+    {
+        let step = pair[1].time - pair[0].time;
+        sum += 0.5 * step * (value(&pair[0]) + value(&pair[1]));
+        time += step;
+    }
+    assert!(
+        time > 0.5 * (to - from),
+        "too few samples between {from} and {to} s"
+    );
+    sum / time
+}
+
+/// Fails unless a value is within a fraction of what it should be.
+#[track_caller]
+pub fn assert_near(what: &str, value: f64, exact: f64, fraction: f64) {
+    let error = (value - exact) / exact;
+    println!(
+        "{what}: {value:.6e}, exact {exact:.6e}, error {:+.4} %",
+        100.0 * error
+    );
+    assert!(
+        error.abs() <= fraction,
+        "{what}: {value:e} is {:+.4} % off {exact:e}, more than {} %",
+        100.0 * error,
+        100.0 * fraction
+    );
+}
+
+/// The paper's rod and target: Table 1.
+pub fn paper(velocity: f64, elements: (u32, u32), options: &str) -> String {
+    format!(
+        r#"
+        projectile = {{ material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "{velocity} m/s" }}
+        target = {{ material = "aluminium-2024-t351", thickness = "25 mm" }}
+        [chain]
+        projectile_elements = {}
+        target_elements = {}
+        {options}
+        "#,
+        elements.0, elements.1
+    )
+}

@@ -1,0 +1,43 @@
+//! Ladder 4: a projectile that does not deform against a constant pressure stops after `ρ L V²/(2R)`.
+
+mod common;
+
+use common::{assert_near, run};
+use percuss::outcome::Outcome;
+
+fn stopped_by(pressure_mpa: f64, velocity: f64, courant: f64) -> percuss::outcome::RunResult {
+    run(&format!(
+        r#"
+        projectile = {{ material = "stiff", length = "50 mm", diameter = "10 mm", velocity = "{velocity} m/s" }}
+        target = {{ constant_pressure = "{pressure_mpa} MPa" }}
+        [chain]
+        projectile_elements = 20
+        courant = {courant}
+        [materials.stiff]
+        name = "nearly rigid"
+        density = "8000 kg/m3"
+        youngs_modulus = "1000 GPa"
+        poissons_ratio = 0.3
+        strength.elastic = {{}}
+        "#
+    ))
+}
+
+#[test]
+fn depth_is_the_kinetic_energy_over_the_force() {
+    for (pressure_mpa, velocity) in [(100.0, 100.0), (500.0, 300.0), (50.0, 20.0)] {
+        let result = stopped_by(pressure_mpa, velocity, 0.8);
+        let exact = 8000.0 * 0.05 * velocity * velocity / (2.0 * pressure_mpa * 1e6);
+        let depth = result.depth_of_penetration.unwrap();
+        assert_eq!(result.outcome, Outcome::AtRest);
+        assert_near(
+            &format!("depth at {pressure_mpa} MPa, {velocity} m/s [m]"),
+            depth,
+            exact,
+            5e-3,
+        );
+        let time = result.time_to_rest.unwrap();
+        assert_near("time to rest [s]", time, 2.0 * exact / velocity, 5e-3);
+        assert!(result.energy_residual <= 1e-3 && result.momentum_residual <= 1e-12);
+    }
+}

@@ -1,0 +1,198 @@
+//! Ladder 1: elastic bars have exact solutions.
+
+mod common;
+
+use common::{assert_near, mean, run_recorded};
+use percuss::outcome::Outcome;
+
+/// Two elastic bars with the elastic constants of Table 1, in small strain.
+fn bars(
+    velocity: f64,
+    thickness_mm: f64,
+    target: &str,
+    back_face: &str,
+    elements: (u32, u32),
+    options: &str,
+) -> String {
+    format!(
+        r#"
+        projectile = {{ material = "rod", length = "12.74 mm", diameter = "4.8 mm", velocity = "{velocity} m/s" }}
+        target = {{ material = "{target}", thickness = "{thickness_mm} mm", back_face = "{back_face}" }}
+        [chain]
+        projectile_elements = {}
+        target_elements = {}
+        border_shear = 0.0
+        {options}
+        [materials.rod]
+        name = "elastic copper"
+        density = "8500 kg/m3"
+        youngs_modulus = "114 GPa"
+        poissons_ratio = 0.34
+        strength.elastic = {{}}
+        [materials.plate]
+        name = "elastic aluminium"
+        density = "2780 kg/m3"
+        youngs_modulus = "70 GPa"
+        poissons_ratio = 0.33
+        strength.elastic = {{}}
+        "#,
+        elements.0, elements.1
+    )
+}
+
+const SMALL: &str = "kinematics = \"small-strain\"";
+
+#[test]
+fn interface_speed_and_stress_of_unlike_bars() {
+    let result = run_recorded(&bars(230.0, 25.0, "plate", "fixed", (80, 160), SMALL));
+    let (z1, z2) = ((114e9_f64 * 8500.0).sqrt(), (70e9_f64 * 2780.0).sqrt());
+    let speed = z1 * 230.0 / (z1 + z2);
+    let stress = z1 * z2 * 230.0 / (z1 + z2);
+    assert!((speed - 158.8).abs() < 0.05 && (stress - 2.216e9).abs() < 0.5e6);
+    // Behind the front and before the wave comes back from the rod's tail at 2 L/c = 6.96 us.
+    let (from, to) = (1.5e-6, 6.3e-6);
+    let area = std::f64::consts::PI * 4.8e-3 * 4.8e-3 / 4.0;
+    assert_near(
+        "interface speed [m/s]",
+        mean(&result, from, to, |s| s.interface_velocity),
+        speed,
+        1e-3,
+    );
+    assert_near(
+        "interface stress [Pa]",
+        mean(&result, from, to, |s| s.contact_force / area),
+        stress,
+        1e-3,
+    );
+    assert!(
+        result.energy_residual <= 1e-6,
+        "energy residual {:e}",
+        result.energy_residual
+    );
+    assert!(
+        result.momentum_residual <= 1e-12,
+        "momentum residual {:e}",
+        result.momentum_residual
+    );
+
+    // Without viscosity the plateau rings; that is what central differences do, and this is by how much.
+    let samples = &result.history.as_ref().unwrap().samples;
+    let ringing = samples
+        .iter()
+        .filter(|s| (from..to).contains(&s.time))
+        .map(|s| (s.interface_velocity / speed - 1.0).abs())
+        .fold(0.0, f64::max);
+    println!("largest ringing on the plateau: {:.2} %", 100.0 * ringing);
+    assert!(ringing < 0.2);
+}
+
+/// In logarithmic strain the book closes to second order in the strain of a step, so the residual falls with the speed.
+#[test]
+fn large_strain_gives_the_same_at_low_speed() {
+    let (z1, z2) = ((114e9_f64 * 8500.0).sqrt(), (70e9_f64 * 2780.0).sqrt());
+    let mut residuals = Vec::new();
+    for velocity in [23.0, 2.3, 0.23] {
+        let result = run_recorded(&bars(velocity, 25.0, "plate", "fixed", (80, 160), ""));
+        println!(
+            "energy residual at {velocity} m/s: {:.2e}",
+            result.energy_residual
+        );
+        residuals.push(result.energy_residual);
+        assert!(result.momentum_residual <= 1e-12);
+        if velocity == 0.23 {
+            let speed = mean(&result, 1.5e-6, 6.3e-6, |s| s.interface_velocity);
+            assert_near(
+                "interface speed [m/s]",
+                speed,
+                z1 * velocity / (z1 + z2),
+                1e-3,
+            );
+        }
+    }
+    assert!(
+        residuals[0] <= 1e-4 && residuals[1] <= 1e-5 && residuals[2] <= 1e-6,
+        "{residuals:?}"
+    );
+}
+
+#[test]
+fn equal_bars_exchange_velocities_and_part_after_a_round_trip() {
+    let result = run_recorded(&bars(10.0, 12.74, "rod", "free", (200, 200), SMALL));
+    assert_eq!(result.outcome, Outcome::AtRest);
+    let transit = 2.0 * 12.74e-3 / (114e9_f64 / 8500.0).sqrt();
+    let samples = &result.history.as_ref().unwrap().samples;
+    let parted = samples
+        .iter()
+        .rev()
+        .find(|s| s.contact_force > 0.0)
+        .unwrap()
+        .time;
+    assert_near("contact time [s]", parted, transit, 5e-3);
+    // All momentum and, but for what rings in the bars, all energy are the target's.
+    let ledger = &result.momentum;
+    assert_near(
+        "momentum of the struck bar [N s]",
+        ledger.target,
+        ledger.initial,
+        5e-3,
+    );
+    let restitution = (ledger.target - ledger.projectile) / ledger.initial;
+    assert_near("coefficient of restitution", restitution, 1.0, 1e-2);
+    assert!(result.energy_residual <= 1e-6 && result.momentum_residual <= 1e-12);
+}
+
+#[test]
+fn a_non_reflecting_end_lets_the_wave_out() {
+    let result = run_recorded(&bars(
+        10.0,
+        12.74,
+        "rod",
+        "non-reflecting",
+        (100, 100),
+        SMALL,
+    ));
+    // Equal bars: the whole wave leaves through the back, and nothing pushes the rod back.
+    let out = result.energy.boundary / result.energy.initial;
+    assert!(out > 0.99, "only {out} of the energy left");
+    assert!(
+        result.residual_velocity.abs() < 0.02 * 10.0,
+        "{}",
+        result.residual_velocity
+    );
+    assert!(result.energy_residual <= 1e-6 && result.momentum_residual <= 1e-12);
+}
+
+/// With linear hardening the stress on a wall is that of an elastic wave with a slower plastic wave behind it.
+#[test]
+fn stress_past_yield() {
+    let (modulus, density, yield_stress, hardening) = (100e9_f64, 8000.0, 200e6, 5e9_f64);
+    let case = format!(
+        r#"
+        projectile = {{ material = "bilinear", length = "50 mm", diameter = "5 mm", velocity = "40 m/s" }}
+        target = {{ rigid_wall = true }}
+        [chain]
+        projectile_elements = 800
+        kinematics = "small-strain"
+        adiabatic_heating = false
+        [chain.artificial_viscosity]
+        linear = 0.1
+        [materials.bilinear]
+        name = "bilinear"
+        density = "{density} kg/m3"
+        youngs_modulus = "{} GPa"
+        poissons_ratio = 0.3
+        strength.johnson_cook = {{ a = "{} MPa", b = "{} GPa", n = 1.0, c = 0.0, m = 1.0 }}
+        "#,
+        modulus / 1e9,
+        yield_stress / 1e6,
+        hardening / 1e9
+    );
+    let result = run_recorded(&case);
+    let elastic = (modulus / density).sqrt();
+    let plastic = (modulus * hardening / (modulus + hardening) / density).sqrt();
+    let yield_speed = yield_stress / (density * elastic);
+    let stress = yield_stress + density * plastic * (40.0 - yield_speed);
+    let area = std::f64::consts::PI * 25e-6 / 4.0;
+    let force = mean(&result, 4e-6, 24e-6, |s| s.contact_force);
+    assert_near("stress past yield [Pa]", force / area, stress, 2e-3);
+}

@@ -1,0 +1,186 @@
+//! Properties that hold for any valid case.
+
+mod common;
+
+use common::run;
+use percuss::{
+    Error, case,
+    material::Library,
+    model::{self, Control},
+    outcome::RunResult,
+};
+use proptest::prelude::*;
+
+fn material() -> impl Strategy<Value = String> {
+    let ids: Vec<String> = Library::built_in()
+        .iter()
+        .map(|entry| entry.id.clone())
+        .collect();
+    proptest::sample::select(ids)
+}
+
+fn target() -> impl Strategy<Value = String> {
+    prop_oneof![
+        (material(), 0.5..60.0_f64, proptest::sample::select(vec!["fixed", "free", "non-reflecting"])).prop_map(
+            |(material, mm, back)| format!(
+                "material = \"{material}\"\nthickness = \"{mm} mm\"\nback_face = \"{back}\""
+            )
+        ),
+        (material(), material(), 0.5..20.0_f64).prop_map(|(a, b, mm)| format!(
+            "layers = [{{ material = \"{a}\", thickness = \"{mm} mm\" }}, {{ material = \"{b}\", thickness = \"semi-infinite\" }}]"
+        )),
+        Just("rigid_wall = true".to_owned()),
+        (1.0..3000.0_f64).prop_map(|mpa| format!("constant_pressure = \"{mpa} MPa\"")),
+    ]
+}
+
+fn options() -> impl Strategy<Value = String> {
+    let conservative = (
+        0.05..1.0_f64,
+        0.0..1.5_f64,
+        0.3..4.0_f64,
+        0.0..0.3_f64,
+        0.0..2.0_f64,
+        any::<bool>(),
+        any::<bool>(),
+        proptest::sample::select(vec!["2.7", "1.0", "\"cavity-expansion\""]),
+    )
+        .prop_map(|(courant, shear, erosion, damping, viscosity, small, rate, factor)| {
+            format!(
+                "courant = {courant}\nborder_shear = {shear}\nerosion_strain = {erosion}\ndamping_ratio = {damping}\n\
+                 rate_effects = {rate}\nconstraint_factor = {factor}\nkinematics = \"{}\"\n\
+                 artificial_viscosity = {{ linear = {}, quadratic = {viscosity} }}",
+                if small { "small-strain" } else { "logarithmic" },
+                0.1 * viscosity
+            )
+        });
+    let published =
+        proptest::sample::select(vec!["chain", "joined", "joined-pushed"]).prop_map(|interface| {
+            format!("scheme = \"published\"\n[chain.published]\ninterface = \"{interface}\"")
+        });
+    prop_oneof![4 => conservative, 1 => published, 1 => Just(String::new())]
+}
+
+prop_compose! {
+    fn any_case()(
+        rod in material(),
+        length in 1.0..100.0_f64,
+        diameter in 0.5..30.0_f64,
+        velocity in prop_oneof![Just(0.0), 0.001..10.0_f64, 10.0..3000.0_f64],
+        target in target(),
+        elements in (1..30_u32, 1..40_u32),
+        options in options(),
+    ) -> String {
+        format!(
+            "[projectile]\nmaterial = \"{rod}\"\nlength = \"{length} mm\"\ndiameter = \"{diameter} mm\"\nvelocity = \"{velocity} m/s\"\n\
+             [target]\n{target}\n[chain]\nmax_steps = 20000\nprojectile_elements = {}\ntarget_elements = {}\n{options}\n",
+            elements.0, elements.1
+        )
+    }
+}
+
+fn numbers(result: &RunResult) -> Vec<f64> {
+    let mut numbers = vec![
+        result.residual_velocity,
+        result.projectile_final_length,
+        result.projectile_final_mass,
+        result.peak_force,
+        result.end_time,
+        result.energy_residual,
+        result.momentum_residual,
+        result.energy.total(),
+    ];
+    numbers.extend(result.depth_of_penetration);
+    numbers.extend(result.permanent_depth);
+    numbers.extend(result.projectile_final_diameter);
+    numbers
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_valid_case_ends_with_a_result_or_a_typed_error(text in any_case()) {
+        let scenario = case::load_str("random", &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let chain = model::model("chain").unwrap();
+        match model::run(chain, &scenario, &mut Control::default()) {
+            Ok(result) => {
+                for number in numbers(&result) {
+                    prop_assert!(number.is_finite(), "{result:?}");
+                }
+                if result.scheme == "conservative" {
+                    prop_assert!(result.projectile_final_length >= 0.0);
+                    prop_assert!(result.projectile_final_mass >= 0.0);
+                    prop_assert!(result.energy_residual <= 1e-3 && result.momentum_residual <= 1e-9);
+                    let dissipated = [result.energy.plastic_projectile, result.energy.plastic_target,
+                        result.energy.border_shear, result.energy.contact];
+                    for line in dissipated {
+                        prop_assert!(line >= -1e-6 * result.energy.initial, "a dissipative line gives energy back: {line}");
+                    }
+                }
+            }
+            Err(Error::Numerical(_) | Error::NotApplicable { .. }) => {}
+            Err(other) => prop_assert!(false, "{other}"),
+        }
+    }
+}
+
+/// Lengths times k give times times k and the same strains, for laws without a rate.
+#[test]
+fn lengths_scale() {
+    let scaled = |k: f64| {
+        run(&format!(
+            r#"
+            projectile = {{ material = "copper", length = "{} mm", diameter = "{} mm", velocity = "300 m/s" }}
+            target = {{ material = "aluminium-2024-t351", thickness = "{} mm" }}
+            "#,
+            12.0 * k,
+            4.0 * k,
+            24.0 * k
+        ))
+    };
+    let one = scaled(1.0);
+    for (k, tolerance) in [(2.0, 1e-12), (0.5, 1e-12), (10.0, 1e-6), (0.1, 1e-6)] {
+        let other = scaled(k);
+        assert_eq!(one.steps, other.steps, "k = {k}");
+        let pairs = [
+            (
+                one.depth_of_penetration.unwrap() * k,
+                other.depth_of_penetration.unwrap(),
+            ),
+            (
+                one.projectile_final_length * k,
+                other.projectile_final_length,
+            ),
+            (one.time_to_rest.unwrap() * k, other.time_to_rest.unwrap()),
+            (one.largest_plastic_strain.0, other.largest_plastic_strain.0),
+            (
+                one.energy.plastic_projectile * k.powi(3),
+                other.energy.plastic_projectile,
+            ),
+        ];
+        for (expected, value) in pairs {
+            assert!(
+                (value / expected - 1.0).abs() < tolerance,
+                "k = {k}: {value:e}, expected {expected:e}"
+            );
+        }
+    }
+}
+
+/// A faster shot goes deeper.
+#[test]
+fn depth_grows_with_speed() {
+    let depth = |velocity: f64| {
+        run(&common::paper(velocity, (40, 80), ""))
+            .depth_of_penetration
+            .unwrap()
+    };
+    let depths: Vec<f64> = [50.0, 100.0, 150.0, 200.0, 300.0, 400.0]
+        .map(depth)
+        .to_vec();
+    assert!(
+        depths.windows(2).all(|pair| pair[1] > pair[0]),
+        "{depths:?}"
+    );
+}
