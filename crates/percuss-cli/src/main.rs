@@ -1,2 +1,25 @@
-//! cli
-fn main() {}
+//! `percuss`, the command line of the library of the same name.
+
+mod cli;
+mod commands;
+mod diagnostic;
+mod failure;
+mod material_card;
+mod progress;
+mod result_table;
+mod run_folder;
+mod terminal;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+fn main() -> ExitCode {
+    match cli::Cli::parse().command.run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            failure.report();
+            failure.exit_code()
+        }
+    }
+}

@@ -72,9 +72,10 @@ impl<'a> Check<'a> {
                 key,
                 format!("{value} is out of range"),
                 format!(
-                    "allowed: {} to {}",
+                    "allowed: {} to {}{}",
                     display::<D>(limits.min),
-                    display::<D>(limits.max)
+                    display::<D>(limits.max),
+                    slip(value.si(), limits)
                 ),
             );
         }
@@ -93,6 +94,16 @@ impl<'a> Check<'a> {
                 ),
             );
         }
+    }
+}
+
+/// Says that a value would fit with another prefix of its unit, if it would.
+fn slip(value: f64, limits: Limits) -> &'static str {
+    let fits = |value: f64| value > 0.0 && (limits.min..=limits.max).contains(&value);
+    if fits(value * 1000.0) || fits(value / 1000.0) {
+        "; is it off by a factor of 1000?"
+    } else {
+        ""
     }
 }
 

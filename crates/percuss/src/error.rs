@@ -148,7 +148,14 @@ pub(crate) fn nearest<'a>(
         .filter(|(distance, candidate)| {
             *distance <= (candidate.len() / 3).max(1)
                 || (name.len() >= 3 && candidate.to_lowercase().contains(&name))
+                || common_start(&name, &candidate.to_lowercase())
+                    >= (2 * candidate.len() / 3).max(4)
         })
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate.to_owned())
+}
+
+/// Bytes that two names have in common at their start.
+fn common_start(a: &str, b: &str) -> usize {
+    a.bytes().zip(b.bytes()).take_while(|(a, b)| a == b).count()
 }

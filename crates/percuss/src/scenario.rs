@@ -174,7 +174,7 @@ fn resolve_rod(case: &Case, library: &Library, check: &mut Check<'_>) -> Option<
         check.fail(
             &key,
             format!(
-                "it gives a {} of {}, which is out of range",
+                "the {given} gives a {} of {}, which is out of range",
                 derived.0, derived.1
             ),
             "check the units of length, mass, diameter and density",

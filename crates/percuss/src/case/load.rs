@@ -3,16 +3,13 @@
 use std::{
     fs::File,
     io::Read,
-    ops::Range,
     path::{Path, PathBuf},
 };
 
-use toml::de::{DeTable, DeValue};
-
-use super::Case;
+use super::{Case, Document};
 use crate::{
     check::{Check, Finding},
-    error::{Error, InputError, nearest},
+    error::Error,
     material::{Library, MaterialTable},
     scenario::Scenario,
 };
@@ -38,6 +35,43 @@ pub fn load(path: impl AsRef<Path>) -> Result<Scenario, Error> {
 /// [`Error::Input`] when the text is not a valid case. A text cannot name material files.
 pub fn load_str(name: &str, text: &str) -> Result<Scenario, Error> {
     resolve(name, name, text.to_owned(), None)
+}
+
+/// The materials that a case file can name: the built-in ones, its own and those of its material files.
+///
+/// # Errors
+/// Those of [`load`], but what the case describes beside its materials need not fit together.
+pub fn load_library(path: impl AsRef<Path>) -> Result<Library, Error> {
+    let path = path.as_ref();
+    let document = Document {
+        file: path.display().to_string(),
+        text: read_text(path)?,
+    };
+    let case: Case = document.parse()?;
+    let mut findings = Vec::new();
+    case.check_materials(&mut Check::new(&mut findings));
+    document.report(findings)?;
+    let directory = path.parent().map(Path::to_path_buf).unwrap_or_default();
+    library_of(&case, &document, &case_name(path), Some(&directory))
+}
+
+/// Reads a file of materials.
+///
+/// # Errors
+/// [`Error::Read`] when it cannot be read, [`Error::Input`] when its content is not valid.
+pub fn load_materials(path: impl AsRef<Path>) -> Result<MaterialTable, Error> {
+    let path = path.as_ref();
+    let document = Document {
+        file: path.display().to_string(),
+        text: read_text(path)?,
+    };
+    let table: MaterialTable = document.parse()?;
+    let mut findings = Vec::new();
+    for (id, material) in &table {
+        material.check(&mut Check::new(&mut findings).within(id));
+    }
+    document.report(findings)?;
+    Ok(table)
 }
 
 /// Cases live as `NAME/scenario.toml`; a file with another name is called after itself.
@@ -68,31 +102,7 @@ fn resolve(
     case.check(&mut Check::new(&mut findings));
     document.report(findings)?;
 
-    let mut library = Library::built_in().clone();
-    library.add(&case.materials, &format!("{name} (this case)"));
-    for (i, relative) in case.material_files.iter().enumerate() {
-        let Some(directory) = directory else {
-            let finding = Finding {
-                key: format!("material_files.{i}"),
-                message: "a case that comes from no file cannot name material files".to_owned(),
-                help: "put the materials into its `materials` table".to_owned(),
-            };
-            return Err(document.place(finding).into());
-        };
-        let path = directory.join(relative);
-        let document = Document {
-            file: path.display().to_string(),
-            text: read_text(&path)?,
-        };
-        let table: MaterialTable = document.parse()?;
-        let mut findings = Vec::new();
-        for (id, material) in &table {
-            material.check(&mut Check::new(&mut findings).within(id));
-        }
-        document.report(findings)?;
-        library.add(&table, &relative.display().to_string());
-    }
-
+    let library = library_of(&case, &document, name, directory)?;
     let mut findings = Vec::new();
     let scenario = Scenario::resolve(name, case, &library, &mut Check::new(&mut findings));
     document.report(findings)?;
@@ -106,11 +116,51 @@ fn resolve(
     })
 }
 
+/// The built-in materials with those of a case.
+fn library_of(
+    case: &Case,
+    document: &Document,
+    name: &str,
+    directory: Option<&PathBuf>,
+) -> Result<Library, Error> {
+    let mut library = Library::built_in().clone();
+    library.add(&case.materials, &format!("{name} (this case)"));
+    for (i, relative) in case.material_files.iter().enumerate() {
+        let refuse = |message: String, help: &str| {
+            document.place(Finding {
+                key: format!("material_files.{i}"),
+                message,
+                help: help.to_owned(),
+            })
+        };
+        let Some(directory) = directory else {
+            let message = "a case that comes from no file cannot name material files";
+            let help = "put the materials into its `materials` table";
+            return Err(refuse(message.to_owned(), help).into());
+        };
+        let table = match load_materials(directory.join(relative)) {
+            // The case names the file, so the place in the case is what a user has to look at.
+            Err(Error::Read { path, reason, .. }) => {
+                let message = format!("cannot read `{}`: {reason}", path.display());
+                let help = "paths in `material_files` are relative to the case file";
+                return Err(refuse(message, help).into());
+            }
+            other => other?,
+        };
+        library.add(&table, &relative.display().to_string());
+    }
+    Ok(library)
+}
+
 impl Case {
     fn check(&self, check: &mut Check<'_>) {
         self.projectile.check(&mut check.within("projectile"));
         self.target.check(&mut check.within("target"));
         self.chain.check(&mut check.within("chain"));
+        self.check_materials(check);
+    }
+
+    fn check_materials(&self, check: &mut Check<'_>) {
         for (id, material) in &self.materials {
             material.check(&mut check.within("materials").within(id));
         }
@@ -129,9 +179,7 @@ fn read_text(path: &Path) -> Result<String, Error> {
             std::io::ErrorKind::NotFound if path.is_symlink() => {
                 "it is a symbolic link to a file that does not exist".to_owned()
             }
-            std::io::ErrorKind::NotFound => {
-                "there is no such file; `percuss new NAME` writes a starter case".to_owned()
-            }
+            std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
             _ => error.to_string(),
         };
         fail(reason, Some(error))
@@ -169,172 +217,4 @@ fn read_text(path: &Path) -> Result<String, Error> {
             format!("byte {offset} in line {line} is not UTF-8 text; save the file as UTF-8");
         fail(reason, None)
     })
-}
-
-/// A text with the name of its file: turns findings and parse errors into errors with a place.
-pub(crate) struct Document {
-    pub(crate) file: String,
-    pub(crate) text: String,
-}
-
-impl Document {
-    pub(crate) fn parse<T: serde::de::DeserializeOwned>(&self) -> Result<T, Error> {
-        toml::from_str(&self.text).map_err(|error| self.parse_error(&error).into())
-    }
-
-    /// Fails with the first finding, if there is one.
-    pub(crate) fn report(&self, findings: Vec<Finding>) -> Result<(), Error> {
-        match findings.into_iter().next() {
-            Some(finding) => Err(self.place(finding).into()),
-            None => Ok(()),
-        }
-    }
-
-    fn place(&self, finding: Finding) -> InputError {
-        InputError {
-            file: self.file.clone(),
-            text: self.text.clone(),
-            span: self.span_of(&finding.key),
-            key: finding.key,
-            message: finding.message,
-            help: finding.help,
-        }
-    }
-
-    fn parse_error(&self, error: &toml::de::Error) -> InputError {
-        let span = error.span().unwrap_or(0..0);
-        let (message, help) = reword(error.message());
-        let key = self.key_at(&span, &message);
-        InputError {
-            file: self.file.clone(),
-            text: self.text.clone(),
-            span,
-            key,
-            message,
-            help,
-        }
-    }
-
-    /// Bytes of the value under a key, or of the innermost table that exists on the way to it.
-    fn span_of(&self, key: &str) -> Range<usize> {
-        let Ok(root) = DeTable::parse(&self.text) else {
-            return 0..0;
-        };
-        let mut span = 0..0;
-        let mut table = Some(root.get_ref());
-        let mut array = None;
-        for part in key.split('.').filter(|part| !part.is_empty()) {
-            let value = match (table, array) {
-                (Some(table), _) => table.get(part),
-                (None, Some(array)) => {
-                    let array: &toml::de::DeArray<'_> = array;
-                    part.parse::<usize>()
-                        .ok()
-                        .and_then(|index| array.get(index))
-                }
-                (None, None) => None,
-            };
-            let Some(value) = value else { break };
-            span = value.span();
-            table = value.get_ref().as_table();
-            array = value.get_ref().as_array();
-        }
-        span
-    }
-
-    /// Dotted key of the innermost value that holds a place.
-    fn key_at(&self, span: &Range<usize>, message: &str) -> String {
-        let Ok(root) = DeTable::parse(&self.text) else {
-            return String::new();
-        };
-        let mut path = Vec::new();
-        descend(root.get_ref(), span, &mut path);
-        if let Some(unknown) = message
-            .strip_prefix("unknown key `")
-            .and_then(|m| m.split('`').next())
-            && path.last().is_none_or(|last| last != unknown)
-        {
-            path.push(unknown.to_owned());
-        }
-        path.join(".")
-    }
-}
-
-fn descend(table: &DeTable<'_>, span: &Range<usize>, path: &mut Vec<String>) {
-    for (key, value) in table {
-        let on_key = key.span().start <= span.start && span.end <= key.span().end;
-        if on_key {
-            path.push(key.get_ref().to_string());
-            return;
-        }
-        // A table written under a header holds keys beyond the header's own span, so every table is searched.
-        let length = path.len();
-        path.push(key.get_ref().to_string());
-        if descend_value(value.get_ref(), span, path) {
-            return;
-        }
-        if value.span().start <= span.start
-            && span.end <= value.span().end
-            && !value.span().is_empty()
-        {
-            return;
-        }
-        path.truncate(length);
-    }
-}
-
-fn descend_value(value: &DeValue<'_>, span: &Range<usize>, path: &mut Vec<String>) -> bool {
-    let length = path.len();
-    match value {
-        DeValue::Table(table) => descend(table, span, path),
-        DeValue::Array(array) => {
-            for (i, item) in array.iter().enumerate() {
-                path.push(i.to_string());
-                if descend_value(item.get_ref(), span, path)
-                    || (item.span().start <= span.start && span.end <= item.span().end)
-                {
-                    return true;
-                }
-                path.truncate(length);
-            }
-        }
-        _ => {}
-    }
-    path.len() > length
-}
-
-/// Rewords a message of the TOML reader in the terms of a user, and splits off what helps.
-fn reword(message: &str) -> (String, String) {
-    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    let suggest = |what: &str| match quoted.split_first() {
-        Some((name, allowed)) if !allowed.is_empty() => {
-            let near = nearest(name, allowed.iter().copied())
-                .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
-            (
-                format!("unknown {what} `{}`", crate::units::shorten(name)),
-                format!("{near}allowed: {}", allowed.join(", ")),
-            )
-        }
-        Some((name, _)) => (
-            format!("unknown {what} `{}`", crate::units::shorten(name)),
-            "no key is allowed here".to_owned(),
-        ),
-        None => (message.to_owned(), String::new()),
-    };
-    if message.starts_with("unknown field") {
-        return suggest("key");
-    }
-    if message.starts_with("unknown variant") {
-        return suggest("value");
-    }
-    if let Some(name) = message.strip_prefix("missing field ") {
-        return (
-            format!("the key {name} is missing"),
-            format!("add {name} to this table"),
-        );
-    }
-    match message.split_once('\n') {
-        Some((first, rest)) => (first.to_owned(), rest.replace('\n', "; ")),
-        None => (message.to_owned(), String::new()),
-    }
 }

@@ -1,8 +1,10 @@
 //! Case files: what strikes what, how fast, and by which model options.
 
+mod document;
 mod load;
 mod options;
 mod projectile;
+mod reword;
 mod target;
 #[cfg(test)]
 mod tests;
@@ -14,8 +16,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::material::MaterialTable;
 
-pub(crate) use load::Document;
-pub use load::{MAX_FILE_BYTES, load, load_str};
+pub(crate) use document::Document;
+pub use load::{MAX_FILE_BYTES, load, load_library, load_materials, load_str};
 pub use options::*;
 pub use projectile::{Nose, Projectile};
 pub use target::{BackFace, Layer, Target, Thickness};

@@ -337,14 +337,19 @@ impl ChainOptions {
             ("target_elements", self.target_elements),
         ] {
             if let Some(elements) = elements.filter(|n| !(1..=MAX_ELEMENTS).contains(n)) {
-                let memory = f64::from(elements) * 200.0 / 1e6;
+                let size = if elements > MAX_ELEMENTS {
+                    format!(
+                        "; this mesh would take about {:.0} MB and the time grows with the square of the number; \
+                         `percuss converge` shows how many are enough",
+                        f64::from(elements) * 200.0 / 1e6
+                    )
+                } else {
+                    String::new()
+                };
                 check.fail(
                     key,
                     format!("{elements} elements is out of range"),
-                    format!(
-                        "allowed: 1 to {MAX_ELEMENTS}; this mesh would take about {memory:.0} MB and the time grows with the \
-                         square of the number; `percuss converge` shows how many are enough"
-                    ),
+                    format!("allowed: 1 to {MAX_ELEMENTS}{size}"),
                 );
             }
         }

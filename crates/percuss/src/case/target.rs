@@ -95,9 +95,24 @@ impl<'de> Deserialize<'de> for Thickness {
                 if text.trim() == SEMI_INFINITE {
                     return Ok(Thickness::SemiInfinite);
                 }
+                if !text.contains(|c: char| c.is_ascii_digit()) {
+                    return Err(E::custom(format!(
+                        "`{}` is no thickness\nallowed: a thickness such as \"25 mm\", or \"{SEMI_INFINITE}\"",
+                        crate::units::shorten(text)
+                    )));
+                }
                 text.parse()
                     .map(Thickness::Finite)
                     .map_err(|error| E::custom(format!("{error}; or write \"{SEMI_INFINITE}\"")))
+            }
+
+            // A number without its unit is answered as it is everywhere else.
+            fn visit_i64<E: serde::de::Error>(self, number: i64) -> Result<Thickness, E> {
+                self.visit_str(&number.to_string())
+            }
+
+            fn visit_f64<E: serde::de::Error>(self, number: f64) -> Result<Thickness, E> {
+                self.visit_str(&number.to_string())
             }
         }
 

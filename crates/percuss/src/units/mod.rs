@@ -20,6 +20,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 pub use dimension::*;
 
+use crate::error::nearest;
+
 /// A number with a physical dimension, held in SI units.
 pub struct Quantity<D> {
     si: f64,
@@ -138,6 +140,16 @@ pub enum QuantityError {
         /// What is due, with an example and the units allowed.
         expected: String,
     },
+    /// A comma in place of the decimal point, or between thousands.
+    #[error(
+        "the number of `{text}` has a comma\nwrite a decimal point, and nothing between thousands; {expected}"
+    )]
+    Comma {
+        /// The text found.
+        text: String,
+        /// What is due, with an example and the units allowed.
+        expected: String,
+    },
     /// A number without its unit.
     #[error("the unit is missing after `{text}`\n{expected}")]
     NoUnit {
@@ -216,6 +228,21 @@ fn find_unit(units: &'static [Unit], name: &str) -> Option<&'static Unit> {
         .find(|unit| unit.symbol == name || unit.aliases.contains(&name))
 }
 
+/// Asks whether a unit that differs in case only, or a little, is meant.
+fn nearest_unit(units: &'static [Unit], name: &str) -> String {
+    let symbols = || units.iter().map(|unit| unit.symbol);
+    symbols()
+        .find(|symbol| symbol.eq_ignore_ascii_case(name))
+        .map(str::to_owned)
+        // Of a unit of one or two letters everything is a neighbour.
+        .or_else(|| {
+            (name.chars().count() > 2)
+                .then(|| nearest(name, symbols()))
+                .flatten()
+        })
+        .map_or_else(String::new, |symbol| format!("did you mean `{symbol}`? "))
+}
+
 impl<D: Dimension> FromStr for Quantity<D> {
     type Err = QuantityError;
 
@@ -229,6 +256,12 @@ impl<D: Dimension> FromStr for Quantity<D> {
         };
         if unit.is_empty() {
             return Err(QuantityError::NoUnit {
+                text: shorten(text),
+                expected: expected::<D>(),
+            });
+        }
+        if unit.starts_with(',') {
+            return Err(QuantityError::Comma {
                 text: shorten(text),
                 expected: expected::<D>(),
             });
@@ -247,7 +280,7 @@ impl<D: Dimension> FromStr for Quantity<D> {
                 },
                 None => QuantityError::UnknownUnit {
                     unit: shorten(unit),
-                    expected: expected::<D>(),
+                    expected: nearest_unit(D::UNITS, &name) + &expected::<D>(),
                 },
             });
         };
@@ -325,6 +358,10 @@ impl<D: Dimension> JsonSchema for Quantity<D> {
                     .replace('.', "\\.")
                     .replace('(', "\\(")
                     .replace(')', "\\)")
+                    .replace('2', "(\\^?2|²)")
+                    .replace('3', "(\\^?3|³)")
+                    .replace("us", "[uµμ]s")
+                    .replace("um", "[uµμ]m")
             })
             .collect();
         let pattern = format!(
@@ -395,6 +432,8 @@ mod tests {
         assert!(message("3 ells").starts_with("`ells` is not a known unit"));
         assert!(message("nan mm").starts_with("`nan mm` is not a number with a unit"));
         assert!(message("1e999 mm").starts_with("`1e999 mm` is not a finite number"));
+        assert!(message("4,8 mm").starts_with("the number of `4,8 mm` has a comma"));
+        assert!(message("4.8 MM").contains("did you mean `mm`?"));
         assert!(message("").starts_with("`` is not a number"));
         assert!(message("mm 4").contains("units: m, cm, mm, um, in, ft, mil"));
     }

@@ -1,0 +1,72 @@
+//! The commands and what they have in common.
+
+use clap::{Parser, Subcommand};
+
+use crate::{
+    commands::{Completions, Man, Materials, Models, New, Run, Schema},
+    failure::Failure,
+};
+
+const ABOUT: &str = "First-order impact and penetration mechanics";
+
+const LONG_ABOUT: &str = "\
+First-order impact and penetration mechanics: what strikes what, how fast, how
+deep it goes, and how far to trust that.
+
+A case is a TOML file in which every dimensional number carries its unit. A run
+gives the depth of penetration and the rest of the shot, balances the books of
+energy and momentum, and says what its numbers rest on.";
+
+const AFTER_HELP: &str = "\
+Examples:
+  percuss new my-shot                      write my-shot/scenario.toml
+  percuss run my-shot/scenario.toml        run it
+  percuss materials show copper            show what is known of a material
+  percuss run --help                       explain one command
+
+Exit codes: 0 ok, 2 bad input, 3 numerical failure, 4 a file could not be read
+or written";
+
+/// What the command line holds.
+#[derive(Debug, Parser)]
+#[command(
+    name = "percuss",
+    bin_name = "percuss",
+    version,
+    about = ABOUT,
+    long_about = LONG_ABOUT,
+    after_help = AFTER_HELP,
+    max_term_width = 80,
+    arg_required_else_help = true,
+    disable_help_subcommand = true
+)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// All commands. Adding one is one file in `commands/` and one line in each of the lists here.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    Run(Run),
+    New(New),
+    Models(Models),
+    Materials(Materials),
+    Schema(Schema),
+    Completions(Completions),
+    Man(Man),
+}
+
+impl Command {
+    pub fn run(&self) -> Result<(), Failure> {
+        match self {
+            Self::Run(command) => command.run(),
+            Self::New(command) => command.run(),
+            Self::Models(command) => command.run(),
+            Self::Materials(command) => command.run(),
+            Self::Schema(command) => command.run(),
+            Self::Completions(command) => command.run(),
+            Self::Man(command) => command.run(),
+        }
+    }
+}

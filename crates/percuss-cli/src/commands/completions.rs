@@ -1,0 +1,30 @@
+use clap::{Args, CommandFactory};
+use clap_complete::{Shell, generate};
+
+use crate::{cli::Cli, failure::Failure, terminal};
+
+const AFTER_HELP: &str = "\
+Examples:
+  percuss completions bash > ~/.local/share/bash-completion/completions/percuss
+  percuss completions zsh > ~/.zfunc/_percuss
+  percuss completions fish > ~/.config/fish/completions/percuss.fish
+
+Exit codes: 0 ok, 2 bad input, 4 the output could not be written";
+
+/// Print completions for a shell
+///
+/// Prints a script that lets a shell complete the commands and options.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct Completions {
+    /// Shell
+    shell: Shell,
+}
+
+impl Completions {
+    pub fn run(&self) -> Result<(), Failure> {
+        let mut script = Vec::new();
+        generate(self.shell, &mut Cli::command(), "percuss", &mut script);
+        terminal::print(&String::from_utf8_lossy(&script))
+    }
+}

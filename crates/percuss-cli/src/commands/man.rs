@@ -1,0 +1,60 @@
+use std::{fs, path::PathBuf};
+
+use clap::{Args, Command, CommandFactory};
+
+use crate::{cli::Cli, failure::Failure, run_folder::make_folder, terminal};
+
+const AFTER_HELP: &str = "\
+Examples:
+  percuss man | man -l -
+  percuss man --out ~/.local/share/man/man1
+
+Exit codes: 0 ok, 2 bad input, 4 a file could not be written";
+
+/// Print the manual page, or write all of them
+///
+/// Prints the manual page of the program. With --out the pages of the program
+/// and of every command are written to a folder: percuss.1, percuss-run.1 and
+/// so on.
+#[derive(Debug, Args)]
+#[command(verbatim_doc_comment, after_help = AFTER_HELP)]
+pub struct Man {
+    /// Write all pages to a folder, which is made if it does not exist
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+impl Man {
+    pub fn run(&self) -> Result<(), Failure> {
+        let mut program = Cli::command();
+        program.build();
+        let Some(folder) = &self.out else {
+            return terminal::print(&page(&program)?);
+        };
+        make_folder(folder)?;
+        let mut written = String::from("wrote\n");
+        for command in with_subcommands(&program) {
+            let man = clap_mangen::Man::new(command.clone());
+            let path = folder.join(man.get_filename());
+            fs::write(&path, page(&command)?).map_err(Failure::write(&path))?;
+            written += &format!("  {}\n", path.display());
+        }
+        terminal::print(&written)
+    }
+}
+
+fn page(command: &Command) -> Result<String, Failure> {
+    let mut roff = Vec::new();
+    clap_mangen::Man::new(command.clone())
+        .render(&mut roff)
+        .map_err(Failure::Output)?;
+    Ok(String::from_utf8_lossy(&roff).into_owned())
+}
+
+fn with_subcommands(command: &Command) -> Vec<Command> {
+    let inner = command
+        .get_subcommands()
+        .filter(|inner| !inner.is_hide_set())
+        .flat_map(with_subcommands);
+    std::iter::once(command.clone()).chain(inner).collect()
+}

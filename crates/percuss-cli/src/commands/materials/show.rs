@@ -1,0 +1,87 @@
+use clap::Args;
+use percuss::material::{Library, MaterialEntry, Reference, references};
+use serde::Serialize;
+
+use super::MaterialRecord;
+use crate::{failure::Failure, material_card, terminal};
+
+const AFTER_HELP: &str = "\
+Examples:
+  percuss materials show copper
+  percuss materials show ofhc-copper-johnson-cook --json
+
+Exit codes: 0 ok, 2 no such material, 4 a file could not be read";
+
+/// Show everything that is known of one material
+///
+/// Prints all constants with their units, the strength law, how far the numbers
+/// can be trusted, where they come from, and the rivals of the same family.
+#[derive(Debug, Args)]
+#[command(verbatim_doc_comment, after_help = AFTER_HELP)]
+pub struct Show {
+    /// Id or family of the material
+    name: String,
+}
+
+#[derive(Serialize)]
+struct Card<'a> {
+    #[serde(flatten)]
+    record: MaterialRecord<'a>,
+    equation: &'static str,
+    trust_meaning: &'static str,
+    rivals: Vec<&'a str>,
+    references: Vec<Work<'a>>,
+}
+
+#[derive(Serialize)]
+struct Work<'a> {
+    key: &'a str,
+    label: &'a str,
+    title: &'a str,
+    place: &'a str,
+    note: &'a str,
+}
+
+impl Show {
+    pub fn run(&self, library: &Library, json: bool) -> Result<(), Failure> {
+        let Some(entry) = library.find(&self.name) else {
+            let near = library
+                .nearest(&self.name)
+                .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+            return Err(Failure::Usage {
+                message: format!("no material is named `{}`", self.name),
+                help: format!("{near}`percuss materials` lists all"),
+            });
+        };
+        if json {
+            return terminal::print_json(&card(entry, library));
+        }
+        terminal::print(&material_card::text(entry, library))
+    }
+}
+
+fn card<'a>(entry: &'a MaterialEntry, library: &'a Library) -> Card<'a> {
+    let material = &entry.material;
+    Card {
+        record: MaterialRecord::new(entry),
+        equation: material.strength.law().equation(),
+        trust_meaning: material.trust.meaning(),
+        rivals: library.rivals(entry).map(|rival| &*rival.id).collect(),
+        references: material
+            .sources
+            .iter()
+            .filter_map(|key| references().get(key))
+            .map(work)
+            .collect(),
+    }
+}
+
+fn work(reference: &Reference) -> Work<'_> {
+    Work {
+        key: &reference.key,
+        label: &reference.label,
+        title: &reference.title,
+        place: &reference.place,
+        note: &reference.note,
+    }
+}

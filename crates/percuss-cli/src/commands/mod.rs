@@ -1,0 +1,17 @@
+//! One file a command: its arguments, its help and what it does.
+
+mod completions;
+mod man;
+mod materials;
+mod models;
+mod new;
+mod run;
+mod schema;
+
+pub use completions::Completions;
+pub use man::Man;
+pub use materials::Materials;
+pub use models::Models;
+pub use new::New;
+pub use run::Run;
+pub use schema::Schema;

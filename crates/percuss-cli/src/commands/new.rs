@@ -1,0 +1,86 @@
+use std::{
+    fs::OpenOptions,
+    io::{self, Write},
+    path::{Path, PathBuf},
+};
+
+use clap::Args;
+
+use crate::{failure::Failure, run_folder::make_folder, terminal};
+
+/// The case that `percuss new` writes: it runs as it is, and shows every option with its default.
+const STARTER: &str = include_str!("new/starter.toml");
+
+const AFTER_HELP: &str = "\
+Examples:
+  percuss new my-shot
+  percuss new cases/my-shot
+  percuss new my-shot --force
+
+Exit codes: 0 ok, 2 bad input, 4 the file could not be written";
+
+/// Write a starter case
+///
+/// Writes NAME/scenario.toml: a case that runs as it is, with every option of a
+/// case file explained and commented out at its default. A file that exists is
+/// not overwritten without --force.
+#[derive(Debug, Args)]
+#[command(verbatim_doc_comment, after_help = AFTER_HELP)]
+pub struct New {
+    /// Folder of the case, made if it does not exist; its name is the case's
+    name: PathBuf,
+    /// Overwrite a case that exists
+    #[arg(long)]
+    force: bool,
+}
+
+impl New {
+    pub fn run(&self) -> Result<(), Failure> {
+        if self.name.as_os_str().is_empty() {
+            return Err(Failure::Usage {
+                message: "the name of the case is empty".to_owned(),
+                help: "for example: percuss new my-shot".to_owned(),
+            });
+        }
+        make_folder(&self.name)?;
+        let path = self.name.join("scenario.toml");
+        self.write(&path).map_err(|error| Failure::Write {
+            path: path.clone(),
+            reason: match error.kind() {
+                io::ErrorKind::AlreadyExists => "it exists already".to_owned(),
+                _ => error.to_string(),
+            },
+            help: match error.kind() {
+                io::ErrorKind::AlreadyExists => "take another name, or overwrite it with --force",
+                _ => "",
+            }
+            .to_owned(),
+        })?;
+        let shown = path.display().to_string();
+        terminal::print(&format!(
+            "wrote {shown}\nnext: percuss run {}\n",
+            quoted(&shown)
+        ))
+    }
+
+    fn write(&self, path: &Path) -> io::Result<()> {
+        let mut options = OpenOptions::new();
+        options.write(true);
+        if self.force {
+            options.create(true).truncate(true);
+        } else {
+            options.create_new(true);
+        }
+        options.open(path)?.write_all(STARTER.as_bytes())
+    }
+}
+
+/// A path as a shell takes it.
+fn quoted(path: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "/._-+,:@%=~".contains(c);
+    if path.chars().all(plain) && !path.starts_with('~') {
+        path.to_owned()
+    } else {
+        format!("'{}'", path.replace('\'', r"'\''"))
+    }
+}

@@ -1,0 +1,200 @@
+//! A material as text for people.
+
+use percuss::{
+    material::{Library, Material, MaterialEntry, references},
+    units::{Pressure, Velocity, significant},
+};
+
+use crate::terminal::{bold, width, wrap};
+
+const LABEL: usize = 24;
+
+/// Everything that is known of a material.
+pub fn text(entry: &MaterialEntry, library: &Library) -> String {
+    let material = &entry.material;
+    let mut text = format!("{}\n", bold(&material.name));
+    names(entry, &mut text);
+    constants(material, &mut text);
+    strength(material, &mut text);
+    validity(material, &mut text);
+    provenance(material, &mut text);
+    let rivals: Vec<&MaterialEntry> = library.rivals(entry).collect();
+    if !rivals.is_empty() {
+        heading("rivals of the same family", &mut text);
+        for rival in rivals {
+            let star = if rival.material.recommended {
+                " ★"
+            } else {
+                ""
+            };
+            let line = format!("  {}{star}: {}\n", rival.id, rival.material.name);
+            text += &line;
+        }
+    }
+    text
+}
+
+fn names(entry: &MaterialEntry, text: &mut String) {
+    let material = &entry.material;
+    row("id", &entry.id, text);
+    if let Some(family) = &material.family {
+        let star = if material.recommended {
+            " ★ (this record answers to the family's name)"
+        } else {
+            ""
+        };
+        row("family", &format!("{family}{star}"), text);
+    }
+    if let Some(state) = &material.state {
+        row("state", state, text);
+    }
+    row("from", &entry.origin, text);
+}
+
+fn constants(material: &Material, text: &mut String) {
+    heading("constants", text);
+    row("density", &material.density.to_string(), text);
+    row(
+        "Young's modulus",
+        &material.youngs_modulus.to_string(),
+        text,
+    );
+    row(
+        "Poisson's ratio",
+        &material.poissons_ratio.to_string(),
+        text,
+    );
+    let rounded = |si: f64| significant(si, 4);
+    let shear = Pressure::new(material.shear_modulus() * 1e-9).si();
+    row(
+        "shear modulus",
+        &format!("{} GPa (from E and ν)", rounded(shear)),
+        text,
+    );
+    let bulk = material.bulk_modulus() * 1e-9;
+    row(
+        "bulk modulus",
+        &format!("{} GPa (from E and ν)", rounded(bulk)),
+        text,
+    );
+    if let Some(stress) = material.yield_stress {
+        row(
+            "yield stress",
+            &format!("{stress} (static, for information)"),
+            text,
+        );
+    }
+    let known = [
+        (
+            "specific heat",
+            material.specific_heat.map(|heat| heat.to_string()),
+        ),
+        (
+            "melting temperature",
+            material
+                .melting_temperature
+                .map(|melting| melting.to_string()),
+        ),
+    ];
+    for (label, value) in known {
+        row(label, value.as_deref().unwrap_or("not given"), text);
+    }
+    row(
+        "room temperature",
+        &material.room_temperature.to_string(),
+        text,
+    );
+    let speed = Velocity::new(material.bar_wave_speed().round());
+    row("elastic wave speed", &format!("{speed} (thin bar)"), text);
+    let impedance = rounded(material.bar_impedance() * 1e-6);
+    row(
+        "impedance",
+        &format!("{impedance}e6 kg/(m2 s) (thin bar)"),
+        text,
+    );
+}
+
+fn strength(material: &Material, text: &mut String) {
+    let law = material.strength.law();
+    heading(&format!("strength law: {}", material.strength.key()), text);
+    *text += &format!("  {}\n", law.equation());
+    for (name, value) in law.parameters() {
+        row(name, &value, text);
+    }
+}
+
+fn validity(material: &Material, text: &mut String) {
+    let validity = &material.validity;
+    let limits = [
+        (
+            "plastic strain",
+            validity.plastic_strain_max.map(|strain| strain.to_string()),
+        ),
+        (
+            "strain rate",
+            validity.strain_rate_max.map(|rate| rate.to_string()),
+        ),
+        (
+            "temperature",
+            validity.temperature_max.map(|limit| limit.to_string()),
+        ),
+    ];
+    if limits.iter().all(|(_, limit)| limit.is_none()) {
+        return;
+    }
+    heading("fitted up to", text);
+    for (label, limit) in limits {
+        if let Some(limit) = limit {
+            row(label, &limit, text);
+        }
+    }
+}
+
+fn provenance(material: &Material, text: &mut String) {
+    let trust = serde_json::json!(material.trust);
+    let letter = trust.as_str().unwrap_or_default();
+    heading(&format!("trust: {letter}"), text);
+    paragraph(material.trust.meaning(), text);
+    if !material.note.is_empty() {
+        heading("note", text);
+        paragraph(&material.note, text);
+    }
+    if material.sources.is_empty() {
+        return;
+    }
+    heading("sources", text);
+    for key in &material.sources {
+        let Some(reference) = references().get(key) else {
+            paragraph(&format!("[{key}]"), text);
+            continue;
+        };
+        let mut entry = format!("[{key}] {}: {}.", reference.label, reference.title);
+        for more in [&reference.place, &reference.note] {
+            if !more.is_empty() {
+                entry += &format!(" {}.", more.trim_end_matches('.'));
+            }
+        }
+        paragraph(&entry, text);
+    }
+}
+
+fn heading(label: &str, text: &mut String) {
+    *text += &format!("\n{}\n", bold(label));
+}
+
+fn row(label: &str, value: &str, text: &mut String) {
+    let label_width = label.chars().count();
+    // Combining marks have no width of their own.
+    let marks = label
+        .chars()
+        .filter(|c| ('\u{300}'..='\u{36f}').contains(c))
+        .count();
+    let pad = " ".repeat(LABEL.saturating_sub(label_width - marks).max(1));
+    let value = wrap(value, width().saturating_sub(LABEL + 2), 0)
+        .replace('\n', &format!("\n{:1$}", "", LABEL + 2));
+    *text += &format!("  {label}{pad}{value}\n");
+}
+
+fn paragraph(words: &str, text: &mut String) {
+    *text += &format!("  {}\n", wrap(words, width() - 2, 2));
+}

@@ -1,0 +1,66 @@
+//! Progress on standard error: nothing for what takes less than a second.
+
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// How long something takes before it shows its progress.
+const PATIENCE: Duration = Duration::from_secs(1);
+const STEPS: u64 = 1000;
+
+/// A bar that appears after a while, if standard error is a terminal.
+pub struct Progress {
+    bar: ProgressBar,
+    start: Instant,
+    wanted: bool,
+    furthest: f64,
+}
+
+impl Progress {
+    pub fn new(wanted: bool) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template("[{bar:24}] {percent:>3} %  {wide_msg}") {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        Self {
+            bar,
+            start: Instant::now(),
+            wanted,
+            furthest: 0.0,
+        }
+    }
+
+    /// Says how far it has come: part done, 0 to 1, and a few words.
+    pub fn update(&mut self, fraction: f64, words: &str) {
+        let elapsed = self.start.elapsed();
+        if !self.wanted || elapsed < PATIENCE {
+            return;
+        }
+        // An estimate that falls back would only puzzle.
+        self.furthest = self.furthest.max(fraction.clamp(0.0, 1.0));
+        self.bar.set_position((self.furthest * STEPS as f64) as u64);
+        self.bar
+            .set_message(format!("{words}{}", time_left(elapsed, self.furthest)));
+        if self.bar.is_hidden() {
+            self.bar
+                .set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
+        }
+    }
+
+    /// Removes the bar.
+    pub fn finish(self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+fn time_left(elapsed: Duration, fraction: f64) -> String {
+    if fraction < 0.01 {
+        return String::new();
+    }
+    let seconds = elapsed.as_secs_f64() * (1.0 - fraction) / fraction;
+    match seconds {
+        ..90.0 => format!(", about {} s left", seconds.ceil()),
+        ..5400.0 => format!(", about {:.0} min left", seconds / 60.0),
+        _ => format!(", about {:.1} h left", seconds / 3600.0),
+    }
+}

@@ -1,0 +1,81 @@
+//! The folder of a run: a copy of the case, the result, histories and figures.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use percuss::{Scenario, outcome::RunResult, summary::CaseResults};
+
+use crate::{failure::Failure, progress::Progress, terminal};
+
+/// Name of the copy of the case: one that a user's own file is unlikely to have.
+const CASE_COPY: &str = "case-as-run.toml";
+
+/// Makes a folder, and those it stands in, if it does not exist.
+pub fn make_folder(path: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(path).map_err(|error| {
+        let reason = if path.exists() {
+            "it exists and is no folder".to_owned()
+        } else {
+            error.to_string()
+        };
+        Failure::Write {
+            path: path.to_path_buf(),
+            reason,
+            help: String::new(),
+        }
+    })
+}
+
+/// A folder that can be written.
+pub struct RunFolder {
+    path: PathBuf,
+    written: Vec<PathBuf>,
+}
+
+impl RunFolder {
+    /// Makes the folder and puts a copy of the case into it.
+    pub fn create(path: &Path, case: &Path) -> Result<Self, Failure> {
+        make_folder(path)?;
+        let text = fs::read(case).map_err(|error| percuss::Error::Read {
+            path: case.to_path_buf(),
+            reason: error.to_string(),
+            source: Some(error),
+        })?;
+        let mut folder = Self {
+            path: path.to_path_buf(),
+            written: Vec::new(),
+        };
+        folder.put(CASE_COPY, &text)?;
+        Ok(folder)
+    }
+
+    /// Writes everything that a run gives; returns the files.
+    pub fn write(
+        mut self,
+        scenario: &Scenario,
+        result: &RunResult,
+        results: &CaseResults,
+        progress: &mut Progress,
+    ) -> Result<Vec<PathBuf>, Failure> {
+        self.put("result.json", terminal::json(results)?.as_bytes())?;
+        progress.update(0.0, "writing histories");
+        self.written
+            .extend(percuss_report::write_histories(&self.path, result)?);
+        let figures = percuss_report::run_figures(scenario, result)?;
+        let count = figures.len() as f64;
+        for (i, figure) in figures.iter().enumerate() {
+            progress.update(i as f64 / count, &format!("drawing {}", figure.name));
+            self.written.extend(figure.write(&self.path)?);
+        }
+        Ok(self.written)
+    }
+
+    fn put(&mut self, name: &str, content: &[u8]) -> Result<(), Failure> {
+        let path = self.path.join(name);
+        fs::write(&path, content).map_err(Failure::write(&path))?;
+        self.written.push(path);
+        Ok(())
+    }
+}

@@ -1,0 +1,90 @@
+//! What is known of the terminal, and writing to it.
+
+use std::{
+    env,
+    fmt::Display,
+    io::{self, IsTerminal, Write},
+};
+
+use clap::builder::styling::{AnsiColor, Style};
+use comfy_table::Table;
+use serde::Serialize;
+
+use crate::failure::Failure;
+
+/// Widest line of running text: longer ones are hard to read.
+const MAX_WIDTH: usize = 100;
+
+/// Columns for running text: those of the terminal, 80 when output goes elsewhere.
+pub fn width() -> usize {
+    Table::new()
+        .width()
+        .map_or(80, usize::from)
+        .clamp(30, MAX_WIDTH)
+}
+
+/// Whether escape codes may be written to a stream.
+pub fn colours(stream: &impl IsTerminal) -> bool {
+    let forbidden = env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    let dumb = env::var_os("TERM").is_some_and(|term| term == "dumb");
+    stream.is_terminal() && !forbidden && !dumb
+}
+
+fn paint(text: impl Display, style: Style) -> String {
+    if colours(&io::stdout()) {
+        format!("{style}{text}{style:#}")
+    } else {
+        text.to_string()
+    }
+}
+
+/// Heading on standard output.
+pub fn bold(text: impl Display) -> String {
+    paint(text, Style::new().bold())
+}
+
+/// Mark of a warning on standard output.
+pub fn yellow(text: impl Display) -> String {
+    paint(text, AnsiColor::Yellow.on_default().bold())
+}
+
+/// Writes to standard output. A reader that has gone away, as in `percuss materials | head -1`, is no failure.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Output(error)),
+        _ => Ok(()),
+    }
+}
+
+/// Writes a value to standard output as JSON.
+pub fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+    print(&json(value)?)
+}
+
+/// A value as JSON text that ends with a line break.
+pub fn json(value: &impl Serialize) -> Result<String, Failure> {
+    serde_json::to_string_pretty(value)
+        .map(|text| text + "\n")
+        .map_err(|error| Failure::Output(error.into()))
+}
+
+/// Breaks a text into lines of at most `width` characters; lines after the first are set in by `indent`.
+pub fn wrap(text: &str, width: usize, indent: usize) -> String {
+    let mut lines = String::new();
+    let mut column = 0;
+    for word in text.split_whitespace() {
+        let length = word.chars().count();
+        if column > 0 && column + 1 + length > width {
+            lines.push('\n');
+            lines.push_str(&" ".repeat(indent));
+            column = indent;
+        } else if column > 0 {
+            lines.push(' ');
+            column += 1;
+        }
+        lines.push_str(word);
+        column += length;
+    }
+    lines
+}
