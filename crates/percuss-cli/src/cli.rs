@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 
 use crate::{
-    commands::{Completions, Man, Materials, Models, New, Run, Schema},
+    commands::{Completions, Converge, Man, Materials, Models, New, Reproduce, Run, Schema},
     failure::Failure,
 };
 
@@ -21,6 +21,7 @@ const AFTER_HELP: &str = "\
 Examples:
   percuss new my-shot                      write my-shot/scenario.toml
   percuss run my-shot/scenario.toml        run it
+  percuss converge my-shot/scenario.toml   see whether its mesh is fine enough
   percuss materials show copper            show what is known of a material
   percuss run --help                       explain one command
 
@@ -49,10 +50,12 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     Run(Run),
+    Converge(Converge),
     New(New),
     Models(Models),
     Materials(Materials),
     Schema(Schema),
+    Reproduce(Reproduce),
     Completions(Completions),
     Man(Man),
 }
@@ -61,10 +64,12 @@ impl Command {
     pub fn run(&self) -> Result<(), Failure> {
         match self {
             Self::Run(command) => command.run(),
+            Self::Converge(command) => command.run(),
             Self::New(command) => command.run(),
             Self::Models(command) => command.run(),
             Self::Materials(command) => command.run(),
             Self::Schema(command) => command.run(),
+            Self::Reproduce(command) => command.run(),
             Self::Completions(command) => command.run(),
             Self::Man(command) => command.run(),
         }

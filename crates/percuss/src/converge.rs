@@ -12,6 +12,8 @@ use crate::{
 pub const REFINEMENT: u32 = 2;
 /// Factor of safety of a grid-convergence index over three or more meshes \[roache1994\].
 const SAFETY: f64 = 1.25;
+/// Spread of the finest meshes, as a part of the value, below which nobody asks for an order.
+const AGREEMENT: f64 = 1e-3;
 /// The schemes are of second order at best.
 const LARGEST_CREDIBLE_ORDER: f64 = 2.2;
 /// Differences between meshes below this part of the value are rounding, not convergence.
@@ -127,6 +129,9 @@ impl Verdict {
                     "converges; uncertainty of the finest mesh ±{:.2} %",
                     100.0 * index
                 )
+            }
+            Self::Oscillating { spread } | Self::Diverging { spread } if spread < AGREEMENT => {
+                format!("the finest meshes agree within {:.3} %", 100.0 * spread)
             }
             Self::Oscillating { spread } => {
                 format!(

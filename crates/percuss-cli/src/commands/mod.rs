@@ -1,17 +1,21 @@
 //! One file a command: its arguments, its help and what it does.
 
 mod completions;
+mod converge;
 mod man;
 mod materials;
 mod models;
 mod new;
+mod reproduce;
 mod run;
 mod schema;
 
 pub use completions::Completions;
+pub use converge::Converge;
 pub use man::Man;
 pub use materials::Materials;
 pub use models::Models;
 pub use new::New;
+pub use reproduce::Reproduce;
 pub use run::Run;
 pub use schema::Schema;

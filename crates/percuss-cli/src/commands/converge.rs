@@ -1,0 +1,183 @@
+use std::{ops::ControlFlow, path::PathBuf};
+
+use clap::{Args, builder::PossibleValuesParser};
+use comfy_table::{CellAlignment, Table, presets::UTF8_HORIZONTAL_ONLY};
+use percuss::{
+    case,
+    converge::{self, Quantity, Study, Verdict},
+    model::{self, Control, MODELS},
+    units::significant,
+};
+use percuss_report::convergence_figure;
+
+use crate::{
+    failure::Failure,
+    progress::Progress,
+    run_folder::make_folder,
+    terminal::{self, bold, width, wrap},
+};
+
+const LONG_ABOUT: &str = "\
+Run a case on successively finer meshes, each with twice the elements of the
+last, and say whether its results converge: the observed order, the value
+extrapolated to zero element length (Richardson) and the grid-convergence
+index, the uncertainty of the finest mesh with a factor of safety of 1.25.
+
+A result whose limit is not there, or whose limit is next to nothing of its
+value, is said not to converge.
+
+With --out DIR the study is written as convergence.json and its figures as SVG
+and PNG.";
+
+const AFTER_HELP: &str = "\
+Examples:
+  percuss converge my-shot/scenario.toml
+  percuss converge my-shot/scenario.toml --levels 5 --out convergence
+  percuss converge my-shot/scenario.toml --json
+
+Exit codes: 0 ok, 2 bad input or a model that does not apply, 3 numerical
+failure, 4 a file could not be read or written";
+
+/// Refine the mesh of a case and judge its convergence
+#[derive(Debug, Args)]
+#[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
+pub struct Converge {
+    /// Case file; its own mesh is the coarsest one
+    #[arg(value_name = "CASE.toml")]
+    case: PathBuf,
+    /// Model to compute with; `percuss models` describes them
+    #[arg(long, value_name = "NAME", default_value = "chain")]
+    #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
+    model: String,
+    /// Number of meshes; the work grows fourfold with each
+    #[arg(long, value_name = "N", default_value_t = 4)]
+    #[arg(value_parser = clap::value_parser!(u32).range(3..=8))]
+    levels: u32,
+    /// Print one JSON object and nothing else on standard output
+    #[arg(long)]
+    json: bool,
+    /// Write the study and its figures to a folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+impl Converge {
+    pub fn run(&self) -> Result<(), Failure> {
+        let scenario = case::load(&self.case)?;
+        let model = model::model(&self.model)?;
+        if let Some(out) = &self.out {
+            make_folder(out)?;
+        }
+        let mut progress = Progress::new(true);
+        let mut report = |now: model::Progress| {
+            progress.update(
+                now.fraction,
+                &format!("{:.1} us on the current mesh", now.time * 1e6),
+            );
+            ControlFlow::Continue(())
+        };
+        let mut control = Control {
+            record: false,
+            progress: Some(&mut report),
+        };
+        let study = converge::study(model, &scenario, self.levels, &mut control);
+        progress.finish();
+        let (study, _) = study?;
+        let mut written = Vec::new();
+        if let Some(out) = &self.out {
+            let path = out.join("convergence.json");
+            std::fs::write(&path, terminal::json(&study)?).map_err(Failure::write(&path))?;
+            written.push(path);
+            for i in 0..study.quantities.len() {
+                if let Some(figure) = convergence_figure(&scenario.name, &study, i) {
+                    written.extend(figure.write(out)?);
+                }
+            }
+        }
+        if self.json {
+            return terminal::print_json(&study);
+        }
+        let mut text = format!(
+            "{}\n{}\n\n",
+            bold(format!("Convergence of {}", scenario.name)),
+            wrap(
+                &format!(
+                    "model {}, scheme {}",
+                    self.model,
+                    scenario.chain.scheme.name()
+                ),
+                width(),
+                0
+            )
+        );
+        text += &table(&study);
+        text += &verdicts(&study);
+        if !written.is_empty() {
+            text += &format!("\n{}\n", bold("wrote"));
+            for file in written {
+                text += &format!("  {}\n", file.display());
+            }
+        }
+        terminal::print(&text)
+    }
+}
+
+/// Meshes as rows, quantities as columns, and below them what the finest meshes say.
+fn table(study: &Study) -> String {
+    let mut table = Table::new();
+    table.load_style(UTF8_HORIZONTAL_ONLY);
+    let heading =
+        |quantity: &Quantity| format!("{}\n[{}]", quantity.name.replace('_', "\n"), quantity.unit);
+    let mut header = vec!["elements".to_owned(), "steps".to_owned()];
+    header.extend(study.quantities.iter().map(heading));
+    table.set_header(header);
+    for (i, mesh) in study.meshes.iter().enumerate() {
+        let mut row = vec![
+            format!("{}–{}", mesh.projectile_elements, mesh.target_elements),
+            mesh.steps.to_string(),
+        ];
+        row.extend(study.quantities.iter().map(|q| significant(q.values[i], 5)));
+        table.add_row(row);
+    }
+    let derived: [(&str, fn(&Verdict) -> Option<String>); 3] = [
+        ("order", |verdict| match verdict {
+            Verdict::Converging { order, .. } => Some(format!("{order:.2}")),
+            _ => None,
+        }),
+        ("Richardson", |verdict| match verdict {
+            Verdict::Converging { richardson, .. } => Some(significant(*richardson, 5)),
+            _ => None,
+        }),
+        ("GCI [%]", |verdict| match verdict {
+            Verdict::Converging { index, .. } => Some(significant(100.0 * index, 3)),
+            _ => None,
+        }),
+    ];
+    for (name, read) in derived {
+        let mut row = vec![name.to_owned(), String::new()];
+        row.extend(
+            study
+                .quantities
+                .iter()
+                .map(|q| read(&q.verdict).unwrap_or_else(|| "–".to_owned())),
+        );
+        table.add_row(row);
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    format!("{table}\n\n")
+}
+
+fn verdicts(study: &Study) -> String {
+    study
+        .quantities
+        .iter()
+        .map(|quantity| {
+            let fine = quantity.values.last().copied().unwrap_or(f64::NAN);
+            let name = quantity.name.replace('_', " ");
+            let line = format!("{name}: {}", quantity.verdict.in_words(fine));
+            format!("{}\n", wrap(&line, width(), 2))
+        })
+        .collect()
+}
