@@ -218,7 +218,11 @@ fn a_numerical_failure_has_its_own_exit_code() {
         said.stderr
     );
     assert!(
-        said.stderr.contains("help: lower `chain.courant`"),
+        said.stderr.contains(" at step ")
+            && said.stderr.contains(
+                "
+help: "
+            ),
         "{}",
         said.stderr
     );

@@ -56,7 +56,11 @@ impl New {
             }
             .to_owned(),
         })?;
-        let shown = path.display().to_string();
+        let mut shown = path.display().to_string();
+        if shown.starts_with('-') {
+            // Or `percuss run` would take it for an option.
+            shown.insert_str(0, "./");
+        }
         terminal::print(&format!(
             "wrote {shown}\nnext: percuss run {}\n",
             quoted(&shown)
