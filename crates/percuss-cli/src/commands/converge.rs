@@ -139,28 +139,21 @@ fn table(study: &Study) -> String {
         row.extend(study.quantities.iter().map(|q| significant(q.values[i], 5)));
         table.add_row(row);
     }
-    let derived: [(&str, fn(&Verdict) -> Option<String>); 3] = [
-        ("order", |verdict| match verdict {
-            Verdict::Converging { order, .. } => Some(format!("{order:.2}")),
-            _ => None,
-        }),
-        ("Richardson", |verdict| match verdict {
-            Verdict::Converging { richardson, .. } => Some(significant(*richardson, 5)),
-            _ => None,
-        }),
-        ("GCI [%]", |verdict| match verdict {
-            Verdict::Converging { index, .. } => Some(significant(100.0 * index, 3)),
-            _ => None,
-        }),
-    ];
-    for (name, read) in derived {
+    let numbers = |verdict: &Verdict| match *verdict {
+        Verdict::Converging {
+            order,
+            richardson,
+            index,
+        } => [
+            format!("{order:.2}"),
+            significant(richardson, 5),
+            significant(100.0 * index, 3),
+        ],
+        _ => ["–".to_owned(), "–".to_owned(), "–".to_owned()],
+    };
+    for (i, name) in ["order", "Richardson", "GCI [%]"].into_iter().enumerate() {
         let mut row = vec![name.to_owned(), String::new()];
-        row.extend(
-            study
-                .quantities
-                .iter()
-                .map(|q| read(&q.verdict).unwrap_or_else(|| "–".to_owned())),
-        );
+        row.extend(study.quantities.iter().map(|q| numbers(&q.verdict)[i].clone()));
         table.add_row(row);
     }
     for column in table.column_iter_mut().skip(1) {
