@@ -33,3 +33,9 @@ pub mod units;
 
 pub use error::{Error, InputError, NumericalError};
 pub use scenario::Scenario;
+
+/// The README's library example, run from the folder that it stands in.
+#[cfg(doctest)]
+mod readme {
+    #![doc = include_str!("../../../README.md")]
+}

@@ -153,7 +153,12 @@ fn table(study: &Study) -> String {
     };
     for (i, name) in ["order", "Richardson", "GCI [%]"].into_iter().enumerate() {
         let mut row = vec![name.to_owned(), String::new()];
-        row.extend(study.quantities.iter().map(|q| numbers(&q.verdict)[i].clone()));
+        row.extend(
+            study
+                .quantities
+                .iter()
+                .map(|q| numbers(&q.verdict)[i].clone()),
+        );
         table.add_row(row);
     }
     for column in table.column_iter_mut().skip(1) {

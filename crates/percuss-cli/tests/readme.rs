@@ -1,0 +1,104 @@
+//! The README's commands do what it says, in an empty folder; its library example is a doc test of `percuss`.
+
+use std::{fs, path::Path, process::Command};
+
+fn readme() -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md");
+    fs::read_to_string(path).unwrap()
+}
+
+/// Lines of all blocks of a language.
+fn blocks(text: &str, language: &str) -> Vec<String> {
+    let mut inside = false;
+    let mut lines = Vec::new();
+    for line in text.lines() {
+        match line.trim_end() {
+            "```" => inside = false,
+            fence if fence.starts_with("```") => inside = fence[3..].trim() == language,
+            line if inside => lines.push(line.to_owned()),
+            _ => {}
+        }
+    }
+    lines
+}
+
+#[test]
+fn every_percuss_command_of_the_readme_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let commands = blocks(&readme(), "sh");
+    let own: Vec<&String> = commands
+        .iter()
+        .filter(|line| line.starts_with("percuss "))
+        .collect();
+    assert!(own.len() >= 8, "{own:?}");
+    for line in own {
+        let output = Command::new(env!("CARGO_BIN_EXE_percuss"))
+            .args(line.split_whitespace().skip(1))
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{line}\n{stderr}");
+        assert!(!output.stdout.is_empty(), "{line} says nothing");
+    }
+    assert!(folder.path().join("paper/paper.md").is_file());
+}
+
+/// `.ci/run` runs these two word for word.
+#[test]
+fn two_cargo_commands_set_everything_up() {
+    let commands = blocks(&readme(), "sh");
+    let cargo: Vec<&String> = commands
+        .iter()
+        .filter(|line| line.starts_with("cargo "))
+        .collect();
+    assert_eq!(
+        cargo,
+        [
+            "cargo run --release -- run cases/paper-table1/scenario.toml --out out/paper-table1",
+            "cargo test --workspace"
+        ]
+    );
+}
+
+#[test]
+fn the_short_case_of_the_readme_runs() {
+    let case = blocks(&readme(), "toml").join("\n");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scenario.toml");
+    fs::write(&path, case).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_percuss"))
+        .arg("run")
+        .arg(&path)
+        .arg("--quiet")
+        .output()
+        .unwrap();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}
+
+/// The numbers that the README shows are those of a run.
+#[test]
+fn the_table_of_the_readme_is_real() {
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/paper-table1/scenario.toml");
+    let output = Command::new(env!("CARGO_BIN_EXE_percuss"))
+        .arg("run")
+        .arg(case)
+        .output()
+        .unwrap();
+    let table = String::from_utf8_lossy(&output.stdout).into_owned();
+    for line in blocks(&readme(), "text") {
+        let is_row = ["outcome", "depth of", "time to", "final projectile", "peak"]
+            .iter()
+            .any(|start| line.starts_with(start));
+        if is_row {
+            assert!(
+                table.lines().any(|row| row == line),
+                "`{line}` is not in\n{table}"
+            );
+        }
+    }
+}
