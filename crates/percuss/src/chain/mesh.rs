@@ -85,7 +85,8 @@ pub(super) fn build(scenario: &Scenario) -> State {
     }
     let mut state = assemble(parts, &lengths, end);
     if let TargetBody::ConstantPressure(pressure) = scenario.target {
-        state.nodes[rod_elements].friction = pressure * state.parts[0].area;
+        state.tip_friction = pressure * state.parts[0].area;
+        state.nodes[rod_elements].friction = state.tip_friction;
     }
     for node in &mut state.nodes[..=rod_elements] {
         node.velocity = scenario.impact_speed;
@@ -110,6 +111,7 @@ fn assemble(parts: Vec<Part>, lengths: &[f64], end: End) -> State {
         segments: Vec::new(),
         closed: vec![true; parts.len() - 1],
         end,
+        tip_friction: 0.0,
         nodes: vec![Node::default(); nodes],
         elements: vec![Element::default(); elements],
         time: 0.0,

@@ -131,8 +131,8 @@ impl State {
             let limit = self.nodes[i].friction * kick / self.nodes[i].mass;
             let after = rub(before, change, limit);
             let impulse = self.book_friction(self.nodes[i].mass, before, change, after);
-            if self.parts.len() == 1 {
-                // Without a target the only friction is the constant pressure on the tip.
+            if self.tip_friction > 0.0 {
+                // A constant-pressure target has no other friction.
                 self.contact_force = impulse / kick;
             }
             after
@@ -399,6 +399,11 @@ impl State {
             }
         }
         self.segments.splice(s..=s, kept);
+        if self.tip_friction > 0.0
+            && let Some(tip) = self.segments.last()
+        {
+            self.nodes[tip.last_node].friction = self.tip_friction;
+        }
     }
 }
 

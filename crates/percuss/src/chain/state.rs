@@ -93,6 +93,8 @@ pub(super) struct State {
     /// `closed[s]`: whether segments `s` and `s + 1` touch.
     pub(super) closed: Vec<bool>,
     pub(super) end: End,
+    /// Force of a constant-pressure target on the projectile's tip [N]; 0 with any other target.
+    pub(super) tip_friction: f64,
 
     pub(super) nodes: Vec<Node>,
     /// All elements, eroded ones too.
