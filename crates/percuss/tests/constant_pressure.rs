@@ -41,3 +41,28 @@ fn depth_is_the_kinetic_energy_over_the_force() {
         assert!(result.energy_residual <= 1e-3 && result.momentum_residual <= 1e-12);
     }
 }
+
+/// What erodes at the tip does not take the pressure away.
+#[test]
+fn the_pressure_stays_on_a_tip_that_erodes() {
+    let depth = |erosion: &str| {
+        let result = run(&format!(
+            r#"
+            projectile = {{ material = "copper", length = "50 mm", diameter = "10 mm", velocity = "800 m/s" }}
+            target = {{ constant_pressure = "2 GPa" }}
+            [chain]
+            erosion_strain = {erosion}
+            "#
+        ));
+        assert_eq!(result.outcome, Outcome::AtRest);
+        (
+            result.depth_of_penetration.unwrap(),
+            result.eroded_elements.0,
+        )
+    };
+    let ((with, eroded), (without, none)) = (depth("2.0"), depth("\"never\""));
+    assert!(eroded > 0 && none == 0);
+    // The eroded part no longer drives the rest, but the rest meets the same pressure: the depths are of one size.
+    println!("depth with erosion {with:e} m, without {without:e} m");
+    assert!((0.3..1.5).contains(&(with / without)));
+}

@@ -196,3 +196,30 @@ fn stress_past_yield() {
     let force = mean(&result, 4e-6, 24e-6, |s| s.contact_force);
     assert_near("stress past yield [Pa]", force / area, stress, 2e-3);
 }
+
+/// At default options elastic bars run at any of the paper's speeds: where the book does not balance, the time step is halved.
+#[test]
+fn default_options_carry_elastic_bars() {
+    for (target, back_face) in [
+        ("plate", "fixed"),
+        ("rod", "free"),
+        ("plate", "non-reflecting"),
+    ] {
+        for velocity in [100.0, 230.0, 400.0] {
+            let result = run_recorded(&bars(velocity, 25.0, target, back_face, (40, 80), ""));
+            assert!(result.energy_residual <= 1e-3);
+        }
+    }
+}
+
+/// A column of elastic material behind a non-reflecting end drifts; what drifts is no crater.
+#[test]
+fn the_drift_of_a_non_reflecting_column_is_not_depth() {
+    let result = run_recorded(&bars(100.0, 25.0, "plate", "non-reflecting", (40, 80), ""));
+    let deepest = result.largest_depth.unwrap();
+    // The column shortens by at most the strain of the plateau over its length.
+    let strain = 100.0 * (114e9_f64 * 8500.0).sqrt()
+        / ((114e9_f64 * 8500.0).sqrt() + (70e9_f64 * 2780.0).sqrt())
+        / (70e9_f64 / 2780.0).sqrt();
+    assert!(deepest < 1.2 * strain * 25e-3, "{deepest}");
+}

@@ -156,7 +156,8 @@ impl Case {
     fn check(&self, check: &mut Check<'_>) {
         self.projectile.check(&mut check.within("projectile"));
         self.target.check(&mut check.within("target"));
-        self.chain.check(&mut check.within("chain"));
+        self.chain
+            .check(&mut check.within("chain"), self.target.is_solid());
         self.check_materials(check);
     }
 

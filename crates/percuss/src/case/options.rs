@@ -331,7 +331,8 @@ impl ChainOptions {
         self.published.unwrap_or_default()
     }
 
-    pub(super) fn check(&self, check: &mut Check<'_>) {
+    pub(super) fn check(&self, check: &mut Check<'_>, target_is_solid: bool) {
+        self.check_target(check, target_is_solid);
         for (key, elements) in [
             ("projectile_elements", self.projectile_elements),
             ("target_elements", self.target_elements),
@@ -389,6 +390,32 @@ impl ChainOptions {
             check.quantity("published.target_mass", mass, limits::MASS);
         }
         self.check_scheme(check);
+    }
+
+    /// Reports keys that would have no effect.
+    fn check_target(&self, check: &mut Check<'_>, target_is_solid: bool) {
+        let column_only = [
+            ("target_elements", self.target_elements.is_some()),
+            ("constraint_factor", self.constraint_factor.is_some()),
+            ("border_shear", self.border_shear.is_some()),
+        ];
+        for (key, _) in column_only
+            .iter()
+            .filter(|(_, given)| *given && !target_is_solid)
+        {
+            check.fail(
+                key,
+                format!("a rigid wall or a constant pressure has no `{key}`"),
+                "remove the key",
+            );
+        }
+        if self.heat_fraction.is_some() && self.adiabatic_heating == Some(false) {
+            check.fail(
+                "heat_fraction",
+                "`heat_fraction` has no effect without `adiabatic_heating`",
+                "remove one of the two keys",
+            );
+        }
     }
 
     /// Reports keys that the selected scheme would ignore.

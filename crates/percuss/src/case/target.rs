@@ -161,6 +161,11 @@ impl Target {
         }
     }
 
+    /// Whether there is a column of material, rather than a wall or a pressure.
+    pub(super) fn is_solid(&self) -> bool {
+        self.material.is_some() || self.thickness.is_some() || !self.layers.is_empty()
+    }
+
     pub(super) fn check(&self, check: &mut Check<'_>) {
         let plate = self.material.is_some() || self.thickness.is_some();
         let kinds = [
@@ -240,7 +245,7 @@ impl Target {
                 "remove `back_face`, or give a thickness",
             );
         }
-        let solid = plate || !self.layers.is_empty();
+        let solid = self.is_solid();
         if self.back_face.is_some() && !solid {
             check.fail(
                 "back_face",

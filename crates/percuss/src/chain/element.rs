@@ -52,11 +52,12 @@ impl Element {
 
     /// Returns a trial stress to the yield surface.
     fn flow(&mut self, part: &Part, trial: f64, time_step: f64) {
-        let (increment, flow) = self.plastic_increment(part, trial.abs(), time_step);
+        let (increment, flow) = self.plastic_increment(part, trial, time_step);
         self.plastic_step = increment.copysign(trial);
         self.stress = trial - part.modulus * self.plastic_step;
         self.plastic_axial += self.plastic_step;
         self.plastic_strain += increment;
+        self.largest_rate = self.largest_rate.max(increment / time_step);
         let work = 0.5 * (self.stress_before + self.stress).abs() * increment;
         self.temperature += part.heating * work;
         (self.flow_stress, self.flow_slope) = if part.strength.depends_on_strain_only() {
@@ -66,7 +67,7 @@ impl Element {
                 part,
                 self.plastic_strain,
                 self.temperature,
-                self.stress.abs() / 3.0,
+                self.stress / 3.0,
             )
         };
     }
@@ -75,6 +76,7 @@ impl Element {
     ///
     /// Returns Δ with the flow stress and its slope there.
     fn plastic_increment(&self, part: &Part, trial: f64, time_step: f64) -> (f64, (f64, f64)) {
+        let (sign, trial) = (trial.signum(), trial.abs());
         let (mut low, mut high) = (0.0, trial / part.modulus);
         // The flow stress at the start of the step is known: the first Newton step costs no evaluation of the law.
         let mut increment =
@@ -90,7 +92,7 @@ impl Element {
                 plastic_strain: self.plastic_strain + increment,
                 strain_rate: rate,
                 temperature: self.temperature,
-                pressure: trial / 3.0,
+                pressure: sign * (trial - part.modulus * increment) / 3.0,
             });
             let rate_slope = if part.rate_effects {
                 flow.rate_slope / time_step

@@ -112,6 +112,7 @@ fn assemble(parts: Vec<Part>, lengths: &[f64], end: End) -> State {
         closed: vec![true; parts.len() - 1],
         end,
         tip_friction: 0.0,
+        back_position: 0.0,
         nodes: vec![Node::default(); nodes],
         elements: vec![Element::default(); elements],
         time: 0.0,
@@ -165,6 +166,7 @@ fn assemble(parts: Vec<Part>, lengths: &[f64], end: End) -> State {
         first_element += count;
         start += length;
     }
+    state.back_position = state.nodes[nodes - 1].position;
     // The boundary's own impedance stands for everything behind it, border shear included.
     if let (End::Dashpot(_), Some(last)) = (end, state.nodes.last_mut()) {
         last.friction = 0.0;

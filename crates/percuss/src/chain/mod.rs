@@ -5,11 +5,14 @@ mod element;
 mod mesh;
 mod part;
 mod published;
+mod results;
+mod snapshot;
 mod solver;
 mod state;
 #[cfg(test)]
 mod tests;
 mod warnings;
+mod watch;
 
 pub use conservative::{Conservative, ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
 pub use published::Published;

@@ -49,7 +49,8 @@ impl Part {
         let heat_fraction = options.heat_fraction.unwrap_or(0.9);
         let heating = match material.specific_heat {
             Some(heat) if options.adiabatic_heating.unwrap_or(true) => {
-                heat_fraction / (material.density.si() * heat.si())
+                // What the constraint adds to the stress is work against the material around the column, not heat in it.
+                heat_fraction / (factor * material.density.si() * heat.si())
             }
             _ => 0.0,
         };

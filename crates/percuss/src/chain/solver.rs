@@ -31,10 +31,20 @@ impl StepControl {
         self.viscosity != ArtificialViscosity::default() || self.damping_ratio > 0.0
     }
 
+    /// Factor on the stable step of the undamped chain at the moment of impact.
+    pub(super) fn first_step_factor(&self, state: &State, impact_speed: f64) -> f64 {
+        let slowness = state
+            .parts
+            .iter()
+            .map(|part| part.slowness)
+            .fold(0.0, f64::max);
+        let ratio = self.damping_ratio
+            + self.viscosity.linear
+            + self.viscosity.quadratic * impact_speed * slowness;
+        damped_limit(ratio)
+    }
+
     /// Sets the viscous force of an element whose ends approach at a speed; returns the factor on its stable step.
-    ///
-    /// With a damping ratio ξ, central differences with lagged velocities are stable up to `sqrt(1 + ξ²) − ξ` of the
-    /// undamped limit.
     fn damp(&self, element: &mut Element, part: &Part, approach: f64) -> f64 {
         let mut ratio = self.damping_ratio;
         if approach > 0.0 {
@@ -42,8 +52,13 @@ impl StepControl {
         }
         element.viscous_force =
             ratio * part.density * part.wave_speed * element.area(part) * approach;
-        (1.0 + ratio * ratio).sqrt() - ratio
+        damped_limit(ratio)
     }
+}
+
+/// Part of the undamped stable step that is left with a damping ratio, for central differences with lagged velocities.
+fn damped_limit(ratio: f64) -> f64 {
+    (1.0 + ratio * ratio).sqrt() - ratio
 }
 
 impl State {
@@ -66,6 +81,7 @@ impl State {
     fn collect_forces(&mut self) {
         for node in &mut self.nodes {
             node.force = 0.0;
+            node.spring_force = 0.0;
             node.velocity_before = node.velocity;
         }
         for segment in &self.segments {
@@ -74,7 +90,9 @@ impl State {
             for (i, element) in elements.iter().enumerate() {
                 let force = element.axial_force + element.viscous_force;
                 nodes[i].force -= force;
+                nodes[i].spring_force -= element.axial_force;
                 nodes[i + 1].force += force;
+                nodes[i + 1].spring_force += element.axial_force;
             }
         }
     }
@@ -253,7 +271,7 @@ impl State {
     fn book_jump(&mut self, i: usize, jump: f64, drift: f64) {
         let velocity = self.nodes[i].velocity;
         let kinetic = 0.5 * self.nodes[i].mass * ((velocity + jump).powi(2) - velocity.powi(2));
-        self.books.contact_loss -= kinetic - 0.5 * drift * self.nodes[i].force * jump;
+        self.books.contact_loss -= kinetic - 0.5 * drift * self.nodes[i].spring_force * jump;
     }
 
     /// Closes every gap that would overlap at the end of the step, so that it is zero then.
@@ -299,10 +317,10 @@ impl State {
             }
             let elements = &mut self.elements[segment.elements()];
             let mut plastic_work = 0.0;
-            for (pair, element) in nodes.windows(2).zip(elements) {
+            for (i, (pair, element)) in nodes.windows(2).zip(elements).enumerate() {
                 let length = pair[1].position - pair[0].position;
                 if length <= 0.0 {
-                    return Err(inverted(self.step, self.time, element.initial_position));
+                    return Err(inverted(self.step, self.time, segment.elements().start + i));
                 }
                 plastic_work += element.rest_length * element.deform(part, length, time_step);
                 let approach = pair[0].velocity - pair[1].velocity;
@@ -407,15 +425,12 @@ impl State {
     }
 }
 
-fn inverted(step: u64, time: f64, initial_position: f64) -> NumericalError {
+fn inverted(step: u64, time: f64, element: usize) -> NumericalError {
     NumericalError {
-        what: format!(
-            "the element that started at {:.3} mm was compressed to nothing",
-            initial_position * 1e3
-        ),
+        what: "an element was compressed to nothing".to_owned(),
         step,
         time_us: time * 1e6,
-        element: None,
+        element: Some(element),
         remedy: "use logarithmic kinematics, or lower `chain.courant` or `chain.erosion_strain`"
             .to_owned(),
     }

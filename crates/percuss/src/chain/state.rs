@@ -37,7 +37,10 @@ pub(super) struct Node {
     /// Velocity at the start of the current kick.
     pub(super) velocity_before: f64,
     pub(super) mass: f64,
+    /// Force of the elements, viscosity included [N].
     pub(super) force: f64,
+    /// Force of the elements without viscosity [N].
+    pub(super) spring_force: f64,
     /// Largest friction force [N].
     pub(super) friction: f64,
 }
@@ -58,6 +61,8 @@ pub(super) struct Element {
     pub(super) plastic_strain: f64,
     /// Axial plastic strain of the last step.
     pub(super) plastic_step: f64,
+    /// Largest plastic strain rate so far [1/s].
+    pub(super) largest_rate: f64,
     pub(super) temperature: f64,
     /// Flow stress at the current plastic strain, without rate effect.
     pub(super) flow_stress: f64,
@@ -95,6 +100,8 @@ pub(super) struct State {
     pub(super) end: End,
     /// Force of a constant-pressure target on the projectile's tip [N]; 0 with any other target.
     pub(super) tip_friction: f64,
+    /// Initial position of the last node [m].
+    pub(super) back_position: f64,
 
     pub(super) nodes: Vec<Node>,
     /// All elements, eroded ones too.
@@ -137,6 +144,33 @@ impl State {
             }
         }
         sums
+    }
+
+    /// Depth of the crater floor below the original face [m]; of the projectile's tip where there is no target to crater.
+    ///
+    /// A non-reflecting end has no static stiffness: the column that it holds drifts as a whole, and that drift is no crater.
+    pub(super) fn depth(&self) -> f64 {
+        match (self.face_segment(), self.tip_segment(), self.end) {
+            (Some(face), _, End::Dashpot(_)) => {
+                let back = self.nodes[self.nodes.len() - 1].position - self.back_position;
+                self.nodes[self.segments[face].first_node].position - back
+            }
+            (Some(face), ..) => self.nodes[self.segments[face].first_node].position,
+            (None, Some(tip), _) if self.tip_friction > 0.0 => {
+                self.nodes[self.segments[tip].last_node].position
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Mean velocity of a segment [m/s]; 0 for a wall.
+    pub(super) fn mean_velocity(&self, segment: Segment) -> f64 {
+        let (mut mass, mut momentum) = (0.0, 0.0);
+        for node in &self.nodes[segment.first_node..=segment.last_node] {
+            mass += node.mass;
+            momentum += node.mass * node.velocity;
+        }
+        if mass > 0.0 { momentum / mass } else { 0.0 }
     }
 
     /// Elastic energy of an element between two steps: the form that central differences conserve.

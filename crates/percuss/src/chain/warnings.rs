@@ -2,16 +2,17 @@
 
 use super::mesh;
 use crate::{
-    material::Material,
+    material::{Material, Strength},
     outcome::{Outcome, RunResult},
     scenario::{Scenario, TargetBody},
-    units::{Temperature, significant},
+    units::{StrainRate, Temperature, significant},
 };
 
 /// Warnings of a run, the weightiest first.
 pub(super) fn warnings(
     scenario: &Scenario,
     result: &RunResult,
+    reached: &[Reached],
     erosion_strain: f64,
 ) -> Vec<String> {
     let mut warnings = Vec::new();
@@ -19,6 +20,9 @@ pub(super) fn warnings(
         Outcome::OutOfTime => warnings.push(
             "the run was ended before the shot was over: raise `chain.end_time` or `chain.max_steps`".to_owned(),
         ),
+        Outcome::Perforated if result.eroded_elements.1 == scenario.chain.target_elements() => {
+            warnings.push("the whole column of target eroded before the projectile did: give a thicker target".to_owned());
+        }
         Outcome::Perforated => warnings.push(
             "the target is perforated: a column without a plug or a bulge overestimates its resistance; the residual \
              velocity is indicative"
@@ -28,21 +32,21 @@ pub(super) fn warnings(
     }
     warn_of_closure(scenario, result, &mut warnings);
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
-    let projectile = (
-        &*scenario.projectile.material,
-        result.largest_plastic_strain.0,
-        result.largest_temperature.0,
-    );
-    warn_of_material("projectile", projectile, &mut warnings);
-    if let TargetBody::Layers { layers, .. } = &scenario.target
-        && let [plate] = layers.as_slice()
-    {
-        let target = (
-            &*plate.material,
-            result.largest_plastic_strain.1,
-            result.largest_temperature.1,
-        );
-        warn_of_material("target", target, &mut warnings);
+    let heated = scenario.chain.adiabatic_heating.unwrap_or(true);
+    let mut warn = |what: &str, material: &Material, reached: Option<&Reached>| {
+        if let Some(reached) = reached {
+            warn_of_material(what, material, reached, heated, &mut warnings);
+        }
+    };
+    warn("projectile", &scenario.projectile.material, reached.first());
+    if let TargetBody::Layers { layers, .. } = &scenario.target {
+        for (i, plate) in layers.iter().enumerate() {
+            let name = match layers.len() {
+                1 => "target".to_owned(),
+                _ => format!("layer {}", i + 1),
+            };
+            warn(&name, &plate.material, reached.get(i + 1));
+        }
     }
     warnings
 }
@@ -59,6 +63,13 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
         .map(|plate| mesh::modelled_thickness(plate, scenario))
         .sum();
     let element = thickness / scenario.chain.target_elements() as f64;
+    let (permanent, at_rest) = (result.permanent_depth, result.time_to_rest.is_some());
+    if at_rest && permanent.is_some_and(|permanent| depth > 2.0 * permanent) {
+        warnings.push(format!(
+            "most of the depth is elastic deflection, which springs back: {} mm are permanent",
+            significant(permanent.unwrap_or(0.0) * 1e3, 3)
+        ));
+    }
     if scenario.chain.border_shear() > 0.0 {
         warnings.push(format!(
             "the depth rests on the target closure (constraint factor and border shear C = {}): `chain.border_shear = 0.0` \
@@ -92,7 +103,7 @@ fn warn_of_erosion(
     if projectile + target > 0 {
         warnings.push(format!(
             "{projectile} of {} projectile elements and {target} target elements eroded at strain {}, a numerical limit: \
-             compare with `chain.erosion_strain` = {} and {}",
+             compare with `chain.erosion_strain` = {} and {}, and with half the Courant number",
             scenario.chain.projectile_elements(),
             significant(erosion_strain, 3),
             significant(0.75 * erosion_strain, 3),
@@ -101,45 +112,65 @@ fn warn_of_erosion(
     }
 }
 
-/// Material, largest plastic strain, largest temperature [K].
-type Reached<'a> = (&'a Material, f64, f64);
+/// Extremes of a part.
+pub(super) struct Reached {
+    pub(super) plastic_strain: f64,
+    /// [1/s].
+    pub(super) strain_rate: f64,
+    /// [K].
+    pub(super) temperature: f64,
+}
 
 fn warn_of_material(
     what: &str,
-    (material, strain, temperature): Reached<'_>,
+    material: &Material,
+    reached: &Reached,
+    heated: bool,
     warnings: &mut Vec<String>,
 ) {
+    let flowed = reached.plastic_strain > 0.0;
     if let Some(melting) = material.melting_temperature
-        && temperature >= melting.si()
+        && reached.temperature >= melting.si()
     {
         warnings.push(format!(
             "the {what} reached its melting point ({melting}): there the law has no strength"
         ));
     }
-    let thermal = matches!(
-        &material.strength,
-        crate::material::Strength::JohnsonCook(_)
-    );
-    if thermal && material.specific_heat.is_none() && strain > 0.0 {
-        warnings.push(format!(
-            "the {what}'s material has no specific heat: it does not warm up, so its strength is not reduced"
-        ));
+    if flowed && heated && material.strength.law().depends_on_temperature() {
+        let johnson_cook = matches!(&material.strength, Strength::JohnsonCook(_));
+        if material.specific_heat.is_none() {
+            warnings.push(format!(
+                "the {what}'s material has no specific heat: it does not warm up, so its strength is not reduced"
+            ));
+        } else if johnson_cook && material.melting_temperature.is_none() {
+            warnings.push(format!(
+                "the {what}'s material has no melting temperature: heat does not reduce its strength"
+            ));
+        }
     }
     let validity = &material.validity;
     if let Some(most) = validity.plastic_strain_max
-        && strain > most
+        && reached.plastic_strain > most
     {
         warnings.push(format!(
             "the {what} reached a plastic strain of {}, beyond {most} to which its law was fitted",
-            significant(strain, 3)
+            significant(reached.plastic_strain, 3)
+        ));
+    }
+    if let Some(most) = validity.strain_rate_max
+        && reached.strain_rate > most.si()
+    {
+        warnings.push(format!(
+            "the {what} reached a strain rate of {}, beyond {most} to which its law was fitted",
+            StrainRate::new(reached.strain_rate)
         ));
     }
     if let Some(most) = validity.temperature_max
-        && temperature > most.si()
+        && reached.temperature > most.si()
     {
         warnings.push(format!(
             "the {what} reached {}, beyond {most} to which its law was fitted",
-            Temperature::new(temperature)
+            Temperature::new(reached.temperature)
         ));
     }
 }

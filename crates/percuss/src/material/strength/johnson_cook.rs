@@ -120,6 +120,10 @@ impl StrengthLaw for JohnsonCook {
         Some(self.a.si())
     }
 
+    fn depends_on_temperature(&self) -> bool {
+        true
+    }
+
     fn equation(&self) -> &'static str {
         match self.rate_form {
             RateForm::Logarithmic => "σ = (A + B ε_pⁿ)(1 + C ln ε̇*)(1 − T*ᵐ)",

@@ -68,6 +68,11 @@ pub trait StrengthLaw {
     /// Stress at which flow starts, slow and at room temperature [Pa]; `None` for a law that never flows.
     fn initial_yield_stress(&self, material: &Material) -> Option<f64>;
 
+    /// Whether heat changes the flow stress.
+    fn depends_on_temperature(&self) -> bool {
+        false
+    }
+
     /// Constitutive equation as text.
     fn equation(&self) -> &'static str;
 

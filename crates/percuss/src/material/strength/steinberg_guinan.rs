@@ -94,6 +94,10 @@ impl StrengthLaw for SteinbergGuinan {
         Some(self.work_hardened(0.0))
     }
 
+    fn depends_on_temperature(&self) -> bool {
+        self.temperature_coefficient.si() != 0.0
+    }
+
     fn equation(&self) -> &'static str {
         "σ = min(Y₀ [1 + β(ε_i + ε_p)]ⁿ, Y_max) · [1 + A P − B (T − 300 K)]"
     }

@@ -1,0 +1,144 @@
+//! From the state at the end of a run to its result.
+
+use super::{
+    part::Role,
+    state::State,
+    warnings::{Reached, warnings},
+    watch::Watch,
+};
+use crate::{
+    history::Recorder,
+    outcome::{RunResult, Termination},
+    scenario::{Scenario, TargetBody},
+};
+
+/// What a result is made of.
+pub(super) struct Results<'a> {
+    pub(super) scenario: &'a Scenario,
+    pub(super) state: &'a State,
+    pub(super) watch: &'a Watch,
+    pub(super) erosion_strain: f64,
+}
+
+/// Unloaded size of what is left, and what has left.
+#[derive(Default)]
+struct Remains {
+    permanent_depth: f64,
+    projectile_length: f64,
+    projectile_diameter: Option<f64>,
+    eroded: (usize, usize),
+}
+
+impl Results<'_> {
+    pub(super) fn sum_up(&self, termination: Termination, recorder: Option<Recorder>) -> RunResult {
+        let (scenario, state, watch) = (self.scenario, self.state, self.watch);
+        let reached = self.reached();
+        let remains = self.remains();
+        let most = |role: Role, value: fn(&Reached) -> f64| {
+            let own = reached
+                .iter()
+                .zip(&state.parts)
+                .filter(|(_, part)| part.role == role);
+            own.map(|(reached, _)| value(reached)).fold(0.0, f64::max)
+        };
+        let (mass, momentum) = state.projectile_motion();
+        let depth = match scenario.target {
+            TargetBody::RigidWall => None,
+            // A crater floor that sprang back beyond the original face is no depth.
+            _ => Some(
+                watch
+                    .at_rest
+                    .map_or(watch.largest_depth, |(_, depth)| depth.max(0.0)),
+            ),
+        };
+        let mut result = RunResult {
+            model: "chain",
+            scheme: "conservative",
+            outcome: watch.outcome(termination, state, scenario.impact_speed),
+            termination,
+            depth_of_penetration: depth,
+            largest_depth: depth.map(|_| watch.largest_depth),
+            permanent_depth: match scenario.target {
+                TargetBody::Layers { .. } => Some(remains.permanent_depth),
+                TargetBody::ConstantPressure(_) => Some(watch.largest_depth),
+                TargetBody::RigidWall => None,
+            },
+            residual_velocity: if mass > 0.0 { momentum / mass } else { 0.0 },
+            projectile_final_length: remains.projectile_length,
+            projectile_final_diameter: remains.projectile_diameter,
+            projectile_final_mass: mass,
+            time_to_rest: watch.at_rest.map(|(time, _)| time),
+            peak_force: watch.peak_force,
+            end_time: state.time,
+            steps: state.step,
+            first_time_step: watch.first_time_step,
+            smallest_time_step: watch.smallest_time_step,
+            eroded_elements: remains.eroded,
+            largest_plastic_strain: (
+                most(Role::Projectile, |r| r.plastic_strain),
+                most(Role::Target, |r| r.plastic_strain),
+            ),
+            largest_temperature: (
+                most(Role::Projectile, |r| r.temperature),
+                most(Role::Target, |r| r.temperature),
+            ),
+            energy: state.energy(),
+            momentum: state.momentum(),
+            energy_residual: watch.energy_residual,
+            momentum_residual: watch.momentum_residual,
+            warnings: Vec::new(),
+            history: recorder.map(|recorder| recorder.finish(state.sample(), state.profile())),
+        };
+        result.warnings = warnings(scenario, &result, &reached, self.erosion_strain);
+        result
+    }
+
+    /// Extremes of every part, eroded elements included.
+    fn reached(&self) -> Vec<Reached> {
+        let mut first = 0;
+        let parts = self.state.parts.iter().map(|part| {
+            let elements = &self.state.elements[first..first + part.elements];
+            first += part.elements;
+            let most = |value: fn(&super::state::Element) -> f64| {
+                elements.iter().map(value).fold(0.0, f64::max)
+            };
+            Reached {
+                plastic_strain: most(|element| element.plastic_strain),
+                strain_rate: most(|element| element.largest_rate),
+                temperature: most(|element| element.temperature),
+            }
+        });
+        parts.collect()
+    }
+
+    fn remains(&self) -> Remains {
+        let mut remains = Remains::default();
+        let mut first = 0;
+        for part in &self.state.parts {
+            for element in &self.state.elements[first..first + part.elements] {
+                let rest = element.rest_length;
+                let unloaded = part.length_at(rest, element.plastic_axial);
+                let eroded = usize::from(element.eroded);
+                match (part.role, element.eroded) {
+                    (Role::Projectile, true) => remains.eroded.0 += eroded,
+                    (Role::Projectile, false) => {
+                        remains.projectile_length += unloaded;
+                        let here = part.diameter_at(element.plastic_axial);
+                        let widest = remains.projectile_diameter.get_or_insert(here);
+                        *widest = widest.max(here);
+                    }
+                    (Role::Target, _) => {
+                        remains.eroded.1 += eroded;
+                        remains.permanent_depth += if element.eroded {
+                            rest
+                        } else {
+                            rest - unloaded
+                        };
+                    }
+                }
+            }
+            first += part.elements;
+        }
+        remains
+    }
+}

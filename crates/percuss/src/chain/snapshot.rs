@@ -1,0 +1,75 @@
+//! What histories keep of a state.
+
+use super::{part::Role, state::State};
+use crate::history::{ElementState, Profile, Sample};
+
+/// Most elements in a profile: a finer mesh than a picture can show is thinned out.
+const MOST_ELEMENTS: usize = 400;
+
+impl State {
+    pub(super) fn sample(&self) -> Sample {
+        let projectile = || {
+            self.segments
+                .iter()
+                .filter(|segment| self.parts[segment.part].role == Role::Projectile)
+        };
+        let tail = projectile()
+            .next()
+            .map(|segment| self.nodes[segment.first_node]);
+        let tip = projectile()
+            .next_back()
+            .map(|segment| self.nodes[segment.last_node]);
+        let face = self
+            .face_segment()
+            .map(|face| self.nodes[self.segments[face].first_node]);
+        let (mass, momentum) = self.projectile_motion();
+        let length: f64 = projectile()
+            .map(|segment| {
+                self.nodes[segment.last_node].position - self.nodes[segment.first_node].position
+            })
+            .sum();
+        // What is gone has no place and no speed.
+        Sample {
+            time: self.time,
+            step: self.step,
+            tip_velocity: tip.map_or(f64::NAN, |node| node.velocity),
+            tail_velocity: tail.map_or(f64::NAN, |node| node.velocity),
+            interface_velocity: face.map_or(f64::NAN, |node| node.velocity),
+            mean_velocity: momentum / mass,
+            tip_position: tip.map_or(f64::NAN, |node| node.position),
+            depth: self.depth(),
+            projectile_length: length + 0.0,
+            contact_force: self.contact_force,
+            back_force: self.back_force,
+            energy: self.energy(),
+            momentum: self.momentum(),
+        }
+    }
+
+    pub(super) fn profile(&self) -> Profile {
+        let total: usize = self.segments.iter().map(|s| s.elements().len()).sum();
+        let stride = total.div_ceil(MOST_ELEMENTS).max(1);
+        let mut elements = Vec::with_capacity(total / stride + 1);
+        for segment in &self.segments {
+            let part = &self.parts[segment.part];
+            for e in segment.elements().step_by(stride) {
+                let node = e + segment.part;
+                elements.push(ElementState {
+                    part: segment.part,
+                    initial_position: self.elements[e].initial_position,
+                    position: 0.5 * (self.nodes[node].position + self.nodes[node + 1].position),
+                    length: self.elements[e].length,
+                    stress: self.elements[e].stress,
+                    strain: self.elements[e].strain,
+                    plastic_strain: self.elements[e].plastic_strain,
+                    diameter: part.diameter_at(self.elements[e].strain),
+                    temperature: self.elements[e].temperature,
+                });
+            }
+        }
+        Profile {
+            time: self.time,
+            elements,
+        }
+    }
+}
