@@ -1,7 +1,10 @@
 //! Model `chain`: the 1-D discrete element model, point masses joined by normal springs.
 
 mod conservative;
+mod contact;
 mod element;
+mod erosion;
+mod friction;
 mod mesh;
 mod part;
 mod published;

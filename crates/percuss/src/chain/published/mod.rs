@@ -3,60 +3,26 @@
 //! Nothing here is improved on: strain is small strain at any strain, springs unload along the loading curve, and
 //! the joined interface gives the first target mass its speed from nothing. The warnings of a run say so.
 
+mod record;
+mod springs;
+
 use std::f64::consts::PI;
 
-use super::solver::rub;
+use super::{friction::rub, part::constraint_factor};
 use crate::{
     Error, Scenario,
-    case::{
-        BackFace, ContactSpring, Interface, PublishedBorderShear, PublishedOptions,
-        PublishedTimeStep, SmallStrainStiffness,
-    },
+    case::{ContactSpring, Interface, PublishedBorderShear, PublishedOptions, PublishedTimeStep},
     error::NumericalError,
-    history::{ElementState, Profile, Recorder, Sample},
-    ledger::{EnergyLedger, MomentumLedger},
-    material::{Material, Strength},
+    history::Recorder,
+    material::Material,
     model::{Control, Progress},
-    outcome::{Outcome, RunResult, Termination},
-    scenario::{Plate, TargetBody},
+    outcome::{RunResult, Termination},
 };
 
-use super::part::constraint_factor;
+use springs::{Springs, law, single_plate};
 
 const DEFAULT_MAX_STEPS: u64 = 20_000_000;
 const REPORT_INTERVAL: u64 = 4096;
-
-/// Springs of one body: all alike.
-#[derive(Debug, Clone, Copy)]
-struct Springs {
-    /// Length of an element [m].
-    length: f64,
-    /// Elastic stiffness `E A/l` [N/m], equation (7).
-    stiffness: f64,
-    /// `factor σ₀ A` [N]: force at unit strain.
-    strength: f64,
-    exponent: f64,
-    small_strain: SmallStrainStiffness,
-    mass: f64,
-    border_shear: f64,
-}
-
-impl Springs {
-    /// Force at a shortening `u` of a spring of length `length`, equations (8)–(14).
-    fn force(&self, u: f64, length: f64) -> f64 {
-        let strain = u.abs() / length;
-        let plastic = self.strength * strain.powf(self.exponent);
-        let force = match self.small_strain {
-            SmallStrainStiffness::PowerLaw if u == 0.0 => 0.0,
-            SmallStrainStiffness::PowerLaw => plastic,
-            SmallStrainStiffness::Elastic => {
-                plastic.min(self.stiffness * self.length / length * u.abs())
-            }
-        };
-        force.copysign(u)
-    }
-}
-
 /// A run of the published scheme. Index 0 is the mass at the interface in both bodies.
 #[derive(Debug)]
 pub struct Published<'a> {
@@ -82,28 +48,6 @@ pub struct Published<'a> {
     peak_force: f64,
     largest_depth: f64,
     initial: (f64, f64),
-}
-
-fn law(material: &Material, factor: f64, area: f64) -> Option<(f64, f64)> {
-    match &material.strength {
-        Strength::PowerLaw(law) => Some((factor * law.coefficient.si() * area, law.exponent)),
-        Strength::Elastic(_) => Some((material.youngs_modulus.si() * area, 1.0)),
-        _ => None,
-    }
-}
-
-fn single_plate(scenario: &Scenario) -> Option<(&Plate, f64, f64)> {
-    match &scenario.target {
-        TargetBody::Layers {
-            layers,
-            back_face: BackFace::Fixed,
-            column_diameter,
-        } => match layers.as_slice() {
-            [plate] => Some((plate, plate.thickness?, *column_diameter)),
-            _ => None,
-        },
-        _ => None,
-    }
 }
 
 impl<'a> Published<'a> {
@@ -451,200 +395,5 @@ impl<'a> Published<'a> {
             self.spring_work[0] +=
                 self.time_step * 0.5 * self.rod_force[0] * (rod_before[0] + self.rod_velocity[0]);
         }
-    }
-
-    fn ledgers(&self) -> (EnergyLedger, MomentumLedger) {
-        let kinetic =
-            |velocity: &[f64], mass: f64| velocity.iter().map(|v| 0.5 * mass * v * v).sum();
-        let momentum = |velocity: &[f64], mass: f64| velocity.iter().map(|v| mass * v).sum();
-        let energy = EnergyLedger {
-            initial: self.initial.0,
-            kinetic_projectile: kinetic(&self.rod_velocity, self.rod.mass),
-            kinetic_target: kinetic(&self.target_velocity, self.target.mass),
-            elastic_projectile: self.spring_work[0],
-            elastic_target: self.spring_work[1],
-            border_shear: self.friction_work,
-            ..EnergyLedger::default()
-        };
-        let momentum = MomentumLedger {
-            initial: self.initial.1,
-            projectile: momentum(&self.rod_velocity, self.rod.mass),
-            target: momentum(&self.target_velocity, self.target.mass),
-            support: self.support_impulse,
-            border_shear: self.friction_impulse,
-            eroded: 0.0,
-        };
-        (energy, momentum)
-    }
-
-    fn record(&self, recorder: &mut Option<Recorder>) {
-        let Some(recorder) = recorder else { return };
-        if recorder.wants_sample(self.step) {
-            recorder.sample(self.sample());
-        }
-        if recorder.wants_profile(self.step) {
-            recorder.profile(self.profile());
-        }
-    }
-
-    fn rod_length(&self) -> f64 {
-        let last = self.rod_displacement.len() - 1;
-        self.scenario.projectile.length - (self.rod_displacement[last] - self.rod_displacement[0])
-    }
-
-    fn sample(&self) -> Sample {
-        let (energy, momentum) = self.ledgers();
-        let count = self.rod_velocity.len();
-        Sample {
-            time: self.time(),
-            step: self.step,
-            tip_velocity: self.rod_velocity[0],
-            tail_velocity: self.rod_velocity[count - 1],
-            interface_velocity: self.target_velocity[0],
-            mean_velocity: self.rod_velocity.iter().sum::<f64>() / count as f64,
-            tip_position: self.rod_displacement[0],
-            depth: self.target_displacement[0],
-            projectile_length: self.rod_length(),
-            contact_force: self.contact_force,
-            back_force: self.back_force,
-            energy,
-            momentum,
-        }
-    }
-
-    fn profile(&self) -> Profile {
-        let state = |part: usize,
-                     centre: f64,
-                     shortening: f64,
-                     springs: &Springs,
-                     area: f64,
-                     diameter: f64,
-                     moved: f64| {
-            ElementState {
-                part,
-                initial_position: centre,
-                position: centre + moved,
-                length: springs.length - shortening,
-                stress: springs.force(shortening, springs.length) / area,
-                strain: shortening / springs.length,
-                plastic_strain: 0.0,
-                diameter,
-                temperature: self.scenario.projectile.material.room_temperature.si(),
-            }
-        };
-        let rod = &self.scenario.projectile;
-        let column = single_plate(self.scenario).map_or(rod.diameter, |plate| plate.2);
-        let column_area = PI * column * column / 4.0;
-        let mut elements = Vec::new();
-        for i in (1..self.rod_displacement.len()).rev() {
-            let (behind, ahead) = (self.rod_displacement[i], self.rod_displacement[i - 1]);
-            let centre = -(i as f64) * self.rod.length;
-            let moved = 0.5 * (ahead + behind);
-            elements.push(state(
-                0,
-                centre,
-                behind - ahead,
-                &self.rod,
-                rod.area(),
-                rod.diameter,
-                moved,
-            ));
-        }
-        for i in 1..self.target_displacement.len() {
-            let (behind, ahead) = (self.target_displacement[i - 1], self.target_displacement[i]);
-            let centre = i as f64 * self.target.length;
-            let moved = 0.5 * (ahead + behind);
-            elements.push(state(
-                1,
-                centre,
-                behind - ahead,
-                &self.target,
-                column_area,
-                column,
-                moved,
-            ));
-        }
-        Profile {
-            time: self.time(),
-            elements,
-        }
-    }
-
-    fn finish(self, termination: Termination, recorder: Option<Recorder>) -> RunResult {
-        let history = recorder.map(|recorder| recorder.finish(self.sample(), self.profile()));
-        let (energy, momentum) = self.ledgers();
-        let stopped = termination == Termination::TipStopped;
-        let outcome = match termination {
-            Termination::PassedBackFace => Outcome::Perforated,
-            Termination::EndTime | Termination::StepLimit => Outcome::OutOfTime,
-            _ => Outcome::AtRest,
-        };
-        let count = self.rod_velocity.len() as f64;
-        let room = self.scenario.projectile.material.room_temperature.si();
-        RunResult {
-            model: "chain",
-            scheme: "published",
-            outcome,
-            termination,
-            depth_of_penetration: Some(self.rod_displacement[0]),
-            largest_depth: Some(self.largest_depth),
-            permanent_depth: None,
-            residual_velocity: self.rod_velocity.iter().sum::<f64>() / count,
-            projectile_final_length: self.rod_length(),
-            projectile_final_diameter: None,
-            projectile_final_mass: self.scenario.projectile.mass,
-            time_to_rest: stopped.then(|| self.time()),
-            peak_force: self.peak_force,
-            end_time: self.time(),
-            steps: self.step,
-            first_time_step: self.time_step,
-            smallest_time_step: self.time_step,
-            eroded_elements: (0, 0),
-            largest_plastic_strain: (0.0, 0.0),
-            largest_temperature: (room, room),
-            energy_residual: energy.residual().abs(),
-            momentum_residual: momentum.residual().abs(),
-            energy,
-            momentum,
-            warnings: self.warnings(stopped),
-            history,
-        }
-    }
-
-    fn warnings(&self, stopped: bool) -> Vec<String> {
-        let mut warnings = vec![
-            "scheme `published` reproduces the paper; its depths are not converged and its strain measure fails at large \
-             strain: for an answer, use scheme `conservative`"
-                .to_owned(),
-        ];
-        let inverted = (1..self.rod_displacement.len())
-            .filter(|&i| self.rod_displacement[i] - self.rod_displacement[i - 1] >= self.rod.length)
-            .count()
-            + (1..self.target_displacement.len())
-                .filter(|&i| {
-                    self.target_displacement[i - 1] - self.target_displacement[i]
-                        >= self.target.length
-                })
-                .count();
-        if inverted > 0 {
-            warnings.push(format!(
-                "{inverted} springs are shorter than nothing: small strain lets elements invert"
-            ));
-        }
-        match self.options.interface {
-            Interface::Chain if stopped => {
-                let face = self.target_displacement[0] * 1e3;
-                warnings.push(format!(
-                    "the target's face moved {face:.4} mm: this depth is the collapse of the contact spring and shrinks \
-                     with the element length"
-                ));
-            }
-            Interface::Chain => {}
-            Interface::Joined | Interface::JoinedPushed => warnings.push(format!(
-                "equation (15) gives the first target mass its speed from nothing: {:.2} % of the shot's momentum",
-                100.0 * self.target.mass * self.scenario.impact_speed / self.initial.1.max(f64::MIN_POSITIVE)
-            )),
-        }
-        warnings
     }
 }

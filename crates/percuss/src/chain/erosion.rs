@@ -1,0 +1,88 @@
+//! Erosion: elements that leave the chain, with everything that leaves with them.
+
+use super::state::{End, Segment, State};
+
+impl State {
+    /// Takes out the elements whose strain has passed the limit, booking what leaves with them.
+    pub(super) fn erode(&mut self, limit: f64) {
+        let mut s = 0;
+        while s < self.segments.len() {
+            let segment = self.segments[s];
+            let found = segment
+                .elements()
+                .find(|&e| self.elements[e].strain.abs() >= limit);
+            match found {
+                // The segment at `s` is another one afterwards: look again.
+                Some(e) => self.remove_element(s, e),
+                None => s += 1,
+            }
+        }
+    }
+
+    fn remove_element(&mut self, s: usize, e: usize) {
+        let segment = self.segments[s];
+        let part = &self.parts[segment.part];
+        let half_mass = 0.5 * part.density * part.area * self.elements[e].rest_length;
+        let half_friction = 0.5 * part.friction_per_length * self.elements[e].rest_length;
+        self.books.eroded_energy += self.elastic_energy(e, part);
+        let left = e + segment.part;
+        for i in [left, left + 1] {
+            let velocity = self.nodes[i].velocity;
+            self.books.eroded_energy += 0.5 * half_mass * velocity * velocity;
+            self.books.eroded_momentum += half_mass * velocity;
+            self.nodes[i].mass -= half_mass;
+            self.nodes[i].friction = (self.nodes[i].friction - half_friction).max(0.0);
+        }
+        self.elements[e].eroded = true;
+        let before = Segment {
+            last_node: left,
+            ..segment
+        };
+        let after = Segment {
+            first_node: left + 1,
+            ..segment
+        };
+        // A node without an element has no mass left and goes too.
+        let is_last = s + 1 == self.segments.len();
+        let kept: Vec<Segment> = [before, after]
+            .into_iter()
+            .filter(|piece| !piece.elements().is_empty())
+            .collect();
+        match kept.len() {
+            2 => self.closed.insert(s, false),
+            1 => {
+                // The contact on the side of the lost node is open now.
+                let lost_front = before.elements().is_empty();
+                let contact = if lost_front {
+                    s.checked_sub(1)
+                } else {
+                    Some(s)
+                };
+                if let Some(contact) = contact.filter(|&c| c < self.closed.len()) {
+                    self.closed[contact] = false;
+                }
+                if !lost_front && is_last {
+                    self.end = End::Free;
+                }
+            }
+            _ => {
+                // The whole segment is gone: its two contacts become one, open.
+                if is_last {
+                    self.closed.pop();
+                    self.end = End::Free;
+                } else {
+                    self.closed.remove(s);
+                    if s > 0 {
+                        self.closed[s - 1] = false;
+                    }
+                }
+            }
+        }
+        self.segments.splice(s..=s, kept);
+        if self.tip_friction > 0.0
+            && let Some(tip) = self.segments.last()
+        {
+            self.nodes[tip.last_node].friction = self.tip_friction;
+        }
+    }
+}
