@@ -2,8 +2,10 @@
 
 mod document;
 mod load;
+mod number_or_word;
 mod options;
 mod projectile;
+mod published_options;
 mod reword;
 mod target;
 #[cfg(test)]
@@ -18,8 +20,10 @@ use crate::material::MaterialTable;
 
 pub(crate) use document::Document;
 pub use load::{MAX_FILE_BYTES, load, load_library, load_materials, load_str};
+pub use number_or_word::{ConstraintFactor, ErosionStrain};
 pub use options::*;
 pub use projectile::{Nose, Projectile};
+pub use published_options::*;
 pub use target::{BackFace, Layer, Target, Thickness};
 
 /// A case as its TOML file holds it.

@@ -124,6 +124,11 @@ impl Element {
         (increment, found)
     }
 
+    /// Whether an update to the same length would change nothing.
+    pub(super) fn is_settled(&self) -> bool {
+        self.plastic_step == 0.0 && self.viscous_force == 0.0 && self.stress == self.stress_before
+    }
+
     /// Largest stable time step of the undamped element [s]: the time a wave takes through it.
     pub(super) fn stable_step(&self, part: &Part) -> f64 {
         match part.kinematics {

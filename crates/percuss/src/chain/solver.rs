@@ -211,6 +211,12 @@ impl State {
             let elements = &mut self.elements[segment.elements()];
             let mut plastic_work = 0.0;
             for (i, (pair, element)) in nodes.windows(2).zip(elements).enumerate() {
+                let held = pair[0].velocity == 0.0 && pair[1].velocity == 0.0;
+                if held && element.is_settled() {
+                    // Where no wave has come, or border shear holds, nothing changes.
+                    stable_step = stable_step.min(element.stable_step(part));
+                    continue;
+                }
                 let length = pair[1].position - pair[0].position;
                 if length <= 0.0 {
                     return Err(inverted(self.step, self.time, segment.elements().start + i));
