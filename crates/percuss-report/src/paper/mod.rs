@@ -188,9 +188,9 @@ so for them this page checks what the text says of them. Every number here was c
 Three schemes stand side by side:
 
 - **published, chain**: the paper's equations; every mass moves by its own equation, and a contact spring in which half an
-  element of each body deforms joins rod and target (eq. 22);
+  element of each body deforms joins rod and target (eq. 22); no spring is stiffer than the elastic line;
 - **published, joined**: the same with equation (15) taken literally: the first masses of both bodies move as one from the
-  impact speed on and are stopped by the target's springs;
+  impact speed on and are stopped by the target's springs, the power law down to zero strain;
 - **conservative**: large strain, plastic unloading, momentum-conserving contact, balanced books.
 
 The paper's depth is that of the first penetrator mass when it stops; the conservative scheme's is that of the crater floor
