@@ -48,6 +48,8 @@ impl Outcome {
 pub enum Termination {
     /// The tip has stopped and neither depth nor dissipated energy grew over a round trip of a wave in the projectile.
     Quiescent,
+    /// Projectile and target have parted, will not meet again, and what still rings in them dissipates next to nothing.
+    Parted,
     /// The tip's speed reached zero (scheme `published`, paper section 3.6).
     TipStopped,
     /// The crater floor passed the original back face.
@@ -69,6 +71,7 @@ impl Termination {
             Self::Quiescent => {
                 "tip stopped; neither depth nor dissipation grew over a round trip of a wave"
             }
+            Self::Parted => "projectile and target have parted and will not meet again",
             Self::TipStopped => "the tip's speed reached zero",
             Self::PassedBackFace => "crater floor passed the original back face",
             Self::ProjectileConsumed => "last element of the projectile eroded",

@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{assert_near, paper, run};
+use common::{assert_near, paper, run, wilkins};
 
 fn depth_mm(text: &str) -> f64 {
     run(text).depth_of_penetration.unwrap() * 1e3
@@ -59,12 +59,7 @@ fn taylor_bars_agree() {
         (153.0, 18.17),
         (183.0, 16.48),
     ] {
-        let result = run(&format!(
-            r#"
-            projectile = {{ material = "copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "{velocity} m/s" }}
-            target = {{ rigid_wall = true }}
-            "#
-        ));
+        let result = run(&wilkins(velocity));
         let length = result.projectile_final_length * 1e3;
         assert_near(
             &format!("final length at {velocity} m/s [mm]"),

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{assert_near, run};
+use common::{assert_near, run, wilkins};
 
 /// A rigid, perfectly plastic rod: Taylor's moving front in the true-stress, constant-volume form.
 ///
@@ -70,12 +70,7 @@ fn copper_rods_end_as_long_as_they_were_measured() {
         (153.0, 18.31),
         (183.0, 16.81),
     ] {
-        let result = run(&format!(
-            r#"
-            projectile = {{ material = "copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "{velocity} m/s" }}
-            target = {{ rigid_wall = true }}
-            "#
-        ));
+        let result = run(&wilkins(velocity));
         let length = result.projectile_final_length * 1e3;
         assert_near(
             &format!("final length at {velocity} m/s [mm]"),

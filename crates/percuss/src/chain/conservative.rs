@@ -151,7 +151,9 @@ impl<'a> Conservative<'a> {
                     control.report(self.progress(end_time))?;
                 }
                 if self.watch.is_quiet(&self.state, self.scenario, end_time) {
-                    break match self.state.tip_segment() {
+                    let state = &self.state;
+                    break match state.tip_segment().map(|tip| state.closed.get(tip)) {
+                        Some(Some(false)) => Termination::Parted,
                         Some(_) => Termination::Quiescent,
                         None => Termination::ProjectileConsumed,
                     };

@@ -78,3 +78,13 @@ pub fn paper(velocity: f64, elements: (u32, u32), options: &str) -> String {
         elements.0, elements.1
     )
 }
+
+/// A copper rod of Wilkins & Guinan on a rigid wall.
+pub fn wilkins(velocity: f64) -> String {
+    format!(
+        r#"
+        projectile = {{ material = "copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "{velocity} m/s" }}
+        target = {{ rigid_wall = true }}
+        "#
+    )
+}
