@@ -2,7 +2,7 @@
 
 use percuss::{
     Scenario,
-    outcome::RunResult,
+    outcome::{Numerics, RunResult},
     summary::ResultRecord,
     units::{Velocity, significant},
 };
@@ -20,8 +20,11 @@ pub fn text(scenario: &Scenario, result: &RunResult, record: &ResultRecord) -> S
     let mut text = String::new();
     head(scenario, result, &mut text);
     outcome(scenario, result, record, &mut text);
-    energy(result, &mut text);
-    books(record, &mut text);
+    details(result, &mut text);
+    if let Some(numerics) = &result.numerics {
+        energy(numerics, &mut text);
+        books(numerics, result.end_time.unwrap_or(0.0), &mut text);
+    }
     warnings(result, &mut text);
     text
 }
@@ -33,13 +36,15 @@ fn head(scenario: &Scenario, result: &RunResult, text: &mut String) {
         &scenario.title
     };
     *text += &format!("{}\n", bold(wrap(title, width(), 0)));
-    let line = format!(
-        "case {}, impact at {}, model {}, scheme {}",
+    let mut line = format!(
+        "case {}, impact at {}, model {}",
         scenario.name,
         Velocity::new(scenario.impact_speed),
         result.model,
-        result.scheme
     );
+    if !result.scheme.is_empty() {
+        line += &format!(", scheme {}", result.scheme);
+    }
     *text += &format!("{}\n\n", wrap(&line, width(), 0));
 }
 
@@ -51,61 +56,97 @@ fn outcome(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text:
         reason.replace('\n', &format!("\n{:LABEL$}", "")),
         text,
     );
-    let mm = |value: Option<f64>| value.map(|value| number(value, "mm"));
-    let lengths = [
-        ("depth of penetration", record.depth_of_penetration_mm),
-        ("largest depth", record.largest_depth_mm),
-        ("permanent depth", record.permanent_depth_mm),
-    ];
-    for (label, value) in lengths {
-        optional(label, mm(value), "none", text);
-    }
-    optional(
-        "time to rest",
-        record.time_to_rest_us.map(|time| number(time, "us")),
-        "not reached",
-        text,
-    );
-    let direction = match record.residual_velocity_m_s {
-        v if v < 0.0 => " (backwards)",
-        v if v > 0.0 => " (forward)",
-        _ => "",
+    let mut present = |label: &str, value: Option<f64>, unit: &str| {
+        if let Some(value) = value {
+            row(label, number(value, unit), text);
+        }
     };
-    row(
-        "residual velocity",
-        number(record.residual_velocity_m_s, "m/s") + direction,
-        text,
-    );
+    present("depth of penetration", record.depth_of_penetration_mm, "mm");
+    present("largest depth", record.largest_depth_mm, "mm");
+    present("permanent depth", record.permanent_depth_mm, "mm");
+    present("ballistic limit", record.ballistic_limit_m_s, "m/s");
+    if let Some(band) = &record.band {
+        let range = format!(
+            "{} to {} ({})",
+            significant(band.low, 4),
+            number(band.high, band.quantity.unit()),
+            band.basis
+        );
+        let wrapped = wrap(&range, width() - LABEL, 0);
+        row(
+            &format!("range of {}", band.quantity.in_words()),
+            wrapped.replace('\n', &format!("\n{:LABEL$}", "")),
+            text,
+        );
+    }
+    if let Some(time) = record.time_to_rest_us {
+        row("time to rest", number(time, "us"), text);
+    } else if result.numerics.is_some() {
+        row("time to rest", "not reached", text);
+    }
+    if let Some(velocity) = record.residual_velocity_m_s {
+        let direction = match velocity {
+            v if v < 0.0 => " (backwards)",
+            v if v > 0.0 => " (forward)",
+            _ => "",
+        };
+        row(
+            "residual velocity",
+            number(velocity, "m/s") + direction,
+            text,
+        );
+    }
     let rod = &scenario.projectile;
-    row(
-        "final projectile length",
-        of_initial(record.projectile_final_length_mm, rod.length * 1e3, "mm"),
-        text,
-    );
-    optional(
-        "final projectile diameter",
-        record
-            .projectile_final_diameter_mm
-            .map(|diameter| of_initial(diameter, rod.diameter * 1e3, "mm")),
-        "none",
-        text,
-    );
-    row(
-        "final projectile mass",
-        of_initial(record.projectile_final_mass_g, rod.mass * 1e3, "g"),
-        text,
-    );
-    row("peak force", number(record.peak_force_kn, "kN"), text);
+    let remains = [
+        (
+            "final projectile length",
+            record.projectile_final_length_mm,
+            rod.length * 1e3,
+            "mm",
+        ),
+        (
+            "final projectile diameter",
+            record.projectile_final_diameter_mm,
+            rod.diameter * 1e3,
+            "mm",
+        ),
+        (
+            "final projectile mass",
+            record.projectile_final_mass_g,
+            rod.mass * 1e3,
+            "g",
+        ),
+    ];
+    for (label, value, initial, unit) in remains {
+        if let Some(value) = value {
+            row(label, of_initial(value, initial, unit), text);
+        } else if result.numerics.is_some() {
+            row(label, "none", text);
+        }
+    }
+    if let Some(force) = record.peak_force_kn {
+        row("peak force", number(force, "kN"), text);
+    }
 }
 
-fn energy(result: &RunResult, text: &mut String) {
-    let initial = result.energy.initial;
+fn details(result: &RunResult, text: &mut String) {
+    if result.details.is_empty() {
+        return;
+    }
+    *text += &format!("\n{}\n", bold(format!("model {}", result.model)));
+    for detail in &result.details {
+        row(detail.name, number(detail.value, detail.unit), text);
+    }
+}
+
+fn energy(numerics: &Numerics, text: &mut String) {
+    let initial = numerics.energy.initial;
     if initial == 0.0 {
         return;
     }
     let heading = format!("energy at the end, in % of {}", number(initial, "J"));
     *text += &format!("\n{}\n", bold(heading));
-    for (label, value) in result.energy.lines() {
+    for (label, value) in numerics.energy.lines() {
         let share = value / initial;
         if share.abs() < NEGLIGIBLE {
             continue;
@@ -117,7 +158,7 @@ fn energy(result: &RunResult, text: &mut String) {
     }
 }
 
-fn books(record: &ResultRecord, text: &mut String) {
+fn books(numerics: &Numerics, end_time: f64, text: &mut String) {
     *text += &format!("\n{}\n", bold("books and steps"));
     let off = |residual: f64, what: &str| match residual {
         0.0 => format!("0 of the initial {what}"),
@@ -125,25 +166,21 @@ fn books(record: &ResultRecord, text: &mut String) {
     };
     row(
         "energy residual",
-        off(record.energy_residual, "energy"),
+        off(numerics.energy_residual, "energy"),
         text,
     );
     row(
         "momentum residual",
-        off(record.momentum_residual, "momentum"),
+        off(numerics.momentum_residual, "momentum"),
         text,
     );
-    let steps = format!(
-        "{}, up to {}",
-        record.steps,
-        number(record.end_time_us, "us")
-    );
+    let steps = format!("{}, up to {}", numerics.steps, number(end_time * 1e6, "us"));
     row("steps", steps, text);
-    let mut step = number(record.time_step_ns, "ns");
-    if record.smallest_time_step_ns < record.time_step_ns {
+    let mut step = number(numerics.first_time_step * 1e9, "ns");
+    if numerics.smallest_time_step < numerics.first_time_step {
         step += &format!(
             " at first, smallest {}",
-            number(record.smallest_time_step_ns, "ns")
+            number(numerics.smallest_time_step * 1e9, "ns")
         );
     }
     row("time step", step, text);
@@ -161,12 +198,10 @@ fn row(label: &str, value: impl AsRef<str>, text: &mut String) {
     *text += &format!("{label:<LABEL$}{}\n", value.as_ref());
 }
 
-fn optional(label: &str, value: Option<String>, otherwise: &str, text: &mut String) {
-    row(label, value.as_deref().unwrap_or(otherwise), text);
-}
-
 fn number(value: f64, unit: &str) -> String {
     format!("{} {unit}", significant(value, 5))
+        .trim_end()
+        .to_owned()
 }
 
 fn of_initial(value: f64, initial: f64, unit: &str) -> String {

@@ -38,10 +38,15 @@ pub(crate) fn depth(history: &History, result: &RunResult, caption: &str) -> Opt
 }
 
 pub(crate) fn length(history: &History, result: &RunResult, caption: &str) -> Option<Figure> {
-    if result.depth_of_penetration.is_some() && result.eroded_elements.0 == 0 {
+    if result.depth_of_penetration.is_some()
+        && result
+            .numerics
+            .as_ref()
+            .is_none_or(|numerics| numerics.eroded_elements.0 == 0)
+    {
         return None;
     }
-    let unloaded = result.projectile_final_length * 1e3;
+    let unloaded = result.projectile_final_length? * 1e3;
     let chart = chart(
         "length-time",
         "Length of the projectile against time",

@@ -95,7 +95,7 @@ fn a_rigid_wall_has_a_length_but_no_depth() {
 #[test]
 fn an_eroding_rod_has_depth_and_length() {
     let (scenario, result) = run(EROSION);
-    assert!(result.eroded_elements.0 > 0);
+    assert!(result.numerics().eroded_elements.0 > 0);
     let figures = run_figures(&scenario, &result).unwrap();
     assert_eq!(names(&figures)[..2], ["depth-time", "length-time"]);
     assert_drawn(&figures);

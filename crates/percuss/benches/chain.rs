@@ -31,7 +31,10 @@ fn runs(criterion: &mut Criterion) {
         ),
     ] {
         let run = || model::run(chain, &scenario, &mut Control::default());
-        let steps = run().unwrap_or_else(|error| panic!("{error}")).steps;
+        let steps = run()
+            .unwrap_or_else(|error| panic!("{error}"))
+            .numerics()
+            .steps;
         let elements = scenario.chain.projectile_elements() + scenario.chain.target_elements();
         group.throughput(Throughput::Elements(steps * elements as u64));
         group.bench_function(name, |bencher| bencher.iter(|| black_box(run())));

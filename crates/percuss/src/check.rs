@@ -181,6 +181,16 @@ pub mod limits {
     pub const CONE_RATIO: Limits = limits(0.1, 20.0);
     /// Caliber-radius-head of an ogive.
     pub const CALIBER_RADIUS_HEAD: Limits = limits(0.5, 50.0);
+    /// Unconfined compressive strength of concrete [Pa].
+    pub const CONCRETE_STRENGTH: Limits = limits(1e6, 3e8);
+    /// Bulk sound speed [m/s].
+    pub const SOUND_SPEED: Limits = limits(100.0, 15_000.0);
+    /// Slope of shock speed against particle speed.
+    pub const HUGONIOT_SLOPE: Limits = limits(0.5, 4.0);
+    /// Grüneisen's parameter.
+    pub const GRUNEISEN: Limits = limits(0.0, 5.0);
+    /// Brinell hardness [kgf/mm2].
+    pub const BRINELL_HARDNESS: Limits = limits(10.0, 900.0);
     /// Contact pressure of a constant-pressure target [Pa].
     pub const CONTACT_PRESSURE: Limits = limits(1e3, 1e11);
 }

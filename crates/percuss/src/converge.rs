@@ -162,10 +162,16 @@ pub fn study(
     for level in 0..levels {
         let refined = scenario.refined(REFINEMENT.saturating_pow(level));
         let result = run(model, &refined, control)?;
+        let Some(numerics) = &result.numerics else {
+            return Err(Error::NotApplicable {
+                model: model.name(),
+                reason: "it has no mesh to refine".to_owned(),
+            });
+        };
         meshes.push(Mesh {
-            projectile_elements: refined.chain.projectile_elements(),
-            target_elements: refined.chain.target_elements(),
-            steps: result.steps,
+            projectile_elements: numerics.elements.0,
+            target_elements: numerics.elements.1,
+            steps: numerics.steps,
         });
         results.push(result);
     }
@@ -182,10 +188,10 @@ const QUANTITIES: &[(&str, &str, Reader)] = &[
         r.permanent_depth.map(|x| x * 1e3)
     }),
     ("projectile_final_length", "mm", |r| {
-        Some(r.projectile_final_length * 1e3)
+        r.projectile_final_length.map(|x| x * 1e3)
     }),
     ("time_to_rest", "us", |r| r.time_to_rest.map(|t| t * 1e6)),
-    ("residual_velocity", "m/s", |r| Some(r.residual_velocity)),
+    ("residual_velocity", "m/s", |r| r.residual_velocity),
 ];
 
 impl Study {

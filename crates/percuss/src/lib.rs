@@ -13,7 +13,7 @@
 //! let result = model::run(model::model("chain")?, &scenario, &mut Control::default())?;
 //! let depth_mm = result.depth_of_penetration.unwrap() * 1e3;
 //! assert!(depth_mm > 0.03 && depth_mm < 0.05);
-//! assert!(result.energy_residual < 1e-3 && result.momentum_residual < 1e-12);
+//! assert!(result.numerics().energy_residual < 1e-3 && result.numerics().momentum_residual < 1e-12);
 //! # Ok::<(), percuss::Error>(())
 //! ```
 
@@ -22,11 +22,13 @@ pub mod chain;
 pub mod check;
 pub mod converge;
 mod error;
+pub mod guard;
 pub mod history;
 pub mod ledger;
 pub mod material;
 pub mod model;
 pub mod outcome;
+pub mod regime;
 pub mod scenario;
 pub mod summary;
 pub mod units;

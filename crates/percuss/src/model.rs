@@ -2,7 +2,14 @@
 
 use std::ops::ControlFlow;
 
-use crate::{Error, Scenario, chain::Chain, error::nearest, outcome::RunResult};
+use crate::{
+    Error, Scenario,
+    chain::Chain,
+    error::nearest,
+    guard::{Guard, Verdict},
+    outcome::RunResult,
+    regime::Regime,
+};
 
 /// A way to compute what becomes of a shot.
 pub trait Model: Sync {
@@ -12,11 +19,13 @@ pub trait Model: Sync {
     /// One line that says what it is.
     fn summary(&self) -> &'static str;
 
-    /// What it takes and what it does not, in words, one line each.
-    fn guard(&self) -> &'static [&'static str];
+    /// The regime that it is made for.
+    fn guard(&self) -> &'static Guard;
 
-    /// Why the model does not apply to a case, if it does not.
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String>;
+    /// Why the model does not apply to a case that its guard lets pass, if it does not: an option or a number is missing.
+    fn not_applicable(&self, _: &Scenario) -> Option<String> {
+        None
+    }
 
     /// Computes a case to which the model applies.
     ///
@@ -53,12 +62,32 @@ pub fn run(
     scenario: &Scenario,
     control: &mut Control<'_>,
 ) -> Result<RunResult, Error> {
-    match model.not_applicable(scenario) {
-        Some(reason) => Err(Error::NotApplicable {
-            model: model.name(),
-            reason,
-        }),
-        None => model.run(scenario, control),
+    let refuse = |reason: String| Error::NotApplicable {
+        model: model.name(),
+        reason,
+    };
+    let warnings = applicability(model, scenario).map_err(refuse)?;
+    let mut result = model.run(scenario, control)?;
+    if let Some(depth) = result.depth_of_penetration
+        && let Some(reason) = model.guard().depth_at_back_face(scenario, depth)
+    {
+        return Err(refuse(reason));
+    }
+    result.warnings.splice(0..0, warnings);
+    Ok(result)
+}
+
+/// Whether a model applies to a case: the warnings of its guard, or the reason why not.
+///
+/// # Errors
+/// The reason in words.
+pub fn applicability(model: &dyn Model, scenario: &Scenario) -> Result<Vec<String>, String> {
+    match model.guard().verdict(scenario, &Regime::of(scenario)) {
+        Verdict::Outside(reason) => Err(reason),
+        Verdict::Inside(warnings) => match model.not_applicable(scenario) {
+            Some(reason) => Err(reason),
+            None => Ok(warnings),
+        },
     }
 }
 

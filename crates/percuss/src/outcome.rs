@@ -25,6 +25,8 @@ pub enum Outcome {
     OutOfTime,
     /// The model does not apply.
     NotApplicable,
+    /// The model failed on this case.
+    Failed,
 }
 
 impl Outcome {
@@ -38,6 +40,7 @@ impl Outcome {
             Self::ProjectileEroded => "projectile eroded",
             Self::OutOfTime => "out of time",
             Self::NotApplicable => "not applicable",
+            Self::Failed => "failed",
         }
     }
 }
@@ -54,8 +57,14 @@ pub enum Termination {
     TipStopped,
     /// The crater floor passed the original back face.
     PassedBackFace,
-    /// The last element of the projectile eroded.
+    /// The last of the projectile eroded.
     ProjectileConsumed,
+    /// The resistance of the target holds what is left of the projectile.
+    PenetrationStopped,
+    /// The projectile left the target through its back.
+    LeftTarget,
+    /// The answer is a formula.
+    ClosedForm,
     /// `end_time` was reached.
     EndTime,
     /// `max_steps` was reached.
@@ -74,7 +83,12 @@ impl Termination {
             Self::Parted => "projectile and target have parted and will not meet again",
             Self::TipStopped => "the tip's speed reached zero",
             Self::PassedBackFace => "crater floor passed the original back face",
-            Self::ProjectileConsumed => "last element of the projectile eroded",
+            Self::ProjectileConsumed => "the last of the projectile eroded",
+            Self::PenetrationStopped => {
+                "the target's resistance holds what is left of the projectile"
+            }
+            Self::LeftTarget => "the projectile left the target through its back",
+            Self::ClosedForm => "the answer is a formula",
             Self::EndTime => "end_time reached",
             Self::StepLimit => "max_steps reached",
             Self::NothingMoves => "impact speed is zero",
@@ -82,7 +96,7 @@ impl Termination {
     }
 }
 
-/// The result of one model on one case.
+/// The result of one model on one case; a number that the model does not give is `None`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunResult {
     /// Name of the model.
@@ -99,28 +113,108 @@ pub struct RunResult {
     pub depth_of_penetration: Option<f64>,
     /// Largest depth of the crater floor at any time, elastic deflection included [m]; `None` for a rigid wall.
     pub largest_depth: Option<f64>,
-    /// Depth that plastic flow and erosion leave once the load is gone [m]; `None` where the model cannot tell.
+    /// Depth that plastic flow and erosion leave once the load is gone [m].
     pub permanent_depth: Option<f64>,
     /// Mean speed of what is left of the projectile at the end, forward positive [m/s].
-    pub residual_velocity: f64,
+    pub residual_velocity: Option<f64>,
+    /// Impact speed above which the target is perforated [m/s].
+    pub ballistic_limit: Option<f64>,
+    /// Range that the model gives its main number: where its own constants are uncertain.
+    pub band: Option<Band>,
     /// Length of what is left of the projectile, unloaded [m].
-    pub projectile_final_length: f64,
-    /// Largest diameter of what is left of the projectile, unloaded [m]; `None` where the model has no diameter.
+    pub projectile_final_length: Option<f64>,
+    /// Largest diameter of what is left of the projectile, unloaded [m].
     pub projectile_final_diameter: Option<f64>,
     /// Mass left of the projectile [kg].
-    pub projectile_final_mass: f64,
-    /// Time at which the projectile's momentum was used up [s]; `None` when it was not.
+    pub projectile_final_mass: Option<f64>,
+    /// Time at which the projectile's momentum was used up [s].
     pub time_to_rest: Option<f64>,
     /// Largest force between projectile and target [N].
-    pub peak_force: f64,
+    pub peak_force: Option<f64>,
     /// Time at the end [s].
-    pub end_time: f64,
+    pub end_time: Option<f64>,
+    /// Numbers that this model alone has, in its own order.
+    pub details: Vec<Detail>,
+    /// Steps and books of a model that steps through time on a mesh.
+    pub numerics: Option<Numerics>,
+    /// What a user should know before relying on the numbers.
+    pub warnings: Vec<String>,
+    /// Time histories, when they were asked for.
+    pub history: Option<History>,
+}
+
+/// Range of a result where a model's own constants are uncertain.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Band {
+    /// What the range is of.
+    pub quantity: BandQuantity,
+    /// Lower end, in the unit of the quantity's name.
+    pub low: f64,
+    /// Upper end, in the unit of the quantity's name.
+    pub high: f64,
+    /// What the ends stand for.
+    pub basis: &'static str,
+}
+
+/// What a range is of; the name carries the unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub enum BandQuantity {
+    /// Depth of penetration [mm].
+    #[serde(rename = "depth_of_penetration_mm")]
+    DepthOfPenetration,
+    /// Residual velocity [m/s].
+    #[serde(rename = "residual_velocity_m_s")]
+    ResidualVelocity,
+    /// Ballistic limit [m/s].
+    #[serde(rename = "ballistic_limit_m_s")]
+    BallisticLimit,
+    /// Final length of the projectile [mm].
+    #[serde(rename = "projectile_final_length_mm")]
+    ProjectileFinalLength,
+}
+
+impl BandQuantity {
+    /// Its name in words.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::DepthOfPenetration => "depth",
+            Self::ResidualVelocity => "residual velocity",
+            Self::BallisticLimit => "ballistic limit",
+            Self::ProjectileFinalLength => "final length",
+        }
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::DepthOfPenetration | Self::ProjectileFinalLength => "mm",
+            Self::ResidualVelocity | Self::BallisticLimit => "m/s",
+        }
+    }
+}
+
+/// A number that one model alone has.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Detail {
+    /// Its name, in words with spaces.
+    pub name: &'static str,
+    /// Its unit; empty for a plain number.
+    pub unit: &'static str,
+    /// Its value in that unit.
+    pub value: f64,
+}
+
+/// Steps and books of a model that steps through time on a mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Numerics {
     /// Time steps taken.
     pub steps: u64,
     /// First time step [s].
     pub first_time_step: f64,
     /// Smallest time step [s].
     pub smallest_time_step: f64,
+    /// Elements of the mesh: projectile, target.
+    pub elements: (usize, usize),
     /// Elements that eroded: projectile, target.
     pub eroded_elements: (usize, usize),
     /// Largest plastic strain reached: projectile, target.
@@ -135,8 +229,48 @@ pub struct RunResult {
     pub energy_residual: f64,
     /// Largest momentum residual that was seen during the run.
     pub momentum_residual: f64,
-    /// What a user should know before relying on the numbers.
-    pub warnings: Vec<String>,
-    /// Time histories, when they were asked for.
-    pub history: Option<History>,
+}
+
+impl RunResult {
+    /// A result without numbers, for a model to fill in.
+    pub fn new(
+        model: &'static str,
+        scheme: &'static str,
+        outcome: Outcome,
+        termination: Termination,
+    ) -> Self {
+        Self {
+            model,
+            scheme,
+            outcome,
+            termination,
+            depth_of_penetration: None,
+            largest_depth: None,
+            permanent_depth: None,
+            residual_velocity: None,
+            ballistic_limit: None,
+            band: None,
+            projectile_final_length: None,
+            projectile_final_diameter: None,
+            projectile_final_mass: None,
+            time_to_rest: None,
+            peak_force: None,
+            end_time: None,
+            details: Vec::new(),
+            numerics: None,
+            warnings: Vec::new(),
+            history: None,
+        }
+    }
+
+    /// Steps and books of a model that steps through time on a mesh.
+    ///
+    /// # Panics
+    /// When the model has none: a formula.
+    pub fn numerics(&self) -> &Numerics {
+        match &self.numerics {
+            Some(numerics) => numerics,
+            None => panic!("model `{}` takes no time steps", self.model),
+        }
+    }
 }

@@ -82,6 +82,22 @@ pub struct Plate {
 }
 
 impl Scenario {
+    /// The same case at another impact speed [m/s].
+    pub fn at_speed(&self, impact_speed: f64) -> Self {
+        Self {
+            impact_speed,
+            ..self.clone()
+        }
+    }
+
+    /// Thickness of all layers together [m]; `None` for a semi-infinite target, a wall or a constant pressure.
+    pub fn target_thickness(&self) -> Option<f64> {
+        match &self.target {
+            TargetBody::Layers { layers, .. } => layers.iter().map(|layer| layer.thickness).sum(),
+            _ => None,
+        }
+    }
+
     /// The same case on a mesh that is `factor` times finer.
     pub fn refined(&self, factor: u32) -> Self {
         let finer = |elements: usize| {

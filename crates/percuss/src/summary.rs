@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use crate::{
-    outcome::{Outcome, RunResult, Termination},
+    Error,
+    outcome::{Band, Detail, Outcome, RunResult, Termination},
     scenario::Scenario,
 };
 
@@ -28,8 +29,8 @@ pub struct ResultRecord {
     /// How the shot ended.
     pub outcome: Outcome,
     /// Why the run was ended.
-    pub termination: Termination,
-    /// Why the model does not apply, if it does not.
+    pub termination: Option<Termination>,
+    /// Why there is no result, if there is none.
     pub reason: Option<String>,
     /// Impact speed [m/s].
     pub impact_velocity_m_s: f64,
@@ -40,43 +41,49 @@ pub struct ResultRecord {
     /// Depth left once the load is gone [mm].
     pub permanent_depth_mm: Option<f64>,
     /// Mean speed of what is left of the projectile at the end, forward positive [m/s].
-    pub residual_velocity_m_s: f64,
+    pub residual_velocity_m_s: Option<f64>,
+    /// Impact speed above which the target is perforated [m/s].
+    pub ballistic_limit_m_s: Option<f64>,
+    /// Range that the model gives its main number.
+    pub band: Option<Band>,
     /// Unloaded length of what is left of the projectile [mm].
-    pub projectile_final_length_mm: f64,
+    pub projectile_final_length_mm: Option<f64>,
     /// Largest unloaded diameter of what is left of the projectile [mm].
     pub projectile_final_diameter_mm: Option<f64>,
     /// Mass left of the projectile [g].
-    pub projectile_final_mass_g: f64,
+    pub projectile_final_mass_g: Option<f64>,
     /// Time at which the projectile's momentum was used up [us].
     pub time_to_rest_us: Option<f64>,
     /// Largest force between projectile and target [kN].
-    pub peak_force_kn: f64,
+    pub peak_force_kn: Option<f64>,
     /// Time at the end of the run [us].
-    pub end_time_us: f64,
+    pub end_time_us: Option<f64>,
     /// Time steps taken.
-    pub steps: u64,
+    pub steps: Option<u64>,
     /// First time step [ns].
-    pub time_step_ns: f64,
+    pub time_step_ns: Option<f64>,
     /// Smallest time step [ns].
-    pub smallest_time_step_ns: f64,
+    pub smallest_time_step_ns: Option<f64>,
     /// Elements of the projectile that eroded.
-    pub eroded_projectile_elements: usize,
+    pub eroded_projectile_elements: Option<usize>,
     /// Elements of the target that eroded.
-    pub eroded_target_elements: usize,
+    pub eroded_target_elements: Option<usize>,
     /// Largest plastic strain in the projectile.
-    pub projectile_plastic_strain: f64,
+    pub projectile_plastic_strain: Option<f64>,
     /// Largest plastic strain in the target.
-    pub target_plastic_strain: f64,
+    pub target_plastic_strain: Option<f64>,
     /// Largest temperature in the projectile [K].
-    pub projectile_temperature_k: f64,
+    pub projectile_temperature_k: Option<f64>,
     /// Largest temperature in the target [K].
-    pub target_temperature_k: f64,
+    pub target_temperature_k: Option<f64>,
     /// Kinetic energy at impact [J].
     pub impact_energy_j: f64,
     /// Largest part of the initial energy that no line of the book accounted for.
-    pub energy_residual: f64,
+    pub energy_residual: Option<f64>,
     /// Largest part of the initial momentum that no line of the book accounted for.
-    pub momentum_residual: f64,
+    pub momentum_residual: Option<f64>,
+    /// Numbers that this model alone has.
+    pub details: Vec<Detail>,
     /// What a user should know before relying on the numbers.
     pub warnings: Vec<String>,
 }
@@ -85,36 +92,92 @@ impl ResultRecord {
     /// The record of a result.
     pub fn new(scenario: &Scenario, result: &RunResult) -> Self {
         let mm = |length: Option<f64>| length.map(|length| length * 1e3);
+        let us = |time: Option<f64>| time.map(|time| time * 1e6);
+        let numerics = result.numerics.as_ref();
         Self {
-            model: result.model,
-            scheme: result.scheme,
-            outcome: result.outcome,
-            termination: result.termination,
-            reason: None,
-            impact_velocity_m_s: scenario.impact_speed,
+            termination: Some(result.termination),
             depth_of_penetration_mm: mm(result.depth_of_penetration),
             largest_depth_mm: mm(result.largest_depth),
             permanent_depth_mm: mm(result.permanent_depth),
             residual_velocity_m_s: result.residual_velocity,
-            projectile_final_length_mm: result.projectile_final_length * 1e3,
+            ballistic_limit_m_s: result.ballistic_limit,
+            band: result.band.clone(),
+            projectile_final_length_mm: mm(result.projectile_final_length),
             projectile_final_diameter_mm: mm(result.projectile_final_diameter),
-            projectile_final_mass_g: result.projectile_final_mass * 1e3,
-            time_to_rest_us: result.time_to_rest.map(|time| time * 1e6),
-            peak_force_kn: result.peak_force * 1e-3,
-            end_time_us: result.end_time * 1e6,
-            steps: result.steps,
-            time_step_ns: result.first_time_step * 1e9,
-            smallest_time_step_ns: result.smallest_time_step * 1e9,
-            eroded_projectile_elements: result.eroded_elements.0,
-            eroded_target_elements: result.eroded_elements.1,
-            projectile_plastic_strain: result.largest_plastic_strain.0,
-            target_plastic_strain: result.largest_plastic_strain.1,
-            projectile_temperature_k: result.largest_temperature.0,
-            target_temperature_k: result.largest_temperature.1,
-            impact_energy_j: result.energy.initial,
-            energy_residual: result.energy_residual,
-            momentum_residual: result.momentum_residual,
+            projectile_final_mass_g: mm(result.projectile_final_mass),
+            time_to_rest_us: us(result.time_to_rest),
+            peak_force_kn: result.peak_force.map(|force| force * 1e-3),
+            end_time_us: us(result.end_time),
+            steps: numerics.map(|n| n.steps),
+            time_step_ns: numerics.map(|n| n.first_time_step * 1e9),
+            smallest_time_step_ns: numerics.map(|n| n.smallest_time_step * 1e9),
+            eroded_projectile_elements: numerics.map(|n| n.eroded_elements.0),
+            eroded_target_elements: numerics.map(|n| n.eroded_elements.1),
+            projectile_plastic_strain: numerics.map(|n| n.largest_plastic_strain.0),
+            target_plastic_strain: numerics.map(|n| n.largest_plastic_strain.1),
+            projectile_temperature_k: numerics.map(|n| n.largest_temperature.0),
+            target_temperature_k: numerics.map(|n| n.largest_temperature.1),
+            energy_residual: numerics.map(|n| n.energy_residual),
+            momentum_residual: numerics.map(|n| n.momentum_residual),
+            details: result.details.clone(),
             warnings: result.warnings.clone(),
+            ..Self::empty(scenario, result.model, result.scheme, result.outcome)
+        }
+    }
+
+    /// The record of a model that gave no result on a case, with the reason.
+    ///
+    /// [`Error::NotApplicable`] becomes [`Outcome::NotApplicable`], any other error [`Outcome::Failed`].
+    pub fn without_result(scenario: &Scenario, model: &'static str, error: &Error) -> Self {
+        let (outcome, reason) = match error {
+            Error::NotApplicable { reason, .. } => (Outcome::NotApplicable, reason.clone()),
+            other => (Outcome::Failed, other.to_string()),
+        };
+        Self {
+            reason: Some(reason),
+            ..Self::empty(scenario, model, "", outcome)
+        }
+    }
+
+    fn empty(
+        scenario: &Scenario,
+        model: &'static str,
+        scheme: &'static str,
+        outcome: Outcome,
+    ) -> Self {
+        Self {
+            model,
+            scheme,
+            outcome,
+            termination: None,
+            reason: None,
+            impact_velocity_m_s: scenario.impact_speed,
+            depth_of_penetration_mm: None,
+            largest_depth_mm: None,
+            permanent_depth_mm: None,
+            residual_velocity_m_s: None,
+            ballistic_limit_m_s: None,
+            band: None,
+            projectile_final_length_mm: None,
+            projectile_final_diameter_mm: None,
+            projectile_final_mass_g: None,
+            time_to_rest_us: None,
+            peak_force_kn: None,
+            end_time_us: None,
+            steps: None,
+            time_step_ns: None,
+            smallest_time_step_ns: None,
+            eroded_projectile_elements: None,
+            eroded_target_elements: None,
+            projectile_plastic_strain: None,
+            target_plastic_strain: None,
+            projectile_temperature_k: None,
+            target_temperature_k: None,
+            impact_energy_j: 0.5 * scenario.projectile.mass * scenario.impact_speed.powi(2),
+            energy_residual: None,
+            momentum_residual: None,
+            details: Vec::new(),
+            warnings: Vec::new(),
         }
     }
 }

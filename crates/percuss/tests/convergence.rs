@@ -104,6 +104,7 @@ fn copper_taylor_bar() {
                 "#
             ))
             .projectile_final_length
+            .unwrap()
                 * 1e3
         })
         .collect();

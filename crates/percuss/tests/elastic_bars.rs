@@ -65,14 +65,14 @@ fn interface_speed_and_stress_of_unlike_bars() {
         1e-3,
     );
     assert!(
-        result.energy_residual <= 1e-6,
+        result.numerics().energy_residual <= 1e-6,
         "energy residual {:e}",
-        result.energy_residual
+        result.numerics().energy_residual
     );
     assert!(
-        result.momentum_residual <= 1e-12,
+        result.numerics().momentum_residual <= 1e-12,
         "momentum residual {:e}",
-        result.momentum_residual
+        result.numerics().momentum_residual
     );
 
     // Without viscosity the plateau rings; that is what central differences do, and this is by how much.
@@ -95,10 +95,10 @@ fn large_strain_gives_the_same_at_low_speed() {
         let result = run_recorded(&bars(velocity, 25.0, "plate", "fixed", (80, 160), ""));
         println!(
             "energy residual at {velocity} m/s: {:.2e}",
-            result.energy_residual
+            result.numerics().energy_residual
         );
-        residuals.push(result.energy_residual);
-        assert!(result.momentum_residual <= 1e-12);
+        residuals.push(result.numerics().energy_residual);
+        assert!(result.numerics().momentum_residual <= 1e-12);
         if velocity == 0.23 {
             let speed = mean(&result, 1.5e-6, 6.3e-6, |s| s.interface_velocity);
             assert_near(
@@ -129,7 +129,7 @@ fn equal_bars_exchange_velocities_and_part_after_a_round_trip() {
         .time;
     assert_near("contact time [s]", parted, transit, 5e-3);
     // All momentum and, but for what rings in the bars, all energy are the target's.
-    let ledger = &result.momentum;
+    let ledger = &result.numerics().momentum;
     assert_near(
         "momentum of the struck bar [N s]",
         ledger.target,
@@ -138,7 +138,9 @@ fn equal_bars_exchange_velocities_and_part_after_a_round_trip() {
     );
     let restitution = (ledger.target - ledger.projectile) / ledger.initial;
     assert_near("coefficient of restitution", restitution, 1.0, 1e-2);
-    assert!(result.energy_residual <= 1e-6 && result.momentum_residual <= 1e-12);
+    assert!(
+        result.numerics().energy_residual <= 1e-6 && result.numerics().momentum_residual <= 1e-12
+    );
 }
 
 #[test]
@@ -152,14 +154,16 @@ fn a_non_reflecting_end_lets_the_wave_out() {
         SMALL,
     ));
     // Equal bars: the whole wave leaves through the back, and nothing pushes the rod back.
-    let out = result.energy.boundary / result.energy.initial;
+    let out = result.numerics().energy.boundary / result.numerics().energy.initial;
     assert!(out > 0.99, "only {out} of the energy left");
     assert!(
-        result.residual_velocity.abs() < 0.02 * 10.0,
+        result.residual_velocity.unwrap().abs() < 0.02 * 10.0,
         "{}",
-        result.residual_velocity
+        result.residual_velocity.unwrap()
     );
-    assert!(result.energy_residual <= 1e-6 && result.momentum_residual <= 1e-12);
+    assert!(
+        result.numerics().energy_residual <= 1e-6 && result.numerics().momentum_residual <= 1e-12
+    );
 }
 
 /// With linear hardening the stress on a wall is that of an elastic wave with a slower plastic wave behind it.
@@ -207,7 +211,7 @@ fn default_options_carry_elastic_bars() {
     ] {
         for velocity in [100.0, 230.0, 400.0] {
             let result = run_recorded(&bars(velocity, 25.0, target, back_face, (40, 80), ""));
-            assert!(result.energy_residual <= 1e-3);
+            assert!(result.numerics().energy_residual <= 1e-3);
         }
     }
 }

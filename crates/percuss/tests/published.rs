@@ -52,7 +52,7 @@ fn the_joined_reading_takes_about_95_steps() {
     ] {
         let readings = format!("interface = \"joined\"\nborder_shear = \"{shear}\"");
         let result = run(&published(&readings, (40, 80), 230.0));
-        assert_eq!(result.steps, steps, "border shear {shear}");
+        assert_eq!(result.numerics().steps, steps, "border shear {shear}");
         let depth = result.depth_of_penetration.unwrap() * 1e3;
         assert!((0.05..0.06).contains(&depth), "{depth} mm");
     }

@@ -40,8 +40,10 @@ fn rigid_plastic(velocity: f64, elements: u32) -> f64 {
         strength.perfectly_plastic = {{ flow_stress = "200 MPa" }}
         "#
     ));
-    assert!(result.energy_residual <= 1e-3 && result.momentum_residual <= 1e-12);
-    result.projectile_final_length / 0.1
+    assert!(
+        result.numerics().energy_residual <= 1e-3 && result.numerics().momentum_residual <= 1e-12
+    );
+    result.projectile_final_length.unwrap() / 0.1
 }
 
 #[test]
@@ -71,7 +73,7 @@ fn copper_rods_end_as_long_as_they_were_measured() {
         (183.0, 16.81),
     ] {
         let result = run(&wilkins(velocity));
-        let length = result.projectile_final_length * 1e3;
+        let length = result.projectile_final_length.unwrap() * 1e3;
         assert_near(
             &format!("final length at {velocity} m/s [mm]"),
             length,

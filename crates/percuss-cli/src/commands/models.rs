@@ -1,5 +1,5 @@
 use clap::Args;
-use percuss::model::MODELS;
+use percuss::{guard::Guard, model::MODELS};
 use serde::Serialize;
 
 use crate::{failure::Failure, terminal};
@@ -27,7 +27,7 @@ pub struct Models {
 struct ModelRecord {
     name: &'static str,
     summary: &'static str,
-    guard: &'static [&'static str],
+    guard: &'static Guard,
 }
 
 impl Models {
@@ -52,8 +52,8 @@ impl Models {
                     terminal::bold(model.name),
                     terminal::wrap(model.summary, width - 2, 2)
                 );
-                for line in model.guard {
-                    entry += &format!("  - {}\n", terminal::wrap(line, width - 4, 4));
+                for line in model.guard.in_words() {
+                    entry += &format!("  - {}\n", terminal::wrap(&line, width - 4, 4));
                 }
                 entry
             })

@@ -67,8 +67,8 @@ impl Run {
         let scenario = case::load(&self.case)?;
         let model = model::model(&self.model)?;
         // Before a run that may take long: a folder that cannot be written should be known at once.
-        let folder = match (&self.out, model.not_applicable(&scenario)) {
-            (Some(out), None) => Some(RunFolder::create(out, &self.case)?),
+        let folder = match (&self.out, model::applicability(model, &scenario)) {
+            (Some(out), Ok(_)) => Some(RunFolder::create(out, &self.case)?),
             _ => None,
         };
         let result = self.compute(model, &scenario)?;
@@ -124,14 +124,13 @@ impl Run {
 /// A result in one line for scripts.
 fn one_line(record: &ResultRecord) -> String {
     let outcome = serde_json::json!(record.outcome);
-    let depth = record
-        .depth_of_penetration_mm
-        .map_or_else(|| "null".to_owned(), |depth| depth.to_string());
+    let value = |value: Option<f64>| value.map_or_else(|| "null".to_owned(), |v| v.to_string());
     format!(
-        "outcome={} depth_of_penetration_mm={depth} residual_velocity_m_s={} projectile_final_length_mm={} warnings={}\n",
+        "outcome={} depth_of_penetration_mm={} residual_velocity_m_s={} projectile_final_length_mm={} warnings={}\n",
         outcome.as_str().unwrap_or_default(),
-        record.residual_velocity_m_s,
-        record.projectile_final_length_mm,
+        value(record.depth_of_penetration_mm),
+        value(record.residual_velocity_m_s),
+        value(record.projectile_final_length_mm),
         record.warnings.len(),
     )
 }

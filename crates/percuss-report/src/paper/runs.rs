@@ -196,7 +196,8 @@ impl Runs {
             if let Some(published) = &mut scenario.chain.published {
                 published.border_shear = shear;
             }
-            self.joined_steps.push((name, run(&scenario, false)?.steps));
+            self.joined_steps
+                .push((name, run(&scenario, false)?.numerics().steps));
         }
         Ok(())
     }

@@ -22,9 +22,12 @@ pub use published::Published;
 
 use crate::{
     Error, Scenario,
-    case::{Nose, Scheme},
+    case::Scheme,
+    guard::{FirstChoice, Guard, NoseKind},
+    material::MaterialClass,
     model::{Control, Model},
     outcome::RunResult,
+    regime::{ProjectileRegime, TargetKind},
 };
 
 /// The 1-D discrete element model.
@@ -40,21 +43,28 @@ impl Model for Chain {
         "1-D discrete element model: point masses joined by normal springs"
     }
 
-    fn guard(&self) -> &'static [&'static str] {
-        &[
-            "normal impact of a flat-ended rod",
-            "deformable projectile on a thick target, a rigid wall or a constant pressure",
-            "the column of target in line with the rod stands for the target",
-        ]
+    fn guard(&self) -> &'static Guard {
+        const {
+            &Guard {
+                noses: &[NoseKind::Flat],
+                first_choice: &[FirstChoice {
+                    projectile: ProjectileRegime::Deforming,
+                    targets: TargetKind::ALL,
+                    noses: &[NoseKind::Flat],
+                    target_material: MaterialClass::Metal,
+                    because: "it follows the deformation of the projectile and balances its books",
+                }],
+                notes: &[
+                    "normal impact of a flat-ended rod",
+                    "the column of target in line with the rod stands for the target: the depth is only as good as the constraint \
+                     factor and the border shear that close it",
+                ],
+                ..Guard::OPEN
+            }
+        }
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
-        if scenario.projectile.nose != Nose::Flat {
-            return Some(format!(
-                "it has flat-ended rods only, and this nose is of the shape `{}`; leave `projectile.nose` out for a flat end",
-                scenario.projectile.nose.name()
-            ));
-        }
         match scenario.chain.scheme {
             Scheme::Conservative => None,
             Scheme::Published => Published::not_applicable(scenario),

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     history::Recorder,
-    outcome::{RunResult, Termination},
+    outcome::{Numerics, RunResult, Termination},
     scenario::{Scenario, TargetBody},
 };
 
@@ -51,28 +51,34 @@ impl Results<'_> {
                     .map_or(watch.largest_depth, |(_, depth)| depth.max(0.0)),
             ),
         };
-        let mut result = RunResult {
-            model: "chain",
-            scheme: "conservative",
-            outcome: watch.outcome(termination, state, scenario.impact_speed),
+        let mut result = RunResult::new(
+            "chain",
+            "conservative",
+            watch.outcome(termination, state, scenario.impact_speed),
             termination,
-            depth_of_penetration: depth,
-            largest_depth: depth.map(|_| watch.largest_depth),
-            permanent_depth: match scenario.target {
-                TargetBody::Layers { .. } => Some(remains.permanent_depth),
-                TargetBody::ConstantPressure(_) => Some(watch.largest_depth),
-                TargetBody::RigidWall => None,
-            },
-            residual_velocity: if mass > 0.0 { momentum / mass } else { 0.0 },
-            projectile_final_length: remains.projectile_length,
-            projectile_final_diameter: remains.projectile_diameter,
-            projectile_final_mass: mass,
-            time_to_rest: watch.at_rest.map(|(time, _)| time),
-            peak_force: watch.peak_force,
-            end_time: state.time,
+        );
+        result.depth_of_penetration = depth;
+        result.largest_depth = depth.map(|_| watch.largest_depth);
+        result.permanent_depth = match scenario.target {
+            TargetBody::Layers { .. } => Some(remains.permanent_depth),
+            TargetBody::ConstantPressure(_) => Some(watch.largest_depth),
+            TargetBody::RigidWall => None,
+        };
+        result.residual_velocity = Some(if mass > 0.0 { momentum / mass } else { 0.0 });
+        result.projectile_final_length = Some(remains.projectile_length);
+        result.projectile_final_diameter = remains.projectile_diameter;
+        result.projectile_final_mass = Some(mass);
+        result.time_to_rest = watch.at_rest.map(|(time, _)| time);
+        result.peak_force = Some(watch.peak_force);
+        result.end_time = Some(state.time);
+        result.numerics = Some(Numerics {
             steps: state.step,
             first_time_step: watch.first_time_step,
             smallest_time_step: watch.smallest_time_step,
+            elements: (
+                scenario.chain.projectile_elements(),
+                scenario.chain.target_elements(),
+            ),
             eroded_elements: remains.eroded,
             largest_plastic_strain: (
                 most(Role::Projectile, |r| r.plastic_strain),
@@ -86,9 +92,8 @@ impl Results<'_> {
             momentum: state.momentum(),
             energy_residual: watch.energy_residual,
             momentum_residual: watch.momentum_residual,
-            warnings: Vec::new(),
-            history: recorder.map(|recorder| recorder.finish(state.sample(), state.profile())),
-        };
+        });
+        result.history = recorder.map(|recorder| recorder.finish(state.sample(), state.profile()));
         result.warnings = warnings(scenario, &result, &reached, self.erosion_strain);
         result
     }

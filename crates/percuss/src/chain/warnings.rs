@@ -20,7 +20,7 @@ pub(super) fn warnings(
         Outcome::OutOfTime => warnings.push(
             "the run was ended before the shot was over: raise `chain.end_time` or `chain.max_steps`".to_owned(),
         ),
-        Outcome::Perforated if result.eroded_elements.1 == scenario.chain.target_elements() => {
+        Outcome::Perforated if result.numerics().eroded_elements.1 == scenario.chain.target_elements() => {
             warnings.push("the whole column of target eroded before the projectile did: give a thicker target".to_owned());
         }
         Outcome::Perforated => warnings.push(
@@ -99,7 +99,7 @@ fn warn_of_erosion(
     erosion_strain: f64,
     warnings: &mut Vec<String>,
 ) {
-    let (projectile, target) = result.eroded_elements;
+    let (projectile, target) = result.numerics().eroded_elements;
     if projectile + target > 0 {
         warnings.push(format!(
             "{projectile} of {} projectile elements and {target} target elements eroded at strain {}, a numerical limit: \

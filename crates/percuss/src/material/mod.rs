@@ -1,5 +1,7 @@
 //! Materials: elastic constants, a strength law and where every number comes from.
 
+mod cavity;
+mod equation_of_state;
 mod library;
 mod references;
 mod sanity;
@@ -14,6 +16,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::units::{Density, Pressure, SpecificHeat, StrainRate, Temperature};
 
+pub use cavity::cavity_expansion_pressure;
+pub use equation_of_state::EquationOfState;
 pub use library::{Library, MaterialEntry};
 pub use references::{Reference, references};
 pub use strength::*;
@@ -53,6 +57,15 @@ pub struct Material {
     /// Static yield stress [Pa], for information; the strength law decides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub yield_stress: Option<Pressure>,
+    /// Ultimate tensile strength [Pa].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ultimate_strength: Option<Pressure>,
+    /// Brinell hardness number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub brinell_hardness: Option<f64>,
+    /// Tensile stress at which the material spalls [Pa].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spall_strength: Option<Pressure>,
     /// Specific heat [J/(kg K)]; needed for adiabatic heating.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub specific_heat: Option<SpecificHeat>,
@@ -65,6 +78,9 @@ pub struct Material {
     /// Where the strength law was fitted.
     #[serde(default, skip_serializing_if = "Validity::is_empty")]
     pub validity: Validity,
+    /// Shock equation of state; models of planar shocks need it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub equation_of_state: Option<EquationOfState>,
     /// The strength law.
     pub strength: Strength,
 }
@@ -74,6 +90,14 @@ fn room_temperature() -> Temperature {
 }
 
 impl Material {
+    /// What the material is, as far as models tell the difference.
+    pub fn class(&self) -> MaterialClass {
+        match self.strength {
+            Strength::Concrete(_) => MaterialClass::Concrete,
+            _ => MaterialClass::Metal,
+        }
+    }
+
     /// Speed of a longitudinal wave in a thin elastic bar [m/s].
     pub fn bar_wave_speed(&self) -> f64 {
         (self.youngs_modulus.si() / self.density.si()).sqrt()
@@ -84,6 +108,19 @@ impl Material {
         (self.youngs_modulus.si() * self.density.si()).sqrt()
     }
 
+    /// Flow stress at a plastic strain, slow and at room temperature [Pa]; `None` for a law that never flows.
+    pub fn flow_stress(&self, plastic_strain: f64) -> Option<f64> {
+        self.strength.law().initial_yield_stress(self)?;
+        let state = FlowState {
+            plastic_strain,
+            strain_rate: 0.0,
+            temperature: self.room_temperature.si(),
+            pressure: 0.0,
+        };
+        let prepared = self.strength.law().prepare(self, 1.0);
+        Some(prepared.flow_stress(&state).stress)
+    }
+
     /// Shear modulus [Pa].
     pub fn shear_modulus(&self) -> f64 {
         self.youngs_modulus.si() / (2.0 * (1.0 + self.poissons_ratio))
@@ -92,6 +129,26 @@ impl Material {
     /// Bulk modulus [Pa].
     pub fn bulk_modulus(&self) -> f64 {
         self.youngs_modulus.si() / (3.0 * (1.0 - 2.0 * self.poissons_ratio))
+    }
+}
+
+/// Class of a material, as far as models tell the difference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MaterialClass {
+    /// A solid that flows at a stress which pressure does not raise: metals, and what behaves like them.
+    Metal,
+    /// Concrete.
+    Concrete,
+}
+
+impl MaterialClass {
+    /// The class in words.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Metal => "metal",
+            Self::Concrete => "concrete",
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Checks that every material passes on load: wide enough for any real solid, narrow enough to catch a slip of 1000.
 
-use super::{FlowState, Material};
+use super::Material;
 use crate::{
     check::{Check, limits},
     units::Pressure,
@@ -24,6 +24,12 @@ impl Material {
         );
         if let Some(heat) = self.specific_heat {
             check.quantity("specific_heat", heat, limits::SPECIFIC_HEAT);
+        }
+        if let Some(eos) = &self.equation_of_state {
+            eos.check(&mut check.within("equation_of_state"));
+        }
+        if let Some(hardness) = self.brinell_hardness {
+            check.number("brinell_hardness", hardness, limits::BRINELL_HARDNESS);
         }
         check.quantity(
             "room_temperature",
@@ -70,33 +76,20 @@ impl Material {
                 check,
                 &key,
                 "flow stress at a plastic strain of 0.1",
-                self.hardened_flow_stress(),
+                self.flow_stress(HARDENED_STRAIN),
             );
         }
-        self.check_ratio(
-            check,
-            "yield_stress",
-            "yield stress",
-            self.yield_stress.map(Pressure::si),
-        );
-    }
-
-    /// Flow stress at [`HARDENED_STRAIN`], slow and at room temperature; `None` for a law that never flows.
-    fn hardened_flow_stress(&self) -> Option<f64> {
-        self.strength.law().initial_yield_stress(self)?;
-        let state = FlowState {
-            plastic_strain: HARDENED_STRAIN,
-            strain_rate: 0.0,
-            temperature: self.room_temperature.si(),
-            pressure: 0.0,
-        };
-        Some(
-            self.strength
-                .law()
-                .prepare(self, 1.0)
-                .flow_stress(&state)
-                .stress,
-        )
+        for (key, what, stress) in [
+            ("yield_stress", "yield stress", self.yield_stress),
+            (
+                "ultimate_strength",
+                "ultimate strength",
+                self.ultimate_strength,
+            ),
+            ("spall_strength", "spall strength", self.spall_strength),
+        ] {
+            self.check_ratio(check, key, what, stress.map(Pressure::si));
+        }
     }
 
     /// Whether the stress is a fraction of Young's modulus that a solid can have.

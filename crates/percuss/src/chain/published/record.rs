@@ -10,7 +10,7 @@ use crate::{
     case::Interface,
     history::{ElementState, Profile, Recorder, Sample},
     ledger::{EnergyLedger, MomentumLedger},
-    outcome::{Outcome, RunResult, Termination},
+    outcome::{Numerics, Outcome, RunResult, Termination},
 };
 
 impl Published<'_> {
@@ -142,24 +142,20 @@ impl Published<'_> {
         };
         let count = self.rod_velocity.len() as f64;
         let room = self.scenario.projectile.material.room_temperature.si();
-        RunResult {
-            model: "chain",
-            scheme: "published",
-            outcome,
-            termination,
-            depth_of_penetration: Some(self.rod_displacement[0]),
-            largest_depth: Some(self.largest_depth),
-            permanent_depth: None,
-            residual_velocity: self.rod_velocity.iter().sum::<f64>() / count,
-            projectile_final_length: self.rod_length(),
-            projectile_final_diameter: None,
-            projectile_final_mass: self.scenario.projectile.mass,
-            time_to_rest: stopped.then(|| self.time()),
-            peak_force: self.peak_force,
-            end_time: self.time(),
+        let mut result = RunResult::new("chain", "published", outcome, termination);
+        result.depth_of_penetration = Some(self.rod_displacement[0]);
+        result.largest_depth = Some(self.largest_depth);
+        result.residual_velocity = Some(self.rod_velocity.iter().sum::<f64>() / count);
+        result.projectile_final_length = Some(self.rod_length());
+        result.projectile_final_mass = Some(self.scenario.projectile.mass);
+        result.time_to_rest = stopped.then(|| self.time());
+        result.peak_force = Some(self.peak_force);
+        result.end_time = Some(self.time());
+        result.numerics = Some(Numerics {
             steps: self.step,
             first_time_step: self.time_step,
             smallest_time_step: self.time_step,
+            elements: (self.rod_velocity.len(), self.target_velocity.len()),
             eroded_elements: (0, 0),
             largest_plastic_strain: (0.0, 0.0),
             largest_temperature: (room, room),
@@ -167,9 +163,10 @@ impl Published<'_> {
             momentum_residual: momentum.residual().abs(),
             energy,
             momentum,
-            warnings: self.warnings(stopped),
-            history,
-        }
+        });
+        result.warnings = self.warnings(stopped);
+        result.history = history;
+        result
     }
 
     fn warnings(&self, stopped: bool) -> Vec<String> {

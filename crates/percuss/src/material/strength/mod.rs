@@ -1,5 +1,6 @@
 //! Strength laws. Adding one is one file here and one line in the `strength_laws!` list.
 
+mod concrete;
 mod elastic;
 mod johnson_cook;
 mod perfectly_plastic;
@@ -14,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use super::Material;
 use crate::check::Check;
 
+pub use concrete::Concrete;
 pub use elastic::Elastic;
 pub use johnson_cook::JohnsonCook;
 pub use perfectly_plastic::PerfectlyPlastic;
@@ -121,4 +123,6 @@ strength_laws! {
     "johnson_cook" JohnsonCook,
     /// Steinberg–Guinan: strain, pressure and temperature, for high rates.
     "steinberg_guinan" SteinbergGuinan,
+    /// Concrete of a given unconfined compressive strength.
+    "concrete" Concrete,
 }

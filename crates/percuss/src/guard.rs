@@ -1,0 +1,368 @@
+//! What a model is made for, as data: projectile, target, nose, materials, and ranges of ratios and speed.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::{
+    case::Nose,
+    material::MaterialClass,
+    regime::{ProjectileRegime, Regime, TargetKind},
+    scenario::{Scenario, TargetBody},
+    units::significant,
+};
+
+/// The regime that a model declares. A case outside gets a reason in place of a number; at an edge, a warning.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Guard {
+    /// What the projectile may do.
+    pub projectile: &'static [ProjectileRegime],
+    /// What may be struck.
+    pub targets: &'static [TargetKind],
+    /// Noses that it tells apart or allows.
+    pub noses: &'static [NoseKind],
+    /// Classes of material that the projectile may be made of.
+    pub projectile_materials: &'static [MaterialClass],
+    /// Classes of material that the target may be made of.
+    pub target_materials: &'static [MaterialClass],
+    /// Ranges of ratios and speed.
+    pub ranges: &'static [Range],
+    /// Whether it sees the back face of a plate: one that does not gives no depth close to the thickness.
+    pub sees_back_face: bool,
+    /// Cases for which it is the first choice.
+    pub first_choice: &'static [FirstChoice],
+    /// What it takes and leaves out, one line each.
+    pub notes: &'static [&'static str],
+}
+
+/// Part of a plate's thickness beyond which a depth depends on the back face.
+const BACK_FACE_DEPTH: f64 = 0.8;
+
+impl Guard {
+    /// A guard that lets everything made of metal pass, for a model to narrow down.
+    pub const OPEN: Self = Self {
+        projectile: ProjectileRegime::ALL,
+        targets: TargetKind::ALL,
+        noses: NoseKind::ALL,
+        projectile_materials: &[MaterialClass::Metal],
+        target_materials: &[MaterialClass::Metal],
+        ranges: &[],
+        sees_back_face: true,
+        first_choice: &[],
+        notes: &[],
+    };
+
+    /// Whether a case lies inside.
+    pub fn verdict(&self, scenario: &Scenario, regime: &Regime) -> Verdict {
+        let mut warnings = Vec::new();
+        if !self.targets.contains(&regime.target) {
+            return Verdict::Outside(format!(
+                "it takes {}, and this is {}",
+                list(self.targets.iter().map(|kind| kind.in_words())),
+                regime.target_in_words(scenario)
+            ));
+        }
+        let nose = NoseKind::of(scenario.projectile.nose);
+        if !self.noses.contains(&nose) {
+            return Verdict::Outside(format!(
+                "it takes {} noses, and this nose is of the shape `{}`",
+                list(self.noses.iter().map(|nose| nose.name())),
+                nose.name()
+            ));
+        }
+        if let Some(reason) = self.wrong_material(scenario) {
+            return Verdict::Outside(reason);
+        }
+        let neighbour = regime
+            .neighbour
+            .filter(|neighbour| self.projectile.contains(neighbour));
+        if !self.projectile.contains(&regime.projectile) {
+            match neighbour {
+                None => {
+                    return Verdict::Outside(format!(
+                        "it takes {} projectiles, and this one is {}: {}",
+                        list(self.projectile.iter().map(|regime| regime.in_words())),
+                        regime.projectile.in_words(),
+                        regime.because
+                    ));
+                }
+                Some(neighbour) => warnings.push(format!(
+                    "model taken at the edge of its regime: the projectile is {} rather than {}: {}",
+                    regime.projectile.in_words(),
+                    neighbour.in_words(),
+                    regime.because
+                )),
+            }
+        }
+        for range in self.ranges {
+            let Some(value) = range.measure.of(scenario) else {
+                continue;
+            };
+            if (range.min..=range.max).contains(&value) {
+                continue;
+            }
+            let outside = format!(
+                "{} of {} is outside {}: {}",
+                range.measure.in_words(),
+                range.measure.with_unit(value),
+                range.in_words(),
+                range.because
+            );
+            match range.outside {
+                Outside::NotApplicable => return Verdict::Outside(outside),
+                Outside::Warning => warnings.push(outside),
+            }
+        }
+        Verdict::Inside(warnings)
+    }
+
+    fn wrong_material(&self, scenario: &Scenario) -> Option<String> {
+        let class = scenario.projectile.material.class();
+        let refuse = |what: &str, allowed: &[MaterialClass], class: MaterialClass| {
+            let allowed = list(allowed.iter().map(|class| class.in_words()));
+            format!(
+                "it takes {what}s of {allowed}, and this one is of {}",
+                class.in_words()
+            )
+        };
+        if !self.projectile_materials.contains(&class) {
+            return Some(refuse("projectile", self.projectile_materials, class));
+        }
+        let TargetBody::Layers { layers, .. } = &scenario.target else {
+            return None;
+        };
+        let classes = layers.iter().map(|layer| layer.material.class());
+        classes
+            .into_iter()
+            .find(|class| !self.target_materials.contains(class))
+            .map(|class| refuse("target", self.target_materials, class))
+    }
+
+    /// The guard in words, one line each.
+    pub fn in_words(&self) -> Vec<String> {
+        let projectile = format!(
+            "{} projectiles of {}, with {} noses",
+            list(self.projectile.iter().map(|regime| regime.in_words())),
+            list(
+                self.projectile_materials
+                    .iter()
+                    .map(|class| class.in_words())
+            ),
+            list(self.noses.iter().map(|nose| nose.name())),
+        );
+        let target = format!(
+            "against {}, of {}{}",
+            list(self.targets.iter().map(|kind| kind.in_words())),
+            list(self.target_materials.iter().map(|class| class.in_words())),
+            if self.sees_back_face {
+                ""
+            } else {
+                "; it does not see the back face of a plate"
+            }
+        );
+        let ranges = self.ranges.iter().map(|range| {
+            let outside = match range.outside {
+                Outside::NotApplicable => "no number outside",
+                Outside::Warning => "a warning outside",
+            };
+            format!(
+                "{} {} ({outside}): {}",
+                range.measure.in_words(),
+                range.in_words(),
+                range.because
+            )
+        });
+        [projectile, target]
+            .into_iter()
+            .chain(ranges)
+            .chain(self.notes.iter().map(|&note| note.to_owned()))
+            .collect()
+    }
+
+    /// Why a depth of penetration [m] cannot stand, if the back face of the target would have had a say in it.
+    pub fn depth_at_back_face(&self, scenario: &Scenario, depth: f64) -> Option<String> {
+        let thickness = scenario.target_thickness()?;
+        (!self.sees_back_face && depth > BACK_FACE_DEPTH * thickness).then(|| {
+            format!(
+                "it takes the target for semi-infinite, and its depth of {} mm is more than {} % of the thickness of {} mm: \
+                 the back face would have a say",
+                significant(depth * 1e3, 3),
+                100.0 * BACK_FACE_DEPTH,
+                significant(thickness * 1e3, 3)
+            )
+        })
+    }
+}
+
+/// Whether a case lies inside a guard.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Verdict {
+    /// It does, with warnings where it stands at an edge.
+    Inside(Vec<String>),
+    /// It does not, for this reason.
+    Outside(String),
+}
+
+/// A range of a ratio or of the speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Range {
+    /// What is measured.
+    pub measure: Measure,
+    /// Smallest value, in the unit of the measure.
+    pub min: f64,
+    /// Largest value, in the unit of the measure; `null` in JSON when there is none.
+    pub max: f64,
+    /// What becomes of a case outside.
+    pub outside: Outside,
+    /// Why the range ends there.
+    pub because: &'static str,
+}
+
+impl Range {
+    /// The range in words, with its unit.
+    pub fn in_words(&self) -> String {
+        if self.max.is_infinite() {
+            format!("{} and more", self.measure.with_unit(self.min))
+        } else if self.min <= 0.0 {
+            format!("up to {}", self.measure.with_unit(self.max))
+        } else {
+            format!(
+                "{} to {}",
+                significant(self.min, 4),
+                self.measure.with_unit(self.max)
+            )
+        }
+    }
+}
+
+/// What becomes of a case outside a range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outside {
+    /// No number.
+    NotApplicable,
+    /// A number and a warning.
+    Warning,
+}
+
+/// What a range is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Measure {
+    /// Length of the projectile over its diameter.
+    LengthToDiameter,
+    /// Thickness of the target over the projectile's diameter.
+    ThicknessToDiameter,
+    /// Impact speed [m/s].
+    ImpactSpeed,
+}
+
+impl Measure {
+    /// Its value for a case; `None` where the case has none.
+    pub fn of(self, scenario: &Scenario) -> Option<f64> {
+        let rod = &scenario.projectile;
+        match self {
+            Self::LengthToDiameter => Some(rod.length / rod.diameter),
+            Self::ThicknessToDiameter => Some(scenario.target_thickness()? / rod.diameter),
+            Self::ImpactSpeed => Some(scenario.impact_speed),
+        }
+    }
+
+    /// Its name in words.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::LengthToDiameter => "length to diameter",
+            Self::ThicknessToDiameter => "thickness to projectile diameter",
+            Self::ImpactSpeed => "impact speed",
+        }
+    }
+
+    fn with_unit(self, value: f64) -> String {
+        let unit = match self {
+            Self::ImpactSpeed => " m/s",
+            _ => "",
+        };
+        format!("{}{unit}", significant(value, 4))
+    }
+}
+
+/// A kind of case for which a model is the first choice.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FirstChoice {
+    /// What the projectile does.
+    pub projectile: ProjectileRegime,
+    /// What is struck.
+    pub targets: &'static [TargetKind],
+    /// Noses.
+    pub noses: &'static [NoseKind],
+    /// Class of the target's material.
+    pub target_material: MaterialClass,
+    /// Why this model.
+    pub because: &'static str,
+}
+
+impl FirstChoice {
+    /// Whether a case is of this kind.
+    pub fn fits(&self, scenario: &Scenario, regime: &Regime) -> bool {
+        let classes = match &scenario.target {
+            TargetBody::Layers { layers, .. } => layers
+                .iter()
+                .all(|layer| layer.material.class() == self.target_material),
+            _ => true,
+        };
+        self.projectile == regime.projectile
+            && self.targets.contains(&regime.target)
+            && self.noses.contains(&NoseKind::of(scenario.projectile.nose))
+            && classes
+    }
+}
+
+/// Shape of a nose without its numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum NoseKind {
+    /// Flat end.
+    Flat,
+    /// Hemisphere.
+    Hemisphere,
+    /// Cone.
+    Cone,
+    /// Tangent ogive.
+    Ogive,
+}
+
+impl NoseKind {
+    /// All shapes.
+    pub const ALL: &'static [Self] = &[Self::Flat, Self::Hemisphere, Self::Cone, Self::Ogive];
+    /// All shapes but the flat end.
+    pub const SHARP: &'static [Self] = &[Self::Hemisphere, Self::Cone, Self::Ogive];
+
+    /// The shape of a nose.
+    pub fn of(nose: Nose) -> Self {
+        match nose {
+            Nose::Flat => Self::Flat,
+            Nose::Hemisphere => Self::Hemisphere,
+            Nose::Cone { .. } => Self::Cone,
+            Nose::Ogive { .. } => Self::Ogive,
+        }
+    }
+
+    /// Name as a case has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Flat => "flat",
+            Self::Hemisphere => "hemisphere",
+            Self::Cone => "cone",
+            Self::Ogive => "ogive",
+        }
+    }
+}
+
+/// `a`, `a or b`, `a, b or c`.
+pub(crate) fn list(words: impl Iterator<Item = &'static str>) -> String {
+    let words: Vec<&str> = words.collect();
+    match words.as_slice() {
+        [] => "nothing".to_owned(),
+        [one] => (*one).to_owned(),
+        [first @ .., last] => format!("{} or {last}", first.join(", ")),
+    }
+}
