@@ -250,19 +250,19 @@ impl Regime {
         format!("{kind}{ratio}")
     }
 
-    /// The regime in one sentence.
-    pub fn in_words(&self, scenario: &Scenario) -> String {
+    /// The regime in a few words, without the numbers behind the judgement.
+    pub fn kind_in_words(&self, scenario: &Scenario) -> String {
         let mut text = format!("{} projectile", self.projectile.in_words());
         if let Some(neighbour) = self.neighbour {
             let _ = write!(text, " (or {})", neighbour.in_words());
         }
-        let _ = write!(
-            text,
-            ", {}: {}",
-            self.target_in_words(scenario),
-            self.because
-        );
+        let _ = write!(text, ", {}", self.target_in_words(scenario));
         text
+    }
+
+    /// The regime in one sentence.
+    pub fn in_words(&self, scenario: &Scenario) -> String {
+        format!("{}: {}", self.kind_in_words(scenario), self.because)
     }
 }
 
