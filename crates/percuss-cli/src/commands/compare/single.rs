@@ -1,0 +1,204 @@
+//! Every model at one speed.
+
+use comfy_table::{CellAlignment, ContentArrangement, Table, presets::UTF8_HORIZONTAL_ONLY};
+use percuss::{
+    compare::Comparison, outcome::BandQuantity, summary::ResultRecord, units::significant,
+};
+
+use crate::terminal::{bold, width, wrap, yellow};
+
+/// Mark of a recommended model.
+pub const RECOMMENDED: &str = "★";
+
+/// Table and the warnings of what is recommended.
+pub fn text(comparison: &Comparison) -> String {
+    format!("{}\n\n{}", table(comparison), warnings(comparison))
+}
+
+fn table(comparison: &Comparison) -> Table {
+    let records = comparison.at_speed(0);
+    let quantities: Vec<BandQuantity> = BandQuantity::ALL
+        .iter()
+        .copied()
+        .filter(|quantity| relevant(comparison, *quantity))
+        .collect();
+    let speed = comparison.speeds()[0];
+    let measured = |quantity| comparison.measured(quantity, speed);
+    let has_range = records.iter().any(|record| record.band.is_some());
+    let mut header = vec!["model".to_owned()];
+    for quantity in &quantities {
+        header.push(format!("{}\n[{}]", quantity.in_words(), quantity.unit()));
+        if measured(*quantity).is_some() {
+            header.push("off by\n[%]".to_owned());
+        }
+    }
+    if has_range {
+        header.push("range".to_owned());
+    }
+    let numbers = header.len();
+    header.extend(["outcome".to_owned(), "warnings".to_owned()]);
+    let mut table = Table::new();
+    table
+        .load_style(UTF8_HORIZONTAL_ONLY)
+        .set_content_arrangement(ContentArrangement::Dynamic)
+        .set_width(u16::try_from(width()).unwrap_or(80))
+        .set_header(header);
+    for record in records.iter().filter(|record| record.is_result()) {
+        let mut row = vec![name(comparison, record.model)];
+        for quantity in &quantities {
+            let value = record.value(*quantity);
+            row.push(number(value));
+            if let Some((measured, _)) = measured(*quantity) {
+                row.push(off_by(value, measured));
+            }
+        }
+        if has_range {
+            row.push(range(record, quantities.len() > 1));
+        }
+        row.push(record.outcome.in_words().to_owned());
+        row.push(match record.warnings.len() {
+            0 => String::new(),
+            count => count.to_string(),
+        });
+        table.add_row(row);
+    }
+    if quantities
+        .iter()
+        .any(|quantity| measured(*quantity).is_some())
+    {
+        let mut row = vec!["experiment".to_owned()];
+        for quantity in &quantities {
+            match measured(*quantity) {
+                Some((value, count)) => row.extend([
+                    measurement(comparison, *quantity, value, count),
+                    String::new(),
+                ]),
+                None => row.push(String::new()),
+            }
+        }
+        table.add_row(row);
+    }
+    for (i, column) in table.column_iter_mut().enumerate().skip(1) {
+        if i < numbers || i == numbers + 1 {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    table
+}
+
+/// Whether a quantity belongs into the table: it leads, was measured, or is a depth beside the speeds of a plate.
+fn relevant(comparison: &Comparison, quantity: BandQuantity) -> bool {
+    let speed = comparison.speeds()[0];
+    let given = comparison
+        .results
+        .iter()
+        .any(|record| record.value(quantity).is_some());
+    let beside = quantity == BandQuantity::DepthOfPenetration
+        && comparison
+            .quantities
+            .contains(&BandQuantity::ResidualVelocity);
+    given
+        && (comparison.quantities.contains(&quantity)
+            || comparison.measured(quantity, speed).is_some()
+            || beside)
+}
+
+/// Name of a model, with its mark where it is recommended at any speed.
+pub fn name(comparison: &Comparison, model: &str) -> String {
+    let recommended = comparison
+        .recommended
+        .iter()
+        .any(|at| at.models.iter().any(|choice| choice.model == model));
+    match recommended {
+        true => format!("{model} {RECOMMENDED}"),
+        false => model.to_owned(),
+    }
+}
+
+/// A number of a table; a dash where there is none.
+pub fn number(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| significant(value, 4))
+}
+
+/// Difference from a measured value in per cent, with its sign.
+pub fn off_by(value: Option<f64>, measured: f64) -> String {
+    match value {
+        Some(value) if measured != 0.0 => format!("{:+.1}", 100.0 * (value / measured - 1.0)),
+        _ => "–".to_owned(),
+    }
+}
+
+fn measurement(comparison: &Comparison, quantity: BandQuantity, mean: f64, count: usize) -> String {
+    if count > 1 {
+        return format!("{} (mean of {count})", significant(mean, 4));
+    }
+    let uncertainty = comparison
+        .experiments
+        .iter()
+        .find(|measured| measured.quantity == quantity && measured.value == mean)
+        .and_then(|measured| measured.uncertainty);
+    match uncertainty {
+        Some(uncertainty) => format!("{} ± {}", significant(mean, 4), significant(uncertainty, 2)),
+        None => significant(mean, 4),
+    }
+}
+
+fn range(record: &ResultRecord, name_quantity: bool) -> String {
+    let Some(band) = &record.band else {
+        return String::new();
+    };
+    let ends = format!(
+        "{} to {}",
+        significant(band.low, 3),
+        significant(band.high, 3)
+    );
+    match name_quantity {
+        true => format!("{}: {ends}", band.quantity.in_words()),
+        false => ends,
+    }
+}
+
+fn warnings(comparison: &Comparison) -> String {
+    let mut text = String::new();
+    for choice in &comparison.recommended[0].models {
+        let records = comparison.of_model(choice.model);
+        for warning in records.flat_map(|record| &record.warnings) {
+            let line = format!("warning: {}: {warning}", choice.model);
+            let wrapped = wrap(&line, width(), 9);
+            text += &format!(
+                "{}\n\n",
+                wrapped.replacen("warning:", &yellow("warning:"), 1)
+            );
+        }
+    }
+    text
+}
+
+/// For scripts: a line for each speed and model.
+pub fn lines(comparison: &Comparison) -> String {
+    let value = |value: Option<f64>| value.map_or_else(|| "null".to_owned(), |v| v.to_string());
+    comparison
+        .results
+        .iter()
+        .map(|record| {
+            let outcome = serde_json::json!(record.outcome);
+            format!(
+                "model={} impact_velocity_m_s={} outcome={} depth_of_penetration_mm={} residual_velocity_m_s={} \
+                 ballistic_limit_m_s={} projectile_final_length_mm={} warnings={}\n",
+                record.model,
+                record.impact_velocity_m_s,
+                outcome.as_str().unwrap_or_default(),
+                value(record.depth_of_penetration_mm),
+                value(record.residual_velocity_m_s),
+                value(record.ballistic_limit_m_s),
+                value(record.projectile_final_length_mm),
+                record.warnings.len(),
+            )
+        })
+        .collect()
+}
+
+/// Heading of a block of numbers.
+pub fn heading(words: &str) -> String {
+    format!("{}\n", bold(words))
+}
