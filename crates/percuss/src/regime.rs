@@ -132,6 +132,8 @@ impl Regime {
                 because: "its material never yields".to_owned(),
             };
         };
+        // Digits beyond the third would promise more than the judgement holds.
+        let shown = |stress: f64| Pressure::new(significant(stress, 3).parse().unwrap_or(stress));
         let mut because = String::new();
         let (pressure, resistance, density) = match &scenario.target {
             TargetBody::RigidWall => {
@@ -139,12 +141,12 @@ impl Regime {
                 let _ = write!(
                     because,
                     "an elastic impact on the wall would stress it to {}",
-                    Pressure::new(elastic)
+                    shown(elastic)
                 );
                 (elastic, None, 0.0)
             }
             TargetBody::ConstantPressure(pressure) => {
-                let _ = write!(because, "the pressure is {}", Pressure::new(*pressure));
+                let _ = write!(because, "the pressure is {}", shown(*pressure));
                 (*pressure, None, 0.0)
             }
             TargetBody::Layers { layers, .. } => {
@@ -158,18 +160,14 @@ impl Regime {
                     Some(_) => write!(
                         because,
                         "the pressure on a rigid nose would be {}",
-                        Pressure::new(pressure)
+                        shown(pressure)
                     ),
                     None => write!(because, "the target never yields"),
                 };
                 (pressure, resistance, density)
             }
         };
-        let _ = write!(
-            because,
-            " against its flow stress of {}",
-            Pressure::new(strength)
-        );
+        let _ = write!(because, " against its flow stress of {}", shown(strength));
         let stays_rigid = pressure < strength;
         let stress_is_close =
             pressure < STRESS_EDGE * strength && pressure * STRESS_EDGE > strength;
@@ -197,7 +195,7 @@ impl Regime {
                 because,
                 "; it erodes above {} (target resistance {})",
                 Velocity::new(significant(threshold, 3).parse().unwrap_or(threshold)),
-                Pressure::new(resistance)
+                shown(resistance)
             );
         }
         let (projectile, neighbour) = match (stays_rigid, erodes) {

@@ -20,7 +20,7 @@ pub fn text(comparison: &Comparison) -> String {
         .iter()
         .map(|line| format!("  {}\n", wrap(line, width() - 2, 4)))
         .collect();
-    format!("{}\n{entries}", bold("without a result"))
+    format!("{}\n{entries}\n", bold("without a result"))
 }
 
 /// One line a model and kind of absence: where, and why.

@@ -3,6 +3,9 @@ mod head;
 mod single;
 mod speeds;
 mod sweep;
+mod table;
+#[cfg(test)]
+mod tests;
 
 use std::{ops::ControlFlow, path::PathBuf};
 
@@ -159,7 +162,7 @@ impl Compare {
             };
             text += &absent::text(comparison);
             text += &format!(
-                "\n{}\n",
+                "{}\n",
                 terminal::wrap(
                     "`percuss run CASE.toml --model NAME` says all about one of them, `percuss models NAME` what it is made for.",
                     terminal::width(),

@@ -1,10 +1,10 @@
 //! Every model at one speed.
 
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets::UTF8_HORIZONTAL_ONLY};
 use percuss::{
     compare::Comparison, outcome::BandQuantity, summary::ResultRecord, units::significant,
 };
 
+use super::table;
 use crate::terminal::{bold, width, wrap, yellow};
 
 /// Mark of a recommended model.
@@ -12,10 +12,10 @@ pub const RECOMMENDED: &str = "★";
 
 /// Table and the warnings of what is recommended.
 pub fn text(comparison: &Comparison) -> String {
-    format!("{}\n\n{}", table(comparison), warnings(comparison))
+    numbers(comparison) + &warnings(comparison)
 }
 
-fn table(comparison: &Comparison) -> Table {
+fn numbers(comparison: &Comparison) -> String {
     let records = comparison.at_speed(0);
     let quantities: Vec<BandQuantity> = BandQuantity::ALL
         .iter()
@@ -37,12 +37,7 @@ fn table(comparison: &Comparison) -> Table {
     }
     let numbers = header.len();
     header.extend(["outcome".to_owned(), "warnings".to_owned()]);
-    let mut table = Table::new();
-    table
-        .load_style(UTF8_HORIZONTAL_ONLY)
-        .set_content_arrangement(ContentArrangement::Dynamic)
-        .set_width(u16::try_from(width()).unwrap_or(80))
-        .set_header(header);
+    let mut table = table::table(header);
     for record in records.iter().filter(|record| record.is_result()) {
         let mut row = vec![name(comparison, record.model)];
         for quantity in &quantities {
@@ -78,12 +73,8 @@ fn table(comparison: &Comparison) -> Table {
         }
         table.add_row(row);
     }
-    for (i, column) in table.column_iter_mut().enumerate().skip(1) {
-        if i < numbers || i == numbers + 1 {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
-    table
+    table::align_right(&mut table, (1..numbers).chain([numbers + 1]));
+    table::text(&table)
 }
 
 /// Whether a quantity belongs into the table: it leads, was measured, or is a depth beside the speeds of a plate.

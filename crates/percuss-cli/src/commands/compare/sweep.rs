@@ -1,9 +1,11 @@
 //! Every model at many speeds: a row a speed, a column a model, in as many blocks as the terminal's width asks for.
 
-use comfy_table::{CellAlignment, Table, presets::UTF8_HORIZONTAL_ONLY};
 use percuss::{compare::Comparison, outcome::BandQuantity, units::significant};
 
-use super::single::{RECOMMENDED, heading, name, number, off_by};
+use super::{
+    single::{RECOMMENDED, heading, name, number, off_by},
+    table,
+};
 use crate::terminal::width;
 
 /// Spaces that the table puts around a column.
@@ -103,14 +105,14 @@ fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) 
     if !compared.is_empty() {
         shown.insert(0, experiment(&all));
     }
-    text += &blocks(&speed_column(&all), shown);
+    text += &blocks(&speed_column(&all), shown, false);
     if !compared.is_empty() {
         text += &heading(&format!("{}, off experiment by [%]", quantity.in_words()));
         let off = columns(&compared, &|i, value| {
             let measured = comparison.measured(quantity, speeds[i]);
             measured.map_or_else(String::new, |(measured, _)| off_by(value, measured))
         });
-        text += &blocks(&speed_column(&compared), off);
+        text += &blocks(&speed_column(&compared), off, false);
     }
     text
 }
@@ -137,7 +139,7 @@ fn limits(comparison: &Comparison, models: &[&str]) -> String {
                 .collect(),
         });
     }
-    heading("ballistic limit [m/s]") + &blocks(&first, columns)
+    heading("ballistic limit [m/s]") + &blocks(&first, columns, true)
 }
 
 /// Name of a model over lines that are short.
@@ -149,8 +151,8 @@ fn model_heading(comparison: &Comparison, model: &str) -> String {
     }
 }
 
-/// Tables of as many columns as fit beside the first one.
-fn blocks(first: &Column, columns: Vec<Column>) -> String {
+/// Tables of as many columns as fit beside the first one, which holds names or numbers.
+fn blocks(first: &Column, columns: Vec<Column>, names_first: bool) -> String {
     let mut blocks: Vec<Vec<Column>> = Vec::new();
     let mut used = usize::MAX;
     for column in columns {
@@ -168,16 +170,13 @@ fn blocks(first: &Column, columns: Vec<Column>) -> String {
     }
     let tables = blocks.iter().map(|block| {
         let shown = || std::iter::once(first).chain(block);
-        let mut table = Table::new();
-        table.load_style(UTF8_HORIZONTAL_ONLY);
-        table.set_header(shown().map(|column| column.heading.clone()));
+        let mut table = table::table(shown().map(|column| column.heading.clone()).collect());
         for i in 0..first.cells.len() {
             table.add_row(shown().map(|column| column.cells[i].clone()));
         }
-        for column in table.column_iter_mut().skip(1) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-        format!("{table}\n\n")
+        let from = usize::from(names_first);
+        table::align_right(&mut table, from..=block.len());
+        table::text(&table)
     });
     tables.collect()
 }
