@@ -72,7 +72,7 @@ fn lines(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -
         Axis::new("impact speed [m/s]"),
         axis(quantity),
     )
-    .caption(caption(scenario, None));
+    .caption(note(scenario, comparison));
     for (index, model) in comparison.models().into_iter().enumerate() {
         let records: Vec<&ResultRecord> = comparison.of_model(model).collect();
         if records
@@ -142,7 +142,7 @@ fn rows(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) ->
         format!("{}{at} by model: {}", title(quantity), comparison.case),
         axis(quantity),
     )
-    .caption(caption(scenario, None));
+    .caption(note(scenario, comparison));
     for (index, model) in comparison.models().into_iter().enumerate() {
         let mut given = comparison
             .of_model(model)
@@ -178,4 +178,16 @@ fn rows(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) ->
         chart = chart.mark(Mark::vertical("", measured.value));
     }
     chart.draw()
+}
+
+/// The case in one line, and what the mark stands for.
+fn note(scenario: &Scenario, comparison: &Comparison) -> String {
+    let marked = comparison
+        .recommended
+        .iter()
+        .any(|at| !at.models.is_empty());
+    match marked {
+        true => format!("{} ({RECOMMENDED} recommended)", caption(scenario, None)),
+        false => caption(scenario, None),
+    }
 }

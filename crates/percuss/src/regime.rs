@@ -287,3 +287,6 @@ pub fn nose_factor(nose: Nose) -> f64 {
         Nose::Ogive { crh } => (8.0 * crh - 1.0) / (24.0 * crh * crh),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -3,7 +3,6 @@ mod head;
 mod single;
 mod speeds;
 mod sweep;
-mod table;
 #[cfg(test)]
 mod tests;
 

@@ -4,8 +4,10 @@ use percuss::{
     compare::Comparison, outcome::BandQuantity, summary::ResultRecord, units::significant,
 };
 
-use super::table;
-use crate::terminal::{bold, width, wrap, yellow};
+use crate::{
+    table,
+    terminal::{bold, width, wrap, yellow},
+};
 
 /// Mark of a recommended model.
 pub const RECOMMENDED: &str = "★";

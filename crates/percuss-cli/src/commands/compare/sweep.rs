@@ -2,11 +2,8 @@
 
 use percuss::{compare::Comparison, outcome::BandQuantity, units::significant};
 
-use super::{
-    single::{RECOMMENDED, heading, name, number, off_by},
-    table,
-};
-use crate::terminal::width;
+use super::single::{RECOMMENDED, heading, name, number, off_by};
+use crate::{table, terminal::width};
 
 /// Spaces that the table puts around a column.
 const PADDING: usize = 2;
