@@ -59,7 +59,7 @@ fn the_table_starts_with_regime_and_recommendation() {
         "case shot, impact at 183 m/s",
         "\nregime       deforming projectile, a rigid wall: ",
         "\nrecommended  chain: ",
-        "final length",
+        "length      [%]",
         "off by",
         "\n chain ★ ",
         "16.81 ± 0.1",
@@ -144,7 +144,7 @@ fn a_model_that_does_not_apply_says_why() {
     );
     assert!(
         said.stderr
-            .contains("  chain is not applicable, because it takes flat noses"),
+            .contains("  chain: not applicable, because it takes flat noses"),
         "{}",
         said.stderr
     );
@@ -235,5 +235,5 @@ fn a_failure_is_told_and_named() {
                 chain = { erosion_strain = 'never', courant = 1.0 }";
     let said = compare(&folder_with(case), &["--model", "chain"]);
     assert_eq!(said.code, 2);
-    assert!(said.stderr.contains("  chain failed: "), "{}", said.stderr);
+    assert!(said.stderr.contains("  chain: failed: "), "{}", said.stderr);
 }

@@ -12,12 +12,15 @@ use parquet::{
 
 use crate::ReportError;
 
+/// How a value is read off a row.
+type Read<R, T> = Box<dyn Fn(&R) -> T>;
+
 /// What a column holds of a row.
 pub(crate) enum Value<R> {
-    Float(Box<dyn Fn(&R) -> f64>),
-    Integer(Box<dyn Fn(&R) -> i64>),
-    Optional(Box<dyn Fn(&R) -> Option<f64>>),
-    Text(Box<dyn Fn(&R) -> String>),
+    Float(Read<R, f64>),
+    Integer(Read<R, i64>),
+    Optional(Read<R, Option<f64>>),
+    Text(Read<R, String>),
 }
 
 /// A column of a table whose rows are made from `R`.

@@ -23,41 +23,53 @@ pub fn text(comparison: &Comparison) -> String {
     format!("{}\n{entries}\n", bold("without a result"))
 }
 
-/// One line a model and kind of absence: where, and why.
+/// One line a kind of absence: which models, where, and why.
 pub fn reasons(comparison: &Comparison) -> Vec<String> {
-    let speeds = comparison.speeds();
-    let mut lines = Vec::new();
+    let mut groups: Vec<(Vec<&str>, String)> = Vec::new();
     for model in comparison.models() {
-        let records: Vec<&ResultRecord> = comparison.of_model(model).collect();
         for outcome in [Outcome::NotApplicable, Outcome::Failed] {
-            let absent: Vec<bool> = records.iter().map(|r| r.outcome == outcome).collect();
-            let Some(first) = absent.iter().position(|absent| *absent) else {
+            let Some(why) = why(comparison, model, outcome) else {
                 continue;
             };
-            let everywhere = absent.iter().all(|absent| *absent);
-            let at = match everywhere {
-                true => String::new(),
-                false => format!(" at {}", ranges(&speeds, &absent)),
-            };
-            let reason = records[first]
-                .reason
-                .as_deref()
-                .unwrap_or("it does not say why");
-            // A reason with numbers in it may hold for one speed only.
-            let differs = records
-                .iter()
-                .any(|r| r.outcome == outcome && r.reason != records[first].reason);
-            let of = match differs {
-                true => format!(" ({} m/s)", speeds[first]),
-                false => String::new(),
-            };
-            lines.push(match outcome {
-                Outcome::Failed => format!("{model} failed{at}: {reason}{of}"),
-                _ => format!("{model} is not applicable{at}, because {reason}{of}"),
-            });
+            match groups.iter_mut().find(|group| group.1 == why) {
+                Some(group) => group.0.push(model),
+                None => groups.push((vec![model], why)),
+            }
         }
     }
-    lines
+    groups
+        .into_iter()
+        .map(|(models, why)| format!("{}: {why}", models.join(", ")))
+        .collect()
+}
+
+/// Where a model has an outcome that is no result, and the reason at the first such speed.
+fn why(comparison: &Comparison, model: &str, outcome: Outcome) -> Option<String> {
+    let speeds = comparison.speeds();
+    let records: Vec<&ResultRecord> = comparison.of_model(model).collect();
+    let absent: Vec<bool> = records.iter().map(|r| r.outcome == outcome).collect();
+    let first = absent.iter().position(|absent| *absent)?;
+    let at = match absent.iter().all(|absent| *absent) {
+        true => String::new(),
+        false => format!(" at {}", ranges(&speeds, &absent)),
+    };
+    let reason = records[first]
+        .reason
+        .as_deref()
+        .unwrap_or("it does not say why");
+    // A reason with numbers in it may hold for one speed only.
+    let speed = speed_range(&speeds[first..=first]);
+    let differs = records
+        .iter()
+        .any(|r| r.outcome == outcome && r.reason != records[first].reason);
+    let of = match differs && !reason.contains(&speed) {
+        true => format!(" (at {speed})"),
+        false => String::new(),
+    };
+    Some(match outcome {
+        Outcome::Failed => format!("failed{at}: {reason}{of}"),
+        _ => format!("not applicable{at}, because {reason}{of}"),
+    })
 }
 
 /// Models with results that lack the leading quantity.
@@ -96,7 +108,7 @@ fn gives(comparison: &Comparison, model: &str) -> String {
         .collect();
     match given.as_slice() {
         [] => String::new(),
-        _ => format!(", but: {}", given.join(", ")),
+        _ => format!(", but {}", given.join(", ")),
     }
 }
 

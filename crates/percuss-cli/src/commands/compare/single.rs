@@ -5,7 +5,7 @@ use percuss::{
 };
 
 use crate::{
-    table,
+    table::{Column, blocks},
     terminal::{bold, width, wrap, yellow},
 };
 
@@ -18,65 +18,80 @@ pub fn text(comparison: &Comparison) -> String {
 }
 
 fn numbers(comparison: &Comparison) -> String {
-    let records = comparison.at_speed(0);
+    let speed = comparison.speeds()[0];
+    let records: Vec<&ResultRecord> = comparison
+        .at_speed(0)
+        .iter()
+        .filter(|record| record.is_result())
+        .collect();
     let quantities: Vec<BandQuantity> = BandQuantity::ALL
         .iter()
         .copied()
         .filter(|quantity| relevant(comparison, *quantity))
         .collect();
-    let speed = comparison.speeds()[0];
     let measured = |quantity| comparison.measured(quantity, speed);
-    let has_range = records.iter().any(|record| record.band.is_some());
-    let mut header = vec!["model".to_owned()];
-    for quantity in &quantities {
-        header.push(format!("{}\n[{}]", quantity.in_words(), quantity.unit()));
-        if measured(*quantity).is_some() {
-            header.push("off by\n[%]".to_owned());
-        }
-    }
-    if has_range {
-        header.push("range".to_owned());
-    }
-    let numbers = header.len();
-    header.extend(["outcome".to_owned(), "warnings".to_owned()]);
-    let mut table = table::table(header);
-    for record in records.iter().filter(|record| record.is_result()) {
-        let mut row = vec![name(comparison, record.model)];
-        for quantity in &quantities {
-            let value = record.value(*quantity);
-            row.push(number(value));
-            if let Some((measured, _)) = measured(*quantity) {
-                row.push(off_by(value, measured));
+    let any_measured = quantities.iter().any(|q| measured(*q).is_some());
+    // The last row holds what was measured, if anything was.
+    let column =
+        |heading: String, numbers, cell: &dyn Fn(&ResultRecord) -> String, last: String| {
+            let mut cells: Vec<String> = records.iter().map(|record| cell(record)).collect();
+            cells.extend(any_measured.then_some(last));
+            Column {
+                heading,
+                cells,
+                numbers,
             }
+        };
+    let models = column(
+        "model".to_owned(),
+        false,
+        &|record| name(comparison, record.model),
+        "experiment".to_owned(),
+    );
+    let mut columns = Vec::new();
+    for quantity in quantities {
+        let measured = measured(quantity);
+        columns.push(column(
+            format!(
+                "{}\n[{}]",
+                quantity.in_words().replace(' ', "\n"),
+                quantity.unit()
+            ),
+            true,
+            &|record| number(record.value(quantity)),
+            measured.map_or_else(String::new, |(mean, count)| {
+                measurement(comparison, quantity, mean, count)
+            }),
+        ));
+        if let Some((measured, _)) = measured {
+            columns.push(column(
+                "off by\n[%]".to_owned(),
+                true,
+                &|record| off_by(record.value(quantity), measured),
+                String::new(),
+            ));
         }
-        if has_range {
-            row.push(range(record, quantities.len() > 1));
-        }
-        row.push(record.outcome.in_words().to_owned());
-        row.push(match record.warnings.len() {
+    }
+    if records.iter().any(|record| record.band.is_some()) {
+        let cell = |record: &ResultRecord| range(record, comparison.quantities[0]);
+        columns.push(column("range".to_owned(), true, &cell, String::new()));
+    }
+    columns.push(column(
+        "outcome".to_owned(),
+        false,
+        &|record| record.outcome.in_words().to_owned(),
+        String::new(),
+    ));
+    columns.push(column(
+        "warn-\nings".to_owned(),
+        true,
+        &|record| match record.warnings.len() {
             0 => String::new(),
             count => count.to_string(),
-        });
-        table.add_row(row);
-    }
-    if quantities
-        .iter()
-        .any(|quantity| measured(*quantity).is_some())
-    {
-        let mut row = vec!["experiment".to_owned()];
-        for quantity in &quantities {
-            match measured(*quantity) {
-                Some((value, count)) => row.extend([
-                    measurement(comparison, *quantity, value, count),
-                    String::new(),
-                ]),
-                None => row.push(String::new()),
-            }
-        }
-        table.add_row(row);
-    }
-    table::align_right(&mut table, (1..numbers).chain([numbers + 1]));
-    table::text(&table)
+        },
+        String::new(),
+    ));
+    blocks(&models, columns)
 }
 
 /// Whether a quantity belongs into the table: it leads, was measured, or is a depth beside the speeds of a plate.
@@ -136,18 +151,15 @@ fn measurement(comparison: &Comparison, quantity: BandQuantity, mean: f64, count
     }
 }
 
-fn range(record: &ResultRecord, name_quantity: bool) -> String {
+/// Ends of a range, named where it is not one of the leading quantity.
+fn range(record: &ResultRecord, leading: BandQuantity) -> String {
     let Some(band) = &record.band else {
         return String::new();
     };
-    let ends = format!(
-        "{} to {}",
-        significant(band.low, 3),
-        significant(band.high, 3)
-    );
-    match name_quantity {
-        true => format!("{}: {ends}", band.quantity.in_words()),
-        false => ends,
+    let ends = format!("{}–{}", significant(band.low, 3), significant(band.high, 3));
+    match band.quantity == leading {
+        true => ends,
+        false => format!("{} {ends}", band.quantity.in_words()),
     }
 }
 

@@ -3,10 +3,7 @@
 use percuss::{compare::Comparison, outcome::BandQuantity, units::significant};
 
 use super::single::{RECOMMENDED, heading, name, number, off_by};
-use crate::{table, terminal::width};
-
-/// Spaces that the table puts around a column.
-const PADDING: usize = 2;
+use crate::table::{Column, blocks};
 
 /// Tables of all relevant quantities, and how far they are from experiment.
 pub fn text(comparison: &Comparison) -> String {
@@ -36,22 +33,6 @@ pub fn text(comparison: &Comparison) -> String {
     text
 }
 
-/// A column of a block: its heading and its cells.
-struct Column {
-    heading: String,
-    cells: Vec<String>,
-}
-
-impl Column {
-    fn width(&self) -> usize {
-        let lines = self
-            .heading
-            .lines()
-            .chain(self.cells.iter().map(String::as_str));
-        lines.map(|line| line.chars().count()).max().unwrap_or(0) + PADDING
-    }
-}
-
 fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) -> String {
     let speeds = comparison.speeds();
     let all: Vec<usize> = (0..speeds.len()).collect();
@@ -70,6 +51,7 @@ fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) 
     let speed_column = |rows: &[usize]| Column {
         heading: "speed\n[m/s]".to_owned(),
         cells: rows.iter().map(|&i| significant(speeds[i], 4)).collect(),
+        numbers: true,
     };
     let experiment = |rows: &[usize]| Column {
         heading: "exper-\niment".to_owned(),
@@ -83,6 +65,7 @@ fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) 
                 )
             })
             .collect(),
+        numbers: true,
     };
     let columns = |rows: &[usize], cell: &dyn Fn(usize, Option<f64>) -> String| -> Vec<Column> {
         models
@@ -94,6 +77,7 @@ fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) 
                     .zip(values(model, rows))
                     .map(|(&i, value)| cell(i, value))
                     .collect(),
+                numbers: true,
             })
             .collect()
     };
@@ -102,14 +86,14 @@ fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) 
     if !compared.is_empty() {
         shown.insert(0, experiment(&all));
     }
-    text += &blocks(&speed_column(&all), shown, false);
+    text += &blocks(&speed_column(&all), shown);
     if !compared.is_empty() {
         text += &heading(&format!("{}, off experiment by [%]", quantity.in_words()));
         let off = columns(&compared, &|i, value| {
             let measured = comparison.measured(quantity, speeds[i]);
             measured.map_or_else(String::new, |(measured, _)| off_by(value, measured))
         });
-        text += &blocks(&speed_column(&compared), off, false);
+        text += &blocks(&speed_column(&compared), off);
     }
     text
 }
@@ -122,10 +106,12 @@ fn limits(comparison: &Comparison, models: &[&str]) -> String {
     let first = Column {
         heading: "model".to_owned(),
         cells: models.iter().map(|model| name(comparison, model)).collect(),
+        numbers: false,
     };
     let mut columns = vec![Column {
         heading: "limit".to_owned(),
         cells: models.iter().map(|model| number(value(model))).collect(),
+        numbers: true,
     }];
     if let Some((measured, _)) = measured {
         columns.push(Column {
@@ -134,9 +120,10 @@ fn limits(comparison: &Comparison, models: &[&str]) -> String {
                 .iter()
                 .map(|model| off_by(value(model), measured))
                 .collect(),
+            numbers: true,
         });
     }
-    heading("ballistic limit [m/s]") + &blocks(&first, columns, true)
+    heading("ballistic limit [m/s]") + &blocks(&first, columns)
 }
 
 /// Name of a model over lines that are short.
@@ -146,34 +133,4 @@ fn model_heading(comparison: &Comparison, model: &str) -> String {
         true => format!("{heading} {RECOMMENDED}"),
         false => heading,
     }
-}
-
-/// Tables of as many columns as fit beside the first one, which holds names or numbers.
-fn blocks(first: &Column, columns: Vec<Column>, names_first: bool) -> String {
-    let mut blocks: Vec<Vec<Column>> = Vec::new();
-    let mut used = usize::MAX;
-    for column in columns {
-        let more = column.width();
-        match blocks.last_mut() {
-            Some(block) if used + more <= width() => {
-                used += more;
-                block.push(column);
-            }
-            _ => {
-                used = first.width() + more;
-                blocks.push(vec![column]);
-            }
-        }
-    }
-    let tables = blocks.iter().map(|block| {
-        let shown = || std::iter::once(first).chain(block);
-        let mut table = table::table(shown().map(|column| column.heading.clone()).collect());
-        for i in 0..first.cells.len() {
-            table.add_row(shown().map(|column| column.cells[i].clone()));
-        }
-        let from = usize::from(names_first);
-        table::align_right(&mut table, from..=block.len());
-        table::text(&table)
-    });
-    tables.collect()
 }

@@ -23,6 +23,7 @@ pub fn text(models: &[ModelRecord]) -> String {
             targets(model),
         ]);
     }
+    table::keep_whole(&mut all, [0, 2]);
     let hint = "`percuss models NAME` says all about one of them; `percuss compare CASE.toml` runs those that apply to a case.";
     table::text(&all) + &wrap(hint, width(), 0) + "\n"
 }
