@@ -132,8 +132,7 @@ impl Regime {
                 because: "its material never yields".to_owned(),
             };
         };
-        // Digits beyond the third would promise more than the judgement holds.
-        let shown = |stress: f64| Pressure::new(significant(stress, 3).parse().unwrap_or(stress));
+        let shown = |stress: f64| Pressure::new(rounded(stress));
         let mut because = String::new();
         let (pressure, resistance, density) = match &scenario.target {
             TargetBody::RigidWall => {
@@ -194,7 +193,7 @@ impl Regime {
             let _ = write!(
                 because,
                 "; it erodes above {} (target resistance {})",
-                Velocity::new(significant(threshold, 3).parse().unwrap_or(threshold)),
+                Velocity::new(rounded(threshold)),
                 shown(resistance)
             );
         }
@@ -262,6 +261,11 @@ impl Regime {
     pub fn in_words(&self, scenario: &Scenario) -> String {
         format!("{}: {}", self.kind_in_words(scenario), self.because)
     }
+}
+
+/// A value to three digits: more would promise more than the judgement holds.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 fn kind(scenario: &Scenario) -> TargetKind {

@@ -87,7 +87,7 @@ fn silent(comparison: &Comparison) -> Vec<String> {
     models
         .map(|model| {
             format!(
-                "{model} gives no {}{}",
+                "{model}: gives no {}{}",
                 leading.in_words(),
                 gives(comparison, model)
             )
