@@ -25,17 +25,17 @@ is from the case's experiments, and why a model says nothing where it does not
 apply. One model that fails does not stop the others.
 
 With --velocity the case is run at other speeds than its own:
-  --velocity 200..1500:27           27 speeds from 200 to 1500 m/s, both included
-  --velocity \"0.2..1.5 km/s:27\"     the same, in another unit
-  --velocity 200,300,400            a list
-  --velocity 230                    one speed
-  --velocity experiments            those of the case's [[experiments]]
+  --velocity 200..1500:27         27 speeds from 200 to 1500, ends included
+  --velocity \"0.2..1.5 km/s:27\"   the same, in another unit
+  --velocity 200,300,400          a list
+  --velocity 230                  one speed
+  --velocity experiments          those of the case's [[experiments]]
 
 With --quiet one line of NAME=VALUE pairs is printed for each speed and model.
 
-With --out DIR a copy of the case (case-as-run.toml), compare.json, the numbers as
-compare.csv and compare.parquet, and the figure compare.svg and compare.png are
-written to DIR, which is made if it does not exist.";
+With --out DIR a copy of the case (case-as-run.toml), compare.json, the numbers
+(compare.csv and compare.parquet) and the figure (compare.svg and compare.png)
+are written to DIR, which is made if it does not exist.";
 
 const AFTER_HELP: &str = "\
 Examples:
