@@ -3,7 +3,9 @@
 use clap::{Parser, Subcommand};
 
 use crate::{
-    commands::{Completions, Converge, Man, Materials, Models, New, Reproduce, Run, Schema},
+    commands::{
+        Compare, Completions, Converge, Man, Materials, Models, New, Reproduce, Run, Schema,
+    },
     failure::Failure,
 };
 
@@ -21,6 +23,7 @@ const AFTER_HELP: &str = "\
 Examples:
   percuss new my-shot                      write my-shot/scenario.toml
   percuss run my-shot/scenario.toml        run it
+  percuss compare my-shot/scenario.toml    see what every model says of it
   percuss converge my-shot/scenario.toml   see whether its mesh is fine enough
   percuss materials show copper            show what is known of a material
   percuss run --help                       explain one command
@@ -50,6 +53,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     Run(Run),
+    Compare(Compare),
     Converge(Converge),
     New(New),
     Models(Models),
@@ -64,6 +68,7 @@ impl Command {
     pub fn run(&self) -> Result<(), Failure> {
         match self {
             Self::Run(command) => command.run(),
+            Self::Compare(command) => command.run(),
             Self::Converge(command) => command.run(),
             Self::New(command) => command.run(),
             Self::Models(command) => command.run(),

@@ -9,7 +9,7 @@ use std::{
 use percuss::Error;
 use percuss_report::{ReportError, paper::ReproduceError};
 
-use crate::diagnostic;
+use crate::{diagnostic, terminal};
 
 /// Any failure of a command.
 #[derive(Debug)]
@@ -24,6 +24,8 @@ pub enum Failure {
         reason: String,
         help: String,
     },
+    /// No model gave a result: the reasons, one a model.
+    NoResult(Vec<String>),
     /// Standard output could not be written.
     Output(io::Error),
     /// The command line asks for something that does not exist.
@@ -67,7 +69,7 @@ impl Failure {
 
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
-            Self::Usage { .. } => 2,
+            Self::Usage { .. } | Self::NoResult(_) => 2,
             Self::Library(Error::Numerical(_) | Error::Cancelled { .. }) | Self::Report(_) => 3,
             Self::Library(Error::Read { .. }) | Self::Write { .. } | Self::Output(_) => 4,
             Self::Library(_) => 2,
@@ -126,6 +128,13 @@ impl Failure {
             }
             Self::Output(error) => {
                 diagnostic::message(&format!("cannot write the output: {error}"), "")
+            }
+            Self::NoResult(reasons) => {
+                let message = diagnostic::message("no model gives a result for this case", "");
+                let reason = |reason: &String| {
+                    format!("  {}\n", terminal::wrap(reason, terminal::width() - 2, 4))
+                };
+                message + &reasons.iter().map(reason).collect::<String>()
             }
             Self::Usage { message, help } => diagnostic::message(message, help),
         };

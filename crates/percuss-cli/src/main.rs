@@ -8,6 +8,7 @@ mod material_card;
 mod progress;
 mod result_table;
 mod run_folder;
+mod table;
 mod terminal;
 
 use std::process::ExitCode;

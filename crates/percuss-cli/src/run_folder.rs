@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use percuss::{Scenario, outcome::RunResult, summary::CaseResults};
+use percuss::{Scenario, compare::Comparison, outcome::RunResult, summary::CaseResults};
 
 use crate::{failure::Failure, progress::Progress, terminal};
 
@@ -67,6 +67,21 @@ impl RunFolder {
         let count = figures.len() as f64;
         for (i, figure) in figures.iter().enumerate() {
             progress.update(i as f64 / count, &format!("drawing {}", figure.name));
+            self.written.extend(figure.write(&self.path)?);
+        }
+        Ok(self.written)
+    }
+
+    /// Writes a comparison: numbers and figure; returns the files.
+    pub fn write_comparison(
+        mut self,
+        scenario: &Scenario,
+        comparison: &Comparison,
+    ) -> Result<Vec<PathBuf>, Failure> {
+        self.put("compare.json", terminal::json(comparison)?.as_bytes())?;
+        self.written
+            .extend(percuss_report::write_comparison(&self.path, comparison)?);
+        if let Some(figure) = percuss_report::compare_figure(scenario, comparison) {
             self.written.extend(figure.write(&self.path)?);
         }
         Ok(self.written)

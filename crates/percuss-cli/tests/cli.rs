@@ -229,16 +229,86 @@ help: "
 }
 
 #[test]
-fn models_are_listed() {
+fn models_are_listed_and_shown() {
     let folder = TempDir::new().unwrap();
     let text = ok(folder.path(), &["models"]);
+    let row = text
+        .lines()
+        .find(|line| line.starts_with(" chain "))
+        .unwrap();
+    assert!(row.contains("1-D discrete element"), "{text}");
     assert!(
-        text.starts_with("chain\n") && text.contains("  - normal impact"),
+        text.lines().all(|line| line.chars().count() <= 80),
         "{text}"
     );
+    let card = ok(folder.path(), &["models", "chain"]);
+    for part in [
+        "chain\n1-D discrete",
+        "made for\n",
+        "  - normal impact",
+        "first choice for\n  - deforming projectiles",
+    ] {
+        assert!(card.contains(part), "{part:?} is not in:\n{card}");
+    }
+    assert!(
+        card.lines().all(|line| line.chars().count() <= 80),
+        "{card}"
+    );
+    let said = percuss(folder.path(), ["models", "chian"]);
+    assert_eq!(said.code, 2);
+    assert!(
+        said.stderr.contains("did you mean `chain`?"),
+        "{}",
+        said.stderr
+    );
+}
+
+#[test]
+fn models_as_json_hold_their_whole_guard() {
+    let folder = TempDir::new().unwrap();
     let list = json(&ok(folder.path(), &["models", "--json"]));
+    assert_eq!(
+        list[0],
+        json(&ok(folder.path(), &["models", "chain", "--json"]))
+    );
     assert_eq!(list[0]["name"], "chain");
     assert_eq!(list[0]["guard"]["noses"], serde_json::json!(["flat"]));
+    let keys =
+        |value: &Value| -> Vec<String> { value.as_object().unwrap().keys().cloned().collect() };
+    for model in list.as_array().unwrap() {
+        assert_eq!(keys(model), ["guard", "name", "summary"]);
+        let guard = &model["guard"];
+        assert_eq!(
+            keys(guard),
+            [
+                "first_choice",
+                "noses",
+                "notes",
+                "projectile",
+                "projectile_materials",
+                "ranges",
+                "sees_back_face",
+                "target_materials",
+                "targets",
+            ]
+        );
+        for range in guard["ranges"].as_array().unwrap() {
+            assert_eq!(keys(range), ["because", "max", "measure", "min", "outside"]);
+            assert!(range["min"].is_number());
+        }
+        for choice in guard["first_choice"].as_array().unwrap() {
+            assert_eq!(
+                keys(choice),
+                [
+                    "because",
+                    "noses",
+                    "projectile",
+                    "target_material",
+                    "targets"
+                ]
+            );
+        }
+    }
 }
 
 #[test]
@@ -368,6 +438,10 @@ fn the_schema_has_the_keys_that_case_files_have() {
             "ArtificialViscosity",
             CASE.replace("chain = {", "chain = { artificial_viscosity.zz = 1,"),
         ),
+        (
+            "Experiment",
+            format!("{CASE}[[experiments]]\nsource = 'a'\nzz = 1"),
+        ),
         ("Material", format!("{CASE}{material}zz = 1")),
         ("Validity", format!("{CASE}{material}validity.zz = 1")),
         (
@@ -462,7 +536,17 @@ fn a_new_case_shows_every_option_at_its_default() {
     let folder = folder_with(&text);
     let reference = ok(folder.path(), &["run", "shot.toml", "--json"]);
     // These stand in place of something else, or have no default.
-    let no_defaults = ["mass", "material_files", "end_time", "target_mass"];
+    let no_defaults = [
+        "mass",
+        "material_files",
+        "end_time",
+        "target_mass",
+        "velocity",
+        "depth_of_penetration",
+        "uncertainty",
+        "source",
+        "note",
+    ];
     let first_of = |header: &str| text.lines().position(|line| line == header).unwrap();
     let (published, materials) = (
         first_of("# [chain.published]"),
@@ -508,6 +592,22 @@ fn a_new_case_shows_every_option_at_its_default() {
 }
 
 #[test]
+fn the_experiment_of_a_new_case_is_compared() {
+    let (text, options) = starter();
+    let first = text
+        .lines()
+        .position(|line| line == "# [[experiments]]")
+        .unwrap();
+    let case = uncommented(&text, |number, _| {
+        number == first || ((first..first + 6).contains(&number) && options.contains(&number))
+    });
+    let folder = folder_with(&case);
+    let object = json(&ok(folder.path(), &["compare", "shot.toml", "--json"]));
+    assert_eq!(object["experiments"][0]["value"], 0.5, "{case}");
+    assert_eq!(object["experiments"][0]["sources"][0], "my-notebook");
+}
+
+#[test]
 fn a_new_case_names_every_key_of_the_schema() {
     let folder = TempDir::new().unwrap();
     let (text, _) = starter();
@@ -518,6 +618,7 @@ fn a_new_case_names_every_key_of_the_schema() {
         "ChainOptions",
         "PublishedOptions",
         "ArtificialViscosity",
+        "Experiment",
     ] {
         for key in schema["$defs"][definition]["properties"]
             .as_object()
@@ -558,6 +659,7 @@ fn help_fits_and_is_as_approved() {
     for command in [
         &[][..],
         &["run"],
+        &["compare"],
         &["new"],
         &["models"],
         &["materials"],

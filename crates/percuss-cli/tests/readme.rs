@@ -102,3 +102,29 @@ fn the_table_of_the_readme_is_real() {
         }
     }
 }
+
+/// What the README shows of a comparison is what is printed.
+#[test]
+fn the_comparison_of_the_readme_is_real() {
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/paper-table1/scenario.toml");
+    let output = Command::new(env!("CARGO_BIN_EXE_percuss"))
+        .arg("compare")
+        .arg(case)
+        .output()
+        .unwrap();
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    let shown = blocks(&readme(), "text");
+    let from = shown
+        .iter()
+        .position(|line| line.starts_with("regime "))
+        .unwrap();
+    let block = shown[from..]
+        .iter()
+        .take_while(|line| !line.starts_with("error"));
+    for line in block {
+        assert!(
+            printed.lines().any(|row| row == line),
+            "`{line}` is not in\n{printed}"
+        );
+    }
+}

@@ -12,6 +12,7 @@ pub struct Axis {
     pub(crate) log: bool,
     range: Option<(f64, f64)>,
     tight: bool,
+    pub(crate) names: Vec<String>,
 }
 
 impl Axis {
@@ -22,6 +23,7 @@ impl Axis {
             log: false,
             range: None,
             tight: false,
+            names: Vec::new(),
         }
     }
 
@@ -34,6 +36,12 @@ impl Axis {
     /// Ends the axis where the data end.
     pub fn tight(mut self) -> Self {
         self.tight = true;
+        self
+    }
+
+    /// Writes names at 1, 2, 3, … in place of numbers.
+    pub(crate) fn names(mut self, names: impl IntoIterator<Item = String>) -> Self {
+        self.names = names.into_iter().collect();
         self
     }
 

@@ -1,7 +1,7 @@
 //! Line charts in the looks of this crate.
 
 use kuva::plot::{
-    LinePlot, ScatterPlot,
+    BandPlot, LinePlot, ScatterPlot,
     legend::{LegendEntry, LegendShape},
     line::{LineStyle, ScatterPoint as LinePoint},
     scatter::{MarkerShape, ScatterPoint},
@@ -18,15 +18,20 @@ use crate::{
 const DASHES: &str = "5 2.5";
 /// Dashes of a mark [px].
 const MARK_DASHES: &str = "2 2";
+/// Opacity of the area of a band.
+const BAND_OPACITY: f64 = 0.18;
 /// Most characters of a name in the legend.
 const LEGEND_CHARS: usize = 30;
 /// Shapes of markers, in the order in which series take them.
-const MARKERS: [MarkerShape; 5] = [
+const MARKERS: [MarkerShape; 8] = [
     MarkerShape::Circle,
     MarkerShape::Square,
     MarkerShape::Triangle,
     MarkerShape::Diamond,
     MarkerShape::Cross,
+    MarkerShape::TriangleDown,
+    MarkerShape::Plus,
+    MarkerShape::Star,
 ];
 
 /// A chart of lines and markers.
@@ -98,7 +103,10 @@ impl LineChart {
                 .map(|mark| mark.value)
         };
         let x_values = shown().map(|point| point.0).chain(marked(true));
-        let y_values = shown().flat_map(|point| [point.1, point.2, point.3]);
+        let bands = self.series.iter().flat_map(|series| &series.band);
+        let y_values = shown()
+            .flat_map(|point| [point.1, point.2, point.3])
+            .chain(bands.flat_map(|ends| [ends.0, ends.1]));
         let mut frame = Frame {
             name: &self.name,
             title: &self.title,
@@ -132,7 +140,7 @@ impl LineChart {
     }
 
     fn plots(&self) -> Vec<Plot> {
-        let mut plots = Vec::new();
+        let mut plots = self.bands();
         for (index, series) in self.series.iter().enumerate() {
             let color = self.color(index);
             for run in self.runs(series) {
@@ -143,12 +151,44 @@ impl LineChart {
                 let marked = matches!(series.style, Style::Markers | Style::LineAndMarkers);
                 if marked || run.len() == 1 {
                     let shape = if marked {
-                        marker(index)
+                        marker(index, series)
                     } else {
                         MarkerShape::Circle
                     };
                     plots.push(markers(series, run, &color, shape));
                 }
+            }
+        }
+        plots
+    }
+
+    /// Translucent areas, for all lines to lie above them.
+    fn bands(&self) -> Vec<Plot> {
+        let mut plots = Vec::new();
+        for (index, series) in self.series.iter().enumerate() {
+            let shown: Vec<(f64, f64, f64)> = series
+                .points
+                .iter()
+                .zip(&series.band)
+                .map(|(point, ends)| (point.0, ends.0, ends.1))
+                .collect();
+            let whole = |at: &(f64, f64, f64)| {
+                self.x.shows(at.0) && self.y.shows(at.1) && self.y.shows(at.2)
+            };
+            for run in shown
+                .chunk_by(|a, b| whole(a) == whole(b))
+                .filter(|run| whole(&run[0]))
+            {
+                let band = BandPlot::new(
+                    run.iter().map(|at| at.0),
+                    run.iter().map(|at| at.1),
+                    run.iter().map(|at| at.2),
+                );
+                plots.push(
+                    band.with_color(self.color(index))
+                        .with_opacity(BAND_OPACITY)
+                        .into(),
+                );
             }
         }
         plots
@@ -173,7 +213,9 @@ impl LineChart {
         let series = self.series.iter().enumerate().map(|(index, series)| {
             let shape = match series.style {
                 Style::Line | Style::Dashed => LegendShape::Line,
-                Style::Markers | Style::LineAndMarkers => LegendShape::Marker(marker(index)),
+                Style::Markers | Style::LineAndMarkers => {
+                    LegendShape::Marker(marker(index, series))
+                }
             };
             let dashes = (series.style == Style::Dashed).then(|| DASHES.to_owned());
             (&series.name, self.color(index), shape, dashes)
@@ -216,15 +258,15 @@ impl LineChart {
     }
 }
 
-fn marker(index: usize) -> MarkerShape {
-    MARKERS[index % MARKERS.len()]
+fn marker(index: usize, series: &Series) -> MarkerShape {
+    MARKERS[series.symbol.unwrap_or(index) % MARKERS.len()]
 }
 
 fn line(series: &Series, run: std::ops::Range<usize>, color: &str) -> Plot {
     let mut line = LinePlot::new()
         .with_color(color)
         .with_stroke_width(series.width);
-    if series.style == Style::Dashed {
+    if series.style == Style::Dashed || series.symbol.is_some_and(palette::symbol_is_dashed) {
         line = line.with_line_style(LineStyle::Custom(DASHES.to_owned()));
     }
     line.data = run

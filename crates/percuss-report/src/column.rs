@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use parquet::{
-    basic::{Compression, Repetition, Type as PhysicalType},
-    data_type::{DoubleType, Int64Type},
+    basic::{Compression, LogicalType, Repetition, Type as PhysicalType},
+    data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type},
     errors::ParquetError,
     file::{properties::WriterProperties, writer::SerializedFileWriter},
     schema::types::Type,
@@ -12,10 +12,15 @@ use parquet::{
 
 use crate::ReportError;
 
+/// How a value is read off a row.
+type Read<R, T> = Box<dyn Fn(&R) -> T>;
+
 /// What a column holds of a row.
 pub(crate) enum Value<R> {
-    Float(Box<dyn Fn(&R) -> f64>),
-    Integer(Box<dyn Fn(&R) -> i64>),
+    Float(Read<R, f64>),
+    Integer(Read<R, i64>),
+    Optional(Read<R, Option<f64>>),
+    Text(Read<R, String>),
 }
 
 /// A column of a table whose rows are made from `R`.
@@ -38,6 +43,24 @@ impl<R> Column<R> {
             value: Value::Integer(Box::new(value)),
         }
     }
+
+    /// A number that some rows lack: empty in CSV, null in Parquet.
+    pub(crate) fn optional(
+        name: impl Into<String>,
+        value: impl Fn(&R) -> Option<f64> + 'static,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            value: Value::Optional(Box::new(value)),
+        }
+    }
+
+    pub(crate) fn text(name: impl Into<String>, value: impl Fn(&R) -> String + 'static) -> Self {
+        Self {
+            name: name.into(),
+            value: Value::Text(Box::new(value)),
+        }
+    }
 }
 
 /// The table as CSV with a header; numbers have as many digits as it takes to read them back unchanged.
@@ -58,6 +81,10 @@ pub(crate) fn csv<R>(
         let fields = columns.iter().map(|column| match &column.value {
             Value::Float(value) => format!("{:?}", value(row)),
             Value::Integer(value) => value(row).to_string(),
+            Value::Optional(value) => {
+                value(row).map_or_else(String::new, |number| format!("{number:?}"))
+            }
+            Value::Text(value) => value(row),
         });
         writer.write_record(fields).map_err(failure)?;
     }
@@ -66,7 +93,7 @@ pub(crate) fn csv<R>(
         .map_err(|error| failure(error.into_error().into()))
 }
 
-/// The table as Parquet: one row group, columns that are never null, Snappy compression.
+/// The table as Parquet: one row group, null in optional columns only, Snappy compression.
 pub(crate) fn parquet<R>(
     table: &str,
     columns: &[Column<R>],
@@ -80,12 +107,18 @@ pub(crate) fn parquet<R>(
 
 fn encode<R>(columns: &[Column<R>], rows: &[R]) -> Result<Vec<u8>, ParquetError> {
     let fields = columns.iter().map(|column| {
-        let kind = match column.value {
-            Value::Float(_) => PhysicalType::DOUBLE,
-            Value::Integer(_) => PhysicalType::INT64,
+        let (kind, logical) = match column.value {
+            Value::Float(_) | Value::Optional(_) => (PhysicalType::DOUBLE, None),
+            Value::Integer(_) => (PhysicalType::INT64, None),
+            Value::Text(_) => (PhysicalType::BYTE_ARRAY, Some(LogicalType::String)),
+        };
+        let repetition = match column.value {
+            Value::Optional(_) => Repetition::OPTIONAL,
+            _ => Repetition::REQUIRED,
         };
         let field = Type::primitive_type_builder(&column.name, kind)
-            .with_repetition(Repetition::REQUIRED)
+            .with_repetition(repetition)
+            .with_logical_type(logical)
             .build()?;
         Ok(Arc::new(field))
     });
@@ -112,6 +145,21 @@ fn encode<R>(columns: &[Column<R>], rows: &[R]) -> Result<Vec<u8>, ParquetError>
                 let values: Vec<i64> = rows.iter().map(value).collect();
                 writer
                     .typed::<Int64Type>()
+                    .write_batch(&values, None, None)?;
+            }
+            Value::Optional(value) => {
+                let all: Vec<Option<f64>> = rows.iter().map(value).collect();
+                let levels: Vec<i16> = all.iter().map(|v| i16::from(v.is_some())).collect();
+                let values: Vec<f64> = all.into_iter().flatten().collect();
+                writer
+                    .typed::<DoubleType>()
+                    .write_batch(&values, Some(&levels), None)?;
+            }
+            Value::Text(value) => {
+                let texts = rows.iter().map(|row| ByteArray::from(value(row).as_str()));
+                let values: Vec<ByteArray> = texts.collect();
+                writer
+                    .typed::<ByteArrayType>()
                     .write_batch(&values, None, None)?;
             }
         }

@@ -10,6 +10,22 @@ pub const SERIES: [&str; 8] = [
 /// Colour of marks and other auxiliary lines.
 pub const MARK: &str = "#555555";
 
+/// Colour of what was measured.
+pub const EXPERIMENT: &str = "#000000";
+
+/// Colours that tell apart series with symbols: all but black, which is what was measured, and yellow, which is faint.
+const SYMBOLS: usize = 6;
+
+/// Colour of symbol `index`, which has its marker and its dashes as well.
+pub fn symbol_color(index: usize) -> &'static str {
+    SERIES[index % SYMBOLS]
+}
+
+/// Whether symbol `index` has a dashed line: colours return after each round, and markers do not suffice to tell lines apart.
+pub(crate) fn symbol_is_dashed(index: usize) -> bool {
+    (index / SYMBOLS) % 2 == 1
+}
+
 /// Colour of what has no value in a heat map.
 pub const NO_VALUE: &str = "#b4b4b4";
 

@@ -14,7 +14,7 @@ use crate::{Figure, ReportError, axial_figures, error::history_of, time_figures}
 /// [`ReportError::NoHistory`] when the run kept no history.
 pub fn run_figures(scenario: &Scenario, result: &RunResult) -> Result<Vec<Figure>, ReportError> {
     let history = history_of(result)?;
-    let caption = caption(scenario);
+    let caption = caption(scenario, Some(scenario.impact_speed));
     let (first, last) = (
         &history.samples[0],
         &history.samples[history.samples.len() - 1],
@@ -33,8 +33,8 @@ pub fn run_figures(scenario: &Scenario, result: &RunResult) -> Result<Vec<Figure
     Ok(figures)
 }
 
-/// The case in one line: its title, or what strikes what and how fast.
-fn caption(scenario: &Scenario) -> String {
+/// The case in one line: its title, or what strikes what and, where it is one speed [m/s], how fast.
+pub(crate) fn caption(scenario: &Scenario, speed: Option<f64>) -> String {
     if !scenario.title.trim().is_empty() {
         return scenario.title.clone();
     }
@@ -59,11 +59,14 @@ fn caption(scenario: &Scenario) -> String {
         }
     };
     format!(
-        "{} mm × {} mm {} at {} m/s {target}",
+        "{} mm × {} mm {}{} {target}",
         significant(rod.length * 1e3),
         significant(rod.diameter * 1e3),
         rod.material_id,
-        significant(scenario.impact_speed),
+        speed.map_or_else(String::new, |speed| format!(
+            " at {} m/s",
+            significant(speed)
+        )),
     )
 }
 

@@ -23,6 +23,8 @@ pub struct Series {
     pub(crate) style: Style,
     pub(crate) width: f64,
     pub(crate) color: Option<String>,
+    pub(crate) symbol: Option<usize>,
+    pub(crate) band: Vec<(f64, f64)>,
 }
 
 impl Series {
@@ -35,6 +37,8 @@ impl Series {
             style: Style::Line,
             width: 1.5,
             color: None,
+            symbol: None,
+            band: Vec::new(),
         }
     }
 
@@ -53,6 +57,19 @@ impl Series {
     /// Sets the colour, such as one of [`crate::palette::SERIES`]; the next free one is taken otherwise.
     pub fn color(mut self, color: impl Into<String>) -> Self {
         self.color = Some(color.into());
+        self
+    }
+
+    /// Sets colour, marker and dashes together: up to 24 symbols differ in colour and marker.
+    pub fn symbol(mut self, index: usize) -> Self {
+        self.color = Some(crate::palette::symbol_color(index).to_owned());
+        self.symbol = Some(index);
+        self
+    }
+
+    /// Adds a translucent area: its lower and upper end at each point. An end that is not finite leaves a gap.
+    pub fn band(mut self, ends: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        self.band = ends.into_iter().collect();
         self
     }
 

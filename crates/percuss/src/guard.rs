@@ -366,3 +366,6 @@ pub(crate) fn list(words: impl Iterator<Item = &'static str>) -> String {
         [first @ .., last] => format!("{} or {last}", first.join(", ")),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -20,6 +20,7 @@
 pub mod case;
 pub mod chain;
 pub mod check;
+pub mod compare;
 pub mod converge;
 mod error;
 pub mod guard;

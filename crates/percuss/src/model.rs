@@ -62,11 +62,21 @@ pub fn run(
     scenario: &Scenario,
     control: &mut Control<'_>,
 ) -> Result<RunResult, Error> {
+    run_in(model, scenario, &Regime::of(scenario), control)
+}
+
+/// Computes a case whose regime is known already.
+pub(crate) fn run_in(
+    model: &dyn Model,
+    scenario: &Scenario,
+    regime: &Regime,
+    control: &mut Control<'_>,
+) -> Result<RunResult, Error> {
     let refuse = |reason: String| Error::NotApplicable {
         model: model.name(),
         reason,
     };
-    let warnings = applicability(model, scenario).map_err(refuse)?;
+    let warnings = applicability_in(model, scenario, regime).map_err(refuse)?;
     let mut result = model.run(scenario, control)?;
     if let Some(depth) = result.depth_of_penetration
         && let Some(reason) = model.guard().depth_at_back_face(scenario, depth)
@@ -82,7 +92,15 @@ pub fn run(
 /// # Errors
 /// The reason in words.
 pub fn applicability(model: &dyn Model, scenario: &Scenario) -> Result<Vec<String>, String> {
-    match model.guard().verdict(scenario, &Regime::of(scenario)) {
+    applicability_in(model, scenario, &Regime::of(scenario))
+}
+
+fn applicability_in(
+    model: &dyn Model,
+    scenario: &Scenario,
+    regime: &Regime,
+) -> Result<Vec<String>, String> {
+    match model.guard().verdict(scenario, regime) {
         Verdict::Outside(reason) => Err(reason),
         Verdict::Inside(warnings) => match model.not_applicable(scenario) {
             Some(reason) => Err(reason),

@@ -174,6 +174,22 @@ pub enum BandQuantity {
 }
 
 impl BandQuantity {
+    /// All of them.
+    pub const ALL: &'static [Self] = &[
+        Self::DepthOfPenetration,
+        Self::ResidualVelocity,
+        Self::BallisticLimit,
+        Self::ProjectileFinalLength,
+    ];
+
+    /// A value in SI units as one in the quantity's own unit.
+    pub fn in_unit(self, si: f64) -> f64 {
+        match self {
+            Self::DepthOfPenetration | Self::ProjectileFinalLength => si * 1e3,
+            Self::ResidualVelocity | Self::BallisticLimit => si,
+        }
+    }
+
     /// Its name in words.
     pub fn in_words(self) -> &'static str {
         match self {

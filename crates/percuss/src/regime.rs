@@ -132,6 +132,7 @@ impl Regime {
                 because: "its material never yields".to_owned(),
             };
         };
+        let shown = |stress: f64| Pressure::new(rounded(stress));
         let mut because = String::new();
         let (pressure, resistance, density) = match &scenario.target {
             TargetBody::RigidWall => {
@@ -139,12 +140,12 @@ impl Regime {
                 let _ = write!(
                     because,
                     "an elastic impact on the wall would stress it to {}",
-                    Pressure::new(elastic)
+                    shown(elastic)
                 );
                 (elastic, None, 0.0)
             }
             TargetBody::ConstantPressure(pressure) => {
-                let _ = write!(because, "the pressure is {}", Pressure::new(*pressure));
+                let _ = write!(because, "the pressure is {}", shown(*pressure));
                 (*pressure, None, 0.0)
             }
             TargetBody::Layers { layers, .. } => {
@@ -158,18 +159,14 @@ impl Regime {
                     Some(_) => write!(
                         because,
                         "the pressure on a rigid nose would be {}",
-                        Pressure::new(pressure)
+                        shown(pressure)
                     ),
                     None => write!(because, "the target never yields"),
                 };
                 (pressure, resistance, density)
             }
         };
-        let _ = write!(
-            because,
-            " against its flow stress of {}",
-            Pressure::new(strength)
-        );
+        let _ = write!(because, " against its flow stress of {}", shown(strength));
         let stays_rigid = pressure < strength;
         let stress_is_close =
             pressure < STRESS_EDGE * strength && pressure * STRESS_EDGE > strength;
@@ -196,8 +193,8 @@ impl Regime {
             let _ = write!(
                 because,
                 "; it erodes above {} (target resistance {})",
-                Velocity::new(significant(threshold, 3).parse().unwrap_or(threshold)),
-                Pressure::new(resistance)
+                Velocity::new(rounded(threshold)),
+                shown(resistance)
             );
         }
         let (projectile, neighbour) = match (stays_rigid, erodes) {
@@ -250,20 +247,25 @@ impl Regime {
         format!("{kind}{ratio}")
     }
 
-    /// The regime in one sentence.
-    pub fn in_words(&self, scenario: &Scenario) -> String {
+    /// The regime in a few words, without the numbers behind the judgement.
+    pub fn kind_in_words(&self, scenario: &Scenario) -> String {
         let mut text = format!("{} projectile", self.projectile.in_words());
         if let Some(neighbour) = self.neighbour {
             let _ = write!(text, " (or {})", neighbour.in_words());
         }
-        let _ = write!(
-            text,
-            ", {}: {}",
-            self.target_in_words(scenario),
-            self.because
-        );
+        let _ = write!(text, ", {}", self.target_in_words(scenario));
         text
     }
+
+    /// The regime in one sentence.
+    pub fn in_words(&self, scenario: &Scenario) -> String {
+        format!("{}: {}", self.kind_in_words(scenario), self.because)
+    }
+}
+
+/// A value to three digits: more would promise more than the judgement holds.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 fn kind(scenario: &Scenario) -> TargetKind {
@@ -289,3 +291,6 @@ pub fn nose_factor(nose: Nose) -> f64 {
         Nose::Ogive { crh } => (8.0 * crh - 1.0) / (24.0 * crh * crh),
     }
 }
+
+#[cfg(test)]
+mod tests;

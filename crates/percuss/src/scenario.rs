@@ -3,10 +3,11 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
-    case::{BackFace, Case, ChainOptions, Layer, Nose, Thickness},
+    case::{BackFace, Case, ChainOptions, Experiment, Layer, Nose, Thickness, Uncertainty},
     check::{Check, limits},
     material::{Library, Material, MaterialEntry},
-    units::{Length, Mass, Quantity},
+    outcome::BandQuantity,
+    units::{Length, Mass, Quantity, Velocity},
 };
 
 /// What strikes what, how fast, and by which options.
@@ -26,6 +27,39 @@ pub struct Scenario {
     pub target: TargetBody,
     /// Options of the model `chain`.
     pub chain: ChainOptions,
+    /// What was measured, for comparison; no model sees it.
+    pub experiments: Vec<Measurement>,
+}
+
+/// A measured value of one quantity, in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// What was measured.
+    pub quantity: BandQuantity,
+    /// Impact speed [m/s]; `None` for a ballistic limit without one.
+    pub impact_speed: Option<f64>,
+    /// The value [m or m/s].
+    pub value: f64,
+    /// How far it may be off, either way [m or m/s].
+    pub uncertainty: Option<f64>,
+    /// Bibliography keys.
+    pub sources: Vec<String>,
+    /// What a user should know of it.
+    pub note: String,
+}
+
+impl Measurement {
+    fn resolve(experiment: &Experiment) -> Option<Self> {
+        let (quantity, value) = experiment.measured()?;
+        Some(Self {
+            quantity,
+            impact_speed: experiment.velocity.map(Velocity::si),
+            value,
+            uncertainty: experiment.uncertainty.map(Uncertainty::si),
+            sources: experiment.source.0.clone(),
+            note: experiment.note.clone(),
+        })
+    }
 }
 
 /// A projectile.
@@ -127,6 +161,11 @@ impl Scenario {
             impact_speed: case.projectile.velocity.si(),
             target: target?,
             chain: case.chain,
+            experiments: case
+                .experiments
+                .iter()
+                .filter_map(Measurement::resolve)
+                .collect(),
         })
     }
 }

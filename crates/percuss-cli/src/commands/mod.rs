@@ -1,5 +1,6 @@
 //! One file a command: its arguments, its help and what it does.
 
+mod compare;
 mod completions;
 mod converge;
 mod man;
@@ -10,6 +11,7 @@ mod reproduce;
 mod run;
 mod schema;
 
+pub use compare::Compare;
 pub use completions::Completions;
 pub use converge::Converge;
 pub use man::Man;

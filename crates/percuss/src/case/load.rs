@@ -158,6 +158,10 @@ impl Case {
         self.target.check(&mut check.within("target"));
         self.chain
             .check(&mut check.within("chain"), self.target.is_solid());
+        for (i, experiment) in self.experiments.iter().enumerate() {
+            let mut check = check.within(&format!("experiments.{i}"));
+            experiment.check(&mut check, &self.target);
+        }
         self.check_materials(check);
     }
 

@@ -1,6 +1,7 @@
 //! Case files: what strikes what, how fast, and by which model options.
 
 mod document;
+mod experiment;
 mod load;
 mod number_or_word;
 mod options;
@@ -19,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::material::MaterialTable;
 
 pub(crate) use document::Document;
+pub use experiment::{Experiment, SourceKeys, Uncertainty};
 pub use load::{MAX_FILE_BYTES, load, load_library, load_materials, load_str};
 pub use number_or_word::{ConstraintFactor, ErosionStrain};
 pub use options::*;
@@ -46,6 +48,9 @@ pub struct Case {
     /// Options of the 1-D discrete element model.
     #[serde(default)]
     pub chain: ChainOptions,
+    /// What was measured on shots of this case, for comparison; no model sees it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub experiments: Vec<Experiment>,
     /// The user's own materials, by id.
     #[serde(default, skip_serializing_if = "MaterialTable::is_empty")]
     pub materials: MaterialTable,

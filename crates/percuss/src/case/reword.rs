@@ -180,7 +180,7 @@ fn wrong_type(message: &str, source: &str) -> Option<Reworded> {
         ),
         "a sequence" if found == "a table" => (
             "a list of tables",
-            "write every entry under a header of its own in double brackets, such as [[target.layers]]",
+            "write every entry under a header of its own in double brackets, such as [[target.layers]] or [[experiments]]",
         ),
         "a sequence" => (
             "a list",

@@ -166,6 +166,26 @@ impl Target {
         self.material.is_some() || self.thickness.is_some() || !self.layers.is_empty()
     }
 
+    /// Whether the last layer goes on for ever.
+    fn is_semi_infinite(&self) -> bool {
+        self.thickness == Some(Thickness::SemiInfinite)
+            || self
+                .layers
+                .last()
+                .is_some_and(|layer| layer.thickness == Thickness::SemiInfinite)
+    }
+
+    /// The target in words if nothing can come out behind it.
+    pub(super) fn without_back_in_words(&self) -> Option<&'static str> {
+        if self.rigid_wall {
+            Some("a rigid wall")
+        } else if self.constant_pressure.is_some() {
+            Some("a constant pressure")
+        } else {
+            self.is_semi_infinite().then_some("a semi-infinite target")
+        }
+    }
+
     pub(super) fn check(&self, check: &mut Check<'_>) {
         let plate = self.material.is_some() || self.thickness.is_some();
         let kinds = [
@@ -229,12 +249,7 @@ impl Target {
         if let Some(pressure) = self.constant_pressure {
             check.quantity("constant_pressure", pressure, limits::CONTACT_PRESSURE);
         }
-        let semi_infinite = self.thickness == Some(Thickness::SemiInfinite)
-            || self
-                .layers
-                .last()
-                .is_some_and(|layer| layer.thickness == Thickness::SemiInfinite);
-        if semi_infinite
+        if self.is_semi_infinite()
             && self
                 .back_face
                 .is_some_and(|face| face != BackFace::NonReflecting)

@@ -1,0 +1,101 @@
+//! What stands above the numbers: the case, its regime and the models to rely on.
+
+use percuss::{
+    Scenario,
+    compare::{Comparison, Recommendation},
+    units::significant,
+};
+
+use crate::terminal::{bold, width, wrap};
+
+const LABEL: usize = 13;
+
+/// Case, regime and recommendation; for many speeds once for each range in which they stay the same.
+pub fn text(scenario: &Scenario, comparison: &Comparison) -> String {
+    let title = match scenario.title.is_empty() {
+        true => &scenario.name,
+        false => &scenario.title,
+    };
+    let speeds = comparison.speeds();
+    let at = match speeds.len() {
+        1 => speed_range(&speeds),
+        count => format!("{count} speeds, {}", speed_range(&speeds)),
+    };
+    let models = match comparison.models().len() {
+        1 => "1 model".to_owned(),
+        count => format!("{count} models"),
+    };
+    let line = format!("case {}, impact at {at}, {models}", scenario.name);
+    let mut text = format!(
+        "{}\n{}\n",
+        bold(wrap(title, width(), 0)),
+        wrap(&line, width(), 0)
+    );
+    let mut from = 0;
+    while from < speeds.len() {
+        let same = |i: &usize| {
+            let (a, b) = (
+                &comparison.regime[from].regime,
+                &comparison.regime[*i].regime,
+            );
+            (a.projectile, a.neighbour) == (b.projectile, b.neighbour)
+                && says(&comparison.recommended[from]) == says(&comparison.recommended[*i])
+        };
+        let to = (from..speeds.len()).take_while(same).count() + from;
+        text.push('\n');
+        let regime = &comparison.regime[from].regime;
+        let words = if speeds.len() == 1 {
+            regime.in_words(scenario)
+        } else {
+            text += &format!("{}\n", bold(speed_range(&speeds[from..to])));
+            regime.kind_in_words(scenario)
+        };
+        row("regime", &words, &mut text);
+        recommendation(&comparison.recommended[from], &mut text);
+        from = to;
+    }
+    text.push('\n');
+    text
+}
+
+/// What makes two recommendations the same to a reader; reasons hold numbers that change with the speed.
+fn says(recommendation: &Recommendation) -> (Vec<&str>, &str) {
+    let models = recommendation.models.iter().map(|choice| choice.model);
+    let note = recommendation.note.as_deref().unwrap_or_default();
+    let start = note.split([':', ',']).next().unwrap_or_default();
+    (models.collect(), start)
+}
+
+fn recommendation(recommendation: &Recommendation, text: &mut String) {
+    for choice in &recommendation.models {
+        let words = format!("{}: {}", choice.model, choice.because);
+        row("recommended", &words, text);
+    }
+    if let Some(note) = &recommendation.note {
+        let label = match recommendation.models.is_empty() {
+            true => "recommended",
+            false => "note",
+        };
+        row(label, note, text);
+    }
+}
+
+fn row(label: &str, words: &str, text: &mut String) {
+    let wrapped = wrap(words, width() - LABEL, 0).replace('\n', &format!("\n{:LABEL$}", ""));
+    *text += &format!("{label:<LABEL$}{wrapped}\n");
+}
+
+/// `230 m/s`, or `200 to 450 m/s`.
+pub fn speed_range(speeds: &[f64]) -> String {
+    match speeds {
+        [] => String::new(),
+        [one] => format!("{} m/s", significant(*one, 4)),
+        [first, .., last] => {
+            format!(
+                "{} to {} m/s",
+                significant(*first, 4),
+                significant(*last, 4)
+            )
+        }
+    }
+}

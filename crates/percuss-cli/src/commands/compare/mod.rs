@@ -1,0 +1,177 @@
+mod absent;
+mod head;
+mod single;
+mod speeds;
+mod sweep;
+#[cfg(test)]
+mod tests;
+
+use std::{ops::ControlFlow, path::PathBuf};
+
+use clap::{Args, builder::PossibleValuesParser};
+use percuss::{
+    Scenario, case,
+    compare::{self, Comparison, Watch},
+    model::{MODELS, Model},
+};
+
+use crate::{diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, terminal};
+use speeds::Speeds;
+
+const LONG_ABOUT: &str = "\
+Run every model on a case and set their results side by side: which regime the
+shot is in, which model to rely on and why, what each of them says, how far that
+is from the case's experiments, and why a model says nothing where it does not
+apply. One model that fails does not stop the others.
+
+With --velocity the case is run at other speeds than its own:
+  --velocity 200..1500:27         27 speeds from 200 to 1500, ends included
+  --velocity \"0.2..1.5 km/s:27\"   the same, in another unit
+  --velocity 200,300,400          a list
+  --velocity 230                  one speed
+  --velocity experiments          those of the case's [[experiments]]
+
+With --quiet one line of NAME=VALUE pairs is printed for each speed and model.
+
+With --out DIR a copy of the case (case-as-run.toml), compare.json, the numbers
+(compare.csv and compare.parquet) and the figure (compare.svg and compare.png)
+are written to DIR, which is made if it does not exist.";
+
+const AFTER_HELP: &str = "\
+Examples:
+  percuss compare my-shot/scenario.toml
+  percuss compare my-shot/scenario.toml --velocity 200..1500:27 --out results
+  percuss compare my-shot/scenario.toml --model chain --json
+
+Exit codes: 0 ok, 2 bad input or no model gives a result, 4 a file could not be
+read or written";
+
+/// Run every model on a case and compare them
+#[derive(Debug, Args)]
+#[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
+pub struct Compare {
+    /// Case file; `percuss new` writes one to start from
+    #[arg(value_name = "CASE.toml")]
+    case: PathBuf,
+    /// Impact speeds: FROM..TO:COUNT, a list, one, or `experiments`
+    #[arg(long, value_name = "SPEEDS")]
+    velocity: Option<Speeds>,
+    /// Compare this model only; may be given several times
+    #[arg(long, value_name = "NAME")]
+    #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
+    model: Vec<String>,
+    /// Print one JSON object and nothing else on standard output
+    #[arg(long)]
+    json: bool,
+    /// Write numbers and figure to a folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// No table and no progress: lines of NAME=VALUE pairs
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Compare {
+    pub fn run(&self) -> Result<(), Failure> {
+        let scenario = case::load(&self.case)?;
+        let speeds = self.speeds(&scenario)?;
+        let models: Vec<&dyn Model> = MODELS
+            .iter()
+            .copied()
+            .filter(|model| {
+                self.model.is_empty() || self.model.iter().any(|name| name == model.name())
+            })
+            .collect();
+        // Before runs that may take long: a folder that cannot be written should be known at once.
+        let folder = match &self.out {
+            Some(out) => Some(RunFolder::create(out, &self.case)?),
+            None => None,
+        };
+        let mut progress = Progress::new(!self.quiet);
+        let mut report = |now: compare::Progress| {
+            let words = format!("{} of {} runs", now.finished, now.total);
+            progress.update(now.fraction, &words);
+            ControlFlow::Continue(())
+        };
+        let mut watch = Watch {
+            progress: Some(&mut report),
+        };
+        let comparison = compare::compare(&models, &scenario, &speeds, &mut watch);
+        progress.finish();
+        let comparison = comparison?;
+        let files = match folder {
+            Some(folder) => folder.write_comparison(&scenario, &comparison)?,
+            None => Vec::new(),
+        };
+        self.print(&scenario, &comparison, &files)?;
+        match comparison.has_results() {
+            true => Ok(()),
+            false => Err(Failure::NoResult(absent::reasons(&comparison))),
+        }
+    }
+
+    fn speeds(&self, scenario: &Scenario) -> Result<Vec<f64>, Failure> {
+        match &self.velocity {
+            None => Ok(vec![scenario.impact_speed]),
+            Some(Speeds::Given(speeds)) => Ok(speeds.clone()),
+            Some(Speeds::OfExperiments) => {
+                let measured = scenario.experiments.iter();
+                let mut speeds: Vec<f64> = measured.filter_map(|m| m.impact_speed).collect();
+                speeds.sort_by(f64::total_cmp);
+                speeds.dedup();
+                if speeds.is_empty() {
+                    return Err(Failure::Usage {
+                        message: "the case has no experiments with a velocity".to_owned(),
+                        help: "add `[[experiments]]` entries, or give speeds such as --velocity 200..1500:27"
+                            .to_owned(),
+                    });
+                }
+                Ok(speeds)
+            }
+        }
+    }
+
+    fn print(
+        &self,
+        scenario: &Scenario,
+        comparison: &Comparison,
+        files: &[PathBuf],
+    ) -> Result<(), Failure> {
+        let wrote: String = files
+            .iter()
+            .map(|file| format!("  {}\n", file.display()))
+            .collect();
+        if self.json {
+            terminal::print_json(comparison)?;
+            if !files.is_empty() && !self.quiet {
+                diagnostic::print(&format!("wrote\n{wrote}"));
+            }
+            return Ok(());
+        }
+        if self.quiet {
+            return terminal::print(&single::lines(comparison));
+        }
+        // Without a result there are reasons only, and they are the error.
+        let mut text = String::new();
+        if comparison.has_results() {
+            text += &head::text(scenario, comparison);
+            text += &match comparison.regime.len() {
+                1 => single::text(comparison),
+                _ => sweep::text(comparison),
+            };
+            text += &absent::text(comparison);
+            text += &format!(
+                "{}\n",
+                terminal::wrap(
+                    "`percuss run CASE.toml --model NAME` says all about one of them, `percuss models NAME` what it is made for.",
+                    terminal::width(),
+                    0
+                )
+            );
+        }
+        if !files.is_empty() {
+            text += &format!("\n{}\n{wrote}", terminal::bold("wrote"));
+        }
+        terminal::print(&text)
+    }
+}

@@ -1,0 +1,209 @@
+//! Every model at one speed.
+
+use percuss::{
+    compare::Comparison, outcome::BandQuantity, summary::ResultRecord, units::significant,
+};
+
+use crate::{
+    table::{Column, blocks},
+    terminal::{bold, width, wrap, yellow},
+};
+
+/// Mark of a recommended model.
+pub const RECOMMENDED: &str = "★";
+
+/// Table and the warnings of what is recommended.
+pub fn text(comparison: &Comparison) -> String {
+    numbers(comparison) + &warnings(comparison)
+}
+
+fn numbers(comparison: &Comparison) -> String {
+    let speed = comparison.speeds()[0];
+    let records: Vec<&ResultRecord> = comparison
+        .at_speed(0)
+        .iter()
+        .filter(|record| record.is_result())
+        .collect();
+    let quantities: Vec<BandQuantity> = BandQuantity::ALL
+        .iter()
+        .copied()
+        .filter(|quantity| relevant(comparison, *quantity))
+        .collect();
+    let measured = |quantity| comparison.measured(quantity, speed);
+    let any_measured = quantities.iter().any(|q| measured(*q).is_some());
+    // The last row holds what was measured, if anything was.
+    let column =
+        |heading: String, numbers, cell: &dyn Fn(&ResultRecord) -> String, last: String| {
+            let mut cells: Vec<String> = records.iter().map(|record| cell(record)).collect();
+            cells.extend(any_measured.then_some(last));
+            Column {
+                heading,
+                cells,
+                numbers,
+            }
+        };
+    let models = column(
+        "model".to_owned(),
+        false,
+        &|record| name(comparison, record.model),
+        "experiment".to_owned(),
+    );
+    let mut columns = Vec::new();
+    for quantity in quantities {
+        let measured = measured(quantity);
+        columns.push(column(
+            format!(
+                "{}\n[{}]",
+                quantity.in_words().replace(' ', "\n"),
+                quantity.unit()
+            ),
+            true,
+            &|record| number(record.value(quantity)),
+            measured.map_or_else(String::new, |(mean, count)| {
+                measurement(comparison, quantity, mean, count)
+            }),
+        ));
+        if let Some((measured, _)) = measured {
+            columns.push(column(
+                "off by\n[%]".to_owned(),
+                true,
+                &|record| off_by(record.value(quantity), measured),
+                String::new(),
+            ));
+        }
+    }
+    if records.iter().any(|record| record.band.is_some()) {
+        let cell = |record: &ResultRecord| range(record, comparison.quantities[0]);
+        columns.push(column("range".to_owned(), true, &cell, String::new()));
+    }
+    columns.push(column(
+        "outcome".to_owned(),
+        false,
+        &|record| record.outcome.in_words().to_owned(),
+        String::new(),
+    ));
+    columns.push(column(
+        "warn-\nings".to_owned(),
+        true,
+        &|record| match record.warnings.len() {
+            0 => String::new(),
+            count => count.to_string(),
+        },
+        String::new(),
+    ));
+    blocks(&models, columns)
+}
+
+/// Whether a quantity belongs into the table: it leads, was measured, or is a depth beside the speeds of a plate.
+fn relevant(comparison: &Comparison, quantity: BandQuantity) -> bool {
+    let speed = comparison.speeds()[0];
+    let given = comparison
+        .results
+        .iter()
+        .any(|record| record.value(quantity).is_some());
+    let beside = quantity == BandQuantity::DepthOfPenetration
+        && comparison
+            .quantities
+            .contains(&BandQuantity::ResidualVelocity);
+    given
+        && (comparison.quantities.contains(&quantity)
+            || comparison.measured(quantity, speed).is_some()
+            || beside)
+}
+
+/// Name of a model, with its mark where it is recommended at any speed.
+pub fn name(comparison: &Comparison, model: &str) -> String {
+    let recommended = comparison
+        .recommended
+        .iter()
+        .any(|at| at.models.iter().any(|choice| choice.model == model));
+    match recommended {
+        true => format!("{model} {RECOMMENDED}"),
+        false => model.to_owned(),
+    }
+}
+
+/// A number of a table; a dash where there is none.
+pub fn number(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| significant(value, 4))
+}
+
+/// Difference from a measured value in per cent, with its sign.
+pub fn off_by(value: Option<f64>, measured: f64) -> String {
+    match value {
+        Some(value) if measured != 0.0 => format!("{:+.1}", 100.0 * (value / measured - 1.0)),
+        _ => "–".to_owned(),
+    }
+}
+
+fn measurement(comparison: &Comparison, quantity: BandQuantity, mean: f64, count: usize) -> String {
+    if count > 1 {
+        return format!("{} (mean of {count})", significant(mean, 4));
+    }
+    let uncertainty = comparison
+        .experiments
+        .iter()
+        .find(|measured| measured.quantity == quantity && measured.value == mean)
+        .and_then(|measured| measured.uncertainty);
+    match uncertainty {
+        Some(uncertainty) => format!("{} ± {}", significant(mean, 4), significant(uncertainty, 2)),
+        None => significant(mean, 4),
+    }
+}
+
+/// Ends of a range, named where it is not one of the leading quantity.
+fn range(record: &ResultRecord, leading: BandQuantity) -> String {
+    let Some(band) = &record.band else {
+        return String::new();
+    };
+    let ends = format!("{}–{}", significant(band.low, 3), significant(band.high, 3));
+    match band.quantity == leading {
+        true => ends,
+        false => format!("{} {ends}", band.quantity.in_words()),
+    }
+}
+
+fn warnings(comparison: &Comparison) -> String {
+    let mut text = String::new();
+    for choice in &comparison.recommended[0].models {
+        let records = comparison.of_model(choice.model);
+        for warning in records.flat_map(|record| &record.warnings) {
+            let line = format!("warning: {}: {warning}", choice.model);
+            let wrapped = wrap(&line, width(), 9);
+            text += &format!(
+                "{}\n\n",
+                wrapped.replacen("warning:", &yellow("warning:"), 1)
+            );
+        }
+    }
+    text
+}
+
+/// For scripts: a line for each speed and model.
+pub fn lines(comparison: &Comparison) -> String {
+    let value = |value: Option<f64>| value.map_or_else(|| "null".to_owned(), |v| v.to_string());
+    comparison
+        .results
+        .iter()
+        .map(|record| {
+            let outcome = serde_json::json!(record.outcome);
+            format!(
+                "model={} impact_velocity_m_s={} outcome={} depth_of_penetration_mm={} residual_velocity_m_s={} \
+                 ballistic_limit_m_s={} projectile_final_length_mm={} warnings={}\n",
+                record.model,
+                record.impact_velocity_m_s,
+                outcome.as_str().unwrap_or_default(),
+                value(record.depth_of_penetration_mm),
+                value(record.residual_velocity_m_s),
+                value(record.ballistic_limit_m_s),
+                value(record.projectile_final_length_mm),
+                record.warnings.len(),
+            )
+        })
+        .collect()
+}
+
+/// Heading of a block of numbers.
+pub fn heading(words: &str) -> String {
+    format!("{}\n", bold(words))
+}

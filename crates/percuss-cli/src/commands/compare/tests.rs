@@ -1,0 +1,169 @@
+//! What is printed of models that are made up.
+
+use percuss::{
+    Error, Scenario, case,
+    compare::{Comparison, Watch, compare},
+    guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
+    material::MaterialClass,
+    model::{Control, Model},
+    outcome::{Band, BandQuantity, Outcome, RunResult, Termination},
+    regime::{ProjectileRegime, TargetKind},
+};
+
+use super::{absent, head, single, sweep};
+
+struct Fake {
+    name: &'static str,
+    guard: Guard,
+    depth_mm: f64,
+}
+
+impl Model for Fake {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn summary(&self) -> &'static str {
+        "made up"
+    }
+
+    fn guard(&self) -> &'static Guard {
+        Box::leak(Box::new(self.guard))
+    }
+
+    fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
+        let depth = self.depth_mm * scenario.impact_speed / 1000.0;
+        let mut result = RunResult::new(self.name, "", Outcome::AtRest, Termination::ClosedForm);
+        result.warnings.push(
+            "it is made up, and this is a long warning that has to be broken into lines".to_owned(),
+        );
+        if self.name == "plugging" {
+            result.ballistic_limit = Some(321.0);
+            return Ok(result);
+        }
+        result.depth_of_penetration = Some(depth * 1e-3);
+        result.band = Some(Band {
+            quantity: BandQuantity::DepthOfPenetration,
+            low: 0.9 * depth,
+            high: 1.1 * depth,
+            basis: "made up",
+        });
+        Ok(result)
+    }
+}
+
+const fn speeds(min: f64, max: f64) -> Range {
+    Range {
+        measure: Measure::ImpactSpeed,
+        min,
+        max,
+        outside: Outside::NotApplicable,
+        because: "it is made up for these speeds and no others",
+    }
+}
+
+const FIRST: Guard = Guard {
+    first_choice: &[FirstChoice {
+        projectile: ProjectileRegime::Eroding,
+        targets: TargetKind::ALL,
+        noses: NoseKind::ALL,
+        target_material: MaterialClass::Metal,
+        because: "it is made up for it",
+    }],
+    ..Guard::OPEN
+};
+const FAST: Guard = Guard {
+    ranges: &[speeds(600.0, 5000.0)],
+    ..FIRST
+};
+const MIDDLE: Guard = Guard {
+    ranges: &[speeds(400.0, 800.0)],
+    ..Guard::OPEN
+};
+const NEVER: Guard = Guard {
+    targets: &[TargetKind::RigidWall],
+    ..Guard::OPEN
+};
+
+const CASE: &str = "
+projectile = { material = 'copper', length = '40 mm', diameter = '5 mm', velocity = '1000 m/s' }
+target = { material = 'aluminium-2024-t351', thickness = '500 mm' }
+[[experiments]]
+velocity = '1000 m/s'
+depth_of_penetration = '16 mm'
+uncertainty = '1.5 mm'
+source = 'a'
+[[experiments]]
+ballistic_limit = '300 m/s'
+source = 'a'
+";
+
+fn comparison(speeds: &[f64]) -> (Scenario, Comparison) {
+    let names = [
+        "chain",
+        "fdm",
+        "tate",
+        "walker_anderson",
+        "lanz_odermatt",
+        "hydrodynamic",
+        "forrestal",
+        "poncelet",
+        "crater_energy",
+        "plate_cavity",
+        "plugging",
+        "recht_ipson",
+        "lambert_jonas",
+        "awerbuch_bodner",
+        "taylor",
+        "wilkins_guinan",
+    ];
+    let fakes: Vec<Fake> = names
+        .iter()
+        .enumerate()
+        .map(|(i, name)| Fake {
+            name,
+            guard: match *name {
+                "tate" => FAST,
+                "forrestal" | "poncelet" => MIDDLE,
+                "taylor" | "wilkins_guinan" => NEVER,
+                _ => Guard::OPEN,
+            },
+            depth_mm: 12.0 + i as f64,
+        })
+        .collect();
+    let models: Vec<&dyn Model> = fakes.iter().map(|fake| fake as &dyn Model).collect();
+    let scenario = case::load_str("made-up", CASE).unwrap();
+    let comparison = compare(&models, &scenario, speeds, &mut Watch::default()).unwrap();
+    (scenario, comparison)
+}
+
+fn narrow(text: &str) {
+    for line in text.lines() {
+        assert!(line.chars().count() <= 80, "{line}\n{text}");
+        assert_eq!(line, line.trim_end());
+    }
+}
+
+#[test]
+fn one_speed_is_one_table() {
+    let (scenario, comparison) = comparison(&[1000.0]);
+    let text = head::text(&scenario, &comparison)
+        + &single::text(&comparison)
+        + &absent::text(&comparison);
+    narrow(&text);
+    insta::with_settings!({ snapshot_path => "snapshots", prepend_module_to_snapshot => false, omit_expression => true }, {
+        insta::assert_snapshot!("compare-one-speed", text);
+    });
+}
+
+#[test]
+fn a_sweep_is_as_many_tables_as_fit() {
+    let speeds: Vec<f64> = (0..9).map(|i| 200.0 + 100.0 * f64::from(i)).collect();
+    let (scenario, comparison) = comparison(&speeds);
+    let text =
+        head::text(&scenario, &comparison) + &sweep::text(&comparison) + &absent::text(&comparison);
+    narrow(&text);
+    insta::with_settings!({ snapshot_path => "snapshots", prepend_module_to_snapshot => false, omit_expression => true }, {
+        insta::assert_snapshot!("compare-sweep", text);
+    });
+}

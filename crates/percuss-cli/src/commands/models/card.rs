@@ -1,0 +1,43 @@
+//! One model in full.
+
+use percuss::guard::FirstChoice;
+
+use super::ModelRecord;
+use crate::terminal::{bold, width, wrap};
+
+/// Name, what it is made for, and where it is the first choice.
+pub fn text(model: &ModelRecord) -> String {
+    let mut text = format!(
+        "{}\n{}\n\n{}\n",
+        bold(model.name),
+        wrap(model.summary, width(), 0),
+        bold("made for")
+    );
+    for line in model.guard.in_words() {
+        text += &item(&line);
+    }
+    if !model.guard.first_choice.is_empty() {
+        text += &format!("\n{}\n", bold("first choice for"));
+        for choice in model.guard.first_choice {
+            text += &item(&in_words(choice));
+        }
+    }
+    text
+}
+
+fn item(line: &str) -> String {
+    format!("  - {}\n", wrap(line, width() - 4, 4))
+}
+
+fn in_words(choice: &FirstChoice) -> String {
+    let targets: Vec<&str> = choice.targets.iter().map(|kind| kind.in_words()).collect();
+    let noses: Vec<&str> = choice.noses.iter().map(|nose| nose.name()).collect();
+    format!(
+        "{} projectiles with {} noses against {}, of {}: {}",
+        choice.projectile.in_words(),
+        noses.join(", "),
+        targets.join(", "),
+        choice.target_material.in_words(),
+        choice.because
+    )
+}

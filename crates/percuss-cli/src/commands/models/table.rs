@@ -1,0 +1,65 @@
+//! All models at a glance.
+
+use percuss::{
+    material::MaterialClass,
+    regime::{ProjectileRegime, TargetKind},
+};
+
+use super::ModelRecord;
+use crate::{
+    table,
+    terminal::{width, wrap},
+};
+
+/// A row a model.
+pub fn text(models: &[ModelRecord]) -> String {
+    let header = ["model", "what it is", "projectiles", "targets"];
+    let mut all = table::table(header.map(str::to_owned).to_vec());
+    for model in models {
+        all.add_row([
+            model.name.to_owned(),
+            model.summary.to_owned(),
+            projectiles(model),
+            targets(model),
+        ]);
+    }
+    table::keep_whole(&mut all, [0, 2]);
+    let hint = "`percuss models NAME` says all about one of them; `percuss compare CASE.toml` runs those that apply to a case.";
+    table::text(&all) + &wrap(hint, width(), 0) + "\n"
+}
+
+fn projectiles(model: &ModelRecord) -> String {
+    let regimes = model.guard.projectile;
+    if ProjectileRegime::ALL
+        .iter()
+        .all(|regime| regimes.contains(regime))
+    {
+        return "any".to_owned();
+    }
+    let words: Vec<&str> = regimes.iter().map(|regime| regime.in_words()).collect();
+    words.join(", ")
+}
+
+/// Targets in one word each, and their material where it is not metal alone.
+fn targets(model: &ModelRecord) -> String {
+    let kinds = model.guard.targets;
+    let word = |kind: &TargetKind| match kind {
+        TargetKind::SemiInfinite => "semi-infinite",
+        TargetKind::ThickPlate => "thick",
+        TargetKind::Plate => "medium",
+        TargetKind::ThinPlate => "thin",
+        TargetKind::Layered => "layered",
+        TargetKind::RigidWall => "wall",
+        TargetKind::ConstantPressure => "pressure",
+    };
+    let mut text = match TargetKind::ALL.iter().all(|kind| kinds.contains(kind)) {
+        true => "any".to_owned(),
+        false => kinds.iter().map(word).collect::<Vec<_>>().join(", "),
+    };
+    let materials = model.guard.target_materials;
+    if *materials != [MaterialClass::Metal] {
+        let words: Vec<&str> = materials.iter().map(|class| class.in_words()).collect();
+        text += &format!("; {}", words.join(", "));
+    }
+    text
+}

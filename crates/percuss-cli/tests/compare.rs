@@ -1,0 +1,239 @@
+//! `percuss compare`: every model on one case.
+
+mod support;
+
+use std::fs;
+
+use serde_json::Value;
+use support::{Said, percuss};
+use tempfile::TempDir;
+
+const TAYLOR: &str = "
+projectile = { material = 'ofhc-copper', length = '23.47 mm', diameter = '7.62 mm', velocity = '183 m/s' }
+target = { rigid_wall = true }
+chain = { projectile_elements = 20 }
+[[experiments]]
+velocity = '89 m/s'
+projectile_final_length = '21.01 mm'
+source = 'wilkins1973'
+[[experiments]]
+velocity = '183 m/s'
+projectile_final_length = '16.81 mm'
+uncertainty = '0.1 mm'
+source = 'wilkins1973'
+";
+/// An ogive that no more than one kind of model takes.
+const OGIVE: &str = "
+projectile = { material = '4340', length = '60 mm', diameter = '7.62 mm', velocity = '600 m/s', nose = { ogive = { crh = 3.0 } } }
+target = { material = 'aluminium-2024-t351', thickness = '50 mm' }
+";
+
+fn folder_with(case: &str) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("shot.toml"), case).unwrap();
+    folder
+}
+
+fn compare(folder: &TempDir, arguments: &[&str]) -> Said {
+    percuss(
+        folder.path(),
+        [&["compare", "shot.toml"], arguments].concat(),
+    )
+}
+
+fn ok(folder: &TempDir, arguments: &[&str]) -> String {
+    let said = compare(folder, arguments);
+    assert_eq!((said.code, said.stderr.as_str()), (0, ""), "{arguments:?}");
+    said.stdout
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+#[test]
+fn the_table_starts_with_regime_and_recommendation() {
+    let folder = folder_with(TAYLOR);
+    let text = ok(&folder, &[]);
+    for part in [
+        "case shot, impact at 183 m/s",
+        "\nregime       deforming projectile, a rigid wall: ",
+        "\nrecommended  chain: ",
+        "length      [%]",
+        "off by",
+        "\n chain ★ ",
+        "16.81 ± 0.1",
+    ] {
+        assert!(text.contains(part), "{part:?} is not in:\n{text}");
+    }
+    assert!(text.find("regime") < text.find("chain ★"));
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_sweep_has_a_row_a_speed() {
+    let folder = folder_with(TAYLOR);
+    let text = ok(&folder, &["--velocity", "89..183:3"]);
+    for part in [
+        "3 speeds, 89 to 183 m/s",
+        "\n   136 ",
+        "off experiment by [%]",
+    ] {
+        assert!(text.contains(part), "{part:?} is not in:\n{text}");
+    }
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
+    let measured = json(&ok(&folder, &["--velocity", "experiments", "--json"]));
+    let speeds: Vec<f64> = measured["regime"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|at| at["impact_velocity_m_s"].as_f64().unwrap())
+        .collect();
+    assert_eq!(speeds, [89.0, 183.0]);
+}
+
+#[test]
+fn json_extends_the_object_of_run() {
+    let folder = folder_with(TAYLOR);
+    let said = percuss(folder.path(), ["run", "shot.toml", "--json"]);
+    let run = json(&said.stdout);
+    let object = json(&ok(&folder, &["--json"]));
+    for key in ["case", "percuss_version"] {
+        assert_eq!(object[key], run[key]);
+    }
+    let chain = object["results"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|r| r["model"] == "chain");
+    assert_eq!(*chain.unwrap(), run["results"][0]);
+    assert_eq!(object["regime"][0]["projectile"], "deforming");
+    assert_eq!(object["regime"][0]["target"], "rigid_wall");
+    assert_eq!(object["recommended"][0]["models"][0]["model"], "chain");
+    assert_eq!(object["quantities"][0], "projectile_final_length_mm");
+    assert_eq!(
+        object["experiments"][1]["uncertainty"]
+            .as_f64()
+            .map(|u| (u * 1e6).round()),
+        Some(1e5)
+    );
+    let sweep = json(&ok(
+        &folder,
+        &["--json", "--velocity", "89,183", "--model", "chain"],
+    ));
+    assert_eq!(sweep["results"].as_array().unwrap().len(), 2);
+    assert_eq!(sweep["results"][1], run["results"][0]);
+}
+
+#[test]
+fn a_model_that_does_not_apply_says_why() {
+    let folder = folder_with(OGIVE);
+    let said = compare(&folder, &["--model", "chain"]);
+    assert_eq!((said.code, said.stdout.as_str()), (2, ""));
+    assert!(
+        said.stderr
+            .starts_with("error: no model gives a result for this case\n"),
+        "{}",
+        said.stderr
+    );
+    assert!(
+        said.stderr
+            .contains("  chain: not applicable, because it takes flat noses"),
+        "{}",
+        said.stderr
+    );
+    let said = compare(&folder, &["--model", "chain", "--json"]);
+    assert_eq!(said.code, 2);
+    let result = &json(&said.stdout)["results"][0];
+    assert_eq!(result["outcome"], "not_applicable");
+    assert!(
+        result["reason"]
+            .as_str()
+            .unwrap()
+            .starts_with("it takes flat noses")
+    );
+    assert!(result["depth_of_penetration_mm"].is_null());
+}
+
+#[test]
+fn a_folder_holds_numbers_and_figure() {
+    let folder = folder_with(TAYLOR);
+    let text = ok(&folder, &["--velocity", "89,183", "--out", "deep/out"]);
+    for name in [
+        "case-as-run.toml",
+        "compare.json",
+        "compare.csv",
+        "compare.parquet",
+        "compare.svg",
+        "compare.png",
+    ] {
+        let file = format!("deep/out/{name}");
+        assert!(text.contains(&file), "{text}");
+        assert!(folder.path().join(&file).is_file(), "{file}");
+    }
+    let written = fs::read_to_string(folder.path().join("deep/out/compare.json")).unwrap();
+    assert_eq!(written, ok(&folder, &["--velocity", "89,183", "--json"]));
+    let said = compare(&folder, &["--out", "shot.toml"]);
+    assert_eq!((said.code, said.stdout.as_str()), (4, ""));
+}
+
+#[test]
+fn quiet_is_a_line_a_speed_and_model() {
+    let folder = folder_with(TAYLOR);
+    let text = ok(
+        &folder,
+        &["--quiet", "--velocity", "89,183", "--model", "chain"],
+    );
+    assert_eq!(text.lines().count(), 2);
+    for (line, speed) in text.lines().zip(["89", "183"]) {
+        assert!(
+            line.starts_with(&format!("model=chain impact_velocity_m_s={speed} outcome=")),
+            "{line}"
+        );
+        assert!(line.contains(" depth_of_penetration_mm=null "), "{line}");
+    }
+}
+
+#[test]
+fn speeds_that_are_none_are_refused_with_what_is_allowed() {
+    let folder = folder_with(OGIVE);
+    for (speeds, words) in [
+        ("fast", "`fast` is not a number"),
+        ("200..1500", "does not say how many speeds"),
+        ("1500..200:27", "not above its start"),
+        ("200..1500:1", "`1` is not a number of speeds"),
+        ("200 mph", "`mph` is not a unit of speed"),
+        ("20 km/s", "20000 m/s is out of range"),
+    ] {
+        let said = compare(&folder, &["--velocity", speeds]);
+        assert_eq!((said.code, said.stdout.as_str()), (2, ""), "{speeds}");
+        assert!(said.stderr.contains(words), "{speeds}: {}", said.stderr);
+    }
+    let said = compare(&folder, &["--velocity", "experiments"]);
+    assert_eq!(said.code, 2);
+    assert!(
+        said.stderr
+            .contains("the case has no experiments with a velocity"),
+        "{}",
+        said.stderr
+    );
+    let said = compare(&folder, &["--model", "chian"]);
+    assert_eq!(said.code, 2);
+}
+
+#[test]
+fn a_failure_is_told_and_named() {
+    // Elements that never erode are compressed to nothing at this speed.
+    let case = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '9 km/s' }\n\
+                target = { material = 'aluminium-2024-t351', thickness = 'semi-infinite' }\n\
+                chain = { erosion_strain = 'never', courant = 1.0 }";
+    let said = compare(&folder_with(case), &["--model", "chain"]);
+    assert_eq!(said.code, 2);
+    assert!(said.stderr.contains("  chain: failed: "), "{}", said.stderr);
+}

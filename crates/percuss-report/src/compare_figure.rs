@@ -1,0 +1,193 @@
+//! Figure of a comparison of models.
+
+use percuss::{Scenario, compare::Comparison, outcome::BandQuantity, summary::ResultRecord};
+
+use crate::{
+    Axis, Figure, LineChart, Mark, RowChart, Series, Style, palette, run_figures::caption,
+    run_figures::significant,
+};
+
+/// Mark of a recommended model.
+const RECOMMENDED: &str = "★";
+/// Width of the line of a model where it is recommended [px].
+const EMPHASIS: f64 = 4.0;
+
+/// Draws the leading quantity of a comparison as `compare`: against the impact speed, or model by model at a single speed.
+///
+/// A line is broken where its model gives nothing, and thick where the model is recommended. `None` when no model gives the
+/// quantity.
+pub fn compare_figure(scenario: &Scenario, comparison: &Comparison) -> Option<Figure> {
+    let quantity = *comparison.quantities.first()?;
+    let given = |record: &ResultRecord| record.value(quantity).is_some();
+    if !comparison.results.iter().any(given) {
+        return None;
+    }
+    // A ballistic limit is one number a model at any speed.
+    if comparison.regime.len() == 1 || quantity == BandQuantity::BallisticLimit {
+        Some(rows(scenario, comparison, quantity))
+    } else {
+        Some(lines(scenario, comparison, quantity))
+    }
+}
+
+fn axis(quantity: BandQuantity) -> Axis {
+    Axis::new(format!("{} [{}]", quantity.in_words(), quantity.unit()))
+}
+
+fn title(quantity: BandQuantity) -> String {
+    let words = quantity.in_words();
+    let mut letters = words.chars();
+    let first = letters
+        .next()
+        .map(|letter| letter.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}
+
+fn recommended(comparison: &Comparison, model: &str) -> Vec<bool> {
+    comparison
+        .recommended
+        .iter()
+        .map(|at| at.models.iter().any(|choice| choice.model == model))
+        .collect()
+}
+
+fn name(model: &str, recommended: &[bool]) -> String {
+    match recommended.contains(&true) {
+        true => format!("{model} {RECOMMENDED}"),
+        false => model.to_owned(),
+    }
+}
+
+/// Ends of the range of a quantity, where a model gives one.
+fn band(record: &ResultRecord, quantity: BandQuantity) -> Option<(f64, f64)> {
+    let band = record.band.as_ref()?;
+    (band.quantity == quantity).then_some((band.low, band.high))
+}
+
+fn lines(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -> Figure {
+    const NONE: f64 = f64::NAN;
+    let mut chart = LineChart::new(
+        "compare",
+        format!("{} by model: {}", title(quantity), comparison.case),
+        Axis::new("impact speed [m/s]"),
+        axis(quantity),
+    )
+    .caption(note(scenario, comparison));
+    for (index, model) in comparison.models().into_iter().enumerate() {
+        let records: Vec<&ResultRecord> = comparison.of_model(model).collect();
+        if records
+            .iter()
+            .all(|record| record.value(quantity).is_none())
+        {
+            continue;
+        }
+        let recommended = recommended(comparison, model);
+        let point = |record: &ResultRecord| {
+            let value = record.value(quantity).unwrap_or(NONE);
+            (record.impact_velocity_m_s, value)
+        };
+        let emphasised = records
+            .iter()
+            .zip(&recommended)
+            .map(|(record, recommended)| {
+                let (speed, value) = point(record);
+                (speed, if *recommended { value } else { NONE })
+            });
+        if recommended.contains(&true) {
+            let thick = Series::new("", emphasised).width(EMPHASIS);
+            chart = chart.series(thick.color(palette::symbol_color(index)));
+        }
+        let bands = records
+            .iter()
+            .map(|record| band(record, quantity).unwrap_or((NONE, NONE)));
+        chart = chart.series(
+            Series::new(
+                name(model, &recommended),
+                records.iter().map(|record| point(record)),
+            )
+            .style(Style::LineAndMarkers)
+            .symbol(index)
+            .band(bands),
+        );
+    }
+    let measured: Vec<_> = comparison
+        .experiments
+        .iter()
+        .filter(|measured| measured.quantity == quantity)
+        .filter_map(|measured| Some((measured.impact_velocity_m_s?, measured)))
+        .collect();
+    if !measured.is_empty() {
+        let uncertainty = |u: Option<f64>| u.map_or((0.0, 0.0), |u| (u, u));
+        chart = chart.series(
+            Series::new(
+                "experiment",
+                measured.iter().map(|(speed, m)| (*speed, m.value)),
+            )
+            .style(Style::Markers)
+            .color(palette::EXPERIMENT)
+            .error_bars(measured.iter().map(|(_, m)| uncertainty(m.uncertainty))),
+        );
+    }
+    chart.draw()
+}
+
+fn rows(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -> Figure {
+    let speed = comparison.speeds()[0];
+    let at = match quantity {
+        BandQuantity::BallisticLimit => String::new(),
+        _ => format!(" at {} m/s", significant(speed)),
+    };
+    let mut chart = RowChart::new(
+        "compare",
+        format!("{}{at} by model: {}", title(quantity), comparison.case),
+        axis(quantity),
+    )
+    .caption(note(scenario, comparison));
+    for (index, model) in comparison.models().into_iter().enumerate() {
+        let mut given = comparison
+            .of_model(model)
+            .filter(|r| r.value(quantity).is_some());
+        let Some(record) = given.next() else {
+            continue;
+        };
+        chart = chart.row(
+            name(model, &recommended(comparison, model)),
+            record.value(quantity).unwrap_or(f64::NAN),
+            band(record, quantity),
+            palette::symbol_color(index),
+        );
+    }
+    for measured in comparison
+        .experiments
+        .iter()
+        .filter(|m| m.quantity == quantity)
+    {
+        let same = measured
+            .impact_velocity_m_s
+            .is_none_or(|at| (at - speed).abs() <= 1e-3 * speed);
+        if !same && quantity != BandQuantity::BallisticLimit {
+            continue;
+        }
+        let u = measured.uncertainty;
+        chart = chart.row(
+            "experiment",
+            measured.value,
+            u.map(|u| (measured.value - u, measured.value + u)),
+            palette::EXPERIMENT,
+        );
+        chart = chart.mark(Mark::vertical("", measured.value));
+    }
+    chart.draw()
+}
+
+/// The case in one line, and what the mark stands for.
+fn note(scenario: &Scenario, comparison: &Comparison) -> String {
+    let marked = comparison
+        .recommended
+        .iter()
+        .any(|at| !at.models.is_empty());
+    match marked {
+        true => format!("{} ({RECOMMENDED} recommended)", caption(scenario, None)),
+        false => caption(scenario, None),
+    }
+}

@@ -1,0 +1,106 @@
+//! Files that hold the numbers of a comparison.
+
+use std::path::{Path, PathBuf};
+
+use percuss::{
+    compare::Comparison,
+    outcome::{Band, BandQuantity},
+    summary::ResultRecord,
+};
+
+use crate::{
+    ReportError,
+    column::{self, Column},
+    replace_file::replace_file,
+};
+
+/// An entry of a comparison.
+struct Entry {
+    record: ResultRecord,
+    regime: &'static str,
+    recommended: bool,
+}
+
+/// Writes `compare.csv` and `compare.parquet` to a folder, which is made if it does not exist: a row a speed and model.
+/// Files of these names are replaced.
+///
+/// Column names end with the unit; both formats have the same columns and values. What a model does not give is empty or
+/// null.
+///
+/// # Errors
+/// [`ReportError::Write`]; [`ReportError::Table`].
+pub fn write_comparison(
+    folder: &Path,
+    comparison: &Comparison,
+) -> Result<Vec<PathBuf>, ReportError> {
+    let columns = columns();
+    let entries: Vec<Entry> = (0..comparison.regime.len())
+        .flat_map(|i| {
+            let recommended = &comparison.recommended[i].models;
+            comparison.at_speed(i).iter().map(move |record| Entry {
+                record: record.clone(),
+                regime: comparison.regime[i].regime.projectile.in_words(),
+                recommended: recommended
+                    .iter()
+                    .any(|choice| choice.model == record.model),
+            })
+        })
+        .collect();
+    let (csv, parquet) = ("compare.csv", "compare.parquet");
+    Ok(vec![
+        replace_file(folder, csv, &column::csv(csv, &columns, &entries)?)?,
+        replace_file(
+            folder,
+            parquet,
+            &column::parquet(parquet, &columns, &entries)?,
+        )?,
+    ])
+}
+
+fn columns() -> Vec<Column<Entry>> {
+    let end = |quantity: BandQuantity, end: fn(&Band) -> f64| {
+        move |entry: &Entry| {
+            let band = entry.record.band.as_ref();
+            band.filter(|band| band.quantity == quantity).map(end)
+        }
+    };
+    let mut columns = vec![
+        Column::float("impact_velocity_m_s", |e: &Entry| {
+            e.record.impact_velocity_m_s
+        }),
+        Column::text("regime", |e: &Entry| e.regime.to_owned()),
+        Column::text("model", |e: &Entry| e.record.model.to_owned()),
+        Column::integer("recommended", |e: &Entry| i64::from(e.recommended)),
+        Column::text("outcome", |e: &Entry| {
+            e.record.outcome.in_words().to_owned()
+        }),
+    ];
+    for (name, quantity) in [
+        ("depth_of_penetration_mm", BandQuantity::DepthOfPenetration),
+        ("residual_velocity_m_s", BandQuantity::ResidualVelocity),
+        ("ballistic_limit_m_s", BandQuantity::BallisticLimit),
+        (
+            "projectile_final_length_mm",
+            BandQuantity::ProjectileFinalLength,
+        ),
+    ] {
+        columns.push(Column::optional(name, move |e: &Entry| {
+            e.record.value(quantity)
+        }));
+        columns.push(Column::optional(
+            format!("low_{name}"),
+            end(quantity, |band| band.low),
+        ));
+        columns.push(Column::optional(
+            format!("high_{name}"),
+            end(quantity, |band| band.high),
+        ));
+    }
+    columns.push(Column::integer("warnings", |e: &Entry| {
+        e.record.warnings.len() as i64
+    }));
+    columns.push(Column::text("reason", |e: &Entry| {
+        e.record.reason.clone().unwrap_or_default()
+    }));
+    columns
+}

@@ -1,0 +1,147 @@
+//! Charts of one value a row, each with its range.
+
+use kuva::plot::forest::{ForestPlot, ForestRow};
+use kuva::plot::legend::{LegendEntry, LegendShape};
+use kuva::render::annotations::ReferenceLine;
+
+use crate::{
+    Axis, Figure, Mark,
+    frame::{Frame, plain},
+    palette,
+};
+
+/// Most characters of a name.
+const NAME_CHARS: usize = 30;
+/// Height of a row, and of what surrounds the rows [px].
+const ROW: f64 = 30.0;
+const SURROUNDINGS: f64 = 150.0;
+/// Half the size of the square at a value [px].
+const MARKER: f64 = 5.0;
+/// Dashes of a mark [px].
+const MARK_DASHES: &str = "2 2";
+
+/// A chart of named values, the first one at the top.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RowChart {
+    name: String,
+    title: String,
+    caption: String,
+    x: Axis,
+    rows: Vec<Row>,
+    marks: Vec<Mark>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Row {
+    name: String,
+    value: f64,
+    range: Option<(f64, f64)>,
+    color: String,
+}
+
+impl RowChart {
+    /// An empty chart: file stem, title and the axis of the values.
+    pub fn new(name: impl Into<String>, title: impl Into<String>, x: Axis) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            caption: String::new(),
+            x,
+            rows: Vec::new(),
+            marks: Vec::new(),
+        }
+    }
+
+    /// Sets the line below the title.
+    pub fn caption(mut self, caption: impl Into<String>) -> Self {
+        self.caption = caption.into();
+        self
+    }
+
+    /// Adds a row: its name, its value, the ends of its range and its colour. Values that are not finite are left out.
+    pub fn row(
+        mut self,
+        name: impl Into<String>,
+        value: f64,
+        range: Option<(f64, f64)>,
+        color: impl Into<String>,
+    ) -> Self {
+        if value.is_finite() {
+            self.rows.push(Row {
+                name: name.into(),
+                value,
+                range: range.filter(|(low, high)| low.is_finite() && high.is_finite()),
+                color: color.into(),
+            });
+        }
+        self
+    }
+
+    /// Adds a vertical line.
+    pub fn mark(mut self, mark: Mark) -> Self {
+        self.marks.push(mark);
+        self
+    }
+
+    /// Draws the chart.
+    pub fn draw(&self) -> Figure {
+        let count = self.rows.len() as f64;
+        let values = self.rows.iter().flat_map(|row| {
+            let (low, high) = row.range.unwrap_or((row.value, row.value));
+            [row.value, low, high]
+        });
+        let x_values = values.chain(self.marks.iter().map(|mark| mark.value));
+        let mut plot = ForestPlot::new();
+        plot.null_value = None;
+        plot.marker_size = MARKER;
+        plot.whisker_width = 2.5;
+        plot.cap_size = 4.0;
+        plot.rows = self
+            .rows
+            .iter()
+            .map(|row| {
+                let (low, high) = row.range.unwrap_or((row.value, row.value));
+                let mut shown = ForestRow::new("", row.value, low, high);
+                shown.color = Some(row.color.clone());
+                shown
+            })
+            .collect();
+        let names = self.rows.iter().rev();
+        let y = Axis::new("")
+            .range(0.5, count.max(1.0) + 0.5)
+            .names(names.map(|row| plain(&row.name, NAME_CHARS)));
+        let frame = Frame {
+            name: &self.name,
+            title: &self.title,
+            caption: &self.caption,
+            x: &self.x,
+            y: &y,
+            x_extent: self.x.extent(x_values),
+            y_extent: (0.5, count.max(1.0) + 0.5),
+            height: SURROUNDINGS + ROW * count.max(2.0),
+            right_margin: None,
+            legend: self
+                .marks
+                .iter()
+                .filter(|mark| !mark.name.is_empty())
+                .map(|mark| LegendEntry {
+                    label: plain(&mark.name, NAME_CHARS),
+                    color: palette::MARK.to_owned(),
+                    shape: LegendShape::Line,
+                    dasharray: Some(MARK_DASHES.to_owned()),
+                })
+                .collect(),
+            marks: self
+                .marks
+                .iter()
+                .map(|mark| {
+                    ReferenceLine::vertical(mark.value)
+                        .with_color(palette::MARK)
+                        .with_stroke_width(1.2)
+                        .with_dasharray(MARK_DASHES)
+                })
+                .collect(),
+        };
+        frame.draw(vec![plot.into()], |_, _| {})
+    }
+}

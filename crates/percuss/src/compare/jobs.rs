@@ -1,0 +1,143 @@
+//! Runs of many models at many speeds, side by side.
+
+use std::{
+    ops::ControlFlow,
+    sync::{Mutex, PoisonError},
+};
+
+use rayon::prelude::*;
+
+use crate::{
+    Error, Scenario,
+    model::{self, Control, Model},
+    regime::Regime,
+    summary::ResultRecord,
+};
+
+/// How far a comparison has come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Runs that have ended.
+    pub finished: usize,
+    /// All runs.
+    pub total: usize,
+    /// Estimated part done, 0 to 1.
+    pub fraction: f64,
+}
+
+/// What a caller wants of a comparison: progress and a way to stop it.
+#[derive(Default)]
+pub struct Watch<'a> {
+    /// Called now and then from any thread, never from two at once; [`ControlFlow::Break`] ends the comparison.
+    pub progress: Option<&'a mut (dyn FnMut(Progress) -> ControlFlow<()> + Send)>,
+}
+
+impl std::fmt::Debug for Watch<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Watch").finish_non_exhaustive()
+    }
+}
+
+/// The case at each speed, with its regime.
+pub(super) fn shots(scenario: &Scenario, speeds: &[f64]) -> Vec<(Scenario, Regime)> {
+    speeds
+        .par_iter()
+        .map(|&speed| {
+            let scenario = scenario.at_speed(speed);
+            let regime = Regime::of(&scenario);
+            (scenario, regime)
+        })
+        .collect()
+}
+
+/// Runs every model on every shot; the entries of a shot stand together.
+pub(super) fn run(
+    models: &[&dyn Model],
+    shots: &[(Scenario, Regime)],
+    watch: &mut Watch<'_>,
+) -> Result<Vec<ResultRecord>, Error> {
+    let total = models.len() * shots.len();
+    let board = Mutex::new(Board {
+        fractions: vec![0.0; total],
+        sum: 0.0,
+        finished: 0,
+        stopped: false,
+        watch,
+    });
+    (0..total)
+        .into_par_iter()
+        .map(|job| {
+            let (scenario, regime) = &shots[job / models.len()];
+            run_one(models[job % models.len()], scenario, regime, |fraction| {
+                // A caller whose callback has panicked gets its panic anyway.
+                let mut board = board.lock().unwrap_or_else(PoisonError::into_inner);
+                board.update(job, fraction)
+            })
+        })
+        .collect()
+}
+
+fn run_one(
+    model: &dyn Model,
+    scenario: &Scenario,
+    regime: &Regime,
+    update: impl Fn(f64) -> ControlFlow<()>,
+) -> Result<ResultRecord, Error> {
+    let check = |flow: ControlFlow<()>| match flow {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Error::Cancelled {
+            step: 0,
+            time_us: 0.0,
+        }),
+    };
+    check(update(0.0))?;
+    let mut report = |now: model::Progress| update(now.fraction.clamp(0.0, 1.0));
+    let mut control = Control {
+        record: false,
+        progress: Some(&mut report),
+    };
+    let record = match model::run_in(model, scenario, regime, &mut control) {
+        Ok(result) => ResultRecord::new(scenario, &result),
+        Err(stop @ Error::Cancelled { .. }) => return Err(stop),
+        Err(error) => ResultRecord::without_result(scenario, model.name(), &error),
+    };
+    check(update(FINISHED))?;
+    Ok(record)
+}
+
+/// Part of a run that says that it has ended: what runs say of themselves stays within 1.
+const FINISHED: f64 = 2.0;
+
+/// What all runs together have done.
+struct Board<'a, 'b> {
+    fractions: Vec<f64>,
+    sum: f64,
+    finished: usize,
+    stopped: bool,
+    watch: &'a mut Watch<'b>,
+}
+
+impl Board<'_, '_> {
+    fn update(&mut self, job: usize, fraction: f64) -> ControlFlow<()> {
+        if self.stopped {
+            return ControlFlow::Break(());
+        }
+        if fraction == FINISHED {
+            self.finished += 1;
+        }
+        self.sum += fraction.min(1.0) - self.fractions[job];
+        self.fractions[job] = fraction.min(1.0);
+        let total = self.fractions.len();
+        let progress = Progress {
+            finished: self.finished,
+            total,
+            fraction: self.sum / total as f64,
+        };
+        let flow = match &mut self.watch.progress {
+            Some(callback) => callback(progress),
+            None => ControlFlow::Continue(()),
+        };
+        self.stopped = flow.is_break();
+        flow
+    }
+}

@@ -1,0 +1,209 @@
+//! Every model on one case, at one or many impact speeds, and which of them to rely on.
+//!
+//! ```
+//! use percuss::{case, compare::{compare, Watch}, model::MODELS};
+//!
+//! let scenario = case::load_str("taylor", r#"
+//!     projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "183 m/s" }
+//!     target = { rigid_wall = true }
+//! "#)?;
+//! let comparison = compare(MODELS, &scenario, &[89.0, 183.0], &mut Watch::default())?;
+//! assert_eq!(comparison.results.len(), 2 * MODELS.len());
+//! assert!(comparison.has_results());
+//! # Ok::<(), percuss::Error>(())
+//! ```
+
+mod jobs;
+mod quantities;
+mod recommend;
+#[cfg(test)]
+mod tests;
+
+use serde::Serialize;
+
+use crate::{
+    Error, Scenario,
+    model::Model,
+    outcome::{BandQuantity, Outcome},
+    regime::Regime,
+    summary::ResultRecord,
+};
+
+pub use jobs::{Progress, Watch};
+pub use recommend::{Choice, Recommendation};
+
+/// What every model says of a case. The names are stable; those of `percuss run --json` have the same meaning.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Comparison {
+    /// Name of the case.
+    pub case: String,
+    /// Version of the program.
+    pub percuss_version: &'static str,
+    /// The recognised regime, one entry a speed.
+    pub regime: Vec<SpeedRegime>,
+    /// What to rely on, one entry a speed.
+    pub recommended: Vec<Recommendation>,
+    /// Quantities that tell most of this case, the leading one first.
+    pub quantities: Vec<BandQuantity>,
+    /// What was measured.
+    pub experiments: Vec<ExperimentRecord>,
+    /// One entry a speed and model: speeds in the order given, and for each the models in theirs.
+    pub results: Vec<ResultRecord>,
+}
+
+/// The regime at a speed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SpeedRegime {
+    /// Impact speed [m/s].
+    pub impact_velocity_m_s: f64,
+    /// The regime.
+    #[serde(flatten)]
+    pub regime: Regime,
+}
+
+/// A measured value, in the unit of its quantity's name.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ExperimentRecord {
+    /// What was measured.
+    pub quantity: BandQuantity,
+    /// Impact speed [m/s]; null for a ballistic limit without one.
+    pub impact_velocity_m_s: Option<f64>,
+    /// The value.
+    pub value: f64,
+    /// How far it may be off, either way.
+    pub uncertainty: Option<f64>,
+    /// Bibliography keys.
+    pub sources: Vec<String>,
+    /// What a user should know of it.
+    pub note: String,
+}
+
+/// Runs models on a case at each of these impact speeds [m/s], on all cores.
+///
+/// A model that does not apply or that fails leaves the reason in its entry and never stops the others. The order of the
+/// entries does not depend on the order in which runs end.
+///
+/// # Errors
+/// [`Error::Cancelled`] when `watch` says so.
+pub fn compare(
+    models: &[&dyn Model],
+    scenario: &Scenario,
+    speeds: &[f64],
+    watch: &mut Watch<'_>,
+) -> Result<Comparison, Error> {
+    let shots: Vec<(Scenario, Regime)> = jobs::shots(scenario, speeds);
+    let results = jobs::run(models, &shots, watch)?;
+    let recommended = shots
+        .iter()
+        .zip(results.chunks(models.len().max(1)))
+        .map(|((scenario, regime), results)| {
+            recommend::recommend(models, scenario, regime, results)
+        })
+        .collect();
+    Ok(Comparison {
+        case: scenario.name.clone(),
+        percuss_version: env!("CARGO_PKG_VERSION"),
+        recommended,
+        quantities: quantities::leading(scenario, &results),
+        experiments: scenario
+            .experiments
+            .iter()
+            .map(|measured| ExperimentRecord {
+                quantity: measured.quantity,
+                impact_velocity_m_s: measured.impact_speed,
+                value: measured.quantity.in_unit(measured.value),
+                uncertainty: measured.uncertainty.map(|u| measured.quantity.in_unit(u)),
+                sources: measured.sources.clone(),
+                note: measured.note.clone(),
+            })
+            .collect(),
+        results,
+        regime: shots
+            .into_iter()
+            .map(|(scenario, regime)| SpeedRegime {
+                impact_velocity_m_s: scenario.impact_speed,
+                regime,
+            })
+            .collect(),
+    })
+}
+
+/// Part of an impact speed by which a shot may differ from a measured one and still be the same.
+const SAME_SPEED: f64 = 1e-3;
+
+impl Comparison {
+    /// Impact speeds [m/s].
+    pub fn speeds(&self) -> Vec<f64> {
+        self.regime
+            .iter()
+            .map(|at| at.impact_velocity_m_s)
+            .collect()
+    }
+
+    /// Names of the models, in their order.
+    pub fn models(&self) -> Vec<&'static str> {
+        let count = self.results.len() / self.regime.len().max(1);
+        self.results[..count]
+            .iter()
+            .map(|result| result.model)
+            .collect()
+    }
+
+    /// The entries of a speed, one a model.
+    pub fn at_speed(&self, index: usize) -> &[ResultRecord] {
+        let count = self.results.len() / self.regime.len().max(1);
+        &self.results[index * count..(index + 1) * count]
+    }
+
+    /// The entries of a model, one a speed.
+    pub fn of_model<'a>(&'a self, model: &'a str) -> impl Iterator<Item = &'a ResultRecord> {
+        self.results
+            .iter()
+            .filter(move |result| result.model == model)
+    }
+
+    /// Whether any model gave a result at any speed.
+    pub fn has_results(&self) -> bool {
+        self.results.iter().any(ResultRecord::is_result)
+    }
+
+    /// Mean of what was measured of a quantity at a speed [m/s], in the quantity's unit, and of how many values.
+    ///
+    /// A ballistic limit holds for every speed.
+    pub fn measured(&self, quantity: BandQuantity, speed: f64) -> Option<(f64, usize)> {
+        let values: Vec<f64> = self
+            .experiments
+            .iter()
+            .filter(|measured| measured.quantity == quantity)
+            .filter(|measured| match measured.impact_velocity_m_s {
+                _ if quantity == BandQuantity::BallisticLimit => true,
+                Some(at) => (at - speed).abs() <= SAME_SPEED * speed,
+                None => false,
+            })
+            .map(|measured| measured.value)
+            .collect();
+        (!values.is_empty()).then(|| {
+            (
+                values.iter().sum::<f64>() / values.len() as f64,
+                values.len(),
+            )
+        })
+    }
+}
+
+impl ResultRecord {
+    /// Whether the model gave a result.
+    pub fn is_result(&self) -> bool {
+        !matches!(self.outcome, Outcome::NotApplicable | Outcome::Failed)
+    }
+
+    /// One of the main numbers, in the unit of the quantity's name.
+    pub fn value(&self, quantity: BandQuantity) -> Option<f64> {
+        match quantity {
+            BandQuantity::DepthOfPenetration => self.depth_of_penetration_mm,
+            BandQuantity::ResidualVelocity => self.residual_velocity_m_s,
+            BandQuantity::BallisticLimit => self.ballistic_limit_m_s,
+            BandQuantity::ProjectileFinalLength => self.projectile_final_length_mm,
+        }
+    }
+}

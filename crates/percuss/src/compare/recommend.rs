@@ -1,0 +1,137 @@
+//! Which of the models that gave a result to rely on.
+
+use serde::Serialize;
+
+use crate::{
+    Scenario,
+    model::Model,
+    regime::{ProjectileRegime, Regime},
+    summary::ResultRecord,
+};
+
+/// What to rely on at a speed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Recommendation {
+    /// Impact speed [m/s].
+    pub impact_velocity_m_s: f64,
+    /// The models that are the first choice for this kind of case and gave a result; may be empty.
+    pub models: Vec<Choice>,
+    /// What to know of the choice, if there is something.
+    pub note: Option<String>,
+}
+
+/// A model and why it is recommended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Choice {
+    /// Its name.
+    pub model: &'static str,
+    /// Why.
+    pub because: &'static str,
+}
+
+/// First choices for a regime: those that gave a result, and the others with the reason why not.
+struct FirstChoices<'a> {
+    given: Vec<Choice>,
+    missed: Vec<(&'static str, &'a str)>,
+}
+
+impl<'a> FirstChoices<'a> {
+    fn of(
+        models: &[&dyn Model],
+        scenario: &Scenario,
+        regime: &Regime,
+        results: &'a [ResultRecord],
+    ) -> Self {
+        let mut choices = Self {
+            given: Vec::new(),
+            missed: Vec::new(),
+        };
+        for (model, result) in models.iter().zip(results) {
+            let mut fitting = model.guard().first_choice.iter();
+            let Some(choice) = fitting.find(|choice| choice.fits(scenario, regime)) else {
+                continue;
+            };
+            if result.is_result() {
+                choices.given.push(Choice {
+                    model: model.name(),
+                    because: choice.because,
+                });
+            } else {
+                let reason = result.reason.as_deref().unwrap_or_default();
+                choices.missed.push((model.name(), reason));
+            }
+        }
+        choices
+    }
+}
+
+/// What to rely on for a case in its regime, given what every model said.
+pub(super) fn recommend(
+    models: &[&dyn Model],
+    scenario: &Scenario,
+    regime: &Regime,
+    results: &[ResultRecord],
+) -> Recommendation {
+    let own = FirstChoices::of(models, scenario, regime, results);
+    let neighbour: Option<(ProjectileRegime, Vec<Choice>)> = regime.neighbour.map(|neighbour| {
+        let regime = Regime {
+            projectile: neighbour,
+            ..regime.clone()
+        };
+        let mut choices = FirstChoices::of(models, scenario, &regime, results).given;
+        choices.retain(|choice| own.given.iter().all(|own| own.model != choice.model));
+        (neighbour, choices)
+    });
+    let neighbour = neighbour.filter(|(_, choices)| !choices.is_empty());
+    let mut notes: Vec<String> = own
+        .missed
+        .iter()
+        .map(|(model, reason)| format!("`{model}` would be a first choice, but {reason}"))
+        .collect();
+    let models = match (own.given.is_empty(), neighbour) {
+        (false, None) => own.given,
+        (false, Some((kind, choices))) => {
+            notes.push(format!(
+                "the projectile may be {} as well, for which {} is the first choice: compare both",
+                kind.in_words(),
+                names(&choices)
+            ));
+            own.given
+        }
+        (true, Some((kind, choices))) => {
+            notes.push(format!(
+                "no first choice for {} projectiles gives a result here; the projectile may be {} as well",
+                regime.projectile.in_words(),
+                kind.in_words()
+            ));
+            choices
+        }
+        (true, None) => {
+            notes.push(
+                match results.iter().filter(|result| result.is_result()).count() {
+                    0 => "no model gives a result",
+                    1 => "no model is the first choice for this kind of case; one gives a result",
+                    _ => {
+                        "no model is the first choice for this kind of case: take the spread of those that give a result for \
+                          the uncertainty"
+                    }
+                }
+                .to_owned(),
+            );
+            Vec::new()
+        }
+    };
+    Recommendation {
+        impact_velocity_m_s: scenario.impact_speed,
+        models,
+        note: (!notes.is_empty()).then(|| notes.join("; ")),
+    }
+}
+
+fn names(choices: &[Choice]) -> String {
+    let names: Vec<String> = choices
+        .iter()
+        .map(|choice| format!("`{}`", choice.model))
+        .collect();
+    names.join(" or ")
+}
