@@ -5,10 +5,11 @@ use serde::Serialize;
 
 use crate::{
     case::Nose,
-    material::MaterialClass,
+    material::{FlowState, Material, MaterialClass},
+    outcome::BandQuantity,
     regime::{ProjectileRegime, Regime, TargetKind},
     scenario::{Scenario, TargetBody},
-    units::significant,
+    units::{Temperature, significant},
 };
 
 /// The regime that a model declares. A case outside gets a reason in place of a number; at an edge, a warning.
@@ -26,6 +27,10 @@ pub struct Guard {
     pub target_materials: &'static [MaterialClass],
     /// Ranges of ratios and speed.
     pub ranges: &'static [Range],
+    /// What it predicts, where the case has it.
+    pub predicts: &'static [BandQuantity],
+    /// Whether it follows a projectile that is not at the temperature its material was measured at.
+    pub start_temperature: bool,
     /// Whether it sees the back face of a plate: one that does not gives no depth close to the thickness.
     pub sees_back_face: bool,
     /// Cases for which it is the first choice.
@@ -46,6 +51,12 @@ impl Guard {
         projectile_materials: &[MaterialClass::Metal],
         target_materials: &[MaterialClass::Metal],
         ranges: &[],
+        predicts: &[
+            BandQuantity::DepthOfPenetration,
+            BandQuantity::ResidualVelocity,
+            BandQuantity::ProjectileFinalLength,
+        ],
+        start_temperature: false,
         sees_back_face: true,
         first_choice: &[],
         notes: &[],
@@ -70,6 +81,9 @@ impl Guard {
             ));
         }
         if let Some(reason) = self.wrong_material(scenario) {
+            return Verdict::Outside(reason);
+        }
+        if let Some(reason) = self.wrong_temperature(scenario) {
             return Verdict::Outside(reason);
         }
         let neighbour = regime
@@ -137,6 +151,24 @@ impl Guard {
             .map(|class| refuse("target", self.target_materials, class))
     }
 
+    fn wrong_temperature(&self, scenario: &Scenario) -> Option<String> {
+        let temperature = scenario.projectile.temperature?;
+        let material = &scenario.projectile.material;
+        let shown = Temperature::new(temperature);
+        if !self.start_temperature {
+            return Some(format!(
+                "it takes a projectile at the temperature of its material's record, {}, and this one has {shown}",
+                material.room_temperature
+            ));
+        }
+        (!softens(material, temperature)).then(|| {
+            format!(
+                "the strength law of {} does not depend on temperature, and the projectile has {shown}",
+                material.name
+            )
+        })
+    }
+
     /// The guard in words, one line each.
     pub fn in_words(&self) -> Vec<String> {
         let projectile = format!(
@@ -159,6 +191,13 @@ impl Guard {
                 "; it does not see the back face of a plate"
             }
         );
+        let temperature = (!self.start_temperature).then(|| {
+            "the projectile is as warm as its material was when it was measured".to_owned()
+        });
+        let predicts = format!(
+            "it gives {}",
+            conjunction(self.predicts.iter().map(|quantity| quantity.in_words()))
+        );
         let ranges = self.ranges.iter().map(|range| {
             let outside = match range.outside {
                 Outside::NotApplicable => "no number outside",
@@ -171,8 +210,9 @@ impl Guard {
                 range.because
             )
         });
-        [projectile, target]
+        [projectile, target, predicts]
             .into_iter()
+            .chain(temperature)
             .chain(ranges)
             .chain(self.notes.iter().map(|&note| note.to_owned()))
             .collect()
@@ -191,6 +231,25 @@ impl Guard {
             )
         })
     }
+}
+
+/// Whether a material's flow stress at a temperature [K] differs from the one at which it was measured.
+fn softens(material: &Material, temperature: f64) -> bool {
+    let law = material.strength.law();
+    if law.initial_yield_stress(material).is_none() {
+        return false;
+    }
+    let prepared = law.prepare(material, 1.0);
+    let at = |temperature: f64| {
+        let state = FlowState {
+            plastic_strain: 0.1,
+            strain_rate: 0.0,
+            temperature,
+            pressure: 0.0,
+        };
+        prepared.flow_stress(&state).stress
+    };
+    at(temperature) != at(material.room_temperature.si())
 }
 
 /// Whether a case lies inside a guard.
@@ -359,10 +418,19 @@ impl NoseKind {
 
 /// `a`, `a or b`, `a, b or c`.
 pub(crate) fn list(words: impl Iterator<Item = &'static str>) -> String {
+    joined(words, "or")
+}
+
+/// `a`, `a and b`, `a, b and c`.
+fn conjunction(words: impl Iterator<Item = &'static str>) -> String {
+    joined(words, "and")
+}
+
+fn joined(words: impl Iterator<Item = &'static str>, last_word: &str) -> String {
     let words: Vec<&str> = words.collect();
     match words.as_slice() {
         [] => "nothing".to_owned(),
         [one] => (*one).to_owned(),
-        [first @ .., last] => format!("{} or {last}", first.join(", ")),
+        [first @ .., last] => format!("{} {last_word} {last}", first.join(", ")),
     }
 }

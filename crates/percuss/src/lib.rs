@@ -30,6 +30,7 @@ pub mod model;
 pub mod outcome;
 pub mod regime;
 pub mod scenario;
+pub mod shots;
 pub mod summary;
 pub mod units;
 

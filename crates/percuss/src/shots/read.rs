@@ -1,0 +1,436 @@
+//! Reading a file of shots.
+
+use std::{collections::BTreeMap, path::Path};
+
+use super::{
+    Kind, Properties, Shot, Split, Strength, Struck,
+    columns::{COLUMNS, RIGID_WALL, SEMI_INFINITE},
+    row::{Row, Table, field_span},
+};
+use crate::{
+    case::{Nose, read_text},
+    check::Finding,
+    error::{Error, InputError, nearest},
+    material::{Library, Trust},
+    units::shorten,
+};
+
+/// Reads a file of shots whose materials a library has; [`COLUMNS`] says what it holds.
+///
+/// # Errors
+/// [`Error::Read`] when it cannot be read, [`Error::Input`] with the place when its content is not valid.
+pub fn read(path: impl AsRef<Path>, library: &Library) -> Result<Vec<Shot>, Error> {
+    let path = path.as_ref();
+    read_str(&path.display().to_string(), &read_text(path)?, library)
+}
+
+/// Reads shots from a text; `name` stands for the file in messages.
+///
+/// # Errors
+/// [`Error::Input`] with the place when the text is not valid.
+pub fn read_str(name: &str, text: &str, library: &Library) -> Result<Vec<Shot>, Error> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut reader = csv::ReaderBuilder::new()
+        .flexible(true)
+        .from_reader(text.as_bytes());
+    let mut table = Table {
+        file: name,
+        text,
+        header: Vec::new(),
+    };
+    let unreadable = |error: csv::Error| InputError {
+        file: name.to_owned(),
+        text: text.to_owned(),
+        span: 0..0,
+        key: String::new(),
+        message: format!("it is no table of comma-separated values: {error}"),
+        help: String::new(),
+    };
+    table.header = reader
+        .headers()
+        .map_err(unreadable)?
+        .iter()
+        .map(|name| name.trim().to_owned())
+        .collect();
+    check_header(&table)?;
+    let mut shots: Vec<Shot> = Vec::new();
+    let mut rows: BTreeMap<String, Row<'_>> = BTreeMap::new();
+    for record in reader.records() {
+        let row = Row {
+            table: &table,
+            record: record.map_err(unreadable)?,
+        };
+        if row.record.iter().all(|field| field.trim().is_empty()) {
+            continue;
+        }
+        let shot = shot(&row, library)?;
+        if rows.contains_key(&shot.id) {
+            return Err(row
+                .error(
+                    "id",
+                    format!("a second shot is named `{}`", shorten(&shot.id)),
+                    "give it another id",
+                )
+                .into());
+        }
+        rows.insert(shot.id.clone(), row);
+        shots.push(shot);
+    }
+    for shot in &shots {
+        let (Some(first), Some(row)) = (&shot.duplicate_of, rows.get(&shot.id)) else {
+            continue;
+        };
+        if first == &shot.id || !rows.contains_key(first) {
+            return Err(row
+                .error(
+                    "duplicate_of",
+                    format!("no other shot of this file is named `{}`", shorten(first)),
+                    "write the id of the row that it repeats, or leave it empty",
+                )
+                .into());
+        }
+    }
+    if shots.is_empty() {
+        return Err(table
+            .error(
+                0..0,
+                "",
+                "the file holds no shot",
+                "write one row a shot below the header",
+            )
+            .into());
+    }
+    Ok(shots)
+}
+
+fn check_header(table: &Table<'_>) -> Result<(), InputError> {
+    let names = || COLUMNS.iter().map(|column| column.name);
+    let missing: Vec<&str> = COLUMNS
+        .iter()
+        .filter(|column| column.required && !table.header.iter().any(|name| name == column.name))
+        .map(|column| column.name)
+        .collect();
+    let unknown = |name: &str| !names().any(|known| known == name);
+    // A misspelt name tells more than the name that is missing for it.
+    for (i, name) in table.header.iter().enumerate() {
+        let span = field_span(table.text, 0, i);
+        if table.header[..i].contains(name) {
+            return Err(table.error(
+                span,
+                name,
+                format!("two columns are named `{}`", shorten(name)),
+                "remove one",
+            ));
+        }
+        if unknown(name) && !(missing.len() > 2 && table.header.len() == 1) {
+            let near = nearest(name, names())
+                .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+            return Err(table.error(
+                span,
+                name,
+                format!("no column is named `{}`", shorten(name)),
+                format!("{near}the README of the shots lists all columns; remove the others"),
+            ));
+        }
+    }
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let separator = if table.header.len() == 1 {
+        "; columns are separated by commas"
+    } else {
+        ""
+    };
+    Err(table.error(
+        0..0,
+        missing[0],
+        format!("the first line lacks {}", in_ticks(&missing)),
+        format!(
+            "the first line names the columns; required are {}{separator}",
+            in_ticks(
+                &COLUMNS
+                    .iter()
+                    .filter(|c| c.required)
+                    .map(|c| c.name)
+                    .collect::<Vec<_>>()
+            )
+        ),
+    ))
+}
+
+fn in_ticks(names: &[&str]) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    names.join(", ")
+}
+
+fn shot(row: &Row<'_>, library: &Library) -> Result<Shot, InputError> {
+    if row.record.len() != row.table.header.len() {
+        return Err(row.error(
+            "id",
+            format!(
+                "the row has {} fields, and the first line names {}",
+                row.record.len(),
+                row.table.header.len()
+            ),
+            "a field with a comma in it stands in double quotes",
+        ));
+    }
+    let kind = row
+        .word("kind", &Kind::ALL.map(|kind| (kind.name(), kind)))?
+        .ok_or_else(|| {
+            row.error(
+                "kind",
+                "`kind` is empty",
+                "allowed: taylor, ballistic_limit, depth, residual_velocity",
+            )
+        })?;
+    row.required("unit")?;
+    row.word("unit", &[(kind.unit(), ())])?;
+    let to_si = |value: f64| value / kind.shown(1.0);
+    let measured = to_si(row.required_number("measured")?);
+    if measured < 0.0 || (measured == 0.0 && kind != Kind::ResidualVelocity) {
+        return Err(row.error(
+            "measured",
+            format!("{} is out of range", row.text("measured")),
+            "only a residual velocity can be 0, and nothing less than that",
+        ));
+    }
+    let unusable = row.optional("unusable");
+    let usable = unusable.is_none();
+    let impact_velocity = match row.number("impact_velocity_m_s")? {
+        Some(velocity) => velocity,
+        None if kind == Kind::BallisticLimit => measured,
+        None => row.required_number("impact_velocity_m_s")?,
+    };
+    let scaled = |column: &str, factor: f64| row.number(column).map(|v| v.map(|v| v * factor));
+    let (length, mass) = (scaled("length_mm", 1e-3)?, scaled("mass_g", 1e-3)?);
+    if usable && length.is_some() == mass.is_some() {
+        return Err(row.error(
+            "mass_g",
+            "a projectile has either `length_mm` or `mass_g`",
+            "with the material's density one follows from the other: fill in one of them",
+        ));
+    }
+    let diameter = scaled("diameter_mm", 1e-3)?;
+    if usable {
+        row.required_number("diameter_mm")?;
+        row.required("projectile_material")?;
+    }
+    let shot = Shot {
+        id: row.required("id")?,
+        source: row.text("source").to_owned(),
+        read_at: row.text("read_at").to_owned(),
+        licence: row.text("licence").to_owned(),
+        kind,
+        projectile_class: row
+            .optional("projectile_class")
+            .unwrap_or_else(|| row.text("projectile_material").to_owned()),
+        projectile_materials: row
+            .text("projectile_material")
+            .split_whitespace()
+            .map(str::to_owned)
+            .collect(),
+        nose: nose(row)?,
+        length,
+        diameter,
+        mass,
+        temperature: row.number("temperature_k")?,
+        impact_velocity,
+        obliquity_deg: row.number("obliquity_deg")?.unwrap_or(0.0),
+        target: target(row, kind)?,
+        measured,
+        uncertainty: row.number("uncertainty")?.map(to_si),
+        trust: row
+            .word(
+                "trust",
+                &[("A", Trust::A), ("B", Trust::B), ("C", Trust::C)],
+            )?
+            .unwrap_or_default(),
+        split: row
+            .word(
+                "split",
+                &[Split::Blind, Split::Calibration].map(|split| (split.name(), split)),
+            )?
+            .unwrap_or(Split::Blind),
+        flag: row.optional("flag"),
+        duplicate_of: row.optional("duplicate_of"),
+        unusable,
+        note: row.text("note").to_owned(),
+    };
+    if usable {
+        check_scenarios(&shot, row, library)?;
+    }
+    Ok(shot)
+}
+
+fn nose(row: &Row<'_>) -> Result<Nose, InputError> {
+    #[derive(Clone, Copy)]
+    enum Shape {
+        Flat,
+        Hemisphere,
+        Cone,
+        Ogive,
+    }
+    let shapes = [
+        ("flat", Shape::Flat),
+        ("hemisphere", Shape::Hemisphere),
+        ("cone", Shape::Cone),
+        ("ogive", Shape::Ogive),
+    ];
+    let shape = row.word("nose", &shapes)?.unwrap_or(Shape::Flat);
+    Ok(match shape {
+        Shape::Flat => Nose::Flat,
+        Shape::Hemisphere => Nose::Hemisphere,
+        Shape::Cone => Nose::Cone {
+            length_to_diameter: row.required_number("nose_ratio")?,
+        },
+        Shape::Ogive => Nose::Ogive {
+            crh: row.required_number("nose_ratio")?,
+        },
+    })
+}
+
+fn target(row: &Row<'_>, kind: Kind) -> Result<Struck, InputError> {
+    let material = row.required("target_material")?;
+    let wall = material == RIGID_WALL;
+    if wall != (kind == Kind::Taylor) {
+        let (message, help) = if wall {
+            (
+                format!("a rigid wall has no {}", kind.quantity().in_words()),
+                "write the material of the target",
+            )
+        } else {
+            (
+                "a Taylor test has a rigid wall".to_owned(),
+                "write rigid-wall",
+            )
+        };
+        return Err(row.error("target_material", message, help));
+    }
+    if wall {
+        return Ok(Struck::RigidWall);
+    }
+    let thickness = match row.required("thickness_mm")?.as_str() {
+        SEMI_INFINITE if kind == Kind::BallisticLimit => {
+            return Err(row.error(
+                "thickness_mm",
+                "a semi-infinite target has no ballistic limit",
+                "write its thickness",
+            ));
+        }
+        SEMI_INFINITE => None,
+        _ => row.number("thickness_mm")?.map(|mm| mm * 1e-3),
+    };
+    Ok(Struck::Body {
+        material,
+        thickness,
+        properties: properties(row)?,
+    })
+}
+
+fn properties(row: &Row<'_>) -> Result<Option<Properties>, InputError> {
+    let any = COLUMNS
+        .iter()
+        .map(|column| column.name)
+        .filter(|name| name.starts_with("target_") && *name != "target_material")
+        .any(|name| !row.text(name).is_empty());
+    if !any {
+        return Ok(None);
+    }
+    let strength = match (
+        row.number("target_yield_mpa")?,
+        row.number("target_concrete_strength_mpa")?,
+    ) {
+        (Some(yield_stress), None) => Strength::Metal {
+            yield_stress: yield_stress * 1e6,
+            exponent: row.number("target_hardening_exponent")?.unwrap_or(0.0),
+        },
+        (None, Some(strength)) => Strength::Concrete(strength * 1e6),
+        _ => {
+            return Err(row.error(
+                "target_yield_mpa",
+                "a target with properties has either `target_yield_mpa` or `target_concrete_strength_mpa`",
+                "fill in one of them, or leave all columns target_density_kg_m3 to target_concrete_strength_mpa empty",
+            ));
+        }
+    };
+    Ok(Some(Properties {
+        density: row.required_number("target_density_kg_m3")?,
+        youngs_modulus: row.required_number("target_youngs_modulus_gpa")? * 1e9,
+        poissons_ratio: row.required_number("target_poissons_ratio")?,
+        strength,
+        ultimate_strength: row.number("target_ultimate_mpa")?.map(|mpa| mpa * 1e6),
+        brinell_hardness: row.number("target_brinell_hardness")?,
+    }))
+}
+
+/// Makes sure that a case can be made of a shot with each of its records.
+fn check_scenarios(shot: &Shot, row: &Row<'_>, library: &Library) -> Result<(), InputError> {
+    let unknown = |column: &str, name: &str, help: &str| {
+        let near = library
+            .nearest(name)
+            .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+        row.error(
+            column,
+            format!("no material is named `{}`", shorten(name)),
+            format!("{near}`percuss materials` lists all; {help}"),
+        )
+    };
+    for name in &shot.projectile_materials {
+        if library.find(name).is_none() {
+            return Err(unknown(
+                "projectile_material",
+                name,
+                "a file of materials can add your own",
+            ));
+        }
+    }
+    if let Struck::Body {
+        material,
+        properties: None,
+        ..
+    } = &shot.target
+        && library.find(material).is_none()
+    {
+        return Err(unknown(
+            "target_material",
+            material,
+            "or give its properties, target_density_kg_m3 and so on",
+        ));
+    }
+    for record in &shot.projectile_materials {
+        if let Err(findings) = shot.resolve(record, library) {
+            let Finding { key, message, help } = findings.into_iter().next().unwrap_or(Finding {
+                key: String::new(),
+                message: "no case can be made of this row".to_owned(),
+                help: String::new(),
+            });
+            return Err(row.error(column_of(&key), message, help));
+        }
+    }
+    Ok(())
+}
+
+/// The column that a key of a case comes from.
+fn column_of(key: &str) -> &'static str {
+    let columns = [
+        ("projectile.diameter", "diameter_mm"),
+        ("projectile.length", "length_mm"),
+        ("projectile.mass", "mass_g"),
+        ("projectile.nose", "nose_ratio"),
+        ("projectile.velocity", "impact_velocity_m_s"),
+        ("projectile.temperature", "temperature_k"),
+        ("target.thickness", "thickness_mm"),
+        ("density", "target_density_kg_m3"),
+        ("youngs_modulus", "target_youngs_modulus_gpa"),
+        ("poissons_ratio", "target_poissons_ratio"),
+        ("ultimate_strength", "target_ultimate_mpa"),
+        ("brinell_hardness", "target_brinell_hardness"),
+        ("compressive_strength", "target_concrete_strength_mpa"),
+        ("exponent", "target_hardening_exponent"),
+        ("yield_stress", "target_yield_mpa"),
+        ("strength", "target_yield_mpa"),
+    ];
+    let found = columns.iter().find(|(part, _)| key.contains(part));
+    found.map_or("id", |(_, column)| column)
+}
