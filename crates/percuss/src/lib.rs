@@ -33,6 +33,7 @@ pub mod scenario;
 pub mod shots;
 pub mod summary;
 pub mod units;
+pub mod validate;
 
 pub use error::{Error, InputError, NumericalError};
 pub use scenario::Scenario;

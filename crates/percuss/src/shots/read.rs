@@ -103,7 +103,7 @@ pub fn read_str(name: &str, text: &str, library: &Library) -> Result<Vec<Shot>, 
     Ok(shots)
 }
 
-fn check_header(table: &Table<'_>) -> Result<(), InputError> {
+fn check_header(table: &Table<'_>) -> Result<(), Box<InputError>> {
     let names = || COLUMNS.iter().map(|column| column.name);
     let missing: Vec<&str> = COLUMNS
         .iter()
@@ -163,7 +163,7 @@ fn in_ticks(names: &[&str]) -> String {
     names.join(", ")
 }
 
-fn shot(row: &Row<'_>, library: &Library) -> Result<Shot, InputError> {
+fn shot(row: &Row<'_>, library: &Library) -> Result<Shot, Box<InputError>> {
     if row.record.len() != row.table.header.len() {
         return Err(row.error(
             "id",
@@ -263,7 +263,7 @@ fn shot(row: &Row<'_>, library: &Library) -> Result<Shot, InputError> {
     Ok(shot)
 }
 
-fn nose(row: &Row<'_>) -> Result<Nose, InputError> {
+fn nose(row: &Row<'_>) -> Result<Nose, Box<InputError>> {
     #[derive(Clone, Copy)]
     enum Shape {
         Flat,
@@ -290,7 +290,7 @@ fn nose(row: &Row<'_>) -> Result<Nose, InputError> {
     })
 }
 
-fn target(row: &Row<'_>, kind: Kind) -> Result<Struck, InputError> {
+fn target(row: &Row<'_>, kind: Kind) -> Result<Struck, Box<InputError>> {
     let material = row.required("target_material")?;
     let wall = material == RIGID_WALL;
     if wall != (kind == Kind::Taylor) {
@@ -328,7 +328,7 @@ fn target(row: &Row<'_>, kind: Kind) -> Result<Struck, InputError> {
     })
 }
 
-fn properties(row: &Row<'_>) -> Result<Option<Properties>, InputError> {
+fn properties(row: &Row<'_>) -> Result<Option<Properties>, Box<InputError>> {
     let any = COLUMNS
         .iter()
         .map(|column| column.name)
@@ -365,7 +365,7 @@ fn properties(row: &Row<'_>) -> Result<Option<Properties>, InputError> {
 }
 
 /// Makes sure that a case can be made of a shot with each of its records.
-fn check_scenarios(shot: &Shot, row: &Row<'_>, library: &Library) -> Result<(), InputError> {
+fn check_scenarios(shot: &Shot, row: &Row<'_>, library: &Library) -> Result<(), Box<InputError>> {
     let unknown = |column: &str, name: &str, help: &str| {
         let near = library
             .nearest(name)

@@ -27,15 +27,15 @@ impl Table<'_> {
         column: &str,
         message: impl Into<String>,
         help: impl Into<String>,
-    ) -> InputError {
-        InputError {
+    ) -> Box<InputError> {
+        Box::new(InputError {
             file: self.file.to_owned(),
             text: self.text.to_owned(),
             span,
             key: column.to_owned(),
             message: message.into(),
             help: help.into(),
-        }
+        })
     }
 }
 
@@ -52,13 +52,13 @@ impl Row<'_> {
     }
 
     /// Text of a field that must not be empty.
-    pub(super) fn required(&self, column: &str) -> Result<String, InputError> {
+    pub(super) fn required(&self, column: &str) -> Result<String, Box<InputError>> {
         self.optional(column)
             .ok_or_else(|| self.error(column, format!("`{column}` is empty"), "write its value"))
     }
 
     /// A number, unless the field is empty.
-    pub(super) fn number(&self, column: &str) -> Result<Option<f64>, InputError> {
+    pub(super) fn number(&self, column: &str) -> Result<Option<f64>, Box<InputError>> {
         let text = self.text(column);
         if text.is_empty() {
             return Ok(None);
@@ -74,7 +74,7 @@ impl Row<'_> {
     }
 
     /// A number that must be there.
-    pub(super) fn required_number(&self, column: &str) -> Result<f64, InputError> {
+    pub(super) fn required_number(&self, column: &str) -> Result<f64, Box<InputError>> {
         self.required(column)?;
         match self.number(column)? {
             Some(number) => Ok(number),
@@ -87,7 +87,7 @@ impl Row<'_> {
         &self,
         column: &str,
         words: &[(&'static str, T)],
-    ) -> Result<Option<T>, InputError> {
+    ) -> Result<Option<T>, Box<InputError>> {
         let text = self.text(column);
         if text.is_empty() {
             return Ok(None);
@@ -111,7 +111,7 @@ impl Row<'_> {
         column: &str,
         message: impl Into<String>,
         help: impl Into<String>,
-    ) -> InputError {
+    ) -> Box<InputError> {
         self.table.error(self.span(column), column, message, help)
     }
 
