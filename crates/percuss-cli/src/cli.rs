@@ -3,7 +3,9 @@
 use clap::{Parser, Subcommand};
 
 use crate::{
-    commands::{Completions, Converge, Man, Materials, Models, New, Reproduce, Run, Schema},
+    commands::{
+        Completions, Converge, Man, Materials, Models, New, Reproduce, Run, Schema, Validate,
+    },
     failure::Failure,
 };
 
@@ -51,6 +53,7 @@ pub struct Cli {
 pub enum Command {
     Run(Run),
     Converge(Converge),
+    Validate(Validate),
     New(New),
     Models(Models),
     Materials(Materials),
@@ -65,6 +68,7 @@ impl Command {
         match self {
             Self::Run(command) => command.run(),
             Self::Converge(command) => command.run(),
+            Self::Validate(command) => command.run(),
             Self::New(command) => command.run(),
             Self::Models(command) => command.run(),
             Self::Materials(command) => command.run(),

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use parquet::{
-    basic::{Compression, Repetition, Type as PhysicalType},
-    data_type::{DoubleType, Int64Type},
+    basic::{Compression, LogicalType, Repetition, Type as PhysicalType},
+    data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type},
     errors::ParquetError,
     file::{properties::WriterProperties, writer::SerializedFileWriter},
     schema::types::Type,
@@ -16,6 +16,9 @@ use crate::ReportError;
 pub(crate) enum Value<R> {
     Float(Box<dyn Fn(&R) -> f64>),
     Integer(Box<dyn Fn(&R) -> i64>),
+    /// A number that may be missing: an empty field, null.
+    Optional(Box<dyn Fn(&R) -> Option<f64>>),
+    Text(Box<dyn Fn(&R) -> String>),
 }
 
 /// A column of a table whose rows are made from `R`.
@@ -29,6 +32,23 @@ impl<R> Column<R> {
         Self {
             name: name.into(),
             value: Value::Float(Box::new(value)),
+        }
+    }
+
+    pub(crate) fn optional(
+        name: impl Into<String>,
+        value: impl Fn(&R) -> Option<f64> + 'static,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            value: Value::Optional(Box::new(value)),
+        }
+    }
+
+    pub(crate) fn text(name: impl Into<String>, value: impl Fn(&R) -> String + 'static) -> Self {
+        Self {
+            name: name.into(),
+            value: Value::Text(Box::new(value)),
         }
     }
 
@@ -58,6 +78,8 @@ pub(crate) fn csv<R>(
         let fields = columns.iter().map(|column| match &column.value {
             Value::Float(value) => format!("{:?}", value(row)),
             Value::Integer(value) => value(row).to_string(),
+            Value::Optional(value) => value(row).map_or_else(String::new, |v| format!("{v:?}")),
+            Value::Text(value) => value(row),
         });
         writer.write_record(fields).map_err(failure)?;
     }
@@ -66,7 +88,7 @@ pub(crate) fn csv<R>(
         .map_err(|error| failure(error.into_error().into()))
 }
 
-/// The table as Parquet: one row group, columns that are never null, Snappy compression.
+/// The table as Parquet: one row group, columns that are null only where a number is missing, Snappy compression.
 pub(crate) fn parquet<R>(
     table: &str,
     columns: &[Column<R>],
@@ -80,12 +102,18 @@ pub(crate) fn parquet<R>(
 
 fn encode<R>(columns: &[Column<R>], rows: &[R]) -> Result<Vec<u8>, ParquetError> {
     let fields = columns.iter().map(|column| {
-        let kind = match column.value {
-            Value::Float(_) => PhysicalType::DOUBLE,
-            Value::Integer(_) => PhysicalType::INT64,
+        let (kind, repetition, logical) = match column.value {
+            Value::Float(_) => (PhysicalType::DOUBLE, Repetition::REQUIRED, None),
+            Value::Integer(_) => (PhysicalType::INT64, Repetition::REQUIRED, None),
+            Value::Optional(_) => (PhysicalType::DOUBLE, Repetition::OPTIONAL, None),
+            Value::Text(_) => {
+                let text = Some(LogicalType::String);
+                (PhysicalType::BYTE_ARRAY, Repetition::REQUIRED, text)
+            }
         };
         let field = Type::primitive_type_builder(&column.name, kind)
-            .with_repetition(Repetition::REQUIRED)
+            .with_repetition(repetition)
+            .with_logical_type(logical)
             .build()?;
         Ok(Arc::new(field))
     });
@@ -112,6 +140,23 @@ fn encode<R>(columns: &[Column<R>], rows: &[R]) -> Result<Vec<u8>, ParquetError>
                 let values: Vec<i64> = rows.iter().map(value).collect();
                 writer
                     .typed::<Int64Type>()
+                    .write_batch(&values, None, None)?;
+            }
+            Value::Optional(value) => {
+                let values: Vec<Option<f64>> = rows.iter().map(value).collect();
+                let present: Vec<f64> = values.iter().flatten().copied().collect();
+                let levels: Vec<i16> = values.iter().map(|v| i16::from(v.is_some())).collect();
+                writer
+                    .typed::<DoubleType>()
+                    .write_batch(&present, Some(&levels), None)?;
+            }
+            Value::Text(value) => {
+                let values: Vec<ByteArray> = rows
+                    .iter()
+                    .map(|row| ByteArray::from(value(row).into_bytes()))
+                    .collect();
+                writer
+                    .typed::<ByteArrayType>()
                     .write_batch(&values, None, None)?;
             }
         }

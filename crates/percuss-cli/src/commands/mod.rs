@@ -9,6 +9,7 @@ mod new;
 mod reproduce;
 mod run;
 mod schema;
+mod validate;
 
 pub use completions::Completions;
 pub use converge::Converge;
@@ -19,3 +20,4 @@ pub use new::New;
 pub use reproduce::Reproduce;
 pub use run::Run;
 pub use schema::Schema;
+pub use validate::Validate;

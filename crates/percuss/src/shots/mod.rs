@@ -103,6 +103,14 @@ impl Struck {
             Self::Body { material, .. } => material,
         }
     }
+
+    /// Its thickness [m]; `None` for a wall or a semi-infinite body.
+    pub fn thickness(&self) -> Option<f64> {
+        match self {
+            Self::RigidWall => None,
+            Self::Body { thickness, .. } => *thickness,
+        }
+    }
 }
 
 /// Properties of a target that came with a shot. SI units.

@@ -102,6 +102,7 @@ pub struct Group {
     /// What its members have in common.
     pub value: String,
     /// Statistics of their errors.
+    #[serde(flatten)]
     pub errors: Errors,
 }
 

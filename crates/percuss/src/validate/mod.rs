@@ -13,6 +13,7 @@
 
 mod grouping;
 mod prediction;
+mod record;
 mod statistics;
 #[cfg(test)]
 mod tests;
@@ -26,6 +27,7 @@ use rayon::prelude::*;
 
 pub use grouping::{Coverage, Group, Grouping, coverage, statistics};
 pub use prediction::{Prediction, Standing};
+pub use record::PredictionRecord;
 pub use statistics::Errors;
 
 use prediction::Computed;
