@@ -69,7 +69,7 @@ fn counts(validation: &Validation) -> Vec<String> {
         .into_iter()
         .map(|kind| (kind, count(&|shot| shot.kind == kind)))
         .filter(|(_, count)| *count > 0)
-        .map(|(kind, count)| format!("{count} of {}", heading(kind).to_lowercase()))
+        .map(|(kind, count)| format!("{count} {}", kind.in_words()))
         .collect();
     vec![
         format!("{} shots: {}", shots.len(), kinds.join(", ")),
@@ -84,17 +84,14 @@ fn counts(validation: &Validation) -> Vec<String> {
     ]
 }
 
-fn heading(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Taylor => "Final lengths of Taylor rods",
-        Kind::BallisticLimit => "Ballistic limits of plates",
-        Kind::Depth => "Depths of penetration",
-        Kind::ResidualVelocity => "Residual velocities",
-    }
+fn heading(kind: Kind) -> String {
+    let words = kind.in_words();
+    let first = words.chars().take(1).flat_map(char::to_uppercase);
+    first.chain(words.chars().skip(1)).collect()
 }
 
 fn section<'a>(validation: &Validation, kind: Kind, figures: &'a [Drawn]) -> Vec<Block<'a>> {
-    let mut blocks = vec![Block::Heading(heading(kind).to_owned())];
+    let mut blocks = vec![Block::Heading(heading(kind))];
     let table = tables::models(validation, kind);
     if table.rows.is_empty() {
         blocks.push(Block::Text("No prediction is counted.".to_owned()));
@@ -115,14 +112,14 @@ fn section<'a>(validation: &Validation, kind: Kind, figures: &'a [Drawn]) -> Vec
     blocks
 }
 
-/// Tables by one more property: the most telling one open, the others folded.
+/// Tables by one more property: the most telling ones open, the others folded.
 fn breakdown<'a>(validation: &Validation, kind: Kind) -> Vec<Block<'a>> {
     let groupings: &[Grouping] = match kind {
         Kind::Taylor => &[
+            Grouping::Projectile,
             Grouping::RecordAndSource,
             Grouping::Record,
             Grouping::Source,
-            Grouping::Projectile,
             Grouping::Split,
         ],
         _ => &[
@@ -137,7 +134,7 @@ fn breakdown<'a>(validation: &Validation, kind: Kind) -> Vec<Block<'a>> {
     for (i, &grouping) in groupings.iter().enumerate() {
         let title = format!("By {}", grouping.in_words());
         let table = Block::Table(tables::groups(validation, kind, grouping));
-        if i == 0 {
+        if i == 0 || grouping == Grouping::RecordAndSource {
             blocks.extend([Block::Subheading(title), table]);
         } else {
             blocks.push(Block::Folded(title, vec![table]));
@@ -150,7 +147,7 @@ fn blind<'a>(validation: &Validation) -> Vec<Block<'a>> {
     let mut table = Table::new(&["kind", "model", "split", "#n", "#bias [%]", "#RMS [%]"]);
     for group in statistics(validation, Grouping::Split) {
         table.rows.push(vec![
-            heading(group.kind).to_owned(),
+            heading(group.kind),
             group.model.to_owned(),
             group.value,
             group.errors.count.to_string(),

@@ -177,6 +177,16 @@ impl Kind {
         }
     }
 
+    /// What shots of this kind are of.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Taylor => "final lengths of Taylor rods",
+            Self::BallisticLimit => "ballistic limits of plates",
+            Self::Depth => "depths of penetration",
+            Self::ResidualVelocity => "residual velocities",
+        }
+    }
+
     /// The kind of this name.
     pub fn of_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)

@@ -7,6 +7,9 @@ use serde::Serialize;
 use super::{Errors, Prediction, Standing, Validation};
 use crate::shots::Kind;
 
+/// What stands between the parts of a group's value.
+pub const SEPARATOR: &str = "; ";
+
 /// What predictions are grouped by, beside model and kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -15,9 +18,9 @@ pub enum Grouping {
     All,
     /// Source.
     Source,
-    /// Material record of the projectile.
+    /// Class and material record of the projectile.
     Record,
-    /// Material record of the projectile and source.
+    /// Class and material record of the projectile, and source.
     RecordAndSource,
     /// Material of the target.
     Target,
@@ -47,12 +50,26 @@ impl Grouping {
         match self {
             Self::All => "all",
             Self::Source => "source",
-            Self::Record => "material record",
-            Self::RecordAndSource => "material record and source",
+            Self::Record => "projectile and material record",
+            Self::RecordAndSource => "projectile, material record and source",
             Self::Target => "target",
             Self::Projectile => "projectile",
             Self::Regime => "regime",
             Self::Split => "split",
+        }
+    }
+
+    /// What the parts of a group's value are.
+    pub fn parts(self) -> &'static [&'static str] {
+        match self {
+            Self::All => &["all"],
+            Self::Source => &["source"],
+            Self::Record => &["projectile", "material record"],
+            Self::RecordAndSource => &["projectile", "material record", "source"],
+            Self::Target => &["target"],
+            Self::Projectile => &["projectile"],
+            Self::Regime => &["regime"],
+            Self::Split => &["split"],
         }
     }
 
@@ -80,8 +97,10 @@ impl Grouping {
         match self {
             Self::All => "all".to_owned(),
             Self::Source => shot.source.clone(),
-            Self::Record => prediction.record.clone(),
-            Self::RecordAndSource => format!("{}, {}", prediction.record, shot.source),
+            Self::Record => [&*shot.projectile_class, &prediction.record].join(SEPARATOR),
+            Self::RecordAndSource => {
+                [&*shot.projectile_class, &prediction.record, &shot.source].join(SEPARATOR)
+            }
             Self::Target => shot.target.name().to_owned(),
             Self::Projectile => shot.projectile_class.clone(),
             Self::Regime => prediction.regime.clone(),

@@ -25,7 +25,7 @@ use std::{
 
 use rayon::prelude::*;
 
-pub use grouping::{Coverage, Group, Grouping, coverage, statistics};
+pub use grouping::{Coverage, Group, Grouping, SEPARATOR, coverage, statistics};
 pub use prediction::{Prediction, Standing};
 pub use record::PredictionRecord;
 pub use statistics::Errors;
