@@ -5,7 +5,7 @@ use std::{
 };
 
 use clap::{Args, builder::PossibleValuesParser};
-use comfy_table::{CellAlignment, Table, presets::UTF8_HORIZONTAL_ONLY};
+use comfy_table::{CellAlignment, Table, presets::NOTHING};
 use percuss::{
     case,
     material::Library,
@@ -285,13 +285,13 @@ impl Validate {
         let all = of_kind(Grouping::All);
         let mut text = format!(
             "\n{}\n",
-            bold(format!("{} ({})", kind.name(), kind.quantity().in_words()))
+            bold(format!("{} (--kind {})", kind.in_words(), kind.name()))
         );
         if !all.is_empty() {
             let rows = all
                 .iter()
                 .map(|group| (group.model.to_owned(), &group.errors));
-            text += &table("model", rows);
+            text += &table("model", rows, true);
         }
         for coverage in coverage.iter().filter(|c| c.kind == kind) {
             text += &unused(coverage);
@@ -300,7 +300,7 @@ impl Validate {
             return text;
         }
         let groupings = match kind {
-            Kind::Taylor => [Grouping::RecordAndSource, Grouping::Projectile],
+            Kind::Taylor => [Grouping::Record, Grouping::Source],
             _ => [Grouping::Projectile, Grouping::Target],
         };
         for groups in groupings
@@ -313,7 +313,11 @@ impl Validate {
                 .map(|group| (group.value.clone(), &group.errors));
             text += &format!(
                 "\n{}",
-                table(&format!("by {}", groups[0].grouping.in_words()), rows)
+                table(
+                    &format!("by {}", groups[0].grouping.in_words()),
+                    rows,
+                    false
+                )
             );
         }
         text
@@ -336,7 +340,8 @@ fn unused(coverage: &Coverage) -> String {
     .map(|standing| coverage.count(standing))
     .iter()
     .sum();
-    if without == 0 {
+    let stopped = coverage.count(Standing::MeasuredZero);
+    if without == 0 && stopped == 0 {
         return String::new();
     }
     let reason = coverage
@@ -350,36 +355,49 @@ fn unused(coverage: &Coverage) -> String {
             };
             format!(": {reason}{most}")
         });
-    let line = format!(
-        "{}: {counted} of {} counted, {without} without a number{reason}",
+    let mut line = format!(
+        "{}: {counted} of {} counted",
         coverage.model,
         coverage.total()
     );
+    if stopped > 0 {
+        line += &format!(", {stopped} stopped in the test, which leaves no relative error");
+    }
+    if without > 0 {
+        line += &format!(", {without} without a number{reason}");
+    }
     format!("{}\n", wrap(&line, width(), 2))
 }
 
-fn table<'a>(first: &str, rows: impl Iterator<Item = (String, &'a Errors)>) -> String {
+fn table<'a>(
+    first: &str,
+    rows: impl Iterator<Item = (String, &'a Errors)>,
+    with_worst_shot: bool,
+) -> String {
     let mut table = Table::new();
-    table.load_style(UTF8_HORIZONTAL_ONLY);
-    table.set_header([first, "n", "bias", "RMS", "median", "worst", "worst shot"]);
+    table.load_style(NOTHING);
+    let columns = if with_worst_shot { 7 } else { 6 };
+    let header = [first, "n", "bias", "RMS", "median", "worst", "worst shot"];
+    table.set_header(header[..columns].to_vec());
     let percent = |error: f64| format!("{:.1}", 100.0 * error);
     let signed = |error: f64| format!("{:+.1}", 100.0 * error);
     for (name, errors) in rows {
-        table.add_row([
-            name.replace(", ", ",\n"),
+        let row = [
+            name,
             errors.count.to_string(),
             signed(errors.bias),
             percent(errors.rms),
             percent(errors.median_absolute),
             signed(errors.worst),
             errors.worst_id.clone(),
-        ]);
+        ];
+        table.add_row(row[..columns].to_vec());
+    }
+    for column in table.column_iter_mut() {
+        column.set_padding((0, 2));
     }
     for column in table.column_iter_mut().skip(1).take(5) {
         column.set_cell_alignment(CellAlignment::Right);
-    }
-    for column in table.column_iter_mut() {
-        column.set_padding((0, 1));
     }
     format!("{}\n", table.trim_fmt())
 }

@@ -36,7 +36,7 @@ pub(super) fn draw(validation: &Validation) -> Vec<Drawn> {
                 continue;
             }
             for drawing in [
-                parity(kind, model, &groups),
+                parity(validation, kind, model, &groups),
                 residuals(validation, kind, model, &groups),
             ] {
                 drawn.push(Drawn {
@@ -50,7 +50,8 @@ pub(super) fn draw(validation: &Validation) -> Vec<Drawn> {
     drawn
 }
 
-const FLAGGED: &str = "suspect, not counted";
+/// Begins with a space to be drawn first, below the others.
+const FLAGGED: &str = " suspect, not counted";
 
 type Groups<'a> = BTreeMap<String, Vec<&'a Prediction>>;
 
@@ -75,9 +76,9 @@ fn groups<'a>(validation: &'a Validation, kind: Kind, model: &str) -> Groups<'a>
 fn series<'a>(groups: &Groups<'a>, point: impl Fn(&Prediction) -> (f64, f64)) -> Vec<Series> {
     let series = groups.iter().map(|(name, group)| {
         let points = group.iter().map(|prediction| point(prediction));
-        let series = Series::new(name.clone(), points).style(Style::Cloud);
+        let series = Series::new(name.trim(), points).style(Style::Cloud);
         match name.as_str() {
-            FLAGGED => series.color(palette::MARK),
+            FLAGGED => series.color(palette::NO_VALUE),
             _ => series,
         }
     });
@@ -93,16 +94,39 @@ fn what(kind: Kind) -> (&'static str, &'static str) {
     }
 }
 
-fn parity(kind: Kind, model: &str, groups: &Groups<'_>) -> Figure {
+/// What makes shots of different sizes comparable: the length of a Taylor rod; nothing else.
+fn scale(validation: &Validation, prediction: &Prediction) -> f64 {
+    let shot = validation.shot(prediction);
+    match (shot.kind, shot.length) {
+        (Kind::Taylor, Some(length)) => shot.kind.shown(length),
+        _ => 1.0,
+    }
+}
+
+fn parity(validation: &Validation, kind: Kind, model: &str, groups: &Groups<'_>) -> Figure {
     let (stem, title) = what(kind);
-    let unit = kind.unit();
-    let predicted = |p: &Prediction| p.predicted.unwrap_or(f64::NAN);
-    let points = groups.values().flatten();
-    let (low, high) = points.fold((f64::INFINITY, 0.0_f64), |(low, high), p| {
-        (low.min(p.measured), high.max(p.measured))
-    });
-    let line = |name: &str, factor: f64, style| {
-        Series::new(name, [(low, factor * low), (high, factor * high)])
+    let unit = match kind {
+        Kind::Taylor => "over the length before".to_owned(),
+        _ => format!("[{}]", kind.unit()),
+    };
+    let point = |p: &Prediction| {
+        let scale = scale(validation, p);
+        (p.measured / scale, p.predicted.unwrap_or(f64::NAN) / scale)
+    };
+    let points: Vec<(f64, f64)> = groups.values().flatten().map(|p| point(p)).collect();
+    let values = points.iter().flat_map(|(x, y)| [*x, *y]);
+    let (low, high) = values
+        .filter(|value| value.is_finite())
+        .fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
+            (low.min(value), high.max(value))
+        });
+    let margin = 0.04 * (high - low).max(0.01 * high);
+    let (low, high) = ((low - margin).max(0.0), high + margin);
+    let axis = |label: String| Axis::new(label).range(low, high);
+    let line = |factor: f64, style| {
+        // From border to border of the square, whichever comes first.
+        let ends = [low.max(low / factor), high.min(high / factor)];
+        Series::new("", ends.map(|x| (x, factor * x)))
             .style(style)
             .width(1.0)
             .color(palette::MARK)
@@ -110,15 +134,14 @@ fn parity(kind: Kind, model: &str, groups: &Groups<'_>) -> Figure {
     let chart = LineChart::new(
         format!("parity-{stem}-{}", model.replace('_', "-")),
         format!("{title}: {model} against measurement"),
-        Axis::new(format!("measured [{unit}]")),
-        Axis::new(format!("predicted by {model} [{unit}]")),
+        axis(format!("measured {unit}")),
+        axis(format!("predicted {unit}")),
     )
     .caption("dashed: 10 % above and below")
-    .true_to_scale()
-    .series(line("", 1.0, Style::Line))
-    .series(line("", 1.0 + BAND, Style::Dashed))
-    .series(line("", 1.0 - BAND, Style::Dashed));
-    let chart = series(groups, |p| (p.measured, predicted(p)))
+    .series(line(1.0, Style::Line))
+    .series(line(1.0 + BAND, Style::Dashed))
+    .series(line(1.0 - BAND, Style::Dashed));
+    let chart = series(groups, point)
         .into_iter()
         .fold(chart, LineChart::series);
     chart.draw()

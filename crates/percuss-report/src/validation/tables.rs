@@ -6,7 +6,7 @@ use percuss::{
     material::references,
     shots::{Kind, Shot},
     units::significant,
-    validate::{self, Errors, Group, Grouping, Prediction, Standing, Validation},
+    validate::{self, Errors, Group, Grouping, Prediction, SEPARATOR, Standing, Validation},
 };
 
 use super::document::Table;
@@ -63,15 +63,17 @@ pub(super) fn groups(validation: &Validation, kind: Kind, grouping: Grouping) ->
     let mut groups = of_kind(validation, kind, grouping);
     // A stable sort: within a group the models keep their order.
     groups.sort_by(|a, b| a.value.cmp(&b.value));
-    let mut table = Table::new(&[&[grouping.in_words(), "model"], ERRORS.as_slice()].concat());
+    let parts = grouping.parts().len();
+    let mut table = Table::new(&[grouping.parts(), &["model"], ERRORS.as_slice()].concat());
     let mut last = String::new();
     for group in groups {
-        let name = if group.value == last {
-            String::new()
+        let mut row = if group.value == last {
+            vec![String::new(); parts]
         } else {
-            group.value.clone()
+            let value = group.value.splitn(parts, SEPARATOR);
+            value.map(str::to_owned).collect()
         };
-        let mut row = vec![name, group.model.to_owned()];
+        row.push(group.model.to_owned());
         row.extend(errors(&group.errors));
         table.rows.push(row);
         last = group.value;
