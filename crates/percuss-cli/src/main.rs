@@ -9,6 +9,7 @@ mod progress;
 mod result_table;
 mod run_folder;
 mod terminal;
+mod validation_table;
 
 use std::process::ExitCode;
 

@@ -12,13 +12,16 @@ use parquet::{
 
 use crate::ReportError;
 
+/// How a value is taken from a row.
+type Take<R, T> = Box<dyn Fn(&R) -> T>;
+
 /// What a column holds of a row.
 pub(crate) enum Value<R> {
-    Float(Box<dyn Fn(&R) -> f64>),
-    Integer(Box<dyn Fn(&R) -> i64>),
+    Float(Take<R, f64>),
+    Integer(Take<R, i64>),
     /// A number that may be missing: an empty field, null.
-    Optional(Box<dyn Fn(&R) -> Option<f64>>),
-    Text(Box<dyn Fn(&R) -> String>),
+    Optional(Take<R, Option<f64>>),
+    Text(Take<R, String>),
 }
 
 /// A column of a table whose rows are made from `R`.

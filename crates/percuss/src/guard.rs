@@ -1,15 +1,17 @@
 //! What a model is made for, as data: projectile, target, nose, materials, and ranges of ratios and speed.
 
+mod temperature;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
     case::Nose,
-    material::{FlowState, Material, MaterialClass},
+    material::MaterialClass,
     outcome::BandQuantity,
     regime::{ProjectileRegime, Regime, TargetKind},
     scenario::{Scenario, TargetBody},
-    units::{Temperature, significant},
+    units::significant,
 };
 
 /// The regime that a model declares. A case outside gets a reason in place of a number; at an edge, a warning.
@@ -83,7 +85,7 @@ impl Guard {
         if let Some(reason) = self.wrong_material(scenario) {
             return Verdict::Outside(reason);
         }
-        if let Some(reason) = self.wrong_temperature(scenario) {
+        if let Some(reason) = temperature::reason(self, scenario) {
             return Verdict::Outside(reason);
         }
         let neighbour = regime
@@ -151,24 +153,6 @@ impl Guard {
             .map(|class| refuse("target", self.target_materials, class))
     }
 
-    fn wrong_temperature(&self, scenario: &Scenario) -> Option<String> {
-        let temperature = scenario.projectile.temperature?;
-        let material = &scenario.projectile.material;
-        let shown = Temperature::new(temperature);
-        if !self.start_temperature {
-            return Some(format!(
-                "it takes a projectile at the temperature of its material's record, {}, and this one has {shown}",
-                material.room_temperature
-            ));
-        }
-        (!softens(material, temperature)).then(|| {
-            format!(
-                "the strength law of {} does not depend on temperature, and the projectile has {shown}",
-                material.name
-            )
-        })
-    }
-
     /// The guard in words, one line each.
     pub fn in_words(&self) -> Vec<String> {
         let projectile = format!(
@@ -231,25 +215,6 @@ impl Guard {
             )
         })
     }
-}
-
-/// Whether a material's flow stress at a temperature [K] differs from the one at which it was measured.
-fn softens(material: &Material, temperature: f64) -> bool {
-    let law = material.strength.law();
-    if law.initial_yield_stress(material).is_none() {
-        return false;
-    }
-    let prepared = law.prepare(material, 1.0);
-    let at = |temperature: f64| {
-        let state = FlowState {
-            plastic_strain: 0.1,
-            strain_rate: 0.0,
-            temperature,
-            pressure: 0.0,
-        };
-        prepared.flow_stress(&state).stress
-    };
-    at(temperature) != at(material.room_temperature.si())
 }
 
 /// Whether a case lies inside a guard.

@@ -4,6 +4,8 @@
 //! the same columns.
 
 mod columns;
+mod header;
+mod materials;
 mod read;
 mod row;
 mod scenario;

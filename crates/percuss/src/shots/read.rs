@@ -5,12 +5,12 @@ use std::{collections::BTreeMap, path::Path};
 use super::{
     Kind, Properties, Shot, Split, Strength, Struck,
     columns::{COLUMNS, RIGID_WALL, SEMI_INFINITE},
-    row::{Row, Table, field_span},
+    header, materials,
+    row::{Row, Table},
 };
 use crate::{
     case::{Nose, read_text},
-    check::Finding,
-    error::{Error, InputError, nearest},
+    error::{Error, InputError},
     material::{Library, Trust},
     units::shorten,
 };
@@ -52,7 +52,7 @@ pub fn read_str(name: &str, text: &str, library: &Library) -> Result<Vec<Shot>, 
         .iter()
         .map(|name| name.trim().to_owned())
         .collect();
-    check_header(&table)?;
+    header::check(&table)?;
     let mut shots: Vec<Shot> = Vec::new();
     let mut rows: BTreeMap<String, Row<'_>> = BTreeMap::new();
     for record in reader.records() {
@@ -101,66 +101,6 @@ pub fn read_str(name: &str, text: &str, library: &Library) -> Result<Vec<Shot>, 
             .into());
     }
     Ok(shots)
-}
-
-fn check_header(table: &Table<'_>) -> Result<(), Box<InputError>> {
-    let names = || COLUMNS.iter().map(|column| column.name);
-    let missing: Vec<&str> = COLUMNS
-        .iter()
-        .filter(|column| column.required && !table.header.iter().any(|name| name == column.name))
-        .map(|column| column.name)
-        .collect();
-    let unknown = |name: &str| !names().any(|known| known == name);
-    // A misspelt name tells more than the name that is missing for it.
-    for (i, name) in table.header.iter().enumerate() {
-        let span = field_span(table.text, 0, i);
-        if table.header[..i].contains(name) {
-            return Err(table.error(
-                span,
-                name,
-                format!("two columns are named `{}`", shorten(name)),
-                "remove one",
-            ));
-        }
-        if unknown(name) && !(missing.len() > 2 && table.header.len() == 1) {
-            let near = nearest(name, names())
-                .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
-            return Err(table.error(
-                span,
-                name,
-                format!("no column is named `{}`", shorten(name)),
-                format!("{near}the README of the shots lists all columns; remove the others"),
-            ));
-        }
-    }
-    if missing.is_empty() {
-        return Ok(());
-    }
-    let separator = if table.header.len() == 1 {
-        "; columns are separated by commas"
-    } else {
-        ""
-    };
-    Err(table.error(
-        0..0,
-        missing[0],
-        format!("the first line lacks {}", in_ticks(&missing)),
-        format!(
-            "the first line names the columns; required are {}{separator}",
-            in_ticks(
-                &COLUMNS
-                    .iter()
-                    .filter(|c| c.required)
-                    .map(|c| c.name)
-                    .collect::<Vec<_>>()
-            )
-        ),
-    ))
-}
-
-fn in_ticks(names: &[&str]) -> String {
-    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    names.join(", ")
 }
 
 fn shot(row: &Row<'_>, library: &Library) -> Result<Shot, Box<InputError>> {
@@ -258,7 +198,7 @@ fn shot(row: &Row<'_>, library: &Library) -> Result<Shot, Box<InputError>> {
         note: row.text("note").to_owned(),
     };
     if usable {
-        check_scenarios(&shot, row, library)?;
+        materials::check(&shot, row, library)?;
     }
     Ok(shot)
 }
@@ -362,75 +302,4 @@ fn properties(row: &Row<'_>) -> Result<Option<Properties>, Box<InputError>> {
         ultimate_strength: row.number("target_ultimate_mpa")?.map(|mpa| mpa * 1e6),
         brinell_hardness: row.number("target_brinell_hardness")?,
     }))
-}
-
-/// Makes sure that a case can be made of a shot with each of its records.
-fn check_scenarios(shot: &Shot, row: &Row<'_>, library: &Library) -> Result<(), Box<InputError>> {
-    let unknown = |column: &str, name: &str, help: &str| {
-        let near = library
-            .nearest(name)
-            .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
-        row.error(
-            column,
-            format!("no material is named `{}`", shorten(name)),
-            format!("{near}`percuss materials` lists all; {help}"),
-        )
-    };
-    for name in &shot.projectile_materials {
-        if library.find(name).is_none() {
-            return Err(unknown(
-                "projectile_material",
-                name,
-                "a file of materials can add your own",
-            ));
-        }
-    }
-    if let Struck::Body {
-        material,
-        properties: None,
-        ..
-    } = &shot.target
-        && library.find(material).is_none()
-    {
-        return Err(unknown(
-            "target_material",
-            material,
-            "or give its properties, target_density_kg_m3 and so on",
-        ));
-    }
-    for record in &shot.projectile_materials {
-        if let Err(findings) = shot.resolve(record, library) {
-            let Finding { key, message, help } = findings.into_iter().next().unwrap_or(Finding {
-                key: String::new(),
-                message: "no case can be made of this row".to_owned(),
-                help: String::new(),
-            });
-            return Err(row.error(column_of(&key), message, help));
-        }
-    }
-    Ok(())
-}
-
-/// The column that a key of a case comes from.
-fn column_of(key: &str) -> &'static str {
-    let columns = [
-        ("projectile.diameter", "diameter_mm"),
-        ("projectile.length", "length_mm"),
-        ("projectile.mass", "mass_g"),
-        ("projectile.nose", "nose_ratio"),
-        ("projectile.velocity", "impact_velocity_m_s"),
-        ("projectile.temperature", "temperature_k"),
-        ("target.thickness", "thickness_mm"),
-        ("density", "target_density_kg_m3"),
-        ("youngs_modulus", "target_youngs_modulus_gpa"),
-        ("poissons_ratio", "target_poissons_ratio"),
-        ("ultimate_strength", "target_ultimate_mpa"),
-        ("brinell_hardness", "target_brinell_hardness"),
-        ("compressive_strength", "target_concrete_strength_mpa"),
-        ("exponent", "target_hardening_exponent"),
-        ("yield_stress", "target_yield_mpa"),
-        ("strength", "target_yield_mpa"),
-    ];
-    let found = columns.iter().find(|(part, _)| key.contains(part));
-    found.map_or("id", |(_, column)| column)
 }
