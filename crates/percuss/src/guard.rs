@@ -175,9 +175,8 @@ impl Guard {
                 "; it does not see the back face of a plate"
             }
         );
-        let temperature = (!self.start_temperature).then(|| {
-            "the projectile is as warm as its material was when it was measured".to_owned()
-        });
+        let temperature =
+            (!self.start_temperature).then(|| "the projectile has room temperature".to_owned());
         let predicts = format!(
             "it gives {}",
             conjunction(self.predicts.iter().map(|quantity| quantity.in_words()))
