@@ -5,6 +5,7 @@ use clap::{Parser, Subcommand};
 use crate::{
     commands::{
         Compare, Completions, Converge, Man, Materials, Models, New, Reproduce, Run, Schema,
+        Validate,
     },
     failure::Failure,
 };
@@ -55,6 +56,7 @@ pub enum Command {
     Run(Run),
     Compare(Compare),
     Converge(Converge),
+    Validate(Validate),
     New(New),
     Models(Models),
     Materials(Materials),
@@ -70,6 +72,7 @@ impl Command {
             Self::Run(command) => command.run(),
             Self::Compare(command) => command.run(),
             Self::Converge(command) => command.run(),
+            Self::Validate(command) => command.run(),
             Self::New(command) => command.run(),
             Self::Models(command) => command.run(),
             Self::Materials(command) => command.run(),

@@ -114,6 +114,9 @@ impl Failure {
                     .is_some_and(|error| error.kind() == io::ErrorKind::NotFound);
                 let (reason, help) = match reason.split_once("; ") {
                     Some(parts) => parts,
+                    None if missing && path.extension().is_some_and(|end| end == "csv") => {
+                        (&**reason, "give the path of a CSV file that exists")
+                    }
                     None if missing => (&**reason, "`percuss new NAME` writes a starter case"),
                     None => (&**reason, ""),
                 };

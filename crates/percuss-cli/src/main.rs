@@ -10,6 +10,7 @@ mod result_table;
 mod run_folder;
 mod table;
 mod terminal;
+mod validation_table;
 
 use std::process::ExitCode;
 

@@ -144,11 +144,11 @@ impl LineChart {
         for (index, series) in self.series.iter().enumerate() {
             let color = self.color(index);
             for run in self.runs(series) {
-                if series.style != Style::Markers {
+                if !matches!(series.style, Style::Markers | Style::Cloud) {
                     plots.push(line(series, run.clone(), &color));
                 }
                 // A single point has no line to be seen by.
-                let marked = matches!(series.style, Style::Markers | Style::LineAndMarkers);
+                let marked = series.style.has_markers();
                 if marked || run.len() == 1 {
                     let shape = if marked {
                         marker(index, series)
@@ -213,9 +213,7 @@ impl LineChart {
         let series = self.series.iter().enumerate().map(|(index, series)| {
             let shape = match series.style {
                 Style::Line | Style::Dashed => LegendShape::Line,
-                Style::Markers | Style::LineAndMarkers => {
-                    LegendShape::Marker(marker(index, series))
-                }
+                _ => LegendShape::Marker(marker(index, series)),
             };
             let dashes = (series.style == Style::Dashed).then(|| DASHES.to_owned());
             (&series.name, self.color(index), shape, dashes)
@@ -286,9 +284,13 @@ fn markers(series: &Series, run: std::ops::Range<usize>, color: &str, shape: Mar
         .with_size(match series.style {
             // Where a line lies on another, so do their points.
             Style::Dashed => 2.5,
+            Style::Cloud => 3.0,
             _ => 4.0,
         })
         .with_marker(shape);
+    if series.style == Style::Cloud {
+        markers = markers.with_marker_opacity(0.55);
+    }
     // A line draws the error bars of its points itself.
     let errors = series.style == Style::Markers;
     markers.data = run

@@ -45,6 +45,7 @@ mod run_figures;
 mod series;
 mod stress_grid;
 mod time_figures;
+pub mod validation;
 
 pub use area_chart::AreaChart;
 pub use axis::Axis;

@@ -12,6 +12,15 @@ pub enum Style {
     LineAndMarkers,
     /// A marker at each point.
     Markers,
+    /// A small translucent marker at each point, for many of them.
+    Cloud,
+}
+
+impl Style {
+    /// Whether every point has a marker.
+    pub(crate) fn has_markers(self) -> bool {
+        matches!(self, Self::LineAndMarkers | Self::Markers | Self::Cloud)
+    }
 }
 
 /// A named set of points.

@@ -1,11 +1,14 @@
 //! What a model is made for, as data: projectile, target, nose, materials, and ranges of ratios and speed.
 
+mod temperature;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
     case::Nose,
     material::MaterialClass,
+    outcome::BandQuantity,
     regime::{ProjectileRegime, Regime, TargetKind},
     scenario::{Scenario, TargetBody},
     units::significant,
@@ -26,6 +29,10 @@ pub struct Guard {
     pub target_materials: &'static [MaterialClass],
     /// Ranges of ratios and speed.
     pub ranges: &'static [Range],
+    /// What it predicts, where the case has it.
+    pub predicts: &'static [BandQuantity],
+    /// Whether it follows a projectile that is not at the temperature its material was measured at.
+    pub start_temperature: bool,
     /// Whether it sees the back face of a plate: one that does not gives no depth close to the thickness.
     pub sees_back_face: bool,
     /// Cases for which it is the first choice.
@@ -46,6 +53,12 @@ impl Guard {
         projectile_materials: &[MaterialClass::Metal],
         target_materials: &[MaterialClass::Metal],
         ranges: &[],
+        predicts: &[
+            BandQuantity::DepthOfPenetration,
+            BandQuantity::ResidualVelocity,
+            BandQuantity::ProjectileFinalLength,
+        ],
+        start_temperature: false,
         sees_back_face: true,
         first_choice: &[],
         notes: &[],
@@ -70,6 +83,9 @@ impl Guard {
             ));
         }
         if let Some(reason) = self.wrong_material(scenario) {
+            return Verdict::Outside(reason);
+        }
+        if let Some(reason) = temperature::reason(self, scenario) {
             return Verdict::Outside(reason);
         }
         let neighbour = regime
@@ -159,6 +175,12 @@ impl Guard {
                 "; it does not see the back face of a plate"
             }
         );
+        let temperature =
+            (!self.start_temperature).then(|| "the projectile has room temperature".to_owned());
+        let predicts = format!(
+            "it gives {}",
+            conjunction(self.predicts.iter().map(|quantity| quantity.in_words()))
+        );
         let ranges = self.ranges.iter().map(|range| {
             let outside = match range.outside {
                 Outside::NotApplicable => "no number outside",
@@ -171,8 +193,9 @@ impl Guard {
                 range.because
             )
         });
-        [projectile, target]
+        [projectile, target, predicts]
             .into_iter()
+            .chain(temperature)
             .chain(ranges)
             .chain(self.notes.iter().map(|&note| note.to_owned()))
             .collect()
@@ -359,11 +382,20 @@ impl NoseKind {
 
 /// `a`, `a or b`, `a, b or c`.
 pub(crate) fn list(words: impl Iterator<Item = &'static str>) -> String {
+    joined(words, "or")
+}
+
+/// `a`, `a and b`, `a, b and c`.
+fn conjunction(words: impl Iterator<Item = &'static str>) -> String {
+    joined(words, "and")
+}
+
+fn joined(words: impl Iterator<Item = &'static str>, last_word: &str) -> String {
     let words: Vec<&str> = words.collect();
     match words.as_slice() {
         [] => "nothing".to_owned(),
         [one] => (*one).to_owned(),
-        [first @ .., last] => format!("{} or {last}", first.join(", ")),
+        [first @ .., last] => format!("{} {last_word} {last}", first.join(", ")),
     }
 }
 

@@ -31,8 +31,10 @@ pub mod model;
 pub mod outcome;
 pub mod regime;
 pub mod scenario;
+pub mod shots;
 pub mod summary;
 pub mod units;
+pub mod validate;
 
 pub use error::{Error, InputError, NumericalError};
 pub use scenario::Scenario;

@@ -77,6 +77,8 @@ pub struct Rod {
     pub diameter: f64,
     /// Shape of the nose.
     pub nose: Nose,
+    /// Temperature before the impact [K], where it is not the one that its material was measured at.
+    pub temperature: Option<f64>,
 }
 
 impl Rod {
@@ -218,6 +220,17 @@ fn resolve_rod(case: &Case, library: &Library, check: &mut Check<'_>) -> Option<
         );
         return None;
     }
+    let temperature = case.projectile.temperature;
+    if let (Some(temperature), Some(melting)) = (temperature, entry.material.melting_temperature)
+        && temperature.si() >= melting.si()
+    {
+        check.fail(
+            "projectile.temperature",
+            format!("{temperature} is at or above the melting temperature"),
+            format!("the material `{}` melts at {melting}", entry.id),
+        );
+        return None;
+    }
     let derived: (&str, String, bool) = if given == "length" {
         let inside = (limits::MASS.min..=limits::MASS.max).contains(&mass);
         ("mass", Quantity::to_string(&Mass::new(mass)), inside)
@@ -243,6 +256,7 @@ fn resolve_rod(case: &Case, library: &Library, check: &mut Check<'_>) -> Option<
         mass,
         diameter,
         nose,
+        temperature: temperature.map(Quantity::si),
     })
 }
 

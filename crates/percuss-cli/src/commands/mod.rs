@@ -10,6 +10,7 @@ mod new;
 mod reproduce;
 mod run;
 mod schema;
+mod validate;
 
 pub use compare::Compare;
 pub use completions::Completions;
@@ -21,3 +22,4 @@ pub use new::New;
 pub use reproduce::Reproduce;
 pub use run::Run;
 pub use schema::Schema;
+pub use validate::Validate;

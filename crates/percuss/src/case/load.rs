@@ -153,6 +153,26 @@ fn library_of(
 }
 
 impl Case {
+    /// The scenario of a case that comes from no text, its own materials included; otherwise what is wrong with it.
+    pub(crate) fn into_scenario(
+        self,
+        name: &str,
+        library: &Library,
+    ) -> Result<Scenario, Vec<Finding>> {
+        let mut findings = Vec::new();
+        self.check(&mut Check::new(&mut findings));
+        if !findings.is_empty() {
+            return Err(findings);
+        }
+        let mut own = None;
+        if !self.materials.is_empty() {
+            own.insert(library.clone()).add(&self.materials, name);
+        }
+        let library = own.as_ref().unwrap_or(library);
+        let scenario = Scenario::resolve(name, self, library, &mut Check::new(&mut findings));
+        scenario.filter(|_| findings.is_empty()).ok_or(findings)
+    }
+
     fn check(&self, check: &mut Check<'_>) {
         self.projectile.check(&mut check.within("projectile"));
         self.target.check(&mut check.within("target"));
@@ -173,7 +193,7 @@ impl Case {
 }
 
 /// Reads a text file of a sensible size, saying plainly what is wrong with it.
-fn read_text(path: &Path) -> Result<String, Error> {
+pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
     let fail = |reason: String, source| Error::Read {
         path: path.to_path_buf(),
         reason,

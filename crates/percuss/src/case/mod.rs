@@ -21,6 +21,7 @@ use crate::material::MaterialTable;
 
 pub(crate) use document::Document;
 pub use experiment::{Experiment, SourceKeys, Uncertainty};
+pub(crate) use load::read_text;
 pub use load::{MAX_FILE_BYTES, load, load_library, load_materials, load_str};
 pub use number_or_word::{ConstraintFactor, ErosionStrain};
 pub use options::*;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     check::{Check, limits},
-    units::{Length, Mass, Velocity},
+    units::{Length, Mass, Temperature, Velocity},
 };
 
 /// A straight rod with a nose.
@@ -27,6 +27,9 @@ pub struct Projectile {
     pub nose: Nose,
     /// Impact speed [m/s].
     pub velocity: Velocity,
+    /// Temperature before the impact [K]; `room_temperature` of the material when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<Temperature>,
 }
 
 /// Shape of a projectile's nose.
@@ -114,6 +117,9 @@ impl Projectile {
     pub(super) fn check(&self, check: &mut Check<'_>) {
         check.quantity("diameter", self.diameter, limits::DIAMETER);
         check.quantity("velocity", self.velocity, limits::IMPACT_SPEED);
+        if let Some(temperature) = self.temperature {
+            check.quantity("temperature", temperature, limits::TEMPERATURE);
+        }
         match (self.length, self.mass) {
             (Some(length), None) => check.quantity("length", length, limits::LENGTH),
             (None, Some(mass)) => check.quantity("mass", mass, limits::MASS),

@@ -41,14 +41,18 @@ pub(super) fn build(scenario: &Scenario) -> State {
     let options = &scenario.chain;
     let rod = &scenario.projectile;
     let rod_elements = options.projectile_elements();
-    let mut parts = vec![Part::new(
+    let mut projectile = Part::new(
         Role::Projectile,
         &rod.material,
         rod.mass / (rod.material.density.si() * rod.length),
         rod_elements,
         1.0,
         options,
-    )];
+    );
+    if let Some(temperature) = rod.temperature {
+        projectile.start_temperature = temperature;
+    }
+    let mut parts = vec![projectile];
     let mut lengths = vec![rod.length];
     let mut end = End::Free;
     match &scenario.target {

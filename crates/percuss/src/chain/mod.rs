@@ -47,6 +47,7 @@ impl Model for Chain {
         const {
             &Guard {
                 noses: &[NoseKind::Flat],
+                start_temperature: true,
                 first_choice: &[FirstChoice {
                     projectile: ProjectileRegime::Deforming,
                     targets: TargetKind::ALL,

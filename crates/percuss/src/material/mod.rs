@@ -170,6 +170,16 @@ pub enum Trust {
 }
 
 impl Trust {
+    /// The letter as files have it.
+    pub fn letter(self) -> &'static str {
+        match self {
+            Self::A => "A",
+            Self::B => "B",
+            Self::C => "C",
+            Self::User => "user",
+        }
+    }
+
     /// What the letter means, in words.
     pub fn meaning(self) -> &'static str {
         match self {

@@ -48,6 +48,7 @@ static REFERENCES: LazyLock<BTreeMap<String, Reference>> = LazyLock::new(|| {
             let authors = match authors.as_slice() {
                 [] => entry.key.clone(),
                 [one] => one.clone(),
+                [one, others] if others == "others" => format!("{one} et al."),
                 [one, two] => format!("{one} & {two}"),
                 [one, ..] => format!("{one} et al."),
             };

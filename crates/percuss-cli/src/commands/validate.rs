@@ -1,0 +1,266 @@
+use std::{
+    ops::ControlFlow,
+    path::{Path, PathBuf},
+    sync::Mutex,
+};
+
+use clap::{Args, builder::PossibleValuesParser};
+use percuss::{
+    case,
+    material::Library,
+    model::{self, MODELS, Model},
+    shots::{self, Kind, Shot},
+    validate::{self, Group, Grouping, PredictionRecord, Standing, Validation},
+};
+use percuss_report::validation::{self, Origin};
+use serde::Serialize;
+
+use crate::{
+    diagnostic,
+    failure::Failure,
+    progress::Progress,
+    run_folder::make_folder,
+    terminal::{self, bold},
+    validation_table,
+};
+
+/// What stands for the program's own shots in place of a file.
+const BUILT_IN: &str = "builtin";
+
+const LONG_ABOUT: &str = "\
+Compute every published shot with every model that applies to it, and say how
+far off each is: bias, root mean square, median and worst of the relative
+errors, by model, material record, source, target, projectile and regime.
+
+The program brings Taylor tests, ballistic limits of plates and a few single
+shots, each with the place where it was read. Suspect and repeated rows are
+computed and not counted.
+
+With --data FILE the shots of a CSV file take their place; `--data builtin`
+adds the program's own to them. Columns a file needs: id, kind,
+projectile_material, diameter_mm, length_mm or mass_g, impact_velocity_m_s,
+target_material, measured, unit.
+
+With --out DIR the report is written as one HTML page and as Markdown with its
+figures, and the numbers as CSV and Parquet.";
+
+const AFTER_HELP: &str = "\
+Examples:
+  percuss validate
+  percuss validate --model chain --kind taylor
+  percuss validate --out validation
+  percuss validate --data my-shots.csv --data builtin
+  percuss validate --json > validation.json
+
+Exit codes: 0 ok, 2 bad input, 4 a file could not be read or written";
+
+/// Compare models with published shots
+#[derive(Debug, Args)]
+#[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
+pub struct Validate {
+    /// Model to validate; all of them when not given
+    #[arg(long, value_name = "NAME")]
+    #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
+    model: Vec<String>,
+    /// CSV file of shots, or `builtin` for the program's own
+    #[arg(long, value_name = "FILE")]
+    data: Vec<PathBuf>,
+    /// File of materials that the shots name, beside the library
+    #[arg(long, value_name = "FILE.toml")]
+    materials: Vec<PathBuf>,
+    /// Kind of shot; all of them when not given
+    #[arg(long, value_name = "KIND")]
+    #[arg(value_parser = PossibleValuesParser::new(Kind::ALL.map(Kind::name)))]
+    kind: Vec<String>,
+    /// Write the report and its numbers to a folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print one JSON object and nothing else on standard output
+    #[arg(long)]
+    json: bool,
+    /// No table and no progress: one line of NAME=VALUE pairs a model and kind
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// What `--json` prints. The names are stable.
+#[derive(Serialize)]
+struct Record {
+    percuss_version: &'static str,
+    data: Vec<String>,
+    models: Vec<&'static str>,
+    shots: usize,
+    statistics: Vec<Group>,
+    coverage: Vec<CoverageRecord>,
+    predictions: Vec<PredictionRecord>,
+}
+
+#[derive(Serialize)]
+struct CoverageRecord {
+    model: &'static str,
+    kind: Kind,
+    shots: usize,
+    counted: usize,
+    commonest_reason: Option<String>,
+}
+
+impl Validate {
+    pub fn run(&self) -> Result<(), Failure> {
+        let models = self.models()?;
+        let mut library = Library::built_in().clone();
+        for path in &self.materials {
+            library.add(&case::load_materials(path)?, &path.display().to_string());
+        }
+        let (shots, files) = self.shots(&library)?;
+        if let Some(out) = &self.out {
+            make_folder(out)?;
+        }
+        let validation = self.compute(&models, &shots, &library)?;
+        let mut written = String::new();
+        if let Some(out) = &self.out {
+            let origin = Origin {
+                files: files.clone(),
+                command: self.command(),
+            };
+            let mut progress = Progress::new(!self.quiet);
+            progress.update(0.5, "drawing figures");
+            let paths = validation::write(out, &validation, &origin);
+            progress.finish();
+            for path in paths? {
+                written += &format!("  {}\n", path.display());
+            }
+        }
+        if self.json {
+            terminal::print_json(&record(&validation, files))?;
+            if !written.is_empty() && !self.quiet {
+                diagnostic::print(&format!("wrote\n{written}"));
+            }
+            return Ok(());
+        }
+        if self.quiet {
+            let lines: String = validate::statistics(&validation, Grouping::All)
+                .iter()
+                .map(validation_table::one_line)
+                .collect();
+            return terminal::print(&lines);
+        }
+        let mut text = validation_table::text(&validation, &files, self.model.len() == 1);
+        if !written.is_empty() {
+            text += &format!("\n{}\n{written}", bold("wrote"));
+        }
+        terminal::print(&text)
+    }
+
+    fn models(&self) -> Result<Vec<&'static dyn Model>, Failure> {
+        if self.model.is_empty() {
+            return Ok(MODELS.to_vec());
+        }
+        let chosen = self.model.iter().map(|name| model::model(name));
+        let mut models = chosen.collect::<Result<Vec<_>, _>>()?;
+        let mut seen = Vec::new();
+        models.retain(|model| {
+            let new = !seen.contains(&model.name());
+            seen.push(model.name());
+            new
+        });
+        Ok(models)
+    }
+
+    /// The shots and what they come from.
+    fn shots(&self, library: &Library) -> Result<(Vec<Shot>, Vec<String>), Failure> {
+        let built_in = [PathBuf::from(BUILT_IN)];
+        let data = if self.data.is_empty() {
+            &built_in[..]
+        } else {
+            &self.data
+        };
+        let (mut shots, mut files): (Vec<Shot>, Vec<String>) = (Vec::new(), Vec::new());
+        for path in data {
+            let (more, name) = if path.as_path() == Path::new(BUILT_IN) {
+                let own = format!("the program's own ({})", shots::built_in().len());
+                (shots::built_in().to_vec(), own)
+            } else {
+                let read = shots::read(path, library)?;
+                let name = format!("{} ({})", path.display(), read.len());
+                (read, name)
+            };
+            if let Some(twice) = more
+                .iter()
+                .find(|shot| shots.iter().any(|s| s.id == shot.id))
+            {
+                return Err(Failure::Usage {
+                    message: format!("two files of --data have a shot named `{}`", twice.id),
+                    help: "ids are unique over all files; rename it, or give one of the files only"
+                        .to_owned(),
+                });
+            }
+            shots.extend(more);
+            files.push(name);
+        }
+        if !self.kind.is_empty() {
+            shots.retain(|shot| self.kind.iter().any(|kind| kind == shot.kind.name()));
+        }
+        if shots.is_empty() {
+            return Err(Failure::Usage {
+                message: format!("the data hold no shot of kind {}", self.kind.join(" or ")),
+                help: "leave out --kind, or add `--data builtin`".to_owned(),
+            });
+        }
+        Ok((shots, files))
+    }
+
+    fn compute(
+        &self,
+        models: &[&'static dyn Model],
+        shots: &[Shot],
+        library: &Library,
+    ) -> Result<Validation, Failure> {
+        let progress = Mutex::new(Progress::new(!self.quiet));
+        let words = format!("{} shots, {} models", shots.len(), models.len());
+        let report = |fraction: f64| {
+            // A bar that another thread is drawing has no need of this one.
+            if let Ok(mut progress) = progress.try_lock() {
+                progress.update(fraction, &words);
+            }
+            ControlFlow::Continue(())
+        };
+        let validation = validate::run(models, shots, library, &report);
+        if let Ok(progress) = progress.into_inner() {
+            progress.finish();
+        }
+        Ok(validation?)
+    }
+
+    /// The command as a user would type it.
+    fn command(&self) -> String {
+        let mut words = vec!["percuss validate".to_owned()];
+        words.extend(self.model.iter().map(|name| format!("--model {name}")));
+        let path = |name: &str, path: &PathBuf| format!("{name} {}", path.display());
+        words.extend(self.data.iter().map(|file| path("--data", file)));
+        words.extend(self.materials.iter().map(|file| path("--materials", file)));
+        words.extend(self.kind.iter().map(|kind| format!("--kind {kind}")));
+        words.extend(self.out.iter().map(|out| path("--out", out)));
+        words.join(" ")
+    }
+}
+
+fn record(validation: &Validation, data: Vec<String>) -> Record {
+    Record {
+        percuss_version: env!("CARGO_PKG_VERSION"),
+        data,
+        models: validation.models.clone(),
+        shots: validation.shots.len(),
+        statistics: validation.all_statistics(),
+        coverage: validate::coverage(validation)
+            .into_iter()
+            .map(|coverage| CoverageRecord {
+                model: coverage.model,
+                kind: coverage.kind,
+                shots: coverage.total(),
+                counted: coverage.count(Standing::Counted),
+                commonest_reason: coverage.reason.map(|(reason, _)| reason),
+            })
+            .collect(),
+        predictions: validation.records(),
+    }
+}

@@ -1,0 +1,221 @@
+//! `percuss validate` on small files, and what it says of wrong ones.
+
+mod support;
+
+use std::{fs, path::Path};
+
+use serde_json::Value;
+use support::{Said, percuss};
+use tempfile::TempDir;
+
+const SHOTS: &str = "\
+id,source,kind,projectile_material,diameter_mm,length_mm,impact_velocity_m_s,target_material,measured,unit,flag
+one,my <lab> & co,taylor,copper ofhc-copper,7.62,23.47,183,rigid-wall,16.8,mm,
+two,my <lab> & co,taylor,copper,7.62,23.47,123,rigid-wall,19.6,mm,
+odd,my <lab> & co,taylor,copper,7.62,23.47,123,rigid-wall,5,mm,a | slip
+";
+
+fn folder_with(shots: &str) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("shots.csv"), shots).unwrap();
+    folder
+}
+
+fn ok(folder: &Path, arguments: &[&str]) -> String {
+    let said = percuss(
+        folder,
+        [
+            &["validate", "--data", "shots.csv", "--model", "chain"],
+            arguments,
+        ]
+        .concat(),
+    );
+    assert_eq!((said.code, said.stderr.as_str()), (0, ""), "{arguments:?}");
+    said.stdout
+}
+
+#[test]
+fn a_users_shots_take_the_place_of_the_programs() {
+    let folder = folder_with(SHOTS);
+    let text = ok(folder.path(), &[]);
+    for part in [
+        "data: shots.csv (3)\n",
+        "not counted: 1 suspect and 0 repeated rows\n",
+        "final lengths of Taylor rods (--kind taylor)\n",
+        "copper ofhc-copper; copper",
+        "by source",
+    ] {
+        assert!(text.contains(part), "{part:?} is not in:\n{text}");
+    }
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
+    let line = ok(folder.path(), &["--quiet"]);
+    assert!(
+        line.starts_with("model=chain kind=taylor count=2 bias=") && line.lines().count() == 1,
+        "{line}"
+    );
+}
+
+#[test]
+fn json_holds_statistics_and_predictions() {
+    let folder = folder_with(SHOTS);
+    let json: Value = serde_json::from_str(&ok(folder.path(), &["--json"])).unwrap();
+    assert_eq!(json["shots"], 3);
+    let predictions = json["predictions"].as_array().unwrap();
+    assert_eq!(predictions.len(), 4);
+    assert_eq!(predictions[3]["standing"], "flagged");
+    let errors: Vec<f64> = [0, 2]
+        .map(|i: usize| predictions[i]["relative_error"].as_f64().unwrap())
+        .to_vec();
+    let all = &json["statistics"][0];
+    assert_eq!(
+        (&all["grouping"], &all["count"]),
+        (&"all".into(), &2.into())
+    );
+    let mean = (errors[0] + errors[1]) / 2.0;
+    assert!(
+        (all["bias"].as_f64().unwrap() - mean).abs() < 1e-12,
+        "{all}"
+    );
+    assert!(errors.iter().all(|error| error.abs() < 0.03), "{errors:?}");
+}
+
+#[test]
+fn the_report_is_written_whole_and_escaped() {
+    let folder = folder_with(&SHOTS.replace("two,", "<i>two</i>,"));
+    ok(folder.path(), &["--out", "report"]);
+    let read = |name: &str| fs::read_to_string(folder.path().join("report").join(name)).unwrap();
+    let html = read("validation.html");
+    assert!(
+        html.contains("my &lt;lab&gt; &amp; co")
+            && !html.contains("<lab>")
+            && !html.contains("<i>")
+    );
+    for part in [
+        "<!doctype html>",
+        "prefers-color-scheme:dark",
+        "<h2>Every shot</h2>",
+        "What is blind and what is not",
+    ] {
+        assert!(html.contains(part), "{part}");
+    }
+    assert!(
+        !html.contains("<script") && !html.contains("src="),
+        "not self-contained"
+    );
+    let markdown = read("validation.md");
+    assert!(
+        markdown.contains(r"a \| slip") && markdown.contains("my &lt;lab&gt;"),
+        "{markdown}"
+    );
+    assert_eq!(read("predictions.csv").lines().count(), 5);
+    for name in ["predictions.parquet", "statistics.parquet"] {
+        let bytes = fs::read(folder.path().join("report").join(name)).unwrap();
+        assert!(
+            bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn the_programs_own_shots_can_be_added() {
+    let folder = folder_with(
+        &SHOTS
+            .replace("taylor", "depth")
+            .replace("rigid-wall,", "aluminium-2024-t351,")
+            .replace("measured,unit", "thickness_mm,measured,unit")
+            .replace("t351,", "t351,semi-infinite,"),
+    );
+    let text = ok(folder.path(), &["--data", "builtin", "--kind", "depth"]);
+    assert!(
+        text.contains("data: shots.csv (3), the program's own (1132)\n"),
+        "{text}"
+    );
+    assert!(
+        text.contains("FORR94-14") || text.contains("of 5 counted"),
+        "{text}"
+    );
+}
+
+fn refused(shots: &str, arguments: &[&str]) -> String {
+    let folder = folder_with(shots);
+    let Said {
+        code,
+        stdout,
+        stderr,
+    } = percuss(folder.path(), [&["validate"], arguments].concat());
+    assert_eq!((code, stdout.as_str()), (2, ""), "{stderr}");
+    assert!(
+        stderr.starts_with("error: ") && stderr.len() < 2000,
+        "{stderr}"
+    );
+    stderr
+}
+
+#[test]
+fn wrong_files_are_refused_with_place_and_remedy() {
+    let file = ["--data", "shots.csv"];
+    for (shots, parts) in [
+        (
+            SHOTS.replace("diameter_mm,", "").replace(",7.62", ""),
+            ["the first line lacks `diameter_mm`", "required are `id`"],
+        ),
+        (
+            SHOTS.replace(",123,rigid-wall,19", ",fast,rigid-wall,19"),
+            ["`fast` is no number", "shots.csv:3:"],
+        ),
+        (
+            SHOTS.replace("two,my <lab> & co,taylor", "two,my <lab> & co,tailor"),
+            ["`tailor` is no kind", "did you mean `taylor`?"],
+        ),
+        (
+            SHOTS.replace(
+                "two,my <lab> & co,taylor,copper",
+                "two,my <lab> & co,taylor,coper",
+            ),
+            ["no material is named `coper`", "shots.csv:3:"],
+        ),
+        (
+            SHOTS.replace("two,", "one,"),
+            ["a second shot is named `one`", "shots.csv:3:"],
+        ),
+        (
+            SHOTS.replace("id,", "ID,"),
+            ["no column is named `ID`", "did you mean `id`?"],
+        ),
+        (String::new(), ["the first line lacks", "help: "]),
+    ] {
+        let stderr = refused(&shots, &file);
+        for part in parts {
+            assert!(stderr.contains(part), "{part:?} is not in:\n{stderr}");
+        }
+    }
+}
+
+#[test]
+fn wrong_arguments_are_refused() {
+    assert!(refused(SHOTS, &["--model", "chian"]).contains("chain"));
+    assert!(refused(SHOTS, &["--kind", "tailor"]).contains("taylor"));
+    let empty = refused(SHOTS, &["--data", "shots.csv", "--kind", "depth"]);
+    assert!(empty.contains("no shot of kind depth"), "{empty}");
+    let twice = refused(SHOTS, &["--data", "shots.csv", "--data", "shots.csv"]);
+    assert!(twice.contains("a shot named `one`"), "{twice}");
+    let folder = folder_with(SHOTS);
+    let missing = percuss(folder.path(), ["validate", "--data", "none.csv"]);
+    assert_eq!(missing.code, 4);
+    assert!(
+        missing
+            .stderr
+            .contains("cannot read `none.csv`: there is no such file"),
+        "{}",
+        missing.stderr
+    );
+    assert!(
+        !missing.stderr.contains("percuss new"),
+        "a file of shots is no case: {}",
+        missing.stderr
+    );
+}

@@ -1,0 +1,213 @@
+//! What the validation report says, in which order.
+
+use percuss::{
+    shots::{Kind, Shot, Split},
+    validate::{Grouping, Standing, Validation, statistics},
+};
+
+use super::{
+    Origin,
+    document::{Block, Table},
+    figures::Drawn,
+    tables,
+};
+
+pub(super) fn page<'a>(
+    validation: &Validation,
+    origin: &Origin,
+    figures: &'a [Drawn],
+) -> Vec<Block<'a>> {
+    let mut page = vec![
+        Block::Title("Validation on published shots".to_owned()),
+        Block::Text(format!(
+            "Every model of percuss {} on every shot that it applies to. Shots: {}. Written by: {}",
+            env!("CARGO_PKG_VERSION"),
+            origin.files.join(", "),
+            origin.command
+        )),
+        Block::List(counts(validation)),
+        Block::Heading("How to read the numbers".to_owned()),
+        Block::List(
+            [
+                "The error of a prediction is predicted over measured, less 1: positive where the model gives too much.",
+                "Bias is the mean error, RMS the root of its mean square, median the median magnitude; the worst error comes with its shot.",
+                "A shot counts once, with the main material record of its projectile. Rival records stand apart in the tables by material record.",
+                "Suspect rows, repeated rows and projectiles that were stopped (measured 0) are computed, listed and not counted.",
+                "predictions.csv and predictions.parquet hold every number with the place where its shot was read.",
+            ]
+            .map(str::to_owned)
+            .to_vec(),
+        ),
+    ];
+    for kind in Kind::ALL {
+        if validation.shots.iter().any(|shot| shot.kind == kind) {
+            page.extend(section(validation, kind, figures));
+        }
+    }
+    page.extend(blind(validation));
+    page.push(Block::Heading("Suspect rows".to_owned()));
+    let suspects = tables::suspects(validation);
+    if suspects.rows.is_empty() {
+        page.push(Block::Text("There are none.".to_owned()));
+    } else {
+        page.push(Block::Text(
+            "Far from their series or out of order with a neighbour. No statistic counts them."
+                .to_owned(),
+        ));
+        page.push(Block::Table(suspects));
+    }
+    page.push(Block::Heading("Sources".to_owned()));
+    page.push(Block::Table(tables::sources(validation)));
+    page.push(Block::WebOnly(every_shot(validation)));
+    page
+}
+
+fn counts(validation: &Validation) -> Vec<String> {
+    let shots = &validation.shots;
+    let count = |of: &dyn Fn(&Shot) -> bool| shots.iter().filter(|&shot| of(shot)).count();
+    let kinds: Vec<String> = Kind::ALL
+        .into_iter()
+        .map(|kind| (kind, count(&|shot| shot.kind == kind)))
+        .filter(|(_, count)| *count > 0)
+        .map(|(kind, count)| format!("{count} {}", kind.in_words()))
+        .collect();
+    vec![
+        format!("{} shots: {}", shots.len(), kinds.join(", ")),
+        format!(
+            "{} repeat others, {} are suspect, of {} no case can be made, {} struck at an angle",
+            count(&|shot| shot.duplicate_of.is_some()),
+            count(&|shot| shot.flag.is_some()),
+            count(&|shot| shot.unusable.is_some()),
+            count(&|shot| shot.unusable.is_none() && shot.obliquity_deg != 0.0)
+        ),
+        format!("models: {}", validation.models.join(", ")),
+    ]
+}
+
+fn heading(kind: Kind) -> String {
+    let words = kind.in_words();
+    let first = words.chars().take(1).flat_map(char::to_uppercase);
+    first.chain(words.chars().skip(1)).collect()
+}
+
+fn section<'a>(validation: &Validation, kind: Kind, figures: &'a [Drawn]) -> Vec<Block<'a>> {
+    let mut blocks = vec![Block::Heading(heading(kind))];
+    let table = tables::models(validation, kind);
+    if table.rows.is_empty() {
+        blocks.push(Block::Text("No prediction is counted.".to_owned()));
+    } else {
+        blocks.push(Block::Table(table));
+        blocks.extend(breakdown(validation, kind));
+    }
+    blocks.push(Block::Folded(
+        "What became of the shots, and why".to_owned(),
+        vec![Block::Table(tables::coverage(validation, kind))],
+    ));
+    for &model in &validation.models {
+        let of_model = figures
+            .iter()
+            .filter(|figure| figure.kind == kind && figure.model == model);
+        blocks.extend(of_model.map(|figure| Block::Figure(&figure.drawing)));
+    }
+    blocks
+}
+
+/// Tables by one more property: the most telling ones open, the others folded.
+fn breakdown<'a>(validation: &Validation, kind: Kind) -> Vec<Block<'a>> {
+    let groupings: &[Grouping] = match kind {
+        Kind::Taylor => &[
+            Grouping::Projectile,
+            Grouping::RecordAndSource,
+            Grouping::Record,
+            Grouping::Source,
+            Grouping::Split,
+        ],
+        _ => &[
+            Grouping::Projectile,
+            Grouping::Target,
+            Grouping::Source,
+            Grouping::Regime,
+            Grouping::Split,
+        ],
+    };
+    let mut blocks = Vec::new();
+    for (i, &grouping) in groupings.iter().enumerate() {
+        let title = format!("By {}", grouping.in_words());
+        let table = Block::Table(tables::groups(validation, kind, grouping));
+        if i == 0 || grouping == Grouping::RecordAndSource {
+            blocks.extend([Block::Subheading(title), table]);
+        } else {
+            blocks.push(Block::Folded(title, vec![table]));
+        }
+    }
+    blocks
+}
+
+fn blind<'a>(validation: &Validation) -> Vec<Block<'a>> {
+    let mut table = Table::new(&["kind", "model", "split", "#n", "#bias [%]", "#RMS [%]"]);
+    for group in statistics(validation, Grouping::Split) {
+        table.rows.push(vec![
+            heading(group.kind),
+            group.model.to_owned(),
+            group.value,
+            group.errors.count.to_string(),
+            tables::percent(group.errors.bias),
+            tables::percent(group.errors.rms),
+        ]);
+    }
+    let fitted = validation
+        .shots
+        .iter()
+        .filter(|shot| shot.split == Split::Calibration);
+    let mut sources: Vec<&str> = fitted.map(|shot| shot.source.as_str()).collect();
+    sources.sort_unstable();
+    sources.dedup();
+    let fitted = match sources.as_slice() {
+        [] => "none".to_owned(),
+        sources => sources.join(", "),
+    };
+    let counted = |standing| {
+        validation
+            .predictions
+            .iter()
+            .filter(|p| p.standing == standing)
+            .count()
+    };
+    vec![
+        Block::Heading("What is blind and what is not".to_owned()),
+        Block::List(vec![
+            "The split is by source and stored with the data. A source is blind when no constant that the program ships was fitted to it. \
+             Nothing is fitted here: models have published constants, records come from the library."
+                .to_owned(),
+            format!(
+                "Calibration, because a constant of the library may have been fitted to it: {fitted}. Its rows are in the tables and \
+                 stand apart in the table below."
+            ),
+            "Properties of a plate (yield stress, hardening) come with its row of data: they are measured or handbook values, not fitted to limits."
+                .to_owned(),
+            "A ballistic limit is computed for an impact at the measured limit, as the regime is judged there; a test makes sure that no \
+             limit depends on that speed."
+                .to_owned(),
+            format!(
+                "Predictions counted: {}; failed: {}.",
+                counted(Standing::Counted),
+                counted(Standing::Failed)
+            ),
+        ]),
+        Block::Table(table),
+    ]
+}
+
+fn every_shot<'a>(validation: &Validation) -> Vec<Block<'a>> {
+    let mut blocks = vec![Block::Heading("Every shot".to_owned())];
+    for kind in Kind::ALL {
+        let table = tables::shots(validation, kind);
+        if !table.rows.is_empty() {
+            blocks.push(Block::Folded(
+                format!("{} ({} lines)", heading(kind), table.rows.len()),
+                vec![Block::Table(table)],
+            ));
+        }
+    }
+    blocks
+}

@@ -1,0 +1,171 @@
+//! Parity plots and residuals, one of each a kind of shot and model.
+
+use std::collections::BTreeMap;
+
+use percuss::{
+    shots::Kind,
+    validate::{Prediction, Standing, Validation},
+};
+
+use crate::{Axis, Figure, LineChart, Mark, Series, Style, palette};
+
+/// Fewest points that are worth a figure.
+const FEWEST: usize = 3;
+/// Half width of the band that is drawn around perfect agreement.
+const BAND: f64 = 0.1;
+
+/// A figure and what it is of.
+pub(super) struct Drawn {
+    pub(super) kind: Kind,
+    pub(super) model: &'static str,
+    pub(super) drawing: Figure,
+}
+
+/// Draws all figures, in the order of kinds and models.
+pub(super) fn draw(validation: &Validation) -> Vec<Drawn> {
+    let mut drawn = Vec::new();
+    for kind in Kind::ALL {
+        for &model in &validation.models {
+            let groups = groups(validation, kind, model);
+            let counted: usize = groups
+                .iter()
+                .filter(|(name, _)| name.as_str() != FLAGGED)
+                .map(|(_, group)| group.len())
+                .sum();
+            if counted < FEWEST {
+                continue;
+            }
+            for drawing in [
+                parity(validation, kind, model, &groups),
+                residuals(validation, kind, model, &groups),
+            ] {
+                drawn.push(Drawn {
+                    kind,
+                    model,
+                    drawing,
+                });
+            }
+        }
+    }
+    drawn
+}
+
+/// Begins with a space to be drawn first, below the others.
+const FLAGGED: &str = " suspect, not counted";
+
+type Groups<'a> = BTreeMap<String, Vec<&'a Prediction>>;
+
+/// Predictions of a model by what tells most about them: the material record of a Taylor rod, otherwise the projectile.
+fn groups<'a>(validation: &'a Validation, kind: Kind, model: &str) -> Groups<'a> {
+    let mut groups = Groups::new();
+    for prediction in &validation.predictions {
+        let shot = validation.shot(prediction);
+        let name = match prediction.standing {
+            Standing::Flagged => FLAGGED.to_owned(),
+            Standing::Counted if kind == Kind::Taylor => prediction.record.clone(),
+            Standing::Counted if prediction.main_record => shot.projectile_class.clone(),
+            _ => continue,
+        };
+        if shot.kind == kind && prediction.model == model {
+            groups.entry(name).or_default().push(prediction);
+        }
+    }
+    groups
+}
+
+fn series<'a>(groups: &Groups<'a>, point: impl Fn(&Prediction) -> (f64, f64)) -> Vec<Series> {
+    let series = groups.iter().map(|(name, group)| {
+        let points = group.iter().map(|prediction| point(prediction));
+        let series = Series::new(name.trim(), points).style(Style::Cloud);
+        match name.as_str() {
+            FLAGGED => series.color(palette::NO_VALUE),
+            _ => series,
+        }
+    });
+    series.collect()
+}
+
+fn what(kind: Kind) -> (&'static str, &'static str) {
+    match kind {
+        Kind::Taylor => ("taylor", "Final length of Taylor rods"),
+        Kind::BallisticLimit => ("ballistic-limit", "Ballistic limit"),
+        Kind::Depth => ("depth", "Depth of penetration"),
+        Kind::ResidualVelocity => ("residual-velocity", "Residual velocity"),
+    }
+}
+
+/// What makes shots of different sizes comparable: the length of a Taylor rod; nothing else.
+fn scale(validation: &Validation, prediction: &Prediction) -> f64 {
+    let shot = validation.shot(prediction);
+    match (shot.kind, shot.length) {
+        (Kind::Taylor, Some(length)) => shot.kind.shown(length),
+        _ => 1.0,
+    }
+}
+
+fn parity(validation: &Validation, kind: Kind, model: &str, groups: &Groups<'_>) -> Figure {
+    let (stem, title) = what(kind);
+    let unit = match kind {
+        Kind::Taylor => "over the length before".to_owned(),
+        _ => format!("[{}]", kind.unit()),
+    };
+    let point = |p: &Prediction| {
+        let scale = scale(validation, p);
+        (p.measured / scale, p.predicted.unwrap_or(f64::NAN) / scale)
+    };
+    let points: Vec<(f64, f64)> = groups.values().flatten().map(|p| point(p)).collect();
+    let values = points.iter().flat_map(|(x, y)| [*x, *y]);
+    let (low, high) = values
+        .filter(|value| value.is_finite())
+        .fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
+            (low.min(value), high.max(value))
+        });
+    let margin = 0.04 * (high - low).max(0.01 * high);
+    let (low, high) = ((low - margin).max(0.0), high + margin);
+    let axis = |label: String| Axis::new(label).range(low, high);
+    let line = |factor: f64, style| {
+        // From border to border of the square, whichever comes first.
+        let ends = [low.max(low / factor), high.min(high / factor)];
+        Series::new("", ends.map(|x| (x, factor * x)))
+            .style(style)
+            .width(1.0)
+            .color(palette::MARK)
+    };
+    let chart = LineChart::new(
+        format!("parity-{stem}-{}", model.replace('_', "-")),
+        format!("{title}: {model} against measurement"),
+        axis(format!("measured {unit}")),
+        axis(format!("predicted {unit}")),
+    )
+    .caption("dashed: 10 % above and below")
+    .series(line(1.0, Style::Line))
+    .series(line(1.0 + BAND, Style::Dashed))
+    .series(line(1.0 - BAND, Style::Dashed));
+    let chart = series(groups, point)
+        .into_iter()
+        .fold(chart, LineChart::series);
+    chart.draw()
+}
+
+fn residuals(validation: &Validation, kind: Kind, model: &str, groups: &Groups<'_>) -> Figure {
+    let (stem, title) = what(kind);
+    let chart = LineChart::new(
+        format!("residuals-{stem}-{}", model.replace('_', "-")),
+        format!("{title}: error of {model} against impact speed"),
+        Axis::new("impact speed [m/s]"),
+        Axis::new("predicted over measured, less 1 [%]"),
+    )
+    .mark(Mark::horizontal("", 0.0))
+    .mark(Mark::horizontal("", 100.0 * BAND))
+    .mark(Mark::horizontal("", -100.0 * BAND));
+    let point = |p: &Prediction| {
+        let error = p.relative_error.unwrap_or(f64::NAN);
+        (validation.shot(p).impact_velocity, 100.0 * error)
+    };
+    let chart = series(groups, point)
+        .into_iter()
+        .fold(chart, LineChart::series);
+    chart
+        .caption("lines: agreement, 10 % above and below")
+        .draw()
+}

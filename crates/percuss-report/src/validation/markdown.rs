@@ -1,0 +1,90 @@
+//! A page as Markdown.
+
+use super::document::{Block, Table};
+
+pub(super) fn render(page: &[Block<'_>]) -> String {
+    let parts: Vec<String> = page.iter().filter_map(block).collect();
+    parts.join("\n\n") + "\n"
+}
+
+fn block(block: &Block<'_>) -> Option<String> {
+    Some(match block {
+        Block::Title(text) => format!("# {}", escape(text)),
+        Block::Heading(text) => format!("## {}", escape(text)),
+        Block::Subheading(text) => format!("### {}", escape(text)),
+        Block::Text(text) => escape(text),
+        Block::List(items) => {
+            let items: Vec<String> = items
+                .iter()
+                .map(|item| format!("- {}", escape(item)))
+                .collect();
+            items.join("\n")
+        }
+        Block::Table(table) => self::table(table),
+        Block::Figure(figure) => format!(
+            "![{0}]({1}.png)\n\n*{0}*",
+            escape(&figure.title),
+            figure.name
+        ),
+        Block::Folded(summary, blocks) => format!(
+            "<details>\n<summary>{}</summary>\n\n{}\n</details>",
+            super::html::escape(summary),
+            render(blocks)
+        ),
+        Block::WebOnly(_) => return None,
+    })
+}
+
+fn table(table: &Table) -> String {
+    let row = |fields: Vec<String>| format!("| {} |\n", fields.join(" | "));
+    let mut text = row(table.columns().map(|(name, _)| escape(name)).collect());
+    text += "|";
+    for (_, number) in table.columns() {
+        text += if number { "---:|" } else { "---|" };
+    }
+    text.push('\n');
+    for fields in &table.rows {
+        text += &row(fields.iter().map(|field| escape(field)).collect());
+    }
+    text.trim_end().to_owned()
+}
+
+/// Text that Markdown shows as it stands.
+fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    let mut last = ' ';
+    let mut chars = text.chars().peekable();
+    while let Some(c) = chars.next() {
+        let inside_word =
+            last.is_alphanumeric() && chars.peek().is_some_and(|next| next.is_alphanumeric());
+        match c {
+            '_' if inside_word => escaped.push(c),
+            '\\' | '`' | '*' | '_' | '[' | ']' | '|' | '~' | '$' => escaped.extend(['\\', c]),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '&' => escaped.push_str("&amp;"),
+            c if c.is_control() => escaped.push(' '),
+            c => escaped.push(c),
+        }
+        last = c;
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_of_a_text_becomes_markup() {
+        assert_eq!(
+            escape("a|b *c* <d> ballistic_limit _e"),
+            r"a\|b \*c\* &lt;d&gt; ballistic_limit \_e"
+        );
+        let page = [Block::Table(Table {
+            head: vec!["a".to_owned(), "#n".to_owned()],
+            rows: vec![vec!["x|y".to_owned(), "1\n2".to_owned()]],
+        })];
+        assert_eq!(render(&page), "| a | n |\n|---|---:|\n| x\\|y | 1 2 |\n");
+    }
+}

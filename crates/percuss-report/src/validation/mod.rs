@@ -1,0 +1,60 @@
+//! The validation report: tables, figures and numbers of a [`Validation`], as HTML, Markdown, CSV and Parquet.
+
+mod content;
+mod document;
+mod figures;
+mod html;
+mod markdown;
+mod numbers;
+mod tables;
+
+use std::path::{Path, PathBuf};
+
+use percuss::validate::Validation;
+
+use crate::{ReportError, replace_file::replace_file};
+
+/// What a report says of itself: where its shots come from.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Origin {
+    /// Files of shots, or what stands for the built-in ones.
+    pub files: Vec<String>,
+    /// The command that made the report.
+    pub command: String,
+}
+
+/// Writes the report to a folder, which is made if it does not exist. Files of these names are replaced:
+///
+/// - `validation.html`: the whole report in one file, with every shot and its citation;
+/// - `validation.md` with one PNG a figure: the same without the single shots;
+/// - `predictions.csv`, `predictions.parquet`: a row a shot, material record and model, with citation;
+/// - `statistics.csv`, `statistics.parquet`: a row a group.
+///
+/// # Errors
+/// [`ReportError::Write`]; [`ReportError::Figure`]; [`ReportError::Table`].
+pub fn write(
+    folder: &Path,
+    validation: &Validation,
+    origin: &Origin,
+) -> Result<Vec<PathBuf>, ReportError> {
+    let figures = figures::draw(validation);
+    let page = content::page(validation, origin, &figures);
+    let mut written = vec![
+        replace_file(folder, "validation.html", html::render(&page).as_bytes())?,
+        replace_file(folder, "validation.md", markdown::render(&page).as_bytes())?,
+    ];
+    for figure in figures.iter().map(|figure| &figure.drawing) {
+        let name = format!("{}.png", figure.name);
+        written.push(replace_file(folder, &name, &figure.png()?)?);
+    }
+    for (name, content) in numbers::files(validation)? {
+        written.push(replace_file(folder, name, &content)?);
+    }
+    Ok(written)
+}
+
+/// The report as one self-contained HTML page.
+pub fn html(validation: &Validation, origin: &Origin) -> String {
+    let figures = figures::draw(validation);
+    html::render(&content::page(validation, origin, &figures))
+}

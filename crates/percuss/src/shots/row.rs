@@ -1,0 +1,149 @@
+//! One row of a file of shots: its fields by name, and errors that name their place.
+
+use std::ops::Range;
+
+use crate::{
+    error::{InputError, nearest},
+    units::shorten,
+};
+
+/// A file of shots and which column stands where.
+pub(super) struct Table<'a> {
+    pub(super) file: &'a str,
+    pub(super) text: &'a str,
+    pub(super) header: Vec<String>,
+}
+
+/// A row of it.
+pub(super) struct Row<'a> {
+    pub(super) table: &'a Table<'a>,
+    pub(super) record: csv::StringRecord,
+}
+
+impl Table<'_> {
+    pub(super) fn error(
+        &self,
+        span: Range<usize>,
+        column: &str,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Box<InputError> {
+        Box::new(InputError {
+            file: self.file.to_owned(),
+            text: self.text.to_owned(),
+            span,
+            key: column.to_owned(),
+            message: message.into(),
+            help: help.into(),
+        })
+    }
+}
+
+impl Row<'_> {
+    /// Text of a field; empty where the file lacks the column.
+    pub(super) fn text(&self, column: &str) -> &str {
+        let at = self.table.header.iter().position(|name| name == column);
+        at.and_then(|at| self.record.get(at)).map_or("", str::trim)
+    }
+
+    /// Text of a field, unless it is empty.
+    pub(super) fn optional(&self, column: &str) -> Option<String> {
+        Some(self.text(column).to_owned()).filter(|text| !text.is_empty())
+    }
+
+    /// Text of a field that must not be empty.
+    pub(super) fn required(&self, column: &str) -> Result<String, Box<InputError>> {
+        self.optional(column)
+            .ok_or_else(|| self.error(column, format!("`{column}` is empty"), "write its value"))
+    }
+
+    /// A number, unless the field is empty.
+    pub(super) fn number(&self, column: &str) -> Result<Option<f64>, Box<InputError>> {
+        let text = self.text(column);
+        if text.is_empty() {
+            return Ok(None);
+        }
+        match text.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(Some(number)),
+            _ => Err(self.error(
+                column,
+                format!("`{}` is no number", shorten(text)),
+                "write a plain number such as 12.7; its unit is in the name of the column",
+            )),
+        }
+    }
+
+    /// A number that must be there.
+    pub(super) fn required_number(&self, column: &str) -> Result<f64, Box<InputError>> {
+        self.required(column)?;
+        match self.number(column)? {
+            Some(number) => Ok(number),
+            None => Err(self.error(column, "a number is due here", "write its value")),
+        }
+    }
+
+    /// One of several words; `None` when the field is empty.
+    pub(super) fn word<T: Copy>(
+        &self,
+        column: &str,
+        words: &[(&'static str, T)],
+    ) -> Result<Option<T>, Box<InputError>> {
+        let text = self.text(column);
+        if text.is_empty() {
+            return Ok(None);
+        }
+        if let Some((_, value)) = words.iter().find(|(word, _)| *word == text) {
+            return Ok(Some(*value));
+        }
+        let names: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        let near = nearest(text, names.iter().copied())
+            .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+        Err(self.error(
+            column,
+            format!("`{}` is no {}", shorten(text), column.replace('_', " ")),
+            format!("{near}allowed: {}", names.join(", ")),
+        ))
+    }
+
+    /// An error at a field; at the start of the row where the file lacks the column.
+    pub(super) fn error(
+        &self,
+        column: &str,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Box<InputError> {
+        self.table.error(self.span(column), column, message, help)
+    }
+
+    /// Bytes of a field in the text of the file.
+    fn span(&self, column: &str) -> Range<usize> {
+        let start = self
+            .record
+            .position()
+            .map_or(0, |position| position.byte() as usize);
+        let start = start.min(self.table.text.len());
+        let at = self.table.header.iter().position(|name| name == column);
+        field_span(self.table.text, start, at.unwrap_or(0))
+    }
+}
+
+/// Bytes of field `index` of the record that begins at `start`, its quotes included; at least one byte where there is one.
+pub(super) fn field_span(text: &str, start: usize, index: usize) -> Range<usize> {
+    // The reader counts line breaks that it skips to the record that follows.
+    let skipped = text[start..].find(|c| c != '\n' && c != '\r').unwrap_or(0);
+    let (mut begin, mut field, mut quoted) = (start + skipped, 0, false);
+    for (at, byte) in text.bytes().enumerate().skip(begin) {
+        match byte {
+            b'"' => quoted = !quoted,
+            b',' | b'\n' | b'\r' if !quoted => {
+                if field == index || byte != b',' {
+                    return begin..at.max(begin + 1);
+                }
+                field += 1;
+                begin = at + 1;
+            }
+            _ => {}
+        }
+    }
+    begin..text.len().max(begin)
+}

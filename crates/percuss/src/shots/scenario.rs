@@ -1,0 +1,180 @@
+//! From a shot to a case that models compute.
+
+use super::{Properties, Shot, Strength, Struck};
+use crate::{
+    Scenario,
+    case::{BackFace, Case, ChainOptions, Projectile, Target, Thickness},
+    check::Finding,
+    material::{self, Library, Material, MaterialTable},
+    units::{Density, Length, Mass, Pressure, Temperature, Velocity, significant},
+};
+
+/// Difference from the temperature at which a material was measured that is not worth telling [K]: all laboratories are rooms.
+const ROOM: f64 = 20.0;
+
+impl Shot {
+    /// The shot as a case, with one of its material records for the projectile.
+    ///
+    /// A ballistic limit becomes an impact at the limit. A plate that brought its properties has the strength law
+    /// `σ = Y (E ε/Y)ⁿ`; its back face is free. The projectile has a temperature of its own where it differs by more than 20 K from
+    /// the one at which its material was measured.
+    ///
+    /// # Errors
+    /// Why no case can be made of it, in words.
+    pub fn scenario(&self, record: &str, library: &Library) -> Result<Scenario, String> {
+        if let Some(reason) = self.no_case() {
+            return Err(reason);
+        }
+        self.resolve(record, library).map_err(|findings| {
+            let words: Vec<String> = findings
+                .into_iter()
+                .map(|finding| finding.message)
+                .collect();
+            words.join("; ")
+        })
+    }
+
+    /// Why no case can be made of it, whichever material stands for its projectile.
+    pub fn no_case(&self) -> Option<String> {
+        if let Some(reason) = &self.unusable {
+            return Some(reason.clone());
+        }
+        (self.obliquity_deg != 0.0).then(|| {
+            format!(
+                "it struck at {} degrees from the normal, and a case is normal impact",
+                significant(self.obliquity_deg, 3)
+            )
+        })
+    }
+
+    /// Whether statistics may count it: it is neither suspect nor a repetition.
+    pub fn counts(&self) -> bool {
+        self.flag.is_none() && self.duplicate_of.is_none()
+    }
+
+    pub(super) fn resolve(
+        &self,
+        record: &str,
+        library: &Library,
+    ) -> Result<Scenario, Vec<Finding>> {
+        self.case(record, library).into_scenario(&self.id, library)
+    }
+
+    fn case(&self, record: &str, library: &Library) -> Case {
+        let room = library
+            .find(record)
+            .map(|entry| entry.material.room_temperature.si());
+        let temperature = self
+            .temperature
+            .filter(|temperature| room.is_none_or(|room| (temperature - room).abs() > ROOM));
+        let mut materials = MaterialTable::new();
+        let target = match &self.target {
+            Struck::RigidWall => Target {
+                rigid_wall: true,
+                ..Target::default()
+            },
+            Struck::Body {
+                material,
+                thickness,
+                properties,
+            } => {
+                let name = match properties {
+                    Some(properties) => {
+                        let id = id_of(material);
+                        materials.insert(id.clone(), properties.material(material, self));
+                        id
+                    }
+                    None => material.clone(),
+                };
+                Target {
+                    material: Some(name),
+                    thickness: Some(thickness.map_or(Thickness::SemiInfinite, |thickness| {
+                        Thickness::Finite(Length::new(thickness))
+                    })),
+                    back_face: thickness.map(|_| BackFace::Free),
+                    ..Target::default()
+                }
+            }
+        };
+        Case {
+            title: format!("{}: {}", self.id, self.projectile_class),
+            sources: vec![self.source.clone()],
+            projectile: Projectile {
+                material: record.to_owned(),
+                length: self.length.map(Length::new),
+                mass: self.mass.map(Mass::new),
+                diameter: Length::new(self.diameter.unwrap_or(0.0)),
+                nose: self.nose,
+                velocity: Velocity::new(self.impact_velocity),
+                temperature: temperature.map(Temperature::new),
+            },
+            target,
+            experiments: Vec::new(),
+            chain: ChainOptions::default(),
+            materials,
+            material_files: Vec::new(),
+        }
+    }
+}
+
+/// Id of a target's material: letters and digits joined by hyphens, unlike any id of the library.
+fn id_of(name: &str) -> String {
+    let words = name
+        .split(|c: char| !c.is_ascii_alphanumeric())
+        .filter(|word| !word.is_empty());
+    words.fold("target".to_owned(), |id, word| {
+        format!("{id}-{}", word.to_ascii_lowercase())
+    })
+}
+
+impl Properties {
+    fn material(&self, name: &str, shot: &Shot) -> Material {
+        let (strength, yield_stress) = match self.strength {
+            Strength::Metal {
+                yield_stress,
+                exponent,
+            } => {
+                let law = if exponent == 0.0 {
+                    material::Strength::PerfectlyPlastic(material::PerfectlyPlastic {
+                        flow_stress: Pressure::new(yield_stress),
+                    })
+                } else {
+                    let ratio = self.youngs_modulus / yield_stress;
+                    material::Strength::PowerLaw(material::PowerLaw {
+                        coefficient: Pressure::new(yield_stress * ratio.powf(exponent)),
+                        exponent,
+                    })
+                };
+                (law, Some(Pressure::new(yield_stress)))
+            }
+            Strength::Concrete(strength) => {
+                let law = material::Concrete {
+                    compressive_strength: Pressure::new(strength),
+                };
+                (material::Strength::Concrete(law), None)
+            }
+        };
+        Material {
+            name: name.to_owned(),
+            family: None,
+            state: None,
+            recommended: false,
+            trust: shot.trust,
+            sources: vec![shot.source.clone()],
+            note: String::new(),
+            density: Density::new(self.density),
+            youngs_modulus: Pressure::new(self.youngs_modulus),
+            poissons_ratio: self.poissons_ratio,
+            yield_stress,
+            ultimate_strength: self.ultimate_strength.map(Pressure::new),
+            brinell_hardness: self.brinell_hardness,
+            spall_strength: None,
+            specific_heat: None,
+            melting_temperature: None,
+            room_temperature: Temperature::new(293.0),
+            validity: material::Validity::default(),
+            equation_of_state: None,
+            strength,
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Validation: every model on every published shot that it applies to, and how far off it is.
+//!
+//! ```no_run
+//! use std::ops::ControlFlow;
+//! use percuss::{material::Library, model::MODELS, shots, validate};
+//!
+//! let validation = validate::run(MODELS, shots::built_in(), Library::built_in(), &|_| ControlFlow::Continue(()))?;
+//! for group in validate::statistics(&validation, validate::Grouping::All) {
+//!     println!("{} {}: RMS {:.1} % of {}", group.model, group.kind.name(), 100.0 * group.errors.rms, group.errors.count);
+//! }
+//! # Ok::<(), percuss::Error>(())
+//! ```
+
+mod grouping;
+mod prediction;
+mod record;
+mod statistics;
+#[cfg(test)]
+mod tests;
+
+use std::{
+    ops::ControlFlow,
+    sync::atomic::{AtomicBool, AtomicUsize, Ordering},
+};
+
+use rayon::prelude::*;
+
+pub use grouping::{Coverage, Group, Grouping, SEPARATOR, coverage, statistics};
+pub use prediction::{Prediction, Standing};
+pub use record::PredictionRecord;
+pub use statistics::Errors;
+
+use prediction::Computed;
+
+use crate::{Error, material::Library, model::Model, shots::Shot};
+
+/// What every model said of every shot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Validation {
+    /// The shots.
+    pub shots: Vec<Shot>,
+    /// Names of the models, in their own order.
+    pub models: Vec<&'static str>,
+    /// One entry a shot, material record and model, in that order.
+    pub predictions: Vec<Prediction>,
+}
+
+impl Validation {
+    /// The shot that a prediction is of.
+    pub fn shot(&self, prediction: &Prediction) -> &Shot {
+        &self.shots[prediction.shot]
+    }
+}
+
+/// Computes every shot with every model that applies, on all cores.
+///
+/// `progress` is called with the part done, 0 to 1, from several threads; [`ControlFlow::Break`] ends the validation.
+///
+/// # Errors
+/// [`Error::Cancelled`]; a model that fails on a shot is an entry of the result and no error.
+pub fn run(
+    models: &[&'static dyn Model],
+    shots: &[Shot],
+    library: &Library,
+    progress: &(dyn Fn(f64) -> ControlFlow<()> + Sync),
+) -> Result<Validation, Error> {
+    let records = |shot: &Shot| shot.projectile_materials.len().max(1);
+    let jobs: Vec<(usize, usize)> = shots
+        .iter()
+        .enumerate()
+        .flat_map(|(i, shot)| (0..records(shot)).map(move |record| (i, record)))
+        .collect();
+    let total = (jobs.len() * models.len()).max(1);
+    let (done, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let compute = |&(shot, record): &(usize, usize)| -> Vec<Prediction> {
+        let names = &shots[shot].projectile_materials;
+        let name = names.get(record).map_or("", String::as_str);
+        let scenario = shots[shot].scenario(name, library);
+        let regime = scenario
+            .as_ref()
+            .map_or_else(|_| String::new(), prediction::regime_of);
+        let of_model = |&model: &&'static dyn Model| {
+            let case = Computed {
+                shot: &shots[shot],
+                index: shot,
+                record,
+                scenario: &scenario,
+                regime: &regime,
+            };
+            let prediction = case.predict(model, &stop);
+            let finished = 1 + done.fetch_add(1, Ordering::Relaxed);
+            if progress(finished as f64 / total as f64).is_break() {
+                stop.store(true, Ordering::Relaxed);
+            }
+            prediction
+        };
+        models
+            .iter()
+            .take_while(|_| !stop.load(Ordering::Relaxed))
+            .map(of_model)
+            .collect()
+    };
+    // Shots differ in cost by orders of magnitude: one at a time, so that no core is left with a block of slow ones.
+    let predictions: Vec<Vec<Prediction>> = jobs.par_iter().with_max_len(1).map(compute).collect();
+    if stop.load(Ordering::Relaxed) {
+        return Err(Error::Cancelled {
+            step: done.load(Ordering::Relaxed) as u64,
+            time_us: 0.0,
+        });
+    }
+    Ok(Validation {
+        shots: shots.to_vec(),
+        models: models.iter().map(|model| model.name()).collect(),
+        predictions: predictions.into_iter().flatten().collect(),
+    })
+}
