@@ -22,6 +22,7 @@ pub mod chain;
 pub mod check;
 pub mod converge;
 mod error;
+pub mod fdm;
 pub mod guard;
 pub mod history;
 pub mod ledger;

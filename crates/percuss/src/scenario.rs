@@ -5,6 +5,7 @@ use std::{f64::consts::PI, sync::Arc};
 use crate::{
     case::{BackFace, Case, ChainOptions, Layer, Nose, Thickness},
     check::{Check, limits},
+    fdm::FdmOptions,
     material::{Library, Material, MaterialEntry},
     units::{Length, Mass, Quantity},
 };
@@ -26,6 +27,8 @@ pub struct Scenario {
     pub target: TargetBody,
     /// Options of the model `chain`.
     pub chain: ChainOptions,
+    /// Options of the model `fdm`.
+    pub fdm: FdmOptions,
 }
 
 /// A projectile.
@@ -107,6 +110,9 @@ impl Scenario {
         let mut refined = self.clone();
         refined.chain.projectile_elements = finer(self.chain.projectile_elements());
         refined.chain.target_elements = finer(self.chain.target_elements());
+        let (projectile, target) = self.fdm.elements(self);
+        refined.fdm.projectile_elements = finer(projectile as usize);
+        refined.fdm.target_elements = finer(target as usize);
         refined
     }
 
@@ -127,6 +133,7 @@ impl Scenario {
             impact_speed: case.projectile.velocity.si(),
             target: target?,
             chain: case.chain,
+            fdm: case.fdm,
         })
     }
 }

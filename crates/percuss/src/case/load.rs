@@ -158,6 +158,8 @@ impl Case {
         self.target.check(&mut check.within("target"));
         self.chain
             .check(&mut check.within("chain"), self.target.is_solid());
+        self.fdm
+            .check(&mut check.within("fdm"), self.target.is_solid());
         self.check_materials(check);
     }
 

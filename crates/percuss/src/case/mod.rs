@@ -16,10 +16,11 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::material::MaterialTable;
+use crate::{fdm::FdmOptions, material::MaterialTable};
 
 pub(crate) use document::Document;
 pub use load::{MAX_FILE_BYTES, load, load_library, load_materials, load_str};
+pub(crate) use number_or_word::NumberOrWord;
 pub use number_or_word::{ConstraintFactor, ErosionStrain};
 pub use options::*;
 pub use projectile::{Nose, Projectile};
@@ -46,6 +47,9 @@ pub struct Case {
     /// Options of the 1-D discrete element model.
     #[serde(default)]
     pub chain: ChainOptions,
+    /// Options of the 1-D finite-difference model.
+    #[serde(default)]
+    pub fdm: FdmOptions,
     /// The user's own materials, by id.
     #[serde(default, skip_serializing_if = "MaterialTable::is_empty")]
     pub materials: MaterialTable,
