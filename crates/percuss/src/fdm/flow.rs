@@ -100,7 +100,10 @@ mod tests {
                     strain_rate: found.increment / 1e-8,
                     ..start()
                 });
-                assert!((found.stress / flow.stress - 1.0).abs() < 1e-9, "{text} {trial}");
+                assert!(
+                    (found.stress / flow.stress - 1.0).abs() < 1e-9,
+                    "{text} {trial}"
+                );
                 assert!((trial - 200e9 * found.increment - found.stress).abs() < 1e-3);
             }
         }

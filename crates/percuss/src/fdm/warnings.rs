@@ -51,7 +51,10 @@ pub(super) fn warn_of_material(
             most.to_string(),
         );
     }
-    if let Some(most) = validity.temperature_max.filter(|most| temperature > most.si()) {
+    if let Some(most) = validity
+        .temperature_max
+        .filter(|most| temperature > most.si())
+    {
         beyond(Temperature::new(temperature).to_string(), most.to_string());
     }
 }

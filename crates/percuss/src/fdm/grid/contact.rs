@@ -27,7 +27,11 @@ impl<L: Law> Grid<L> {
         let limit = back.friction + front.friction;
         let change = (back.force + front.force) * time_step / mass;
         let (velocity, taken) = rub(back.velocity, change, limit * time_step / mass);
-        let share = if limit > 0.0 { back.friction / limit } else { 0.0 };
+        let share = if limit > 0.0 {
+            back.friction / limit
+        } else {
+            0.0
+        };
         let own = mass * taken * share;
         let impulse = back.force * time_step - own - back.mass * (velocity - back.velocity);
         if impulse < 0.0 {

@@ -49,7 +49,9 @@ impl<L: Law> Grid<L> {
             step: self.step,
             tip_velocity: tip.velocity,
             tail_velocity: tail.velocity,
-            interface_velocity: self.floor().map_or(f64::NAN, |floor| self.nodes[floor].velocity),
+            interface_velocity: self
+                .floor()
+                .map_or(f64::NAN, |floor| self.nodes[floor].velocity),
             mean_velocity: momentum / mass,
             tip_position: tip.position,
             depth: self.depth(),
@@ -92,7 +94,9 @@ impl<L: Law> Grid<L> {
         let own = self.segments.iter().filter(move |s| s.body == body);
         own.flat_map(move |segment| {
             let law = &self.bodies[body];
-            self.cells[segment.cells.clone()].iter().map(|cell| law.view(cell))
+            self.cells[segment.cells.clone()]
+                .iter()
+                .map(|cell| law.view(cell))
         })
     }
 }

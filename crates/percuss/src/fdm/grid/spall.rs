@@ -25,7 +25,8 @@ impl<L: Law> Grid<L> {
             let law = &self.bodies[segment.body];
             if let Some(strength) = law.spall_strength() {
                 let pull = |c: usize| {
-                    let sum = law.axial_stress(&self.cells[c]) + law.axial_stress(&self.cells[c - 1]);
+                    let sum =
+                        law.axial_stress(&self.cells[c]) + law.axial_stress(&self.cells[c - 1]);
                     -0.5 * sum
                 };
                 let inner = segment.cells.start + 1..segment.cells.end;

@@ -62,7 +62,9 @@ impl Watch {
             if residual.is_nan() || residual.abs() > tolerance {
                 return Err(failure(
                     grid,
-                    format!("the {book} book is off by {residual:.2e} of the initial {book}, more than {tolerance:e},"),
+                    format!(
+                        "the {book} book is off by {residual:.2e} of the initial {book}, more than {tolerance:e},"
+                    ),
                     format!("lower `fdm.courant` (now {courant})"),
                 ));
             }

@@ -73,7 +73,9 @@ impl Medium {
             start_energy: self.energy,
             shear_modulus: self.solid.as_ref().map_or(0.0, |solid| solid.shear_modulus),
             strength: material.map(|material| material.strength.law().prepare(material, 1.0)),
-            specific_heat: material.and_then(|material| material.specific_heat).map(|c| c.si()),
+            specific_heat: material
+                .and_then(|material| material.specific_heat)
+                .map(|c| c.si()),
             start_temperature: material.map_or(293.0, |material| material.room_temperature.si()),
             rate_effects,
             viscosity,

@@ -116,7 +116,11 @@ fn numerics(grid: &Grid<PlanarLaw>, watch: &Watch) -> Numerics {
     let cells = |body| grid.views(body).count();
     let target = || 1..grid.bodies.len();
     let most = |value: fn(&View) -> f64| {
-        let of = |body| grid.views(body).map(|view| value(&view)).fold(0.0, f64::max);
+        let of = |body| {
+            grid.views(body)
+                .map(|view| value(&view))
+                .fold(0.0, f64::max)
+        };
         (of(0), target().map(of).fold(0.0, f64::max))
     };
     Numerics {
@@ -137,7 +141,8 @@ fn numerics(grid: &Grid<PlanarLaw>, watch: &Watch) -> Numerics {
 fn warnings(ending: &Ending<'_>, result: &RunResult) -> Vec<String> {
     let (scenario, grid) = (ending.scenario, ending.grid);
     let mut warnings = vec![
-        "uniaxial strain leaves no crater: the model gives stresses, speeds and spall, no depth".to_owned(),
+        "uniaxial strain leaves no crater: the model gives stresses, speeds and spall, no depth"
+            .to_owned(),
     ];
     if result.outcome == Outcome::OutOfTime {
         warnings.push(

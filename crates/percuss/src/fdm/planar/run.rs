@@ -42,7 +42,9 @@ pub(in crate::fdm) fn not_applicable(scenario: &Scenario) -> Option<String> {
         }
         TargetBody::RigidWall => {}
         TargetBody::Layers { layers, .. } => {
-            let layers = layers.iter().map(|plate| ("target", &plate.material_id, &plate.material));
+            let layers = layers
+                .iter()
+                .map(|plate| ("target", &plate.material_id, &plate.material));
             materials.extend(layers);
         }
     }
@@ -72,7 +74,9 @@ pub(in crate::fdm) fn not_applicable(scenario: &Scenario) -> Option<String> {
 /// Ids of the built-in materials that have an equation of state.
 fn with_equation_of_state() -> Vec<String> {
     let library = Library::built_in();
-    let with = library.iter().filter(|entry| entry.material.equation_of_state.is_some());
+    let with = library
+        .iter()
+        .filter(|entry| entry.material.equation_of_state.is_some());
     with.map(|entry| entry.id.clone()).collect()
 }
 
@@ -94,8 +98,13 @@ pub(in crate::fdm) fn cells(scenario: &Scenario) -> (u32, u32) {
     let options = &scenario.fdm;
     let projectile = options.projectile_elements.unwrap_or(DEFAULT_CELLS);
     let size = scenario.projectile.length / f64::from(projectile);
-    let natural = (target_length(scenario) / size).ceil().clamp(1.0, MOST_CELLS);
-    (projectile, options.target_elements.unwrap_or(natural as u32))
+    let natural = (target_length(scenario) / size)
+        .ceil()
+        .clamp(1.0, MOST_CELLS);
+    (
+        projectile,
+        options.target_elements.unwrap_or(natural as u32),
+    )
 }
 
 fn target_length(scenario: &Scenario) -> f64 {
@@ -168,7 +177,9 @@ pub(in crate::fdm) fn run(
     let (mut grid, passage) = build(scenario).ok_or_else(refuse)?;
     let options = &scenario.fdm;
     let courant = options.courant.unwrap_or(DEFAULT_COURANT);
-    let end_time = options.end_time.map_or(PASSAGES * passage, |time| time.si());
+    let end_time = options
+        .end_time
+        .map_or(PASSAGES * passage, |time| time.si());
     let max_steps = options.max_steps.unwrap_or(DEFAULT_MAX_STEPS);
     let mut watch = Watch::default();
     let mut back = BackFaceMotion {

@@ -37,13 +37,25 @@ pub(super) fn sum_up(ending: &Ending<'_>, recorder: Option<Recorder>) -> RunResu
     // A crater floor that sprang back beyond the original face is no depth.
     let depth = match scenario.target {
         TargetBody::RigidWall => None,
-        _ => Some(watch.at_rest.map_or(watch.largest_depth, |(_, depth)| depth.max(0.0))),
+        _ => Some(
+            watch
+                .at_rest
+                .map_or(watch.largest_depth, |(_, depth)| depth.max(0.0)),
+        ),
     };
-    let mut result = RunResult::new("fdm", "rod", outcome(ending, mass, momentum), ending.termination);
+    let mut result = RunResult::new(
+        "fdm",
+        "rod",
+        outcome(ending, mass, momentum),
+        ending.termination,
+    );
     result.depth_of_penetration = depth;
     result.largest_depth = depth.map(|_| watch.largest_depth);
     let cells_of = |bodies: std::ops::Range<usize>| {
-        let own = grid.segments.iter().filter(move |s| bodies.contains(&s.body));
+        let own = grid
+            .segments
+            .iter()
+            .filter(move |s| bodies.contains(&s.body));
         own.flat_map(|segment| &grid.cells[segment.cells.clone()])
     };
     result.permanent_depth = match scenario.target {
@@ -101,7 +113,11 @@ fn numerics(grid: &Grid<RodLaw>, watch: &Watch) -> Numerics {
     let cells = |body| grid.views(body).count();
     let target = || 1..grid.bodies.len();
     let most = |value: fn(&View) -> f64| {
-        let of = |body| grid.views(body).map(|view| value(&view)).fold(0.0, f64::max);
+        let of = |body| {
+            grid.views(body)
+                .map(|view| value(&view))
+                .fold(0.0, f64::max)
+        };
         (of(0), target().map(of).fold(0.0, f64::max))
     };
     Numerics {
@@ -169,7 +185,13 @@ fn warnings(ending: &Ending<'_>, result: &RunResult) -> Vec<String> {
             1 => "target".to_owned(),
             _ => format!("layer {}", i + 1),
         };
-        warn_of_material(&name, &plate.material, grid.views(i + 1), heated, &mut warnings);
+        warn_of_material(
+            &name,
+            &plate.material,
+            grid.views(i + 1),
+            heated,
+            &mut warnings,
+        );
     }
     warnings
 }

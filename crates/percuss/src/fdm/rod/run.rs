@@ -171,7 +171,8 @@ impl<'a> Rod<'a> {
         }
         let rod = &self.scenario.projectile;
         let speed = self.scenario.impact_speed.max(1.0);
-        let passage = |length: f64, wave_speed: f64| 2.0 * length / wave_speed + 2.0 * length / speed;
+        let passage =
+            |length: f64, wave_speed: f64| 2.0 * length / wave_speed + 2.0 * length / speed;
         let mut time = passage(rod.length, rod.material.bar_wave_speed());
         match &self.scenario.target {
             TargetBody::Layers { layers, .. } => {
@@ -234,7 +235,11 @@ impl<'a> Rod<'a> {
             if mass > 0.0 { momentum / mass } else { 0.0 }
         };
         // A target that is held vibrates about its place; one that is free flies at its mean speed.
-        let away = if self.grid.ends[1] == End::Free { mean(1) } else { 0.0 };
+        let away = if self.grid.ends[1] == End::Free {
+            mean(1)
+        } else {
+            0.0
+        };
         let approach = mean(0) - away;
         approach > 0.0 && gap < approach * horizon
     }
