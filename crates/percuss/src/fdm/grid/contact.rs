@@ -84,14 +84,31 @@ impl<L: Law> Grid<L> {
         for s in 0..self.closed.len() {
             let a = self.span(s).1;
             let approach = self.nodes[a].velocity - self.nodes[a + 1].velocity;
-            if self.closed[s] && approach != 0.0 {
-                for i in [a, a + 1] {
-                    self.nodes[i].before = self.nodes[i].velocity;
-                }
-                self.push_apart(a, approach);
-                // Both have one velocity now, whatever the last digit says.
-                self.nodes[a].velocity = self.nodes[a + 1].velocity;
+            if !self.closed[s] || approach == 0.0 {
+                continue;
             }
+            for i in [a, a + 1] {
+                self.nodes[i].before = self.nodes[i].velocity;
+            }
+            self.push_apart(a, approach);
+            // Both have one velocity now, whatever the last digit says.
+            self.nodes[a].velocity = self.nodes[a + 1].velocity;
+            if L::STORED_ACROSS_STEPS {
+                // The stored energy is half the product of the loads on either side of a time. The one ahead changes with
+                // the jump now; the one behind will differ from it by the jump when the next step begins.
+                for node in &mut self.nodes[a..=a + 1] {
+                    node.jump = node.velocity - node.before;
+                    self.books.contact_loss += 0.25 * node.force * node.jump * self.time_step;
+                }
+            }
+        }
+    }
+
+    /// Completes the books of the jumps of the last step, now that the load ahead of them is known.
+    pub(super) fn book_jumps(&mut self, time_step: f64) {
+        for node in self.nodes.iter_mut().filter(|node| node.jump != 0.0) {
+            self.books.contact_loss -= 0.25 * node.force * node.jump * time_step;
+            node.jump = 0.0;
         }
     }
 

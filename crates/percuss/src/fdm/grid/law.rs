@@ -42,6 +42,9 @@ pub(in crate::fdm) trait Law: fmt::Debug {
     /// State of a cell.
     type Cell: Copy + fmt::Debug;
 
+    /// Whether the stored energy is made up from the loads before and after a time, rather than kept by the work done.
+    const STORED_ACROSS_STEPS: bool;
+
     /// A cell at rest between two faces.
     fn cell(&self, back: f64, front: f64) -> Self::Cell;
 

@@ -53,6 +53,8 @@ pub(in crate::fdm) struct Node {
     force: f64,
     /// Impulse that friction took in this step [N s].
     rubbed: f64,
+    /// Jump of velocity at the end of the last step, not yet booked to the end [m/s].
+    jump: f64,
 }
 
 /// Cells of one body that hang together; the nodes of segment `s` are those from `cells.start + s` to `cells.end + s`.
@@ -192,6 +194,7 @@ impl<L: Law> Grid<L> {
             _ => (nominal, 0.5 * nominal),
         };
         self.load(nominal, lead)?;
+        self.book_jumps(time_step);
         self.kick(time_step);
         self.close_gaps(time_step);
         self.drift(time_step)?;

@@ -125,6 +125,7 @@ impl PlanarLaw {
 
 impl Law for PlanarLaw {
     type Cell = PlanarCell;
+    const STORED_ACROSS_STEPS: bool = false;
 
     fn cell(&self, back: f64, front: f64) -> PlanarCell {
         let volume = 1.0 / self.start_density;

@@ -116,6 +116,7 @@ impl RodLaw {
 
 impl Law for RodLaw {
     type Cell = RodCell;
+    const STORED_ACROSS_STEPS: bool = true;
 
     fn cell(&self, back: f64, front: f64) -> RodCell {
         let length = front - back;
