@@ -16,6 +16,7 @@ pub fn text(entry: &MaterialEntry, library: &Library) -> String {
     names(entry, &mut text);
     constants(material, &mut text);
     strength(material, &mut text);
+    equation_of_state(material, &mut text);
     validity(material, &mut text);
     provenance(material, &mut text);
     let rivals: Vec<&MaterialEntry> = library.rivals(entry).collect();
@@ -84,6 +85,15 @@ fn constants(material: &Material, text: &mut String) {
             text,
         );
     }
+    if let Some(stress) = material.ultimate_strength {
+        row("ultimate strength", &stress.to_string(), text);
+    }
+    if let Some(hardness) = material.brinell_hardness {
+        row("Brinell hardness", &hardness.to_string(), text);
+    }
+    if let Some(stress) = material.spall_strength {
+        row("spall strength", &stress.to_string(), text);
+    }
     let known = [
         (
             "specific heat",
@@ -120,6 +130,25 @@ fn strength(material: &Material, text: &mut String) {
     *text += &format!("  {}\n", law.equation());
     for (name, value) in law.parameters() {
         row(name, &value, text);
+    }
+}
+
+fn equation_of_state(material: &Material, text: &mut String) {
+    let Some(eos) = &material.equation_of_state else {
+        return;
+    };
+    heading("equation of state: Mie–Grüneisen", text);
+    *text += "  U_s = c₀ + s u_p\n";
+    row("c₀", &eos.sound_speed.to_string(), text);
+    row("s", &eos.slope.to_string(), text);
+    row("Γ₀", &eos.gruneisen.to_string(), text);
+    let bulk = material.density.si() * eos.sound_speed.si().powi(2) * 1e-9;
+    row("ρ c₀²", &format!("{} GPa", significant(bulk, 4)), text);
+    if !eos.note.is_empty() {
+        paragraph(&eos.note, text);
+    }
+    if !eos.sources.is_empty() {
+        row("from", &eos.sources.join(", "), text);
     }
 }
 

@@ -23,6 +23,7 @@ pub mod check;
 pub mod compare;
 pub mod converge;
 mod error;
+pub mod fdm;
 pub mod guard;
 pub mod history;
 pub mod ledger;

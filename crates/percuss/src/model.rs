@@ -6,6 +6,7 @@ use crate::{
     Error, Scenario,
     chain::Chain,
     error::nearest,
+    fdm::Fdm,
     guard::{Guard, Verdict},
     outcome::RunResult,
     regime::Regime,
@@ -35,7 +36,7 @@ pub trait Model: Sync {
 }
 
 /// All models. Adding one is one file and one line here.
-pub static MODELS: &[&dyn Model] = &[&Chain];
+pub static MODELS: &[&dyn Model] = &[&Chain, &Fdm];
 
 /// The model with this name.
 ///

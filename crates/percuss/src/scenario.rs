@@ -5,6 +5,7 @@ use std::{f64::consts::PI, sync::Arc};
 use crate::{
     case::{BackFace, Case, ChainOptions, Experiment, Layer, Nose, Thickness, Uncertainty},
     check::{Check, limits},
+    fdm::FdmOptions,
     material::{Library, Material, MaterialEntry},
     outcome::BandQuantity,
     units::{Length, Mass, Quantity, Velocity},
@@ -27,6 +28,8 @@ pub struct Scenario {
     pub target: TargetBody,
     /// Options of the model `chain`.
     pub chain: ChainOptions,
+    /// Options of the model `fdm`.
+    pub fdm: FdmOptions,
     /// What was measured, for comparison; no model sees it.
     pub experiments: Vec<Measurement>,
 }
@@ -143,6 +146,9 @@ impl Scenario {
         let mut refined = self.clone();
         refined.chain.projectile_elements = finer(self.chain.projectile_elements());
         refined.chain.target_elements = finer(self.chain.target_elements());
+        let (projectile, target) = self.fdm.elements(self);
+        refined.fdm.projectile_elements = finer(projectile as usize);
+        refined.fdm.target_elements = finer(target as usize);
         refined
     }
 
@@ -168,6 +174,7 @@ impl Scenario {
                 .iter()
                 .filter_map(Measurement::resolve)
                 .collect(),
+            fdm: case.fdm,
         })
     }
 }

@@ -3,7 +3,7 @@
 use percuss::{converge, history::Sample, outcome::RunResult};
 
 use super::{
-    Item, Table, Verdict,
+    Item, Table, Verdict, finite_differences,
     runs::{
         FINE_MESHES, MESHES, PAPER_MESH, PAPER_SPEED, Runs, SHEARS, SPEEDS, TIME_SPEEDS, WAYS, Way,
     },
@@ -26,7 +26,7 @@ pub(super) fn check(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>)
     });
 }
 
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     format!("{value:.4}")
 }
 
@@ -66,12 +66,7 @@ fn figure_7(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
             growth.join("; ")
         ),
     });
-    items.push(Item {
-        place: "Fig. 7",
-        statement: "agrees with Woodward's 1-D finite differences at every speed".to_owned(),
-        verdict: Verdict::CannotBeKnown,
-        finding: "Woodward's program and its numbers could not be read".to_owned(),
-    });
+    finite_differences::check(runs, items, tables);
     let mut columns = vec!["impact speed [m/s]".to_owned()];
     for mesh in [(10, 20), PAPER_MESH] {
         columns.extend(
@@ -299,6 +294,13 @@ pub(super) fn draw(runs: &Runs) -> Vec<Figure> {
                     let points = SPEEDS.map(|speed| (speed, runs.depth_on(way, speed, mesh)));
                     chart.series(Series::new(way.name(), points).style(Style::LineAndMarkers))
                 },
+            )
+            .series(
+                Series::new(
+                    "finite differences",
+                    SPEEDS.map(|speed| (speed, runs.differences_on(speed, mesh))),
+                )
+                .style(Style::LineAndMarkers),
             )
             .caption(format!(
                 "copper rod on 2024-T351, {}–{} elements, C = 0.577",

@@ -1,6 +1,7 @@
 //! The seed paper, item by item: what its numbers and words come to when its own case is computed.
 
 mod figures;
+mod finite_differences;
 mod runs;
 mod table1;
 

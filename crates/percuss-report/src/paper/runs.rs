@@ -4,7 +4,10 @@ use std::ops::ControlFlow;
 
 use percuss::{
     Error, Scenario, case,
-    case::{Interface, PublishedBorderShear, PublishedOptions, Scheme, SmallStrainStiffness},
+    case::{
+        ErosionStrain, Interface, PublishedBorderShear, PublishedOptions, Scheme,
+        SmallStrainStiffness,
+    },
     model::{self, Control},
     outcome::RunResult,
     units::Mass,
@@ -16,6 +19,8 @@ use super::OnProgress;
 pub(super) const MESHES: [(u32, u32); 5] = [(10, 20), (20, 40), (30, 60), (40, 80), (50, 100)];
 /// Finer meshes, for the conservative scheme and for observed orders.
 pub(super) const FINE_MESHES: [(u32, u32); 3] = [(80, 160), (160, 320), (320, 640)];
+/// Meshes on which discrete elements and finite differences are compared: that of figure 7 and the paper's own.
+pub(super) const COMPARED_MESHES: [(u32, u32); 2] = [(10, 20), PAPER_MESH];
 /// Impact speeds [m/s]; the text gives only 230 m/s.
 pub(super) const SPEEDS: [f64; 8] = [100.0, 150.0, 200.0, 230.0, 300.0, 400.0, 500.0, 600.0];
 /// Border-shear constants of the study.
@@ -62,12 +67,30 @@ struct Key {
     shear: f64,
 }
 
+/// Depth by discrete elements and by finite differences, neither with erosion [mm].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Compared {
+    pub(super) speed: f64,
+    pub(super) mesh: (u32, u32),
+    pub(super) elements: f64,
+    pub(super) differences: f64,
+}
+
+impl Compared {
+    /// How much deeper finite differences go, as a part of the depth.
+    pub(super) fn excess(&self) -> f64 {
+        self.differences / self.elements - 1.0
+    }
+}
+
 /// All runs.
 pub(super) struct Runs {
     base: Scenario,
     done: Vec<(Key, RunResult)>,
     /// Runs with histories, at [`TIME_SPEEDS`].
     pub(super) histories: Vec<(Way, f64, RunResult)>,
+    /// Discrete elements against finite differences, at [`SPEEDS`] on [`COMPARED_MESHES`].
+    pub(super) compared: Vec<Compared>,
     /// Steps of the joined reading by treatment of the border shear.
     pub(super) joined_steps: Vec<(&'static str, u64)>,
 }
@@ -143,6 +166,7 @@ impl Runs {
             base,
             done: Vec::new(),
             histories: Vec::new(),
+            compared: Vec::new(),
             joined_steps: Vec::new(),
         };
         let mut tell = |done: usize| match progress(done as f64 / total) {
@@ -171,9 +195,46 @@ impl Runs {
                     .push((way, speed, run(&scenario(&runs.base, key), true)?));
             }
         }
+        runs.compare_with_finite_differences()?;
         runs.count_joined_steps()?;
         tell(total as usize)?;
         Ok(runs)
+    }
+
+    fn compare_with_finite_differences(&mut self) -> Result<(), Error> {
+        for mesh in COMPARED_MESHES {
+            for speed in SPEEDS {
+                let key = Key {
+                    way: Way::Conservative,
+                    speed,
+                    mesh,
+                    shear: SHEAR,
+                };
+                let mut scenario = scenario(&self.base, key);
+                scenario.chain.erosion_strain = Some(ErosionStrain::Never);
+                let depth = |name| -> Result<f64, Error> {
+                    let result =
+                        model::run(model::model(name)?, &scenario, &mut Control::default())?;
+                    Ok(result.depth_of_penetration.unwrap_or(f64::NAN) * 1e3)
+                };
+                self.compared.push(Compared {
+                    speed,
+                    mesh,
+                    elements: depth("chain")?,
+                    differences: depth("fdm")?,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Depth by finite differences on a mesh at a speed [mm].
+    pub(super) fn differences_on(&self, speed: f64, mesh: (u32, u32)) -> f64 {
+        let found = self
+            .compared
+            .iter()
+            .find(|c| c.speed == speed && c.mesh == mesh);
+        found.map_or(f64::NAN, |compared| compared.differences)
     }
 
     fn count_joined_steps(&mut self) -> Result<(), Error> {

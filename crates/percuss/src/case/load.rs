@@ -178,6 +178,8 @@ impl Case {
         self.target.check(&mut check.within("target"));
         self.chain
             .check(&mut check.within("chain"), self.target.is_solid());
+        self.fdm
+            .check(&mut check.within("fdm"), self.target.is_solid());
         for (i, experiment) in self.experiments.iter().enumerate() {
             let mut check = check.within(&format!("experiments.{i}"));
             experiment.check(&mut check, &self.target);

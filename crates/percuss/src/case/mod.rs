@@ -17,12 +17,13 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::material::MaterialTable;
+use crate::{fdm::FdmOptions, material::MaterialTable};
 
 pub(crate) use document::Document;
 pub use experiment::{Experiment, SourceKeys, Uncertainty};
 pub(crate) use load::read_text;
 pub use load::{MAX_FILE_BYTES, load, load_library, load_materials, load_str};
+pub(crate) use number_or_word::NumberOrWord;
 pub use number_or_word::{ConstraintFactor, ErosionStrain};
 pub use options::*;
 pub use projectile::{Nose, Projectile};
@@ -49,6 +50,9 @@ pub struct Case {
     /// Options of the 1-D discrete element model.
     #[serde(default)]
     pub chain: ChainOptions,
+    /// Options of the 1-D finite-difference model.
+    #[serde(default)]
+    pub fdm: FdmOptions,
     /// What was measured on shots of this case, for comparison; no model sees it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub experiments: Vec<Experiment>,

@@ -24,7 +24,7 @@ pub enum ErosionStrain {
 }
 
 /// A key that takes a number or one word.
-pub(super) trait NumberOrWord: Sized {
+pub(crate) trait NumberOrWord: Sized {
     const WORD: &'static str;
     const EXPECTING: &'static str;
     fn from_number(number: f64) -> Self;

@@ -18,7 +18,7 @@ use crate::{
 const SEMI_INFINITE_LENGTHS: f64 = 4.0;
 
 /// Thickness of a layer as it is modelled [m].
-pub(super) fn modelled_thickness(plate: &Plate, scenario: &Scenario) -> f64 {
+pub(crate) fn modelled_thickness(plate: &Plate, scenario: &Scenario) -> f64 {
     plate
         .thickness
         .unwrap_or(SEMI_INFINITE_LENGTHS * scenario.projectile.length)

@@ -18,6 +18,8 @@ mod warnings;
 mod watch;
 
 pub use conservative::{Conservative, ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
+pub(crate) use mesh::modelled_thickness;
+pub(crate) use part::constraint_factor;
 pub use published::Published;
 
 use crate::{

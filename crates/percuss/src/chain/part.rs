@@ -93,7 +93,7 @@ impl Part {
 ///
 /// A number is taken as it is; `cavity-expansion` gives the quasi-static pressure that expands a spherical cavity
 /// over the yield stress ([`cavity_expansion_pressure`]).
-pub(super) fn constraint_factor(factor: ConstraintFactor, material: &Material) -> f64 {
+pub(crate) fn constraint_factor(factor: ConstraintFactor, material: &Material) -> f64 {
     match factor {
         ConstraintFactor::Value(value) => value,
         ConstraintFactor::CavityExpansion => {

@@ -111,6 +111,7 @@ impl Shot {
             target,
             experiments: Vec::new(),
             chain: ChainOptions::default(),
+            fdm: Default::default(),
             materials,
             material_files: Vec::new(),
         }

@@ -29,6 +29,21 @@ fn run_with(text: &str, control: &mut Control<'_>) -> RunResult {
     model::run(chain, &scenario(text), control).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
+/// Runs a case by the finite-difference model.
+pub fn fdm(text: &str) -> RunResult {
+    fdm_with(text, &mut Control::default())
+}
+
+/// Runs a case by the finite-difference model, keeping its histories.
+pub fn fdm_recorded(text: &str) -> RunResult {
+    fdm_with(text, &mut Control::recording())
+}
+
+fn fdm_with(text: &str, control: &mut Control<'_>) -> RunResult {
+    let fdm = model::model("fdm").unwrap();
+    model::run(fdm, &scenario(text), control).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
 /// Mean of a value over the samples of a span of time [s], weighted by time.
 pub fn mean(result: &RunResult, from: f64, to: f64, value: impl Fn(&Sample) -> f64) -> f64 {
     let samples = &result.history.as_ref().unwrap().samples;

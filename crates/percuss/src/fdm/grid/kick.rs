@@ -1,0 +1,118 @@
+//! New velocities from the forces of a step.
+
+use super::{End, Grid, Law, Node};
+
+/// Moves a node by a force, dry friction holding against it.
+///
+/// Friction opposes the velocity after the kick and holds the node still when it can. Where the velocity turns within the
+/// step it could push on average: it may not, and the node is left to the force alone.
+fn kick(node: &mut Node, time_step: f64) {
+    (node.velocity, node.rubbed) = rub(
+        node.velocity,
+        node.force * time_step / node.mass,
+        node.friction * time_step / node.mass,
+    );
+    node.rubbed *= node.mass;
+}
+
+/// Velocity after a change by forces and one of at most `limit` by friction, and what friction took.
+pub(super) fn rub(before: f64, change: f64, limit: f64) -> (f64, f64) {
+    let free = before + change;
+    if limit == 0.0 {
+        return (free, 0.0);
+    }
+    let after = if free.abs() <= limit {
+        0.0
+    } else {
+        free - limit.copysign(free)
+    };
+    let taken = free - after;
+    if taken * (before + after) < 0.0 {
+        (free, 0.0)
+    } else {
+        (after, taken)
+    }
+}
+
+impl<L: Law> Grid<L> {
+    pub(super) fn kick(&mut self, time_step: f64) {
+        self.contact_force = 0.0;
+        self.back_force = 0.0;
+        for node in &mut self.nodes {
+            node.before = node.velocity;
+            node.rubbed = 0.0;
+        }
+        let segments = self.segments.len();
+        let mut joined_ahead = false;
+        for s in 0..segments {
+            let (first, last) = self.span(s);
+            let joined_behind = self.closed.get(s) == Some(&true);
+            for i in first..=last {
+                let joined = (i == first && joined_ahead) || (i == last && joined_behind);
+                if !joined {
+                    self.kick_alone(i, time_step);
+                }
+            }
+            if joined_behind {
+                self.kick_joined(s, time_step);
+            }
+            joined_ahead = joined_behind;
+        }
+        if self.tip_pressure > 0.0 {
+            self.contact_force = self.nodes[self.nodes.len() - 1].rubbed / time_step;
+        }
+    }
+
+    /// What holds a node, if it stands at an end of the grid.
+    pub(super) fn hold(&self, i: usize) -> End {
+        match self.ends {
+            [end, _] if i == 0 && end != End::Free => end,
+            [_, end] if i + 1 == self.nodes.len() => end,
+            _ => End::Free,
+        }
+    }
+
+    pub(super) fn kick_alone(&mut self, i: usize, time_step: f64) {
+        let end = self.hold(i);
+        let node = &mut self.nodes[i];
+        match end {
+            End::Free => return kick(node, time_step),
+            End::Driven(velocity) => node.velocity = velocity,
+            End::Dashpot(impedance) => {
+                let inertia = node.mass / time_step;
+                node.velocity = ((inertia - 0.5 * impedance) * node.before + node.force)
+                    / (inertia + 0.5 * impedance);
+            }
+        }
+        // What the end took follows from what the node did not gain.
+        let impulse = node.force * time_step - node.mass * (node.velocity - node.before);
+        let work = impulse * 0.5 * (node.before + node.velocity);
+        self.books.support_impulse += impulse;
+        self.books.boundary_work += work;
+        if i + 1 == self.nodes.len() {
+            self.back_force = impulse / time_step;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rub;
+
+    #[test]
+    fn friction_holds_slows_and_never_pushes() {
+        assert_eq!(rub(0.0, 0.5, 1.0), (0.0, 0.5));
+        assert_eq!(rub(0.0, 1.5, 1.0), (0.5, 1.0));
+        assert_eq!(rub(3.0, -0.5, 1.0), (1.5, 1.0));
+        for i in 0..200 {
+            for j in 0..200 {
+                let (before, change) = (i as f64 * 0.05 - 5.0, j as f64 * 0.05 - 5.0);
+                for limit in [0.1, 1.0, 3.0] {
+                    let (after, taken) = rub(before, change, limit);
+                    assert!(taken.abs() <= limit + before.abs() + 1e-12);
+                    assert!(taken * (before + after) >= -1e-12);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! From the grid at the end of a planar impact to its result.
+
+use super::{law::PlanarLaw, run::BackFaceMotion, state::impedance_match};
+use crate::{
+    fdm::{
+        grid::{Grid, View, Watch},
+        warnings::warn_of_material,
+    },
+    history::Recorder,
+    outcome::{Detail, Numerics, Outcome, RunResult, Termination},
+    scenario::{Scenario, TargetBody},
+    units::significant,
+};
+
+/// Part of the impact speed below which a projectile counts as stopped.
+const REST_FRACTION: f64 = 0.01;
+
+/// What a result is made of.
+pub(super) struct Ending<'a> {
+    pub(super) scenario: &'a Scenario,
+    pub(super) grid: &'a Grid<PlanarLaw>,
+    pub(super) watch: &'a Watch,
+    pub(super) termination: Termination,
+    pub(super) back: BackFaceMotion,
+}
+
+pub(super) fn sum_up(ending: &Ending<'_>, recorder: Option<Recorder>) -> RunResult {
+    let Ending {
+        grid,
+        watch,
+        termination,
+        ..
+    } = *ending;
+    let (mass, momentum) = grid.motion(0);
+    let mut result = RunResult::new(
+        "fdm",
+        "planar",
+        outcome(ending, momentum / mass),
+        termination,
+    );
+    result.residual_velocity = Some(momentum / mass);
+    result.projectile_final_mass = Some(mass);
+    result.time_to_rest = watch.at_rest.map(|(time, _)| time);
+    result.peak_force = Some(watch.peak_force);
+    result.end_time = Some(grid.time);
+    result.details = details(ending);
+    result.numerics = Some(numerics(grid, watch));
+    result.warnings = warnings(ending, &result);
+    result.history = recorder.map(|recorder| recorder.finish(grid.sample(), grid.profile()));
+    result
+}
+
+fn outcome(ending: &Ending<'_>, velocity: f64) -> Outcome {
+    match ending.termination {
+        Termination::NothingMoves => Outcome::AtRest,
+        Termination::EndTime | Termination::StepLimit => Outcome::OutOfTime,
+        _ if velocity < -REST_FRACTION * ending.scenario.impact_speed => Outcome::Rebounded,
+        _ if velocity > REST_FRACTION * ending.scenario.impact_speed => Outcome::Separated,
+        _ => Outcome::AtRest,
+    }
+}
+
+/// Time after which release from the edge has reached the axis of the projectile [s].
+fn edge_release(ending: &Ending<'_>) -> f64 {
+    0.5 * ending.scenario.projectile.diameter / ending.grid.bodies[0].wave_speed_at_rest()
+}
+
+fn details(ending: &Ending<'_>) -> Vec<Detail> {
+    let (scenario, grid) = (ending.scenario, ending.grid);
+    let detail = |name, unit, value| Detail { name, unit, value };
+    let mut details = vec![
+        detail(
+            "edge release reaches the axis",
+            "us",
+            edge_release(ending) * 1e6,
+        ),
+        detail(
+            "peak interface stress",
+            "GPa",
+            ending.watch.peak_force / scenario.projectile.area() * 1e-9,
+        ),
+    ];
+    let front = match &scenario.target {
+        TargetBody::Layers { layers, .. } => layers.first().map(|plate| &*plate.material),
+        _ => None,
+    };
+    let projectile = &scenario.projectile.material;
+    if let Some((speed, pressure)) = impedance_match(projectile, front, scenario.impact_speed) {
+        details.push(detail("impedance match: particle speed", "m/s", speed));
+        details.push(detail(
+            "impedance match: pressure without strength",
+            "GPa",
+            pressure * 1e-9,
+        ));
+    }
+    if ending.back.free {
+        details.push(detail(
+            "largest speed of the back face",
+            "m/s",
+            ending.back.largest,
+        ));
+    }
+    details.push(detail("spall planes", "", grid.spalls.len() as f64));
+    if let Some(first) = grid.spalls.first() {
+        details.push(detail(
+            "first spall plane, below the struck face",
+            "mm",
+            first.position * 1e3,
+        ));
+        details.push(detail("first spall", "us", first.time * 1e6));
+    }
+    details
+}
+
+fn numerics(grid: &Grid<PlanarLaw>, watch: &Watch) -> Numerics {
+    let cells = |body| grid.views(body).count();
+    let target = || 1..grid.bodies.len();
+    let most = |value: fn(&View) -> f64| {
+        let of = |body| {
+            grid.views(body)
+                .map(|view| value(&view))
+                .fold(0.0, f64::max)
+        };
+        (of(0), target().map(of).fold(0.0, f64::max))
+    };
+    Numerics {
+        steps: grid.step,
+        first_time_step: watch.first_time_step,
+        smallest_time_step: watch.smallest_time_step,
+        elements: (cells(0), target().map(cells).sum()),
+        eroded_elements: (0, 0),
+        largest_plastic_strain: most(|view| view.plastic_strain),
+        largest_temperature: most(|view| view.temperature),
+        energy: grid.energy(),
+        momentum: grid.momentum(),
+        energy_residual: watch.energy_residual,
+        momentum_residual: watch.momentum_residual,
+    }
+}
+
+fn warnings(ending: &Ending<'_>, result: &RunResult) -> Vec<String> {
+    let (scenario, grid) = (ending.scenario, ending.grid);
+    let mut warnings = vec![
+        "uniaxial strain leaves no crater: the model gives stresses, speeds and spall, no depth"
+            .to_owned(),
+    ];
+    if result.outcome == Outcome::OutOfTime {
+        warnings.push(
+            "the bodies still touched at the end of the run: the residual velocity is that of the moment; raise `fdm.end_time`"
+                .to_owned(),
+        );
+    }
+    let release = edge_release(ending);
+    if grid.time > release {
+        warnings.push(format!(
+            "release from the edge reaches the axis after {} us, and the run lasts {} us: what happens later is not uniaxial \
+             strain",
+            significant(release * 1e6, 3),
+            significant(grid.time * 1e6, 3)
+        ));
+    }
+    if let Some(late) = grid.spalls.first().filter(|spall| spall.time > release) {
+        warnings.push(format!(
+            "the first spall comes at {} us, after release from the edge: it may not happen",
+            significant(late.time * 1e6, 3)
+        ));
+    }
+    let mut bodies = vec![("projectile".to_owned(), &scenario.projectile.material)];
+    if let TargetBody::Layers { layers, .. } = &scenario.target {
+        for (i, plate) in layers.iter().enumerate() {
+            let name = match layers.len() {
+                1 => "target".to_owned(),
+                _ => format!("layer {}", i + 1),
+            };
+            bodies.push((name, &plate.material));
+        }
+    }
+    for (body, (name, material)) in bodies.into_iter().enumerate() {
+        warn_of_material(&name, material, grid.views(body), true, &mut warnings);
+        if grid.bodies[body].spall_strength.is_none() {
+            warnings.push(format!(
+                "the {name}'s material has no spall strength and holds any tension: give `fdm.spall_strength` or \
+                 `materials.NAME.spall_strength`"
+            ));
+        }
+    }
+    warnings
+}

@@ -1,0 +1,131 @@
+//! From a scenario to the grid at the moment of impact.
+
+use std::f64::consts::PI;
+
+use super::law::RodLaw;
+use crate::{
+    case::{BackFace, ConstraintFactor},
+    chain::{constraint_factor, modelled_thickness},
+    fdm::{
+        grid::{End, Grid, Slab},
+        options::FdmOptions,
+    },
+    material::Material,
+    scenario::{Scenario, TargetBody},
+};
+
+/// A law for a material; `factor` multiplies its flow stress.
+fn law(
+    material: &Material,
+    area: f64,
+    factor: f64,
+    options: &FdmOptions,
+    scenario: &Scenario,
+) -> RodLaw {
+    let chain = &scenario.chain;
+    let heating = match material.specific_heat {
+        Some(heat) if chain.adiabatic_heating.unwrap_or(true) => {
+            // What the constraint adds to the stress is work against the material around the column, not heat in it.
+            chain.heat_fraction.unwrap_or(0.9) / (factor * material.density.si() * heat.si())
+        }
+        _ => 0.0,
+    };
+    RodLaw {
+        modulus: material.youngs_modulus.si(),
+        density: material.density.si(),
+        wave_speed: material.bar_wave_speed(),
+        area,
+        strength: material.strength.law().prepare(material, factor),
+        heating,
+        start_temperature: material.room_temperature.si(),
+        rate_effects: chain.rate_effects.unwrap_or(true),
+        viscosity: options.artificial_viscosity.unwrap_or_default(),
+    }
+}
+
+fn slab(law: RodLaw, start: f64, length: f64, cells: usize) -> Slab<RodLaw> {
+    Slab {
+        line_density: law.density * law.area,
+        line_friction: 0.0,
+        start,
+        length,
+        cells,
+        velocity: 0.0,
+        law,
+    }
+}
+
+pub(super) fn build(scenario: &Scenario, options: &FdmOptions) -> Grid<RodLaw> {
+    let rod = &scenario.projectile;
+    let area = rod.mass / (rod.material.density.si() * rod.length);
+    let projectile = law(&rod.material, area, 1.0, options, scenario);
+    let cells = options.projectile_elements.unwrap_or(40) as usize;
+    let mut slabs = vec![slab(projectile, -rod.length, rod.length, cells)];
+    slabs[0].velocity = scenario.impact_speed;
+    let mut end = End::Free;
+    let mut tip_pressure = 0.0;
+    match &scenario.target {
+        TargetBody::Layers {
+            layers,
+            back_face,
+            column_diameter,
+        } => {
+            let area = PI * column_diameter * column_diameter / 4.0;
+            let factor = options
+                .constraint_factor
+                .unwrap_or(ConstraintFactor::Value(2.7));
+            let shear = options.border_shear.unwrap_or(0.577);
+            let total = target_length(scenario);
+            let all = f64::from(options.target_elements.unwrap_or(80));
+            let mut start = 0.0;
+            for plate in layers {
+                let material = &plate.material;
+                let factor = constraint_factor(factor, material);
+                let thickness = modelled_thickness(plate, scenario);
+                let cells = ((all * thickness / total).round() as usize).max(1);
+                let law = law(material, area, factor, options, scenario);
+                let mut slab = slab(law, start, thickness, cells);
+                let flow_stress = material.strength.law().flow_stress_at_unit_strain(material);
+                slab.line_friction = shear * PI * column_diameter * flow_stress.unwrap_or(0.0);
+                slabs.push(slab);
+                start += thickness;
+            }
+            end = match (back_face, layers.last()) {
+                (BackFace::Fixed, _) => End::Driven(0.0),
+                (BackFace::NonReflecting, Some(last)) => {
+                    End::Dashpot(last.material.bar_impedance() * area)
+                }
+                (BackFace::Free, _) | (_, None) => End::Free,
+            };
+        }
+        TargetBody::RigidWall => {
+            let wall = law(&rod.material, area, 1.0, options, scenario);
+            slabs.push(slab(wall, 0.0, 0.0, 0));
+            end = End::Driven(0.0);
+        }
+        TargetBody::ConstantPressure(pressure) => tip_pressure = pressure * area,
+    }
+    let mut grid = Grid::new(slabs, [End::Free, end]);
+    if let Some(last) = grid.nodes.last_mut() {
+        if tip_pressure > 0.0 {
+            last.friction = tip_pressure;
+            grid.tip_pressure = tip_pressure;
+        }
+        // The boundary's own impedance stands for everything behind it, border shear included.
+        if let End::Dashpot(_) = end {
+            last.friction = 0.0;
+        }
+    }
+    grid
+}
+
+/// Length of the column of target that is modelled [m].
+pub(super) fn target_length(scenario: &Scenario) -> f64 {
+    match &scenario.target {
+        TargetBody::Layers { layers, .. } => layers
+            .iter()
+            .map(|plate| modelled_thickness(plate, scenario))
+            .sum(),
+        _ => 0.0,
+    }
+}

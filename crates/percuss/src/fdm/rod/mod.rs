@@ -1,0 +1,8 @@
+//! Geometry `rod`: uniaxial stress with a cross-section that changes.
+
+mod law;
+mod mesh;
+mod results;
+mod run;
+
+pub use run::Rod;
