@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::{
     Error, Scenario,
+    analytic::{Hydrodynamic, LanzOdermatt, Tate, WalkerAnderson},
     chain::Chain,
     error::nearest,
     guard::{Guard, Verdict},
@@ -35,7 +36,7 @@ pub trait Model: Sync {
 }
 
 /// All models. Adding one is one file and one line here.
-pub static MODELS: &[&dyn Model] = &[&Chain];
+pub static MODELS: &[&dyn Model] = &[&Chain, &Tate, &WalkerAnderson, &LanzOdermatt, &Hydrodynamic];
 
 /// The model with this name.
 ///

@@ -3,6 +3,7 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
+    analytic::{LanzOdermattOptions, TateOptions, WalkerAndersonOptions},
     case::{BackFace, Case, ChainOptions, Layer, Nose, Thickness},
     check::{Check, limits},
     material::{Library, Material, MaterialEntry},
@@ -26,6 +27,12 @@ pub struct Scenario {
     pub target: TargetBody,
     /// Options of the model `chain`.
     pub chain: ChainOptions,
+    /// Options of the model `tate`.
+    pub tate: TateOptions,
+    /// Options of the model `walker_anderson`.
+    pub walker_anderson: WalkerAndersonOptions,
+    /// Options of the model `lanz_odermatt`.
+    pub lanz_odermatt: LanzOdermattOptions,
 }
 
 /// A projectile.
@@ -127,6 +134,9 @@ impl Scenario {
             impact_speed: case.projectile.velocity.si(),
             target: target?,
             chain: case.chain,
+            tate: case.tate,
+            walker_anderson: case.walker_anderson,
+            lanz_odermatt: case.lanz_odermatt,
         })
     }
 }

@@ -16,7 +16,10 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::material::MaterialTable;
+use crate::{
+    analytic::{LanzOdermattOptions, TateOptions, WalkerAndersonOptions},
+    material::MaterialTable,
+};
 
 pub(crate) use document::Document;
 pub use load::{MAX_FILE_BYTES, load, load_library, load_materials, load_str};
@@ -46,6 +49,15 @@ pub struct Case {
     /// Options of the 1-D discrete element model.
     #[serde(default)]
     pub chain: ChainOptions,
+    /// Options of the model `tate`.
+    #[serde(default)]
+    pub tate: TateOptions,
+    /// Options of the model `walker_anderson`.
+    #[serde(default)]
+    pub walker_anderson: WalkerAndersonOptions,
+    /// Options of the model `lanz_odermatt`.
+    #[serde(default)]
+    pub lanz_odermatt: LanzOdermattOptions,
     /// The user's own materials, by id.
     #[serde(default, skip_serializing_if = "MaterialTable::is_empty")]
     pub materials: MaterialTable,
