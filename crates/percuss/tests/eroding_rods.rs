@@ -117,7 +117,7 @@ const CLOSURE: &str = "erosion_closure = \"tate\"";
 /// The same mesh as by default, without the border shear that Tate has no counterpart of.
 const DEFAULT: &str = "border_shear = 0.0";
 
-fn shots(length_to_diameter: u32) -> Vec<Shot> {
+fn shots() -> Vec<Shot> {
     let mut shots = Vec::new();
     for densities in [(STEEL, STEEL), (TUNGSTEN, STEEL), (LIGHT, STEEL)] {
         for constraint in [1.0, 4.0] {
@@ -126,7 +126,7 @@ fn shots(length_to_diameter: u32) -> Vec<Shot> {
                     densities,
                     constraint,
                     speed,
-                    length_to_diameter,
+                    length_to_diameter: 10,
                 };
                 // Near the threshold the flow is nowhere steady.
                 if shot.rods().penetration_speed(speed) > 0.2 * speed {
@@ -140,41 +140,38 @@ fn shots(length_to_diameter: u32) -> Vec<Shot> {
 
 #[test]
 fn the_closure_of_tate_meets_tate_in_the_steady_limit() {
-    // Largest differences of U and P/L where Tate's tip is steady, and where it slows by more than 15 % meanwhile.
+    // Largest differences of U and P/L where Tate's tip is steady, and where it slows by more than 10 % meanwhile.
     let mut worst = [[0.0_f64; 2]; 2];
-    for (short, long) in shots(10).into_iter().zip(shots(20)) {
-        let (speed, depth) = long.steady_ratios(&run_recorded(&long.case(CLOSURE)));
-        let whole = run(&short.case(CLOSURE)).depth_of_penetration.unwrap();
-        let by_tate = short.rods().penetrate(short.speed, short.length()).unwrap();
-        let kept = long.tate_at(0.4).2 / long.rods().penetration_speed(long.speed);
+    for shot in shots() {
+        let result = run_recorded(&shot.case(CLOSURE));
+        let (speed, depth) = shot.steady_ratios(&result);
+        let by_tate = shot.rods().penetrate(shot.speed, shot.length()).unwrap();
+        let whole = result.depth_of_penetration.unwrap() / by_tate.depth;
+        let kept = shot.tate_at(0.4).2 / shot.rods().penetration_speed(shot.speed);
         println!(
-            "{:?} kg/m3, R/Y {}, {} m/s: U {speed:.3}, P/L {depth:.3} ({:.0} % of its speed kept); whole P at L/D 10 {:.3}",
-            long.densities,
-            long.constraint,
-            long.speed,
+            "{:?} kg/m3, R/Y {}, {} m/s: U {speed:.3}, P/L {depth:.3} ({:.0} % of its speed kept); whole P {whole:.3} of Tate's",
+            shot.densities,
+            shot.constraint,
+            shot.speed,
             100.0 * kept,
-            whole / by_tate.depth
         );
-        let worst = &mut worst[usize::from(kept < 0.85)];
+        let worst = &mut worst[usize::from(kept < 0.9)];
         worst[0] = worst[0].max((speed - 1.0).abs());
         worst[1] = worst[1].max((depth - 1.0).abs());
-        assert!((whole / by_tate.depth - 1.0).abs() < 0.1);
+        assert!((whole - 1.0).abs() < 0.1, "{whole}");
     }
     println!(
         "largest differences of U and P/L: steady {:.4?}, slowing {:.4?}",
         worst[0], worst[1]
     );
     assert!(worst[0].iter().all(|worst| *worst < 0.05), "{worst:?}");
-    assert!(worst[1].iter().all(|worst| *worst < 0.2), "{worst:?}");
+    assert!(worst[1].iter().all(|worst| *worst < 0.25), "{worst:?}");
 }
 
 /// Without the closure the chain is no more than near Tate: the ratios are reported, and bounded so that a change shows.
 #[test]
 fn the_chain_without_the_closure_is_near_tate() {
-    for shot in shots(10)
-        .into_iter()
-        .filter(|shot| shot.speed % 1000.0 == 0.0)
-    {
+    for shot in shots() {
         let result = run_recorded(&shot.case(DEFAULT));
         let (ratio, depth) = shot.steady_ratios(&result);
         println!(
