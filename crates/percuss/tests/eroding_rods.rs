@@ -5,6 +5,7 @@ mod common;
 use common::{run, run_recorded, scenario};
 use percuss::{
     analytic::{Rods, Tate},
+    case,
     history::Sample,
     model::{Control, Model},
     outcome::RunResult,
@@ -201,6 +202,28 @@ fn the_closure_balances_its_books_and_leaves_the_tips_mass_out_of_the_projectile
         assert!(
             (left - expected).abs() < 1e-9 * scenario.projectile.mass,
             "{left} {expected}"
+        );
+    }
+}
+
+#[test]
+fn the_closure_refuses_keys_that_it_would_ignore() {
+    let shot = Shot {
+        densities: (TUNGSTEN, STEEL),
+        constraint: 4.0,
+        speed: 1500.0,
+        length_to_diameter: 10,
+    };
+    for key in [
+        "kinematics = \"logarithmic\"",
+        "erosion_strain = 1.5",
+        "border_shear = 0.0",
+    ] {
+        let text = shot.case(&format!("{CLOSURE}\n{key}"));
+        let error = case::load_str("test", &text).unwrap_err().to_string();
+        assert!(
+            error.contains("has no effect with the erosion closure `tate`"),
+            "{error}"
         );
     }
 }
