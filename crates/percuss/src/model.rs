@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::{
     Error, Scenario,
+    analytic::{Hydrodynamic, LanzOdermatt, Tate, WalkerAnderson},
     chain::Chain,
     error::nearest,
     fdm::Fdm,
@@ -36,7 +37,14 @@ pub trait Model: Sync {
 }
 
 /// All models. Adding one is one file and one line here.
-pub static MODELS: &[&dyn Model] = &[&Chain, &Fdm];
+pub static MODELS: &[&dyn Model] = &[
+    &Chain,
+    &Fdm,
+    &Tate,
+    &WalkerAnderson,
+    &LanzOdermatt,
+    &Hydrodynamic,
+];
 
 /// The model with this name.
 ///

@@ -4,6 +4,7 @@ use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
     case::{BackFace, Case, ChainOptions, Experiment, Layer, Nose, Thickness, Uncertainty},
+    analytic::{LanzOdermattOptions, TateOptions, WalkerAndersonOptions},
     check::{Check, limits},
     fdm::FdmOptions,
     material::{Library, Material, MaterialEntry},
@@ -28,6 +29,12 @@ pub struct Scenario {
     pub target: TargetBody,
     /// Options of the model `chain`.
     pub chain: ChainOptions,
+    /// Options of the model `tate`.
+    pub tate: TateOptions,
+    /// Options of the model `walker_anderson`.
+    pub walker_anderson: WalkerAndersonOptions,
+    /// Options of the model `lanz_odermatt`.
+    pub lanz_odermatt: LanzOdermattOptions,
     /// Options of the model `fdm`.
     pub fdm: FdmOptions,
     /// What was measured, for comparison; no model sees it.
@@ -169,6 +176,9 @@ impl Scenario {
             impact_speed: case.projectile.velocity.si(),
             target: target?,
             chain: case.chain,
+            tate: case.tate,
+            walker_anderson: case.walker_anderson,
+            lanz_odermatt: case.lanz_odermatt,
             experiments: case
                 .experiments
                 .iter()

@@ -178,6 +178,10 @@ impl Case {
         self.target.check(&mut check.within("target"));
         self.chain
             .check(&mut check.within("chain"), self.target.is_solid());
+        self.tate.check(&mut check.within("tate"));
+        self.walker_anderson
+            .check(&mut check.within("walker_anderson"));
+        self.lanz_odermatt.check(&mut check.within("lanz_odermatt"));
         self.fdm
             .check(&mut check.within("fdm"), self.target.is_solid());
         for (i, experiment) in self.experiments.iter().enumerate() {

@@ -17,7 +17,11 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{fdm::FdmOptions, material::MaterialTable};
+use crate::{
+    analytic::{LanzOdermattOptions, TateOptions, WalkerAndersonOptions},
+    fdm::FdmOptions,
+    material::MaterialTable,
+};
 
 pub(crate) use document::Document;
 pub use experiment::{Experiment, SourceKeys, Uncertainty};
@@ -50,6 +54,15 @@ pub struct Case {
     /// Options of the 1-D discrete element model.
     #[serde(default)]
     pub chain: ChainOptions,
+    /// Options of the model `tate`.
+    #[serde(default)]
+    pub tate: TateOptions,
+    /// Options of the model `walker_anderson`.
+    #[serde(default)]
+    pub walker_anderson: WalkerAndersonOptions,
+    /// Options of the model `lanz_odermatt`.
+    #[serde(default)]
+    pub lanz_odermatt: LanzOdermattOptions,
     /// Options of the 1-D finite-difference model.
     #[serde(default)]
     pub fdm: FdmOptions,

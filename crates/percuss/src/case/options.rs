@@ -32,6 +32,8 @@ pub struct ChainOptions {
     pub courant: Option<f64>,
     /// Magnitude of strain at which an element erodes, or `"never"`; 2 when not given; scheme `conservative` only.
     pub erosion_strain: Option<ErosionStrain>,
+    /// How what erodes leaves the tip; `strain` when not given; scheme `conservative` only.
+    pub erosion_closure: Option<ErosionClosure>,
     /// Artificial viscosity in compression; none when not given; scheme `conservative` only.
     pub artificial_viscosity: Option<ArtificialViscosity>,
     /// Viscous damping of every spring as a fraction of critical; 0 when not given; scheme `conservative` only.
@@ -82,6 +84,18 @@ pub enum Kinematics {
     SmallStrain,
 }
 
+/// How what erodes leaves the tip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ErosionClosure {
+    /// Elements mushroom and leave at `erosion_strain`.
+    #[default]
+    Strain,
+    /// Elements keep their area until their length is used up, a mass of target moves with the tip, and the target ahead of it is
+    /// held: the steady flow is that of Alekseevskii and Tate.
+    Tate,
+}
+
 /// Artificial viscosity `q = ρ l |ε̇| (c_l c + c_q l |ε̇|)` in compression.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -115,6 +129,19 @@ impl ChainOptions {
     pub fn constraint_factor(&self) -> ConstraintFactor {
         self.constraint_factor
             .unwrap_or(ConstraintFactor::Value(2.7))
+    }
+
+    /// How what erodes leaves the tip.
+    pub fn erosion_closure(&self) -> ErosionClosure {
+        self.erosion_closure.unwrap_or_default()
+    }
+
+    /// Strain measure; the closure of Tate has one of its own.
+    pub fn kinematics(&self) -> Kinematics {
+        match self.erosion_closure() {
+            ErosionClosure::Strain => self.kinematics.unwrap_or_default(),
+            ErosionClosure::Tate => Kinematics::SmallStrain,
+        }
     }
 
     /// Readings of the paper.
@@ -189,6 +216,7 @@ impl ChainOptions {
             ("target_elements", self.target_elements.is_some()),
             ("constraint_factor", self.constraint_factor.is_some()),
             ("border_shear", self.border_shear.is_some()),
+            ("erosion_closure", self.erosion_closure.is_some()),
         ];
         for (key, _) in column_only
             .iter()
@@ -199,6 +227,21 @@ impl ChainOptions {
                 format!("a rigid wall or a constant pressure has no `{key}`"),
                 "remove the key",
             );
+        }
+        if self.erosion_closure() == ErosionClosure::Tate {
+            for (key, given) in [
+                ("kinematics", self.kinematics.is_some()),
+                ("erosion_strain", self.erosion_strain.is_some()),
+                ("border_shear", self.border_shear.is_some()),
+            ] {
+                if given {
+                    check.fail(
+                        key,
+                        format!("`{key}` has no effect with the erosion closure `tate`"),
+                        "remove one of the two keys",
+                    );
+                }
+            }
         }
         if self.heat_fraction.is_some() && self.adiabatic_heating == Some(false) {
             check.fail(
@@ -215,6 +258,7 @@ impl ChainOptions {
             ("kinematics", self.kinematics.is_some()),
             ("courant", self.courant.is_some()),
             ("erosion_strain", self.erosion_strain.is_some()),
+            ("erosion_closure", self.erosion_closure.is_some()),
             ("artificial_viscosity", self.artificial_viscosity.is_some()),
             ("damping_ratio", self.damping_ratio.is_some()),
             ("rate_effects", self.rate_effects.is_some()),

@@ -5,11 +5,12 @@ use super::{
     results::Results,
     solver::StepControl,
     state::State,
+    tate,
     watch::{Watch, event},
 };
 use crate::{
     Error, Scenario,
-    case::ErosionStrain,
+    case::{ErosionClosure, ErosionStrain},
     error::NumericalError,
     history::Recorder,
     model::{Control, Progress},
@@ -70,20 +71,24 @@ impl<'a> Conservative<'a> {
 
     fn with_courant(scenario: &'a Scenario, courant: f64) -> Self {
         let options = &scenario.chain;
-        let erosion_strain = match options
-            .erosion_strain
-            .unwrap_or(ErosionStrain::At(DEFAULT_EROSION_STRAIN))
-        {
-            ErosionStrain::At(strain) => strain,
-            ErosionStrain::Never => f64::INFINITY,
+        let mut state = mesh::build(scenario);
+        let mut longest_step = f64::INFINITY;
+        let erosion_strain = match (options.erosion_closure(), options.erosion_strain) {
+            (ErosionClosure::Tate, _) => {
+                longest_step = tate::longest_step(&state, scenario.impact_speed);
+                tate::USED_UP_STRAIN
+            }
+            (ErosionClosure::Strain, Some(ErosionStrain::At(strain))) => strain,
+            (ErosionClosure::Strain, Some(ErosionStrain::Never)) => f64::INFINITY,
+            (ErosionClosure::Strain, None) => DEFAULT_EROSION_STRAIN,
         };
         let control = StepControl {
             courant,
             viscosity: options.artificial_viscosity.unwrap_or_default(),
             damping_ratio: options.damping_ratio.unwrap_or(0.0),
             erosion_strain,
+            longest_step,
         };
-        let mut state = mesh::build(scenario);
         state.stable_step *= control.first_step_factor(&state, scenario.impact_speed);
         Self {
             scenario,

@@ -34,6 +34,7 @@ impl State {
             self.nodes[i].friction = (self.nodes[i].friction - half_friction).max(0.0);
         }
         self.elements[e].eroded = true;
+        self.move_tip(s, left);
         let before = Segment {
             last_node: left,
             ..segment
@@ -79,6 +80,7 @@ impl State {
             }
         }
         self.segments.splice(s..=s, kept);
+        self.release_face();
         if self.tip_friction > 0.0
             && let Some(tip) = self.segments.last()
         {

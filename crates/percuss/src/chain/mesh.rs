@@ -9,7 +9,7 @@ use super::{
     state::{Books, Element, End, Node, Segment, State},
 };
 use crate::{
-    case::{BackFace, Kinematics},
+    case::{BackFace, ErosionClosure, Kinematics},
     scenario::{Plate, Scenario, TargetBody},
 };
 
@@ -61,7 +61,10 @@ pub(super) fn build(scenario: &Scenario) -> State {
             back_face,
             column_diameter,
         } => {
-            let area = PI * column_diameter * column_diameter / 4.0;
+            let area = match options.erosion_closure() {
+                ErosionClosure::Strain => PI * column_diameter * column_diameter / 4.0,
+                ErosionClosure::Tate => parts[0].area,
+            };
             for (plate, elements) in layers.iter().zip(layer_elements(layers, scenario)) {
                 let material = &plate.material;
                 let factor = constraint_factor(options.constraint_factor(), material);
@@ -69,6 +72,10 @@ pub(super) fn build(scenario: &Scenario) -> State {
                 let flow_stress = material.strength.law().flow_stress_at_unit_strain(material);
                 part.friction_per_length =
                     options.border_shear() * PI * column_diameter * flow_stress.unwrap_or(0.0);
+                if options.erosion_closure() == ErosionClosure::Tate {
+                    // What holds the target ahead of the tip stands in the place of border shear.
+                    part.friction_per_length = 0.0;
+                }
                 parts.push(part);
                 lengths.push(modelled_thickness(plate, scenario));
             }
@@ -91,6 +98,9 @@ pub(super) fn build(scenario: &Scenario) -> State {
     if let TargetBody::ConstantPressure(pressure) = scenario.target {
         state.tip_friction = pressure * state.parts[0].area;
         state.nodes[rod_elements].friction = state.tip_friction;
+    }
+    if options.erosion_closure() == ErosionClosure::Tate {
+        state.add_tip(rod.diameter);
     }
     for node in &mut state.nodes[..=rod_elements] {
         node.velocity = scenario.impact_speed;
@@ -116,6 +126,7 @@ fn assemble(parts: Vec<Part>, lengths: &[f64], end: End) -> State {
         closed: vec![true; parts.len() - 1],
         end,
         tip_friction: 0.0,
+        tip: None,
         back_position: 0.0,
         nodes: vec![Node::default(); nodes],
         elements: vec![Element::default(); elements],

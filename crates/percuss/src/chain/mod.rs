@@ -12,6 +12,7 @@ mod results;
 mod snapshot;
 mod solver;
 mod state;
+mod tate;
 #[cfg(test)]
 mod tests;
 mod warnings;

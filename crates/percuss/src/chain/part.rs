@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
+use super::tate::USED_UP_STRAIN;
 use crate::{
-    case::{ChainOptions, ConstraintFactor, Kinematics},
+    case::{ChainOptions, ConstraintFactor, ErosionClosure, Kinematics},
     material::{Material, PreparedStrength, cavity_expansion_pressure},
 };
 
@@ -54,6 +55,11 @@ impl Part {
             }
             _ => 0.0,
         };
+        let factor = match options.erosion_closure() {
+            ErosionClosure::Strain => factor,
+            // An element's force over the part of its length that is used up does the work of its flow stress over all of it.
+            ErosionClosure::Tate => factor / USED_UP_STRAIN,
+        };
         Self {
             role,
             elements,
@@ -66,7 +72,7 @@ impl Part {
             heating,
             start_temperature: material.room_temperature.si(),
             rate_effects: options.rate_effects.unwrap_or(true),
-            kinematics: options.kinematics.unwrap_or_default(),
+            kinematics: options.kinematics(),
             friction_per_length: 0.0,
         }
     }

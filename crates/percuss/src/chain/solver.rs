@@ -25,6 +25,8 @@ pub(super) struct StepControl {
     pub(super) viscosity: ArtificialViscosity,
     pub(super) damping_ratio: f64,
     pub(super) erosion_strain: f64,
+    /// Longest time step [s].
+    pub(super) longest_step: f64,
 }
 
 impl StepControl {
@@ -66,7 +68,10 @@ impl State {
     /// Advances by one step.
     pub(super) fn advance(&mut self, control: &StepControl) -> Result<(), NumericalError> {
         let previous = self.time_step;
-        let time_step = choose_time_step(previous, control.courant * self.stable_step);
+        let time_step = choose_time_step(
+            previous,
+            (control.courant * self.stable_step).min(control.longest_step),
+        );
         self.collect_forces();
         // Velocities live half a step behind positions: the kick spans the two half steps around the current time.
         self.kick(0.5 * (previous + time_step), control.is_viscous());

@@ -3,7 +3,10 @@
 //! Position is measured from the struck face, positive into the target; force and stress are positive in compression.
 //! Part `p` has one node more than it has elements, so element `e` of part `p` joins the nodes `e + p` and `e + p + 1`.
 
-use super::part::{Part, Role};
+use super::{
+    part::{Part, Role},
+    tate::Tip,
+};
 use crate::ledger::{EnergyLedger, MomentumLedger};
 
 /// What holds the last node of the chain.
@@ -100,6 +103,8 @@ pub(super) struct State {
     pub(super) end: End,
     /// Force of a constant-pressure target on the projectile's tip [N]; 0 with any other target.
     pub(super) tip_friction: f64,
+    /// What moves with the tip under the erosion closure of Tate.
+    pub(super) tip: Option<Tip>,
     /// Initial position of the last node [m].
     pub(super) back_position: f64,
 
@@ -138,8 +143,9 @@ impl State {
         for segment in &self.segments {
             if self.parts[segment.part].role == Role::Projectile {
                 for i in segment.first_node..=segment.last_node {
-                    sums.0 += self.nodes[i].mass;
-                    sums.1 += self.nodes[i].mass * self.nodes[i].velocity;
+                    let mass = self.nodes[i].mass - self.tip_mass_on(i);
+                    sums.0 += mass;
+                    sums.1 += mass * self.nodes[i].velocity;
                 }
             }
         }

@@ -34,6 +34,7 @@ const CONTROL: StepControl = StepControl {
     },
     damping_ratio: 0.01,
     erosion_strain: 2.0,
+    longest_step: f64::INFINITY,
 };
 
 /// The same state seen in a mirror at the struck face.

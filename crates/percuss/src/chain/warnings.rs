@@ -2,6 +2,7 @@
 
 use super::mesh;
 use crate::{
+    case::ErosionClosure,
     material::{Material, Strength},
     outcome::{Outcome, RunResult},
     scenario::{Scenario, TargetBody},
@@ -70,7 +71,13 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
             significant(permanent.unwrap_or(0.0) * 1e3, 3)
         ));
     }
-    if scenario.chain.border_shear() > 0.0 {
+    if scenario.chain.erosion_closure() == ErosionClosure::Tate {
+        warnings.push(
+            "the depth rests on the erosion closure `tate`: the resistance of the target is its flow stress times the constraint \
+             factor, on the rod's area"
+                .to_owned(),
+        );
+    } else if scenario.chain.border_shear() > 0.0 {
         warnings.push(format!(
             "the depth rests on the target closure (constraint factor and border shear C = {}): `chain.border_shear = 0.0` \
              gives the other end of the range",
@@ -100,7 +107,8 @@ fn warn_of_erosion(
     warnings: &mut Vec<String>,
 ) {
     let (projectile, target) = result.numerics().eroded_elements;
-    if projectile + target > 0 {
+    let by_strain = scenario.chain.erosion_closure() == ErosionClosure::Strain;
+    if projectile + target > 0 && by_strain {
         warnings.push(format!(
             "{projectile} of {} projectile elements and {target} target elements eroded at strain {}, a numerical limit: \
              compare with `chain.erosion_strain` = {} and {}, and with half the Courant number",

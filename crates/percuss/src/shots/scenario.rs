@@ -112,6 +112,9 @@ impl Shot {
             experiments: Vec::new(),
             chain: ChainOptions::default(),
             fdm: Default::default(),
+            tate: Default::default(),
+            walker_anderson: Default::default(),
+            lanz_odermatt: Default::default(),
             materials,
             material_files: Vec::new(),
         }

@@ -1,0 +1,95 @@
+//! What the models of long rods read from a case: a rod of one metal on a target of one metal.
+
+use crate::{
+    error::NumericalError,
+    material::Material,
+    outcome::Detail,
+    scenario::{Scenario, TargetBody},
+    units::{Pressure, significant},
+};
+
+use super::ode::Stuck;
+
+/// Plastic strain at which a flow stress stands for a strength, as in [`crate::regime`].
+pub(super) const STRENGTH_STRAIN: f64 = 0.1;
+
+/// A flat-ended rod and the metal that it strikes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LongRod<'a> {
+    /// Length of the flat-ended rod of the same mass and diameter [m].
+    pub(super) length: f64,
+    pub(super) diameter: f64,
+    pub(super) speed: f64,
+    pub(super) projectile: &'a Material,
+    pub(super) target: &'a Material,
+}
+
+impl<'a> LongRod<'a> {
+    /// `None` when the target is not of one material.
+    pub(super) fn of(scenario: &'a Scenario) -> Option<Self> {
+        let TargetBody::Layers { layers, .. } = &scenario.target else {
+            return None;
+        };
+        let [plate] = layers.as_slice() else {
+            return None;
+        };
+        let rod = &scenario.projectile;
+        Some(Self {
+            length: rod.mass / (rod.material.density.si() * rod.area()),
+            diameter: rod.diameter,
+            speed: scenario.impact_speed,
+            projectile: &rod.material,
+            target: &plate.material,
+        })
+    }
+
+    pub(super) fn densities(&self) -> (f64, f64) {
+        (self.projectile.density.si(), self.target.density.si())
+    }
+}
+
+/// Why a case is none of a rod of one metal on another.
+pub(super) const NOT_ONE_TARGET: &str = "it takes one layer of target";
+
+/// A strength that a case gives [Pa], or a material's flow stress at a plastic strain of 0.1, slow and at room temperature.
+///
+/// # Errors
+/// The key to give when the material never yields.
+pub(super) fn strength(
+    given: Option<Pressure>,
+    material: &Material,
+    what: &str,
+    key: &str,
+) -> Result<f64, String> {
+    match (given, material.flow_stress(STRENGTH_STRAIN)) {
+        (Some(given), _) => Ok(given.si()),
+        (None, Some(stress)) => Ok(stress),
+        (None, None) => Err(format!(
+            "the {what}'s material never yields: give `{key}`, or another strength law"
+        )),
+    }
+}
+
+pub(super) fn detail(name: &'static str, unit: &'static str, value: f64) -> Detail {
+    Detail { name, unit, value }
+}
+
+/// The error of an integration that found no end.
+pub(super) fn failure(stuck: Stuck) -> NumericalError {
+    NumericalError {
+        what: "the integration in time found no end".to_owned(),
+        step: stuck.attempts.into(),
+        time_us: stuck.time * 1e6,
+        element: None,
+        remedy: "report the case: every case in the model's range has an end".to_owned(),
+    }
+}
+
+/// Strengths at which a depth was computed, as a warning of what it rests on.
+pub(super) fn rests_on(projectile: f64, target: f64, source: &str) -> String {
+    format!(
+        "the depth rests on a projectile strength of {} MPa and a target resistance of {} MPa, {source}",
+        significant(projectile * 1e-6, 4),
+        significant(target * 1e-6, 4)
+    )
+}

@@ -1,0 +1,269 @@
+//! Model `tate`: the long rod of Alekseevskii and Tate, eroding, rigid or stopped at the face.
+
+mod equations;
+mod exact;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use equations::{Phase, Rods, Stop};
+
+use super::long_rod::{LongRod, NOT_ONE_TARGET, STRENGTH_STRAIN, detail, rests_on, strength};
+use crate::{
+    Error, Scenario,
+    case::Nose,
+    check::{Check, limits},
+    guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
+    material::{Material, MaterialClass, cavity_expansion_pressure},
+    model::{Control, Model},
+    outcome::{Band, BandQuantity, Outcome, RunResult, Termination},
+    regime::{ProjectileRegime, Regime, TargetKind},
+    units::Pressure,
+};
+
+/// Options of the model `tate`.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct TateOptions {
+    /// Strength Y of the projectile [Pa]; its flow stress at a plastic strain of 0.1 when not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub projectile_strength: Option<Pressure>,
+    /// Resistance R of the target [Pa]; the pressure that slowly expands a spherical cavity in it when not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target_resistance: Option<Pressure>,
+}
+
+impl TateOptions {
+    pub(crate) fn check(&self, check: &mut Check<'_>) {
+        for (key, value) in [
+            ("projectile_strength", self.projectile_strength),
+            ("target_resistance", self.target_resistance),
+        ] {
+            if let Some(value) = value {
+                check.quantity(key, value, limits::FLOW_STRESS);
+            }
+        }
+    }
+}
+
+/// The long rod of Alekseevskii and Tate.
+#[derive(Debug, Clone, Copy)]
+pub struct Tate;
+
+/// Range of length to diameter of a long rod, and of speeds, shared by the models of eroding rods.
+pub(super) const LONG_ROD: &[Range] = &[
+    Range {
+        measure: Measure::LengthToDiameter,
+        min: 3.0,
+        max: f64::INFINITY,
+        outside: Outside::NotApplicable,
+        because: "its steady flow needs a rod that is long against the tip",
+    },
+    Range {
+        measure: Measure::LengthToDiameter,
+        min: 10.0,
+        max: f64::INFINITY,
+        outside: Outside::Warning,
+        because: "entry and the last diameters of a shorter rod add depth that steady flow does not give",
+    },
+    Range {
+        measure: Measure::ImpactSpeed,
+        min: 0.0,
+        max: 5000.0,
+        outside: Outside::Warning,
+        because: "compressibility and melting are left out",
+    },
+];
+
+impl Tate {
+    /// The rod and target of a case.
+    ///
+    /// # Errors
+    /// What is missing, in words.
+    pub fn rods(scenario: &Scenario) -> Result<Rods, String> {
+        let rod = LongRod::of(scenario).ok_or(NOT_ONE_TARGET)?;
+        let options = &scenario.tate;
+        let resistance = options
+            .target_resistance
+            .map(Pressure::si)
+            .or_else(|| cavity_expansion_pressure(rod.target))
+            .ok_or("the target's material never yields: give `tate.target_resistance`")?;
+        let (projectile_density, target_density) = rod.densities();
+        Ok(Rods {
+            projectile_density,
+            target_density,
+            projectile_strength: strength(
+                options.projectile_strength,
+                rod.projectile,
+                "projectile",
+                "tate.projectile_strength",
+            )?,
+            target_resistance: resistance,
+        })
+    }
+}
+
+/// Factor on the static yield stress of a rod in Tate's estimate of Y.
+const DYNAMIC_FACTOR: f64 = 1.7;
+
+/// Tate's estimate of the strength of a rod from its yield stress, `Y = 1.7 σ_y` \[tate1986\] [Pa].
+fn estimated_strength(material: &Material) -> Option<f64> {
+    let yield_stress = material.strength.law().initial_yield_stress(material)?;
+    Some(DYNAMIC_FACTOR * yield_stress)
+}
+
+/// Tate's estimate of the resistance of a target, `R = σ [2/3 + ln(0.57 E/σ)]` \[tate1986\], with the flow stress at a
+/// plastic strain of 0.1 for σ [Pa].
+fn estimated_resistance(material: &Material) -> Option<f64> {
+    let flow_stress = material.flow_stress(STRENGTH_STRAIN)?;
+    let ratio = 0.57 * material.youngs_modulus.si() / flow_stress;
+    Some(flow_stress * (2.0 / 3.0 + ratio.ln()))
+}
+
+/// The range of depths [m] over the other ways to estimate what a case does not give.
+fn band(
+    scenario: &Scenario,
+    rod: &LongRod<'_>,
+    rods: Rods,
+    depth: f64,
+) -> Result<Option<Band>, Error> {
+    let options = &scenario.tate;
+    let mut strengths = vec![rods.projectile_strength];
+    let mut resistances = vec![rods.target_resistance];
+    if options.projectile_strength.is_none() {
+        strengths.extend(estimated_strength(rod.projectile));
+    }
+    if options.target_resistance.is_none() {
+        resistances.extend(estimated_resistance(rod.target).filter(|resistance| *resistance > 0.0));
+    }
+    let (mut low, mut high) = (depth, depth);
+    for &projectile_strength in &strengths {
+        for &target_resistance in &resistances {
+            let other = Rods {
+                projectile_strength,
+                target_resistance,
+                ..rods
+            };
+            let depth = other.penetrate(rod.speed, rod.length)?.depth;
+            low = low.min(depth);
+            high = high.max(depth);
+        }
+    }
+    Ok((low < high).then_some(Band {
+        quantity: BandQuantity::DepthOfPenetration,
+        low: low * 1e3,
+        high: high * 1e3,
+        basis: "Y as the flow stress at a plastic strain of 0.1 or as 1.7 times the yield stress, R from cavity expansion or \
+                from Tate's estimate",
+    }))
+}
+
+impl Model for Tate {
+    fn name(&self) -> &'static str {
+        "tate"
+    }
+
+    fn summary(&self) -> &'static str {
+        "long rod of Alekseevskii and Tate: steady flow at the tip, eroding or rigid"
+    }
+
+    fn guard(&self) -> &'static Guard {
+        const {
+            &Guard {
+                projectile: &[ProjectileRegime::Eroding, ProjectileRegime::Rigid],
+                targets: TargetKind::DEEP,
+                ranges: LONG_ROD,
+                sees_back_face: false,
+                first_choice: &[FirstChoice {
+                    projectile: ProjectileRegime::Eroding,
+                    targets: TargetKind::DEEP,
+                    noses: NoseKind::ALL,
+                    target_material: MaterialClass::Metal,
+                    because: "it is the balance of pressures at the tip of a long eroding rod, and nothing in it is fitted here",
+                }],
+                notes: &[
+                    "normal impact; the shape of the nose is left out: a rod with a nose counts as the flat-ended one of its mass",
+                    "entry, the flow that goes on after the rod is used up, and compressibility are left out",
+                ],
+                ..Guard::OPEN
+            }
+        }
+    }
+
+    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+        let sharp = matches!(
+            scenario.projectile.nose,
+            Nose::Cone { .. } | Nose::Ogive { .. }
+        );
+        if sharp && Regime::of(scenario).projectile == ProjectileRegime::Rigid {
+            return Some("it takes no account of the sharp nose of a rigid projectile".to_owned());
+        }
+        Self::rods(scenario).err()
+    }
+
+    fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
+        let refuse = |reason: String| Error::NotApplicable {
+            model: self.name(),
+            reason,
+        };
+        let rods = Self::rods(scenario).map_err(refuse)?;
+        let rod = LongRod::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET.to_owned()))?;
+        let stop = rods.penetrate(rod.speed, rod.length)?;
+        let (outcome, termination) = if rod.speed == 0.0 {
+            (Outcome::AtRest, Termination::NothingMoves)
+        } else if stop.length == 0.0 {
+            (Outcome::ProjectileEroded, Termination::ProjectileConsumed)
+        } else {
+            (Outcome::AtRest, Termination::PenetrationStopped)
+        };
+        let mut result = RunResult::new(self.name(), "alekseevskii-tate", outcome, termination);
+        result.depth_of_penetration = Some(stop.depth);
+        result.residual_velocity = Some(0.0);
+        result.projectile_final_length = Some(stop.length);
+        result.projectile_final_mass = Some(scenario.projectile.mass * stop.length / rod.length);
+        result.time_to_rest = Some(stop.time);
+        result.end_time = Some(stop.time);
+        result.band = band(scenario, &rod, rods, stop.depth)?;
+        result.details = vec![
+            detail(
+                "projectile strength Y",
+                "MPa",
+                rods.projectile_strength * 1e-6,
+            ),
+            detail("target resistance R", "MPa", rods.target_resistance * 1e-6),
+            detail("threshold speed", "m/s", rods.threshold()),
+            detail(
+                "hydrodynamic P/L",
+                "",
+                (rods.projectile_density / rods.target_density).sqrt(),
+            ),
+            detail("depth made rigid", "mm", stop.rigid_depth * 1e3),
+            detail(
+                "tail speed at the end of erosion",
+                "m/s",
+                stop.hand_over_speed,
+            ),
+        ];
+        if rods.phase(rod.speed) == Phase::Eroding {
+            let speed = rods.penetration_speed(rod.speed);
+            result.details.extend([
+                detail("initial penetration speed U", "m/s", speed),
+                detail("steady P/L", "", speed / rods.erosion_speed(rod.speed)),
+            ]);
+        }
+        let options = &scenario.tate;
+        if options.projectile_strength.is_none() || options.target_resistance.is_none() {
+            result.warnings.push(rests_on(
+                rods.projectile_strength,
+                rods.target_resistance,
+                "estimated from the strength laws: `tate.projectile_strength` and `tate.target_resistance` replace them",
+            ));
+        }
+        if rods.phase(rod.speed) == Phase::Flattening && rod.speed > 0.0 {
+            result.warnings.push(
+                "the rod is too slow for its strength to penetrate: it erodes on the face of the target".to_owned(),
+            );
+        }
+        Ok(result)
+    }
+}
