@@ -4,6 +4,9 @@ use std::ops::ControlFlow;
 
 use crate::{
     Error, Scenario,
+    analytic::{
+        CraterEnergy, Forrestal, ForrestalConcrete, Poncelet, QuasiStatic, Taylor, WilkinsGuinan,
+    },
     chain::Chain,
     error::nearest,
     guard::{Guard, Verdict},
@@ -35,7 +38,16 @@ pub trait Model: Sync {
 }
 
 /// All models. Adding one is one file and one line here.
-pub static MODELS: &[&dyn Model] = &[&Chain];
+pub static MODELS: &[&dyn Model] = &[
+    &Chain,
+    &Forrestal,
+    &ForrestalConcrete,
+    &QuasiStatic,
+    &Poncelet,
+    &CraterEnergy,
+    &Taylor,
+    &WilkinsGuinan,
+];
 
 /// The model with this name.
 ///

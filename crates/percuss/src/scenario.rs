@@ -3,6 +3,10 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
+    analytic::{
+        CraterEnergyOptions, ForrestalConcreteOptions, ForrestalOptions, PonceletOptions,
+        TaylorOptions, WilkinsGuinanOptions,
+    },
     case::{BackFace, Case, ChainOptions, Layer, Nose, Thickness},
     check::{Check, limits},
     material::{Library, Material, MaterialEntry},
@@ -26,6 +30,18 @@ pub struct Scenario {
     pub target: TargetBody,
     /// Options of the model `chain`.
     pub chain: ChainOptions,
+    /// Options of the model `forrestal`.
+    pub forrestal: ForrestalOptions,
+    /// Options of the model `forrestal_concrete`.
+    pub forrestal_concrete: ForrestalConcreteOptions,
+    /// Options of the model `poncelet`.
+    pub poncelet: PonceletOptions,
+    /// Options of the model `crater_energy`.
+    pub crater_energy: CraterEnergyOptions,
+    /// Options of the model `taylor`.
+    pub taylor: TaylorOptions,
+    /// Options of the model `wilkins_guinan`.
+    pub wilkins_guinan: WilkinsGuinanOptions,
 }
 
 /// A projectile.
@@ -127,6 +143,12 @@ impl Scenario {
             impact_speed: case.projectile.velocity.si(),
             target: target?,
             chain: case.chain,
+            forrestal: case.forrestal,
+            forrestal_concrete: case.forrestal_concrete,
+            poncelet: case.poncelet,
+            crater_energy: case.crater_energy,
+            taylor: case.taylor,
+            wilkins_guinan: case.wilkins_guinan,
         })
     }
 }

@@ -158,6 +158,14 @@ impl Case {
         self.target.check(&mut check.within("target"));
         self.chain
             .check(&mut check.within("chain"), self.target.is_solid());
+        self.forrestal.check(&mut check.within("forrestal"));
+        self.forrestal_concrete
+            .check(&mut check.within("forrestal_concrete"));
+        self.poncelet.check(&mut check.within("poncelet"));
+        self.crater_energy.check(&mut check.within("crater_energy"));
+        self.taylor.check(&mut check.within("taylor"));
+        self.wilkins_guinan
+            .check(&mut check.within("wilkins_guinan"));
         self.check_materials(check);
     }
 

@@ -16,7 +16,13 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::material::MaterialTable;
+use crate::{
+    analytic::{
+        CraterEnergyOptions, ForrestalConcreteOptions, ForrestalOptions, PonceletOptions,
+        TaylorOptions, WilkinsGuinanOptions,
+    },
+    material::MaterialTable,
+};
 
 pub(crate) use document::Document;
 pub use load::{MAX_FILE_BYTES, load, load_library, load_materials, load_str};
@@ -46,6 +52,24 @@ pub struct Case {
     /// Options of the 1-D discrete element model.
     #[serde(default)]
     pub chain: ChainOptions,
+    /// Options of the model `forrestal`.
+    #[serde(default)]
+    pub forrestal: ForrestalOptions,
+    /// Options of the model `forrestal_concrete`.
+    #[serde(default)]
+    pub forrestal_concrete: ForrestalConcreteOptions,
+    /// Options of the model `poncelet`.
+    #[serde(default)]
+    pub poncelet: PonceletOptions,
+    /// Options of the model `crater_energy`.
+    #[serde(default)]
+    pub crater_energy: CraterEnergyOptions,
+    /// Options of the model `taylor`.
+    #[serde(default)]
+    pub taylor: TaylorOptions,
+    /// Options of the model `wilkins_guinan`.
+    #[serde(default)]
+    pub wilkins_guinan: WilkinsGuinanOptions,
     /// The user's own materials, by id.
     #[serde(default, skip_serializing_if = "MaterialTable::is_empty")]
     pub materials: MaterialTable,
