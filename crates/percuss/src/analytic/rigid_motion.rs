@@ -44,6 +44,9 @@ impl RigidMotion {
     /// `d(V²)/dx = −(2π a²/m) [M(x) R + N(x) b V²]` is linear in V², so that with `κ = 2π a² b/m` and `P = ∫₀ˣ N dx`
     /// `V² = e^{−κP} [V₀² − (2π a² R/m) ∫₀ˣ M e^{κP} dx]`; once the nose is in, the closed form for the whole nose takes over.
     pub(super) fn gradual(&self, speed: f64) -> Stop {
+        if speed <= 0.0 {
+            return self.embedded(0.0);
+        }
         let decay = 2.0 * self.nose.area() * self.inertia / self.mass;
         let drain = 2.0 * self.nose.area() * self.strength / self.mass;
         let square = speed * speed;
