@@ -210,12 +210,16 @@ mod tests {
     #[test]
     fn the_hydrodynamic_limit_is_the_square_of_the_mean_of_the_density_law() {
         // P/L = ½ρV²/(R growth) → V²/(4(V−U)²) = (1+λ)²/(4λ²), λ = √(ρt/ρp): 1 for equal densities, as it must be.
-        for (projectile, target) in [(7850.0, 7850.0), (17_300.0, 7850.0), (2710.0, 7850.0)] {
+        for (projectile, target) in [
+            (7850.0_f64, 7850.0_f64),
+            (17_300.0, 7850.0),
+            (2710.0, 7850.0),
+        ] {
             let (speed, resistance, strength) = (1e6, 1e9, 1e9);
             let bottom = crater_speed((projectile, target), speed, strength, resistance);
             let growth = crater_growth(projectile, speed - bottom, resistance);
             let depth = 0.5 * projectile * speed * speed / (resistance * growth);
-            let lambda: f64 = (target / projectile as f64).sqrt();
+            let lambda = (target / projectile).sqrt();
             let exact = (1.0 + lambda).powi(2) / (4.0 * lambda * lambda);
             assert!((depth / exact - 1.0).abs() < 1e-5, "{depth} {exact}");
             // The debris flies at 2U − V; less its kinetic energy the balance gives 1/λ for any densities.

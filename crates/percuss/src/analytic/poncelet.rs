@@ -49,10 +49,14 @@ pub struct Poncelet;
 impl Poncelet {
     /// R [Pa] and C ρ [kg/m3].
     fn resistance(scenario: &Scenario) -> Result<(f64, f64), String> {
+        let options = &scenario.poncelet;
         if let TargetBody::ConstantPressure(pressure) = scenario.target {
+            if *options != PonceletOptions::default() {
+                let reason = "a constant pressure is the resistance, and has no drag: remove the table `poncelet`";
+                return Err(reason.to_owned());
+            }
             return Ok((pressure, 0.0));
         }
-        let options = &scenario.poncelet;
         let shot = DeepShot::of(scenario).ok_or_else(|| NOT_ONE_TARGET.to_owned())?;
         let resistance = options
             .resistance
