@@ -518,6 +518,12 @@ fn a_new_case_names_every_key_of_the_schema() {
         "ChainOptions",
         "PublishedOptions",
         "ArtificialViscosity",
+        "ForrestalOptions",
+        "ForrestalConcreteOptions",
+        "PonceletOptions",
+        "CraterEnergyOptions",
+        "TaylorOptions",
+        "WilkinsGuinanOptions",
     ] {
         for key in schema["$defs"][definition]["properties"]
             .as_object()
