@@ -50,7 +50,7 @@ fn copper_rods_are_predicted_without_a_fit() {
                     "{model}, {material}, {velocity} m/s: {length:.2} mm, measured {measured} mm ({:+.1} %), Y = {:.0} MPa, strain {:.2}, rate {:.0}/s",
                     100.0 * error,
                     detail(&result, "dynamic yield stress"),
-                    detail(&result, "mean strain of the deformed part"),
+                    detail(&result, "mean strain"),
                     detail(&result, "mean strain rate"),
                 );
                 sum += error * error;
@@ -69,7 +69,7 @@ fn the_yield_stress_is_its_own_mean() {
         let result = run(model, &case);
         let mean = mean_flow_stress(
             &case.projectile.material,
-            detail(&result, "mean strain of the deformed part"),
+            detail(&result, "mean strain"),
             detail(&result, "mean strain rate"),
         );
         assert_near(

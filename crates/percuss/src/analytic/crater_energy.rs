@@ -183,7 +183,7 @@ impl Model for CraterEnergy {
         };
         result.details = vec![
             detail("resistance", "MPa", resistance * 1e-6),
-            detail("crater to projectile diameter", "", growth.sqrt()),
+            detail("crater diameter ratio", "", growth.sqrt()),
             detail("crater volume", "cm3", energy / resistance * 1e6),
         ];
         match regime {

@@ -264,8 +264,8 @@ impl Model for Forrestal {
         result.details = vec![
             detail("target resistance A Y", "MPa", resistance.strength * 1e-6),
             detail("inertia coefficient B", "", resistance.coefficient),
-            detail("nose factor M of the strength", "", strength_factor),
-            detail("nose factor N of the inertia", "", inertia_factor),
+            detail("strength factor M", "", strength_factor),
+            detail("inertia factor N", "", inertia_factor),
         ];
         if let Some(yield_stress) = Self::yield_stress(&shot, options) {
             let coefficient = resistance.strength / yield_stress;

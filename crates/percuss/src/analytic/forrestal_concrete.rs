@@ -182,11 +182,7 @@ impl Model for ForrestalConcrete {
             detail("strength S f_c", "MPa", phases.strength * 1e-6),
             detail("nose factor N", "", phases.nose),
             detail("crater depth", "mm", phases.crater * phases.diameter * 1e3),
-            detail(
-                "speed at the bottom of the crater",
-                "m/s",
-                square.max(0.0).sqrt(),
-            ),
+            detail("speed into the tunnel", "m/s", square.max(0.0).sqrt()),
             detail("depth to diameter", "", stop.depth / phases.diameter),
         ];
         if square <= 0.0 && scenario.impact_speed > 0.0 {

@@ -46,7 +46,7 @@ impl Model for QuasiStatic {
                 }],
                 sees_back_face: false,
                 notes: &[
-                    "no inertia of the target: an upper bound of the depth among models with the same strength, good at low speed",
+                    "no inertia of the target: good at low speed, too deep at high speed",
                     "the whole nose is loaded from first contact; frictionless",
                 ],
                 ..Guard::OPEN
@@ -90,13 +90,9 @@ impl Model for QuasiStatic {
         let dynamic = 1.5 * nose.factors().1 * shot.target.density.si() * shot.speed.powi(2);
         result.details = vec![
             detail("quasi-static pressure", "MPa", pressure * 1e-6),
-            detail(
-                "quasi-static pressure, compressible",
-                "MPa",
-                compressible * 1e-6,
-            ),
+            detail("compressible pressure", "MPa", compressible * 1e-6),
             detail("effective yield stress", "MPa", body.yield_stress * 1e-6),
-            detail("dynamic to quasi-static pressure", "", dynamic / pressure),
+            detail("dynamic to static pressure", "", dynamic / pressure),
         ];
         if shot.speed > 0.0 {
             result.band = Some(Band {

@@ -222,7 +222,7 @@ pub(super) fn on_wall(
     if yields {
         result.projectile_final_length = Some(rod.length * length_ratio);
         result.details.extend([
-            detail("mean strain of the deformed part", "", dynamic.strain),
+            detail("mean strain", "", dynamic.strain),
             detail("mean strain rate", "1/s", dynamic.strain_rate),
         ]);
         result.warnings = dynamic.warnings(&rod.material);

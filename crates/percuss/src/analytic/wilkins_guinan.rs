@@ -117,11 +117,7 @@ impl Model for WilkinsGuinan {
         let length = wilkins_guinan_length(number, front);
         let mut result = on_wall(self.name(), "standing-front", scenario, &dynamic, length);
         let front_mm = front * rod.length * 1e3;
-        result.details.push(detail(
-            "distance of the front from the wall",
-            "mm",
-            front_mm,
-        ));
+        result.details.push(detail("front to wall", "mm", front_mm));
         Ok(result)
     }
 }
