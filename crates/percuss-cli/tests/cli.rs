@@ -619,6 +619,12 @@ fn a_new_case_names_every_key_of_the_schema() {
         "PublishedOptions",
         "ArtificialViscosity",
         "Experiment",
+        "ForrestalOptions",
+        "ForrestalConcreteOptions",
+        "PonceletOptions",
+        "CraterEnergyOptions",
+        "TaylorOptions",
+        "WilkinsGuinanOptions",
     ] {
         for key in schema["$defs"][definition]["properties"]
             .as_object()

@@ -35,7 +35,8 @@ fn runs(criterion: &mut Criterion) {
             .unwrap_or_else(|error| panic!("{error}"))
             .numerics()
             .steps;
-        let elements = scenario.chain.projectile_elements() + scenario.chain.target_elements();
+        let elements =
+            scenario.options.chain.projectile_elements() + scenario.options.chain.target_elements();
         group.throughput(Throughput::Elements(steps * elements as u64));
         group.bench_function(name, |bencher| bencher.iter(|| black_box(run())));
     }

@@ -191,6 +191,22 @@ pub mod limits {
     pub const GRUNEISEN: Limits = limits(0.0, 5.0);
     /// Brinell hardness [kgf/mm2].
     pub const BRINELL_HARDNESS: Limits = limits(10.0, 900.0);
+    /// Strength coefficient A of a cavity expansion.
+    pub const CAVITY_STRENGTH: Limits = limits(0.5, 20.0);
+    /// Inertia coefficient B of a cavity expansion.
+    pub const CAVITY_INERTIA: Limits = limits(0.0, 5.0);
+    /// Coefficient of friction.
+    pub const FRICTION: Limits = limits(0.0, 1.0);
+    /// Coefficient of a drag `C ρ V²`.
+    pub const DRAG: Limits = limits(0.0, 5.0);
+    /// Factor S on the compressive strength of concrete.
+    pub const CONCRETE_FACTOR: Limits = limits(1.0, 100.0);
+    /// Depth of a crater in projectile diameters.
+    pub const CRATER_DEPTH: Limits = limits(0.0, 10.0);
+    /// Diameter of a crater in projectile diameters.
+    pub const CRATER_DIAMETER: Limits = limits(1.0, 20.0);
+    /// Distance of a plastic front from a wall over the length of the rod.
+    pub const FRONT: Limits = limits(0.0, 0.9);
     /// Contact pressure of a constant-pressure target [Pa].
     pub const CONTACT_PRESSURE: Limits = limits(1e3, 1e11);
 }

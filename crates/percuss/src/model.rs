@@ -4,6 +4,9 @@ use std::ops::ControlFlow;
 
 use crate::{
     Error, Scenario,
+    analytic::{
+        CraterEnergy, Forrestal, ForrestalConcrete, Poncelet, QuasiStatic, Taylor, WilkinsGuinan,
+    },
     analytic::{Hydrodynamic, LanzOdermatt, Tate, WalkerAnderson},
     chain::Chain,
     error::nearest,
@@ -44,6 +47,13 @@ pub static MODELS: &[&dyn Model] = &[
     &WalkerAnderson,
     &LanzOdermatt,
     &Hydrodynamic,
+    &Forrestal,
+    &ForrestalConcrete,
+    &QuasiStatic,
+    &Poncelet,
+    &CraterEnergy,
+    &Taylor,
+    &WilkinsGuinan,
 ];
 
 /// The model with this name.

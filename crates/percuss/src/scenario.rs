@@ -3,10 +3,8 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
-    case::{BackFace, Case, ChainOptions, Experiment, Layer, Nose, Thickness, Uncertainty},
-    analytic::{LanzOdermattOptions, TateOptions, WalkerAndersonOptions},
+    case::{BackFace, Case, Experiment, Layer, ModelOptions, Nose, Thickness, Uncertainty},
     check::{Check, limits},
-    fdm::FdmOptions,
     material::{Library, Material, MaterialEntry},
     outcome::BandQuantity,
     units::{Length, Mass, Quantity, Velocity},
@@ -27,16 +25,8 @@ pub struct Scenario {
     pub impact_speed: f64,
     /// What is struck.
     pub target: TargetBody,
-    /// Options of the model `chain`.
-    pub chain: ChainOptions,
-    /// Options of the model `tate`.
-    pub tate: TateOptions,
-    /// Options of the model `walker_anderson`.
-    pub walker_anderson: WalkerAndersonOptions,
-    /// Options of the model `lanz_odermatt`.
-    pub lanz_odermatt: LanzOdermattOptions,
-    /// Options of the model `fdm`.
-    pub fdm: FdmOptions,
+    /// Options of the models.
+    pub options: ModelOptions,
     /// What was measured, for comparison; no model sees it.
     pub experiments: Vec<Measurement>,
 }
@@ -151,11 +141,11 @@ impl Scenario {
             Some(elements.saturating_mul(factor))
         };
         let mut refined = self.clone();
-        refined.chain.projectile_elements = finer(self.chain.projectile_elements());
-        refined.chain.target_elements = finer(self.chain.target_elements());
-        let (projectile, target) = self.fdm.elements(self);
-        refined.fdm.projectile_elements = finer(projectile as usize);
-        refined.fdm.target_elements = finer(target as usize);
+        refined.options.chain.projectile_elements = finer(self.options.chain.projectile_elements());
+        refined.options.chain.target_elements = finer(self.options.chain.target_elements());
+        let (projectile, target) = self.options.fdm.elements(self);
+        refined.options.fdm.projectile_elements = finer(projectile as usize);
+        refined.options.fdm.target_elements = finer(target as usize);
         refined
     }
 
@@ -168,6 +158,7 @@ impl Scenario {
     ) -> Option<Self> {
         let projectile = resolve_rod(&case, library, check);
         let target = resolve_target(&case, library, check);
+        let options = case.model_options();
         Some(Self {
             name: name.to_owned(),
             title: case.title,
@@ -175,16 +166,12 @@ impl Scenario {
             projectile: projectile?,
             impact_speed: case.projectile.velocity.si(),
             target: target?,
-            chain: case.chain,
-            tate: case.tate,
-            walker_anderson: case.walker_anderson,
-            lanz_odermatt: case.lanz_odermatt,
+            options,
             experiments: case
                 .experiments
                 .iter()
                 .filter_map(Measurement::resolve)
                 .collect(),
-            fdm: case.fdm,
         })
     }
 }

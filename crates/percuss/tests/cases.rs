@@ -22,6 +22,9 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct Expected {
     quantity: String,
+    /// Model that the number is of.
+    #[serde(default = "chain")]
+    model: String,
     /// Impact speed in place of the scenario's.
     velocity: Option<Velocity>,
     /// Span of time over which a sampled quantity is averaged.
@@ -45,6 +48,10 @@ enum Kind {
     Golden,
 }
 
+fn chain() -> String {
+    "chain".to_owned()
+}
+
 fn check(folder: &str) {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
         .join("../../cases")
@@ -59,7 +66,7 @@ fn check(folder: &str) {
             scenario.impact_speed = velocity.si();
         }
         let result = model::run(
-            model::model("chain").unwrap(),
+            model::model(&expected.model).unwrap(),
             &scenario,
             &mut Control::recording(),
         )
@@ -130,4 +137,5 @@ cases! {
     copper_on_aluminium_800: "copper-on-aluminium-800",
     taylor_copper_wilkins: "taylor-copper-wilkins",
     elastic_bars: "elastic-bars",
+    concrete_forrestal_1994: "concrete-forrestal-1994",
 }

@@ -104,7 +104,7 @@ impl Converge {
                 &format!(
                     "model {}, scheme {}",
                     self.model,
-                    scenario.chain.scheme.name()
+                    scenario.options.chain.scheme.name()
                 ),
                 width(),
                 0

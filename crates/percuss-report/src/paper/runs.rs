@@ -100,9 +100,9 @@ const SHEAR: f64 = 0.577;
 fn scenario(base: &Scenario, key: Key) -> Scenario {
     let mut scenario = base.clone();
     scenario.impact_speed = key.speed;
-    scenario.chain.projectile_elements = Some(key.mesh.0);
-    scenario.chain.target_elements = Some(key.mesh.1);
-    scenario.chain.border_shear = Some(key.shear);
+    scenario.options.chain.projectile_elements = Some(key.mesh.0);
+    scenario.options.chain.target_elements = Some(key.mesh.1);
+    scenario.options.chain.border_shear = Some(key.shear);
     let published = PublishedOptions {
         // With the printed mass the time step comes out as printed.
         target_mass: Some(Mass::new(1.22e-3)),
@@ -111,15 +111,15 @@ fn scenario(base: &Scenario, key: Key) -> Scenario {
     match key.way {
         Way::Conservative => {}
         Way::Chain => {
-            scenario.chain.scheme = Scheme::Published;
-            scenario.chain.published = Some(PublishedOptions {
+            scenario.options.chain.scheme = Scheme::Published;
+            scenario.options.chain.published = Some(PublishedOptions {
                 small_strain: SmallStrainStiffness::Elastic,
                 ..published
             });
         }
         Way::Joined => {
-            scenario.chain.scheme = Scheme::Published;
-            scenario.chain.published = Some(PublishedOptions {
+            scenario.options.chain.scheme = Scheme::Published;
+            scenario.options.chain.published = Some(PublishedOptions {
                 interface: Interface::Joined,
                 ..published
             });
@@ -211,7 +211,7 @@ impl Runs {
                     shear: SHEAR,
                 };
                 let mut scenario = scenario(&self.base, key);
-                scenario.chain.erosion_strain = Some(ErosionStrain::Never);
+                scenario.options.chain.erosion_strain = Some(ErosionStrain::Never);
                 let depth = |name| -> Result<f64, Error> {
                     let result =
                         model::run(model::model(name)?, &scenario, &mut Control::default())?;
@@ -254,7 +254,7 @@ impl Runs {
                 shear: SHEAR,
             };
             let mut scenario = scenario(&self.base, key);
-            if let Some(published) = &mut scenario.chain.published {
+            if let Some(published) = &mut scenario.options.chain.published {
                 published.border_shear = shear;
             }
             self.joined_steps

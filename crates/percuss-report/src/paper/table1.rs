@@ -48,7 +48,7 @@ pub(super) fn check(runs: &Runs, items: &mut Vec<Item>) {
     );
     let step = |form| {
         let mut scenario = scenario.clone();
-        if let Some(published) = &mut scenario.chain.published {
+        if let Some(published) = &mut scenario.options.chain.published {
             published.time_step = form;
         }
         Published::new(&scenario).map_or(f64::NAN, |run| run.time_step())

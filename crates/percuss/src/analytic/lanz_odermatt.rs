@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::long_rod::{LongRod, NOT_ONE_TARGET, detail};
 use crate::{
     Error, Scenario,
+    case::Target,
     check::{Check, limits},
     guard::{Guard, Measure, Outside, Range},
     model::{Control, Model},
@@ -24,7 +25,7 @@ pub struct LanzOdermattOptions {
 }
 
 impl LanzOdermattOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>) {
+    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
         if let Some(hardness) = self.target_hardness {
             check.number("target_hardness", hardness, limits::BRINELL_HARDNESS);
         }
@@ -71,6 +72,7 @@ pub fn smallest_speed(projectile_density: f64, hardness: f64) -> f64 {
 impl LanzOdermatt {
     fn hardness(scenario: &Scenario, rod: &LongRod<'_>) -> Option<f64> {
         scenario
+            .options
             .lanz_odermatt
             .target_hardness
             .or(rod.target.brinell_hardness)

@@ -176,14 +176,7 @@ impl Case {
     fn check(&self, check: &mut Check<'_>) {
         self.projectile.check(&mut check.within("projectile"));
         self.target.check(&mut check.within("target"));
-        self.chain
-            .check(&mut check.within("chain"), self.target.is_solid());
-        self.tate.check(&mut check.within("tate"));
-        self.walker_anderson
-            .check(&mut check.within("walker_anderson"));
-        self.lanz_odermatt.check(&mut check.within("lanz_odermatt"));
-        self.fdm
-            .check(&mut check.within("fdm"), self.target.is_solid());
+        self.check_model_options(check);
         for (i, experiment) in self.experiments.iter().enumerate() {
             let mut check = check.within(&format!("experiments.{i}"));
             experiment.check(&mut check, &self.target);

@@ -3,6 +3,7 @@
 mod document;
 mod experiment;
 mod load;
+mod model_options;
 mod number_or_word;
 mod options;
 mod projectile;
@@ -12,67 +13,14 @@ mod target;
 #[cfg(test)]
 mod tests;
 
-use std::path::PathBuf;
-
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use crate::{
-    analytic::{LanzOdermattOptions, TateOptions, WalkerAndersonOptions},
-    fdm::FdmOptions,
-    material::MaterialTable,
-};
-
 pub(crate) use document::Document;
 pub use experiment::{Experiment, SourceKeys, Uncertainty};
 pub(crate) use load::read_text;
 pub use load::{MAX_FILE_BYTES, load, load_library, load_materials, load_str};
+pub use model_options::{Case, ModelOptions};
 pub(crate) use number_or_word::NumberOrWord;
 pub use number_or_word::{ConstraintFactor, ErosionStrain};
 pub use options::*;
 pub use projectile::{Nose, Projectile};
 pub use published_options::*;
 pub use target::{BackFace, Layer, Target, Thickness};
-
-/// A case as its TOML file holds it.
-///
-/// Every dimensional number is a quoted number with a unit, such as `"4.8 mm"`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(title = "percuss case")]
-pub struct Case {
-    /// One line that says what the case is.
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub title: String,
-    /// Bibliography keys of the works that the case is taken from.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub sources: Vec<String>,
-    /// What strikes.
-    pub projectile: Projectile,
-    /// What is struck.
-    pub target: Target,
-    /// Options of the 1-D discrete element model.
-    #[serde(default)]
-    pub chain: ChainOptions,
-    /// Options of the model `tate`.
-    #[serde(default)]
-    pub tate: TateOptions,
-    /// Options of the model `walker_anderson`.
-    #[serde(default)]
-    pub walker_anderson: WalkerAndersonOptions,
-    /// Options of the model `lanz_odermatt`.
-    #[serde(default)]
-    pub lanz_odermatt: LanzOdermattOptions,
-    /// Options of the 1-D finite-difference model.
-    #[serde(default)]
-    pub fdm: FdmOptions,
-    /// What was measured on shots of this case, for comparison; no model sees it.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub experiments: Vec<Experiment>,
-    /// The user's own materials, by id.
-    #[serde(default, skip_serializing_if = "MaterialTable::is_empty")]
-    pub materials: MaterialTable,
-    /// Files with more materials, relative to the case file.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub material_files: Vec<PathBuf>,
-}

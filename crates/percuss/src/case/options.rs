@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     number_or_word::{ConstraintFactor, ErosionStrain, NumberOrWord},
     published_options::PublishedOptions,
+    target::Target,
 };
 use crate::{
     check::{Check, limits},
@@ -149,7 +150,8 @@ impl ChainOptions {
         self.published.unwrap_or_default()
     }
 
-    pub(super) fn check(&self, check: &mut Check<'_>, target_is_solid: bool) {
+    pub(super) fn check(&self, check: &mut Check<'_>, target: &Target) {
+        let target_is_solid = target.is_solid();
         self.check_target(check, target_is_solid);
         for (key, elements) in [
             ("projectile_elements", self.projectile_elements),

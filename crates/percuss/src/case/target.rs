@@ -162,7 +162,7 @@ impl Target {
     }
 
     /// Whether there is a column of material, rather than a wall or a pressure.
-    pub(super) fn is_solid(&self) -> bool {
+    pub(crate) fn is_solid(&self) -> bool {
         self.material.is_some() || self.thickness.is_some() || !self.layers.is_empty()
     }
 

@@ -66,11 +66,14 @@ impl From<Error> for Failure {
 impl<'a> Conservative<'a> {
     /// The chain at the moment of impact.
     pub fn new(scenario: &'a Scenario) -> Self {
-        Self::with_courant(scenario, scenario.chain.courant.unwrap_or(DEFAULT_COURANT))
+        Self::with_courant(
+            scenario,
+            scenario.options.chain.courant.unwrap_or(DEFAULT_COURANT),
+        )
     }
 
     fn with_courant(scenario: &'a Scenario, courant: f64) -> Self {
-        let options = &scenario.chain;
+        let options = &scenario.options.chain;
         let mut state = mesh::build(scenario);
         let mut longest_step = f64::INFINITY;
         let erosion_strain = match (options.erosion_closure(), options.erosion_strain) {
@@ -108,7 +111,7 @@ impl<'a> Conservative<'a> {
             let courant = self.control.courant;
             match self.attempt(control) {
                 Ok(mut result) => {
-                    if self.scenario.chain.courant.is_none() && courant < DEFAULT_COURANT {
+                    if self.scenario.options.chain.courant.is_none() && courant < DEFAULT_COURANT {
                         result.warnings.push(format!(
                             "the energy book balances at Courant number {courant} only: it was lowered from {DEFAULT_COURANT}"
                         ));
@@ -116,7 +119,7 @@ impl<'a> Conservative<'a> {
                     return Ok(result);
                 }
                 Err(Failure::Unbalanced(_))
-                    if self.scenario.chain.courant.is_none()
+                    if self.scenario.options.chain.courant.is_none()
                         && 0.5 * courant >= SMALLEST_COURANT =>
                 {
                     self = Self::with_courant(self.scenario, 0.5 * courant);
@@ -130,7 +133,12 @@ impl<'a> Conservative<'a> {
     fn attempt(&mut self, control: &mut Control<'_>) -> Result<RunResult, Failure> {
         let mut recorder = control.record.then(Recorder::new);
         let end_time = self.end_time();
-        let max_steps = self.scenario.chain.max_steps.unwrap_or(DEFAULT_MAX_STEPS);
+        let max_steps = self
+            .scenario
+            .options
+            .chain
+            .max_steps
+            .unwrap_or(DEFAULT_MAX_STEPS);
         self.record(&mut recorder);
         let termination = if self.scenario.impact_speed == 0.0 {
             Termination::NothingMoves
@@ -177,7 +185,7 @@ impl<'a> Conservative<'a> {
 
     /// Time at which a run without an `end_time` gives up: many times what waves and the shot itself take.
     fn end_time(&self) -> f64 {
-        if let Some(time) = self.scenario.chain.end_time {
+        if let Some(time) = self.scenario.options.chain.end_time {
             return time.si();
         }
         let rod = &self.scenario.projectile;

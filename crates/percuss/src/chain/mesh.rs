@@ -27,7 +27,7 @@ pub(crate) fn modelled_thickness(plate: &Plate, scenario: &Scenario) -> f64 {
 /// Elements of each layer: shared by thickness, at least one each.
 fn layer_elements(plates: &[Plate], scenario: &Scenario) -> Vec<usize> {
     let total: f64 = plates.iter().map(|p| modelled_thickness(p, scenario)).sum();
-    let elements = scenario.chain.target_elements() as f64;
+    let elements = scenario.options.chain.target_elements() as f64;
     plates
         .iter()
         .map(|plate| {
@@ -38,7 +38,7 @@ fn layer_elements(plates: &[Plate], scenario: &Scenario) -> Vec<usize> {
 }
 
 pub(super) fn build(scenario: &Scenario) -> State {
-    let options = &scenario.chain;
+    let options = &scenario.options.chain;
     let rod = &scenario.projectile;
     let rod_elements = options.projectile_elements();
     let mut projectile = Part::new(

@@ -69,14 +69,14 @@ impl Model for Chain {
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
-        match scenario.chain.scheme {
+        match scenario.options.chain.scheme {
             Scheme::Conservative => None,
             Scheme::Published => Published::not_applicable(scenario),
         }
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        match scenario.chain.scheme {
+        match scenario.options.chain.scheme {
             Scheme::Conservative => Conservative::new(scenario).run(control),
             Scheme::Published => Published::new(scenario)?.run(control),
         }

@@ -76,8 +76,8 @@ impl Results<'_> {
             first_time_step: watch.first_time_step,
             smallest_time_step: watch.smallest_time_step,
             elements: (
-                scenario.chain.projectile_elements(),
-                scenario.chain.target_elements(),
+                scenario.options.chain.projectile_elements(),
+                scenario.options.chain.target_elements(),
             ),
             eroded_elements: remains.eroded,
             largest_plastic_strain: (

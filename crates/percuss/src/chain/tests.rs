@@ -112,8 +112,8 @@ fn the_share_of_border_shear_on_the_face_explains_the_coarse_meshes() {
         ((80, 160), 0.028),
     ] {
         let mut scenario = scenario("copper", "aluminium-2024-t351", 230.0, "fixed");
-        scenario.chain.projectile_elements = Some(elements.0);
-        scenario.chain.target_elements = Some(elements.1);
+        scenario.options.chain.projectile_elements = Some(elements.0);
+        scenario.options.chain.target_elements = Some(elements.1);
         let plain = Conservative::new(&scenario)
             .run(&mut Control::default())
             .unwrap();

@@ -21,7 +21,7 @@ pub(super) fn warnings(
         Outcome::OutOfTime => warnings.push(
             "the run was ended before the shot was over: raise `chain.end_time` or `chain.max_steps`".to_owned(),
         ),
-        Outcome::Perforated if result.numerics().eroded_elements.1 == scenario.chain.target_elements() => {
+        Outcome::Perforated if result.numerics().eroded_elements.1 == scenario.options.chain.target_elements() => {
             warnings.push("the whole column of target eroded before the projectile did: give a thicker target".to_owned());
         }
         Outcome::Perforated => warnings.push(
@@ -33,7 +33,7 @@ pub(super) fn warnings(
     }
     warn_of_closure(scenario, result, &mut warnings);
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
-    let heated = scenario.chain.adiabatic_heating.unwrap_or(true);
+    let heated = scenario.options.chain.adiabatic_heating.unwrap_or(true);
     let mut warn = |what: &str, material: &Material, reached: Option<&Reached>| {
         if let Some(reached) = reached {
             warn_of_material(what, material, reached, heated, &mut warnings);
@@ -63,7 +63,7 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
         .iter()
         .map(|plate| mesh::modelled_thickness(plate, scenario))
         .sum();
-    let element = thickness / scenario.chain.target_elements() as f64;
+    let element = thickness / scenario.options.chain.target_elements() as f64;
     let (permanent, at_rest) = (result.permanent_depth, result.time_to_rest.is_some());
     if at_rest && permanent.is_some_and(|permanent| depth > 2.0 * permanent) {
         warnings.push(format!(
@@ -71,17 +71,17 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
             significant(permanent.unwrap_or(0.0) * 1e3, 3)
         ));
     }
-    if scenario.chain.erosion_closure() == ErosionClosure::Tate {
+    if scenario.options.chain.erosion_closure() == ErosionClosure::Tate {
         warnings.push(
             "the depth rests on the erosion closure `tate`: the resistance of the target is its flow stress times the constraint \
              factor, on the rod's area"
                 .to_owned(),
         );
-    } else if scenario.chain.border_shear() > 0.0 {
+    } else if scenario.options.chain.border_shear() > 0.0 {
         warnings.push(format!(
             "the depth rests on the target closure (constraint factor and border shear C = {}): `chain.border_shear = 0.0` \
              gives the other end of the range",
-            significant(scenario.chain.border_shear(), 4)
+            significant(scenario.options.chain.border_shear(), 4)
         ));
     }
     if depth > 0.0 && depth < element {
@@ -107,12 +107,12 @@ fn warn_of_erosion(
     warnings: &mut Vec<String>,
 ) {
     let (projectile, target) = result.numerics().eroded_elements;
-    let by_strain = scenario.chain.erosion_closure() == ErosionClosure::Strain;
+    let by_strain = scenario.options.chain.erosion_closure() == ErosionClosure::Strain;
     if projectile + target > 0 && by_strain {
         warnings.push(format!(
             "{projectile} of {} projectile elements and {target} target elements eroded at strain {}, a numerical limit: \
              compare with `chain.erosion_strain` = {} and {}, and with half the Courant number",
-            scenario.chain.projectile_elements(),
+            scenario.options.chain.projectile_elements(),
             significant(erosion_strain, 3),
             significant(0.75 * erosion_strain, 3),
             significant(1.5 * erosion_strain, 3),

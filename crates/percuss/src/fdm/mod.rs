@@ -47,14 +47,14 @@ impl Model for Fdm {
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
-        match scenario.fdm.geometry {
+        match scenario.options.fdm.geometry {
             Geometry::Rod => None,
             Geometry::Planar => planar::not_applicable(scenario),
         }
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        match scenario.fdm.geometry {
+        match scenario.options.fdm.geometry {
             Geometry::Rod => Rod::new(scenario).run(control),
             Geometry::Planar => planar::run(scenario, control),
         }

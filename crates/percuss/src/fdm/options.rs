@@ -6,7 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::planar::cells;
 use crate::{
     Scenario,
-    case::{ArtificialViscosity, ChainOptions, ConstraintFactor, MAX_ELEMENTS, NumberOrWord},
+    case::{
+        ArtificialViscosity, ChainOptions, ConstraintFactor, MAX_ELEMENTS, NumberOrWord, Target,
+    },
     check::{Check, limits},
     units::{Pressure, Time},
 };
@@ -65,7 +67,8 @@ impl Geometry {
 const SPALL_STRENGTH: crate::check::Limits = limits::FLOW_STRESS;
 
 impl FdmOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, target_is_solid: bool) {
+    pub(crate) fn check(&self, check: &mut Check<'_>, target: &Target) {
+        let target_is_solid = target.is_solid();
         for (key, elements) in [
             ("projectile_elements", self.projectile_elements),
             ("target_elements", self.target_elements),
@@ -142,7 +145,7 @@ impl FdmOptions {
         match self.geometry {
             Geometry::Planar => cells(scenario),
             Geometry::Rod => {
-                let options = self.with_defaults_of(&scenario.chain);
+                let options = self.with_defaults_of(&scenario.options.chain);
                 (
                     options.projectile_elements.unwrap_or(40),
                     options.target_elements.unwrap_or(80),

@@ -22,6 +22,7 @@ macro_rules! files {
 const FILES: &[(&str, &str)] = files![
     "borvik2002.toml",
     "floresjohnson2011.toml",
+    "forrestal1994.toml",
     "holtz.toml",
     "johnson1983.toml",
     "johnson1989.toml",

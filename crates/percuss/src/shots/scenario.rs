@@ -3,7 +3,7 @@
 use super::{Properties, Shot, Strength, Struck};
 use crate::{
     Scenario,
-    case::{BackFace, Case, ChainOptions, Projectile, Target, Thickness},
+    case::{BackFace, Case, Projectile, Target, Thickness},
     check::Finding,
     material::{self, Library, Material, MaterialTable},
     units::{Density, Length, Mass, Pressure, Temperature, Velocity, significant},
@@ -96,27 +96,20 @@ impl Shot {
                 }
             }
         };
+        let projectile = Projectile {
+            material: record.to_owned(),
+            length: self.length.map(Length::new),
+            mass: self.mass.map(Mass::new),
+            diameter: Length::new(self.diameter.unwrap_or(0.0)),
+            nose: self.nose,
+            velocity: Velocity::new(self.impact_velocity),
+            temperature: temperature.map(Temperature::new),
+        };
         Case {
             title: format!("{}: {}", self.id, self.projectile_class),
             sources: vec![self.source.clone()],
-            projectile: Projectile {
-                material: record.to_owned(),
-                length: self.length.map(Length::new),
-                mass: self.mass.map(Mass::new),
-                diameter: Length::new(self.diameter.unwrap_or(0.0)),
-                nose: self.nose,
-                velocity: Velocity::new(self.impact_velocity),
-                temperature: temperature.map(Temperature::new),
-            },
-            target,
-            experiments: Vec::new(),
-            chain: ChainOptions::default(),
-            fdm: Default::default(),
-            tate: Default::default(),
-            walker_anderson: Default::default(),
-            lanz_odermatt: Default::default(),
             materials,
-            material_files: Vec::new(),
+            ..Case::new(projectile, target)
         }
     }
 }

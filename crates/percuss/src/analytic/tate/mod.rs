@@ -11,7 +11,7 @@ pub use equations::{Phase, Rods, Stop};
 use super::long_rod::{LongRod, NOT_ONE_TARGET, STRENGTH_STRAIN, detail, rests_on, strength};
 use crate::{
     Error, Scenario,
-    case::Nose,
+    case::{Nose, Target},
     check::{Check, limits},
     guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
     material::{Material, MaterialClass, cavity_expansion_pressure},
@@ -34,7 +34,7 @@ pub struct TateOptions {
 }
 
 impl TateOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>) {
+    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
         for (key, value) in [
             ("projectile_strength", self.projectile_strength),
             ("target_resistance", self.target_resistance),
@@ -82,7 +82,7 @@ impl Tate {
     /// What is missing, in words.
     pub fn rods(scenario: &Scenario) -> Result<Rods, String> {
         let rod = LongRod::of(scenario).ok_or(NOT_ONE_TARGET)?;
-        let options = &scenario.tate;
+        let options = &scenario.options.tate;
         let resistance = options
             .target_resistance
             .map(Pressure::si)
@@ -127,7 +127,7 @@ fn band(
     rods: Rods,
     depth: f64,
 ) -> Result<Option<Band>, Error> {
-    let options = &scenario.tate;
+    let options = &scenario.options.tate;
     let mut strengths = vec![rods.projectile_strength];
     let mut resistances = vec![rods.target_resistance];
     if options.projectile_strength.is_none() {
@@ -251,7 +251,7 @@ impl Model for Tate {
                 detail("steady P/L", "", speed / rods.erosion_speed(rod.speed)),
             ]);
         }
-        let options = &scenario.tate;
+        let options = &scenario.options.tate;
         if options.projectile_strength.is_none() || options.target_resistance.is_none() {
             result.warnings.push(rests_on(
                 rods.projectile_strength,

@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     Error, Scenario,
-    case::Nose,
+    case::{Nose, Target},
     check::{Check, limits},
     guard::Guard,
     material::Material,
@@ -43,7 +43,7 @@ pub struct WalkerAndersonOptions {
 }
 
 impl WalkerAndersonOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>) {
+    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
         for (key, value) in [
             ("projectile_strength", self.projectile_strength),
             ("target_strength", self.target_strength),
@@ -85,7 +85,7 @@ impl WalkerAnderson {
     /// The rod, what it does, and warnings on what had to be estimated.
     fn motion<'a>(scenario: &'a Scenario) -> Result<(LongRod<'a>, Motion, Vec<String>), String> {
         let rod = LongRod::of(scenario).ok_or(NOT_ONE_TARGET)?;
-        let options = &scenario.walker_anderson;
+        let options = &scenario.options.walker_anderson;
         let (density, target_density) = rod.densities();
         let mut warnings = Vec::new();
         let mut shock_of = |material: &Material, what: &str| {
@@ -234,7 +234,7 @@ impl Model for WalkerAnderson {
             "which changes as the tip slows; the strengths are `walker_anderson.projectile_strength` and \
              `walker_anderson.target_strength`, flow stresses at a plastic strain of 0.1 when not given",
         ));
-        if scenario.walker_anderson.crater_radius.is_none() {
+        if scenario.options.walker_anderson.crater_radius.is_none() {
             warnings.push(
                 "the radius of the crater comes from a fit to steel targets: `walker_anderson.crater_radius` replaces it"
                     .to_owned(),

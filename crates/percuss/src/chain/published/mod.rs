@@ -83,11 +83,11 @@ impl<'a> Published<'a> {
             return Err(not_applicable(reason));
         }
         let (Some((plate, thickness, column)), options) =
-            (single_plate(scenario), scenario.chain.published())
+            (single_plate(scenario), scenario.options.chain.published())
         else {
             return Err(not_applicable("no plate".to_owned()));
         };
-        let chain = &scenario.chain;
+        let chain = &scenario.options.chain;
         let body = &scenario.projectile;
         let springs = |material: &Material,
                        factor: f64,
@@ -184,7 +184,7 @@ impl<'a> Published<'a> {
     /// [`Error::Numerical`] when the solution is no longer finite; [`Error::Cancelled`].
     pub fn run(mut self, control: &mut Control<'_>) -> Result<RunResult, Error> {
         let mut recorder = control.record.then(Recorder::new);
-        let options = &self.scenario.chain;
+        let options = &self.scenario.options.chain;
         let max_steps = options.max_steps.unwrap_or(DEFAULT_MAX_STEPS);
         let end_time = options.end_time.map_or(f64::INFINITY, |time| time.si());
         self.record(&mut recorder);

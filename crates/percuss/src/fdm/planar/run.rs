@@ -81,7 +81,7 @@ fn with_equation_of_state() -> Vec<String> {
 }
 
 fn law(material: &Material, scenario: &Scenario) -> Option<PlanarLaw> {
-    let options = &scenario.fdm;
+    let options = &scenario.options.fdm;
     let mut medium = Medium::of(material)?;
     if let Some(strength) = options.spall_strength {
         medium.spall_strength = Some(strength.si());
@@ -89,13 +89,13 @@ fn law(material: &Material, scenario: &Scenario) -> Option<PlanarLaw> {
     Some(medium.law(
         scenario.projectile.area(),
         options.artificial_viscosity.unwrap_or(DEFAULT_VISCOSITY),
-        scenario.chain.rate_effects.unwrap_or(true),
+        scenario.options.chain.rate_effects.unwrap_or(true),
     ))
 }
 
 /// Cells along the projectile and through the target.
 pub(in crate::fdm) fn cells(scenario: &Scenario) -> (u32, u32) {
-    let options = &scenario.fdm;
+    let options = &scenario.options.fdm;
     let projectile = options.projectile_elements.unwrap_or(DEFAULT_CELLS);
     let size = scenario.projectile.length / f64::from(projectile);
     let natural = (target_length(scenario) / size)
@@ -175,7 +175,7 @@ pub(in crate::fdm) fn run(
         reason: not_applicable(scenario).unwrap_or_default(),
     };
     let (mut grid, passage) = build(scenario).ok_or_else(refuse)?;
-    let options = &scenario.fdm;
+    let options = &scenario.options.fdm;
     let courant = options.courant.unwrap_or(DEFAULT_COURANT);
     let end_time = options
         .end_time

@@ -22,7 +22,7 @@ fn law(
     options: &FdmOptions,
     scenario: &Scenario,
 ) -> RodLaw {
-    let chain = &scenario.chain;
+    let chain = &scenario.options.chain;
     let heating = match material.specific_heat {
         Some(heat) if chain.adiabatic_heating.unwrap_or(true) => {
             // What the constraint adds to the stress is work against the material around the column, not heat in it.

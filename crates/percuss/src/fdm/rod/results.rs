@@ -149,7 +149,7 @@ fn warnings(ending: &Ending<'_>, result: &RunResult) -> Vec<String> {
         ),
         _ => {}
     }
-    let heated = scenario.chain.adiabatic_heating.unwrap_or(true);
+    let heated = scenario.options.chain.adiabatic_heating.unwrap_or(true);
     let rod = &scenario.projectile.material;
     warn_of_material("projectile", rod, grid.views(0), heated, &mut warnings);
     let TargetBody::Layers { layers, .. } = &scenario.target else {

@@ -54,7 +54,10 @@ struct Window {
 impl<'a> Rod<'a> {
     /// The grid at the moment of impact.
     pub fn new(scenario: &'a Scenario) -> Self {
-        let options = scenario.fdm.with_defaults_of(&scenario.chain);
+        let options = scenario
+            .options
+            .fdm
+            .with_defaults_of(&scenario.options.chain);
         let courant = options.courant.unwrap_or(DEFAULT_COURANT);
         Self::with_courant(scenario, options, courant)
     }

@@ -1,0 +1,77 @@
+//! What the models of deep penetration read from a case, and the result that they have in common.
+
+use crate::{
+    material::Material,
+    outcome::{Detail, Outcome, RunResult, Termination},
+    scenario::{Rod, Scenario, TargetBody},
+};
+
+use super::rigid_motion::Stop;
+
+/// A projectile on a target of one material.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct DeepShot<'a> {
+    pub(super) rod: &'a Rod,
+    pub(super) speed: f64,
+    pub(super) target: &'a Material,
+}
+
+impl<'a> DeepShot<'a> {
+    /// `None` when the target is not of one material.
+    pub(super) fn of(scenario: &'a Scenario) -> Option<Self> {
+        let TargetBody::Layers { layers, .. } = &scenario.target else {
+            return None;
+        };
+        let [plate] = layers.as_slice() else {
+            return None;
+        };
+        Some(Self {
+            rod: &scenario.projectile,
+            speed: scenario.impact_speed,
+            target: &plate.material,
+        })
+    }
+}
+
+/// Why a case has no one material to resist.
+pub(super) const NOT_ONE_TARGET: &str = "it takes one layer of target";
+/// Why a target has no resistance.
+pub(super) const NEVER_YIELDS: &str =
+    "the target's material never yields: give it another strength law";
+
+/// The result of a rigid projectile that stops in its target.
+pub(super) fn at_rest(
+    model: &'static str,
+    scheme: &'static str,
+    scenario: &Scenario,
+    stop: Stop,
+) -> RunResult {
+    RunResult {
+        depth_of_penetration: Some(stop.depth),
+        residual_velocity: Some(0.0),
+        projectile_final_length: Some(scenario.projectile.length),
+        projectile_final_diameter: Some(scenario.projectile.diameter),
+        projectile_final_mass: Some(scenario.projectile.mass),
+        time_to_rest: stop.time,
+        end_time: stop.time,
+        peak_force: Some(if scenario.impact_speed > 0.0 {
+            stop.peak_force
+        } else {
+            0.0
+        }),
+        ..RunResult::new(model, scheme, Outcome::AtRest, termination(scenario))
+    }
+}
+
+/// Why a formula ends.
+pub(super) fn termination(scenario: &Scenario) -> Termination {
+    if scenario.impact_speed > 0.0 {
+        Termination::ClosedForm
+    } else {
+        Termination::NothingMoves
+    }
+}
+
+pub(super) fn detail(name: &'static str, unit: &'static str, value: f64) -> Detail {
+    Detail { name, unit, value }
+}

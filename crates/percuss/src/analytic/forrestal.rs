@@ -1,0 +1,301 @@
+//! Model `forrestal`: a rigid rod in a thick metal target, resisted by the pressure of a spherical cavity that expands.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    cavity_expansion::CavityExpansion,
+    deep_shot::{DeepShot, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail},
+    nose_load::NoseLoad,
+    rigid_motion::{RigidMotion, Stop},
+};
+use crate::{
+    Error, Scenario,
+    case::Target,
+    check::{Check, limits},
+    guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
+    material::{MaterialClass, cavity_expansion_pressure},
+    model::{Control, Model},
+    outcome::{Band, BandQuantity, RunResult},
+    regime::{ProjectileRegime, TargetKind},
+    units::{Pressure, Velocity, significant},
+};
+
+/// Options of the model `forrestal`.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ForrestalOptions {
+    /// Cavity expansion that the resistance comes from; `incompressible` when not given.
+    pub cavity: Option<Cavity>,
+    /// Strength coefficient A of `σ_n = A Y + B ρ v_n²`, with `yield_stress` as Y; from the cavity expansion when not given.
+    pub a: Option<f64>,
+    /// Yield stress Y [Pa] that `a` multiplies; where the target's law starts to flow when not given.
+    pub yield_stress: Option<Pressure>,
+    /// Inertia coefficient B; from the cavity expansion when not given.
+    pub b: Option<f64>,
+    /// Coefficient of friction between nose and target; 0 when not given.
+    pub friction: Option<f64>,
+    /// How the nose enters; `embedded` when not given.
+    pub entry: Option<Entry>,
+}
+
+/// Cavity expansion behind a resistance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Cavity {
+    /// Quasi-static pressure of the target's strength law with its hardening, incompressible; B = 3/2.
+    #[default]
+    Incompressible,
+    /// Similarity solution of a compressible, perfectly plastic body; B fitted over the speeds of the case.
+    Compressible,
+}
+
+/// How a nose enters a target.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Entry {
+    /// The whole nose is loaded from first contact, as in the published closed forms.
+    #[default]
+    Embedded,
+    /// That part of the nose is loaded which is below the original surface.
+    Gradual,
+}
+
+impl ForrestalOptions {
+    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
+        let numbers = [
+            ("a", self.a, limits::CAVITY_STRENGTH),
+            ("b", self.b, limits::CAVITY_INERTIA),
+            ("friction", self.friction, limits::FRICTION),
+        ];
+        for (key, number, limits) in numbers {
+            if let Some(number) = number {
+                check.number(key, number, limits);
+            }
+        }
+        if let Some(stress) = self.yield_stress {
+            check.quantity("yield_stress", stress, limits::FLOW_STRESS);
+            if self.a.is_none() {
+                check.fail(
+                    "yield_stress",
+                    "`yield_stress` has no effect without `a`",
+                    "add `a`, or remove the key",
+                );
+            }
+        }
+        if self.cavity.is_some() && self.a.is_some() && self.b.is_some() {
+            check.fail(
+                "cavity",
+                "`cavity` has no effect where both `a` and `b` are given",
+                "remove one of the three keys",
+            );
+        }
+    }
+}
+
+/// Rigid rods in thick metal targets \[forrestal1988, forrestal1995\].
+#[derive(Debug, Clone, Copy)]
+pub struct Forrestal;
+
+/// `R + b v_n²` on the nose, and what is to be said of it.
+struct Resistance {
+    strength: f64,
+    coefficient: f64,
+    warning: Option<String>,
+}
+
+impl Forrestal {
+    fn resistance(shot: &DeepShot<'_>, cavity: Cavity, steepest: f64) -> Option<Resistance> {
+        match cavity {
+            Cavity::Incompressible => Some(Resistance {
+                strength: cavity_expansion_pressure(shot.target)?,
+                coefficient: 1.5,
+                warning: None,
+            }),
+            Cavity::Compressible => {
+                let speed = steepest * shot.speed;
+                let fit = CavityExpansion::of(shot.target)?.fit(speed);
+                let warning = (speed > fit.largest_speed).then(|| {
+                    format!(
+                        "the compressible cavity expansion has no plastic shock and ends at {}: B is fitted up to there, and the nose \
+                         expands the target at up to {}",
+                        rounded(fit.largest_speed),
+                        rounded(speed)
+                    )
+                });
+                Some(Resistance {
+                    strength: fit.strength,
+                    coefficient: fit.inertia,
+                    warning: warning.filter(|_| shot.speed > 0.0),
+                })
+            }
+        }
+    }
+
+    fn stop(shot: &DeepShot<'_>, options: &ForrestalOptions, resistance: &Resistance) -> Stop {
+        let motion = RigidMotion {
+            mass: shot.rod.mass,
+            nose: nose(shot, options),
+            strength: resistance.strength,
+            inertia: resistance.coefficient * shot.target.density.si(),
+        };
+        match options.entry.unwrap_or_default() {
+            Entry::Embedded => motion.embedded(shot.speed),
+            Entry::Gradual => motion.gradual(shot.speed),
+        }
+    }
+
+    /// Yield stress that `a` multiplies [Pa].
+    fn yield_stress(shot: &DeepShot<'_>, options: &ForrestalOptions) -> Option<f64> {
+        let law = shot.target.strength.law();
+        options
+            .yield_stress
+            .map(Pressure::si)
+            .or_else(|| law.initial_yield_stress(shot.target))
+    }
+}
+
+fn nose(shot: &DeepShot<'_>, options: &ForrestalOptions) -> NoseLoad {
+    NoseLoad::new(
+        shot.rod.nose,
+        shot.rod.diameter,
+        options.friction.unwrap_or(0.0),
+    )
+}
+
+fn rounded(speed: f64) -> Velocity {
+    Velocity::new(significant(speed, 3).parse().unwrap_or(speed))
+}
+
+impl Model for Forrestal {
+    fn name(&self) -> &'static str {
+        "forrestal"
+    }
+
+    fn summary(&self) -> &'static str {
+        "rigid rod in a thick metal target, resisted by spherical cavity expansion"
+    }
+
+    fn guard(&self) -> &'static Guard {
+        const {
+            &Guard {
+                projectile: &[ProjectileRegime::Rigid],
+                targets: TargetKind::DEEP,
+                ranges: &[
+                    Range {
+                        measure: Measure::LengthToDiameter,
+                        min: 2.0,
+                        max: f64::INFINITY,
+                        outside: Outside::Warning,
+                        because: "a short projectile spends much of its path entering, under a free surface",
+                    },
+                    Range {
+                        measure: Measure::ThicknessToDiameter,
+                        min: 5.0,
+                        max: f64::INFINITY,
+                        outside: Outside::Warning,
+                        because: "the cavity expands in an infinite body: free surfaces within a few diameters weaken it",
+                    },
+                ],
+                sees_back_face: false,
+                first_choice: &[FirstChoice {
+                    projectile: ProjectileRegime::Rigid,
+                    targets: TargetKind::DEEP,
+                    noses: NoseKind::ALL,
+                    target_material: MaterialClass::Metal,
+                    because: "the resistance to a rigid nose follows from the target's own strength law",
+                }],
+                notes: &[
+                    "strength of the target slow and at room temperature; neither spall nor a free surface",
+                    "frictionless unless `forrestal.friction` says otherwise",
+                    "a flat end carries a cap of dead metal in truth, which makes it less blunt than the model takes it",
+                ],
+                ..Guard::OPEN
+            }
+        }
+    }
+
+    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+        let Some(shot) = DeepShot::of(scenario) else {
+            return Some(NOT_ONE_TARGET.to_owned());
+        };
+        let options = &scenario.options.forrestal;
+        let given = options.a.is_some() && options.yield_stress.is_some();
+        (cavity_expansion_pressure(shot.target).is_none() && !(given && options.b.is_some()))
+            .then(|| format!("{NEVER_YIELDS}, or give `forrestal.a`, `forrestal.yield_stress` and `forrestal.b`"))
+    }
+
+    fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
+        let refuse = |reason: &str| Error::NotApplicable {
+            model: self.name(),
+            reason: reason.to_owned(),
+        };
+        let shot = DeepShot::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET))?;
+        let options = &scenario.options.forrestal;
+        let nose = nose(&shot, options);
+        let cavity = options.cavity.unwrap_or_default();
+        let given = options
+            .a
+            .and_then(|a| Some(a * Self::yield_stress(&shot, options)?));
+        let resistance = match (given, options.b) {
+            (Some(strength), Some(coefficient)) => Resistance {
+                strength,
+                coefficient,
+                warning: None,
+            },
+            _ => {
+                let computed = Self::resistance(&shot, cavity, nose.steepest())
+                    .ok_or_else(|| refuse(NEVER_YIELDS))?;
+                Resistance {
+                    strength: given.unwrap_or(computed.strength),
+                    coefficient: options.b.unwrap_or(computed.coefficient),
+                    warning: computed.warning.filter(|_| options.b.is_none()),
+                }
+            }
+        };
+        let stop = Self::stop(&shot, options, &resistance);
+        let entry = options.entry.unwrap_or_default();
+        let scheme = match (given, options.b, cavity) {
+            (Some(_), Some(_), _) => "given-coefficients",
+            (_, _, Cavity::Incompressible) => "incompressible",
+            (_, _, Cavity::Compressible) => "compressible",
+        };
+        let mut result = at_rest(self.name(), scheme, scenario, stop);
+        let (strength_factor, inertia_factor) = nose.factors();
+        result.details = vec![
+            detail("target resistance A Y", "MPa", resistance.strength * 1e-6),
+            detail("inertia coefficient B", "", resistance.coefficient),
+            detail("strength factor M", "", strength_factor),
+            detail("inertia factor N", "", inertia_factor),
+        ];
+        if let Some(yield_stress) = Self::yield_stress(&shot, options) {
+            let coefficient = resistance.strength / yield_stress;
+            result
+                .details
+                .push(detail("strength coefficient A", "", coefficient));
+        }
+        if given.is_none() && options.b.is_none() && shot.speed > 0.0 {
+            let other = match cavity {
+                Cavity::Incompressible => Cavity::Compressible,
+                Cavity::Compressible => Cavity::Incompressible,
+            };
+            result.band = Self::resistance(&shot, other, nose.steepest()).map(|other| {
+                let other = Self::stop(&shot, options, &other).depth;
+                Band {
+                    quantity: BandQuantity::DepthOfPenetration,
+                    low: other.min(stop.depth) * 1e3,
+                    high: other.max(stop.depth) * 1e3,
+                    basis: "incompressible to compressible target",
+                }
+            });
+        }
+        result.warnings.extend(resistance.warning);
+        if entry == Entry::Embedded && shot.speed > 0.0 && stop.depth < nose.length() {
+            result.warnings.push(
+                "the nose is longer than the depth and was taken to be fully embedded: entry = \"gradual\" is the better choice here"
+                    .to_owned(),
+            );
+        }
+        Ok(result)
+    }
+}

@@ -1,0 +1,132 @@
+//! Model `poncelet`: momentum balance of a rigid projectile against strength and drag.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    deep_shot::{DeepShot, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail},
+    nose_load::NoseLoad,
+    rigid_motion::RigidMotion,
+};
+use crate::{
+    Error, Scenario,
+    case::{Nose, Target},
+    check::{Check, limits},
+    guard::{Guard, Measure, Outside, Range},
+    material::cavity_expansion_pressure,
+    model::{Control, Model},
+    outcome::RunResult,
+    regime::{ProjectileRegime, TargetKind, nose_factor},
+    scenario::TargetBody,
+    units::Pressure,
+};
+
+/// Options of the model `poncelet`.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct PonceletOptions {
+    /// Resistance R of the target [Pa]; its quasi-static cavity-expansion pressure when not given.
+    pub resistance: Option<Pressure>,
+    /// Coefficient C of the drag `C ρ V²`, half the usual drag coefficient; the nose factor N when not given.
+    pub drag: Option<f64>,
+}
+
+impl PonceletOptions {
+    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
+        if let Some(resistance) = self.resistance {
+            check.quantity("resistance", resistance, limits::CONTACT_PRESSURE);
+        }
+        if let Some(drag) = self.drag {
+            check.number("drag", drag, limits::DRAG);
+        }
+    }
+}
+
+/// `m V dV/dx = −A (R + C ρ V²)`: the class of momentum balances for thick targets.
+#[derive(Debug, Clone, Copy)]
+pub struct Poncelet;
+
+impl Poncelet {
+    /// R [Pa] and C ρ [kg/m3].
+    fn resistance(scenario: &Scenario) -> Result<(f64, f64), String> {
+        let options = &scenario.options.poncelet;
+        if let TargetBody::ConstantPressure(pressure) = scenario.target {
+            if *options != PonceletOptions::default() {
+                let reason = "a constant pressure is the resistance, and has no drag: remove the table `poncelet`";
+                return Err(reason.to_owned());
+            }
+            return Ok((pressure, 0.0));
+        }
+        let shot = DeepShot::of(scenario).ok_or_else(|| NOT_ONE_TARGET.to_owned())?;
+        let resistance = options
+            .resistance
+            .map(Pressure::si)
+            .or_else(|| cavity_expansion_pressure(shot.target))
+            .ok_or_else(|| format!("{NEVER_YIELDS}, or give `poncelet.resistance`"))?;
+        let drag = options.drag.unwrap_or_else(|| nose_factor(shot.rod.nose));
+        Ok((resistance, drag * shot.target.density.si()))
+    }
+}
+
+impl Model for Poncelet {
+    fn name(&self) -> &'static str {
+        "poncelet"
+    }
+
+    fn summary(&self) -> &'static str {
+        "momentum balance of a rigid projectile against strength and drag"
+    }
+
+    fn guard(&self) -> &'static Guard {
+        const {
+            &Guard {
+                projectile: &[ProjectileRegime::Rigid],
+                targets: &[
+                    TargetKind::SemiInfinite,
+                    TargetKind::ThickPlate,
+                    TargetKind::Plate,
+                    TargetKind::ConstantPressure,
+                ],
+                ranges: &[Range {
+                    measure: Measure::ThicknessToDiameter,
+                    min: 5.0,
+                    max: f64::INFINITY,
+                    outside: Outside::Warning,
+                    because: "the resistance is that of an infinite body: free surfaces within a few diameters weaken it",
+                }],
+                sees_back_face: false,
+                notes: &[
+                    "the cross-section of the shank is loaded from first contact",
+                    "drag by Newton's impact theory: the target in the way takes on the speed of the surface, and nothing flows ahead of it",
+                ],
+                ..Guard::OPEN
+            }
+        }
+    }
+
+    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+        Self::resistance(scenario).err()
+    }
+
+    fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
+        let (strength, inertia) =
+            Self::resistance(scenario).map_err(|reason| Error::NotApplicable {
+                model: self.name(),
+                reason,
+            })?;
+        // The drag coefficient has the nose in it already.
+        let motion = RigidMotion {
+            mass: scenario.projectile.mass,
+            nose: NoseLoad::new(Nose::Flat, scenario.projectile.diameter, 0.0),
+            strength,
+            inertia,
+        };
+        let stop = motion.embedded(scenario.impact_speed);
+        let mut result = at_rest(self.name(), "momentum-balance", scenario, stop);
+        result.details = vec![
+            detail("resistance R", "MPa", strength * 1e-6),
+            detail("drag C rho", "kg/m3", inertia),
+        ];
+        Ok(result)
+    }
+}

@@ -1,0 +1,138 @@
+//! Rods on a rigid wall, by the models of one flow stress.
+
+mod common;
+
+use common::{assert_near, scenario, wilkins};
+use percuss::{
+    Scenario,
+    analytic::{mean_flow_stress, taylor_yield_stress, wilkins_guinan_length},
+    case::load_str,
+    material::Library,
+    model::{self, Control},
+    outcome::RunResult,
+};
+
+const MODELS: [&str; 2] = ["taylor", "wilkins_guinan"];
+
+fn run(model: &str, scenario: &Scenario) -> RunResult {
+    model::run(
+        model::model(model).unwrap(),
+        scenario,
+        &mut Control::default(),
+    )
+    .unwrap_or_else(|error| panic!("{model}: {error}"))
+}
+
+fn detail(result: &RunResult, name: &str) -> f64 {
+    let found = result.details.iter().find(|detail| detail.name == name);
+    found
+        .unwrap_or_else(|| panic!("{name}: {:?}", result.details))
+        .value
+}
+
+#[test]
+fn copper_rods_are_predicted_without_a_fit() {
+    for material in ["copper", "ofhc-copper"] {
+        for model in MODELS {
+            let mut sum = 0.0;
+            let shots = [
+                (89.0, 21.01),
+                (123.0, 19.60),
+                (153.0, 18.31),
+                (183.0, 16.81),
+            ];
+            for (velocity, measured) in shots {
+                let text = wilkins(velocity).replace("\"copper\"", &format!("\"{material}\""));
+                let result = run(model, &scenario(&text));
+                let length = result.projectile_final_length.unwrap() * 1e3;
+                let error = length / measured - 1.0;
+                println!(
+                    "{model}, {material}, {velocity} m/s: {length:.2} mm, measured {measured} mm ({:+.1} %), Y = {:.0} MPa, strain {:.2}, rate {:.0}/s",
+                    100.0 * error,
+                    detail(&result, "dynamic yield stress"),
+                    detail(&result, "mean strain"),
+                    detail(&result, "mean strain rate"),
+                );
+                sum += error * error;
+            }
+            let rms = (sum / 4.0_f64).sqrt();
+            println!("{model}, {material}: RMS {:.1} %", 100.0 * rms);
+            assert!(rms < 0.05, "{model} {material} {rms}");
+        }
+    }
+}
+
+#[test]
+fn the_yield_stress_is_its_own_mean() {
+    let case = scenario(&wilkins(150.0).replace("\"copper\"", "\"ofhc-copper\""));
+    for model in MODELS {
+        let result = run(model, &case);
+        let mean = mean_flow_stress(
+            &case.projectile.material,
+            detail(&result, "mean strain"),
+            detail(&result, "mean strain rate"),
+        );
+        assert_near(
+            model,
+            detail(&result, "dynamic yield stress") * 1e6,
+            mean.unwrap(),
+            1e-9,
+        );
+    }
+}
+
+#[test]
+fn a_given_yield_stress_is_used_and_found_again() {
+    let text = wilkins(150.0);
+    let text = format!(
+        "{text}\n[taylor]\ndynamic_yield_stress = \"400 MPa\"\n[wilkins_guinan]\ndynamic_yield_stress = \"400 MPa\""
+    );
+    let case = scenario(&text);
+    let density = case.projectile.material.density.si();
+    let ratio = |model: &str| run(model, &case).projectile_final_length.unwrap() / 0.02347;
+    let found = taylor_yield_stress(density, 150.0, ratio("taylor")).unwrap();
+    assert_near("taylor, inverse", found, 400e6, 1e-9);
+    let exact = wilkins_guinan_length(density * 150.0_f64.powi(2) / 400e6, 0.12);
+    assert_near("wilkins_guinan", ratio("wilkins_guinan"), exact, 1e-12);
+}
+
+#[test]
+fn slow_rods_keep_their_length_and_fast_ones_do_not_grow() {
+    for model in MODELS {
+        let mut last = 0.02347 * (1.0 + 1e-14);
+        for velocity in [0.0, 1.0, 30.0, 80.0, 160.0, 240.0, 320.0] {
+            let length = run(model, &scenario(&wilkins(velocity)))
+                .projectile_final_length
+                .unwrap();
+            assert!(length > 0.0 && length <= last, "{model} {velocity}");
+            last = length;
+        }
+        let still = run(model, &scenario(&wilkins(0.0)));
+        let length = still.projectile_final_length.unwrap();
+        assert!((length / 0.02347 - 1.0).abs() < 1e-14, "{model} {length}");
+    }
+}
+
+#[test]
+fn every_material_gives_a_length_or_a_reason() {
+    for entry in Library::built_in().iter() {
+        for velocity in [50.0, 200.0, 400.0, 1000.0] {
+            let text = wilkins(velocity).replace("\"copper\"", &format!("\"{}\"", entry.id));
+            let case = load_str("test", &text).unwrap();
+            for name in MODELS {
+                let model = model::model(name).unwrap();
+                match model::run(model, &case, &mut Control::default()) {
+                    Ok(result) => {
+                        let length = result.projectile_final_length.unwrap();
+                        assert!(
+                            length > 0.0 && length <= 0.02347,
+                            "{name} {} {length}",
+                            entry.id
+                        );
+                    }
+                    Err(error) => println!("{name}, {}, {velocity} m/s: {error}", entry.id),
+                }
+            }
+        }
+    }
+}
