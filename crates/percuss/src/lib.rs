@@ -17,6 +17,7 @@
 //! # Ok::<(), percuss::Error>(())
 //! ```
 
+pub mod analytic;
 pub mod case;
 pub mod chain;
 pub mod check;

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::{
     Error, Scenario,
+    analytic::{AwerbuchBodner, LambertJonas, PlateCavity, Plugging, RechtIpson},
     chain::Chain,
     error::nearest,
     guard::{Guard, Verdict},
@@ -35,7 +36,14 @@ pub trait Model: Sync {
 }
 
 /// All models. Adding one is one file and one line here.
-pub static MODELS: &[&dyn Model] = &[&Chain];
+pub static MODELS: &[&dyn Model] = &[
+    &Chain,
+    &PlateCavity,
+    &Plugging,
+    &RechtIpson,
+    &LambertJonas,
+    &AwerbuchBodner,
+];
 
 /// The model with this name.
 ///

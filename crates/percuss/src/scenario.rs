@@ -3,6 +3,10 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
+    analytic::{
+        AwerbuchBodnerOptions, LambertJonasOptions, PlateCavityOptions, PluggingOptions,
+        RechtIpsonOptions,
+    },
     case::{BackFace, Case, ChainOptions, Layer, Nose, Thickness},
     check::{Check, limits},
     material::{Library, Material, MaterialEntry},
@@ -26,6 +30,16 @@ pub struct Scenario {
     pub target: TargetBody,
     /// Options of the model `chain`.
     pub chain: ChainOptions,
+    /// Options of the model `plate_cavity`.
+    pub plate_cavity: PlateCavityOptions,
+    /// Options of the model `plugging`.
+    pub plugging: PluggingOptions,
+    /// Options of the model `recht_ipson`.
+    pub recht_ipson: RechtIpsonOptions,
+    /// Options of the model `lambert_jonas`.
+    pub lambert_jonas: LambertJonasOptions,
+    /// Options of the model `awerbuch_bodner`.
+    pub awerbuch_bodner: AwerbuchBodnerOptions,
 }
 
 /// A projectile.
@@ -127,6 +141,11 @@ impl Scenario {
             impact_speed: case.projectile.velocity.si(),
             target: target?,
             chain: case.chain,
+            plate_cavity: case.plate_cavity,
+            plugging: case.plugging,
+            recht_ipson: case.recht_ipson,
+            lambert_jonas: case.lambert_jonas,
+            awerbuch_bodner: case.awerbuch_bodner,
         })
     }
 }

@@ -158,6 +158,12 @@ impl Case {
         self.target.check(&mut check.within("target"));
         self.chain
             .check(&mut check.within("chain"), self.target.is_solid());
+        self.plate_cavity.check(&mut check.within("plate_cavity"));
+        self.plugging.check(&mut check.within("plugging"));
+        self.recht_ipson.check(&mut check.within("recht_ipson"));
+        self.lambert_jonas.check(&mut check.within("lambert_jonas"));
+        self.awerbuch_bodner
+            .check(&mut check.within("awerbuch_bodner"));
         self.check_materials(check);
     }
 

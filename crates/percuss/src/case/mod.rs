@@ -16,7 +16,13 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::material::MaterialTable;
+use crate::{
+    analytic::{
+        AwerbuchBodnerOptions, LambertJonasOptions, PlateCavityOptions, PluggingOptions,
+        RechtIpsonOptions,
+    },
+    material::MaterialTable,
+};
 
 pub(crate) use document::Document;
 pub use load::{MAX_FILE_BYTES, load, load_library, load_materials, load_str};
@@ -46,6 +52,21 @@ pub struct Case {
     /// Options of the 1-D discrete element model.
     #[serde(default)]
     pub chain: ChainOptions,
+    /// Options of the model `plate_cavity`.
+    #[serde(default)]
+    pub plate_cavity: PlateCavityOptions,
+    /// Options of the model `plugging`.
+    #[serde(default)]
+    pub plugging: PluggingOptions,
+    /// Options of the model `recht_ipson`.
+    #[serde(default)]
+    pub recht_ipson: RechtIpsonOptions,
+    /// Options of the model `lambert_jonas`.
+    #[serde(default)]
+    pub lambert_jonas: LambertJonasOptions,
+    /// Options of the model `awerbuch_bodner`.
+    #[serde(default)]
+    pub awerbuch_bodner: AwerbuchBodnerOptions,
     /// The user's own materials, by id.
     #[serde(default, skip_serializing_if = "MaterialTable::is_empty")]
     pub materials: MaterialTable,
