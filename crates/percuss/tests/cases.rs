@@ -21,6 +21,9 @@ struct File {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Expected {
+    /// Model that gives the number.
+    #[serde(default = "chain")]
+    model: String,
     quantity: String,
     /// Impact speed in place of the scenario's.
     velocity: Option<Velocity>,
@@ -45,6 +48,10 @@ enum Kind {
     Golden,
 }
 
+fn chain() -> String {
+    "chain".to_owned()
+}
+
 fn check(folder: &str) {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
         .join("../../cases")
@@ -59,7 +66,7 @@ fn check(folder: &str) {
             scenario.impact_speed = velocity.si();
         }
         let result = model::run(
-            model::model("chain").unwrap(),
+            model::model(&expected.model).unwrap_or_else(|error| panic!("{error}")),
             &scenario,
             &mut Control::recording(),
         )
@@ -130,4 +137,5 @@ cases! {
     copper_on_aluminium_800: "copper-on-aluminium-800",
     taylor_copper_wilkins: "taylor-copper-wilkins",
     elastic_bars: "elastic-bars",
+    weldox_borvik_2002: "weldox-borvik-2002",
 }

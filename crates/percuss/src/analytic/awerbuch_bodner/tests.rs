@@ -39,7 +39,7 @@ fn without_a_plate_nothing_is_lost() {
 
 #[test]
 fn all_energy_and_momentum_have_a_line() {
-    // The last two crush first, and the very last stops there.
+    // The last three crush first, and the very last stops there.
     for (crushing, shear, speed) in [
         (1.5e9, 3.3e8, 300.0),
         (1.5e9, 3.3e8, 100.0),
