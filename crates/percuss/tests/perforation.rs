@@ -156,14 +156,24 @@ fn without_inertia_the_work_is_the_pressure_times_the_hole() {
 #[test]
 fn cores_on_aluminium_have_their_measured_limits() {
     // Mass [g], diameter, thickness [mm], density [g/cm3], E [GPa], Y [MPa], n, measured limit [m/s].
-    let rows = [
-        (5.3, 6.2484, 20.0, 2.71, 70.0, 70.0, 0.175, 348.0),
-        (5.3, 6.2484, 20.0, 2.71, 70.0, 170.0, 0.192, 506.0),
-        (5.3, 6.2484, 10.0, 2.70, 70.0, 260.0, 0.07, 347.0),
-        (5.3, 6.2484, 20.0, 2.70, 70.0, 260.0, 0.07, 501.0),
+    let rows: [[f64; 8]; 4] = [
+        [5.3, 6.2484, 20.0, 2.71, 70.0, 70.0, 0.175, 348.0],
+        [5.3, 6.2484, 20.0, 2.71, 70.0, 170.0, 0.192, 506.0],
+        [5.3, 6.2484, 10.0, 2.70, 70.0, 260.0, 0.07, 347.0],
+        [5.3, 6.2484, 20.0, 2.70, 70.0, 260.0, 0.07, 501.0],
     ];
-    for (mass, diameter, thickness, density, modulus, strength, exponent, measured) in rows {
-        let coefficient = strength * (modulus * 1e3 / strength as f64).powf(exponent);
+    for [
+        mass,
+        diameter,
+        thickness,
+        density,
+        modulus,
+        strength,
+        exponent,
+        measured,
+    ] in rows
+    {
+        let coefficient = strength * (modulus * 1e3 / strength).powf(exponent);
         let text = format!(
             r#"
             projectile = {{ material = "apm2-core", mass = "{mass} g", diameter = "{diameter} mm", nose = {OGIVE}, velocity = "{measured} m/s" }}

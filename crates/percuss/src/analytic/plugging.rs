@@ -41,7 +41,7 @@ impl PluggingOptions {
 const THICKEST_PLUG: f64 = 1.5;
 
 /// Shear strength of a metal: its tensile strength over √3 (von Mises) [Pa]; `None` for a law that never flows.
-pub(super) fn shear_strength(material: &Material) -> Option<f64> {
+fn shear_strength(material: &Material) -> Option<f64> {
     Some(tensile_strength(material)? / 3.0_f64.sqrt())
 }
 
@@ -55,18 +55,23 @@ fn limit_of_work(shot: &PlateShot<'_>, work: f64) -> f64 {
     (2.0 * work * (shot.mass + shot.plug_mass())).sqrt() / shot.mass
 }
 
+/// Shear strength [Pa] that a case gives or its plate implies; `None` when it gives none and the plate never flows.
+fn strength_of(scenario: &Scenario, shot: &PlateShot<'_>) -> Option<f64> {
+    match scenario.plugging.shear_strength {
+        Some(given) => Some(given.si()),
+        None => shear_strength(shot.plate),
+    }
+}
+
 /// Ballistic limit of a case [m/s]; `None` when the plate never flows or there is no plate.
 pub(super) fn ballistic_limit(scenario: &Scenario) -> Option<f64> {
     let shot = PlateShot::of(scenario)?;
-    let strength = match scenario.plugging.shear_strength {
-        Some(given) => given.si(),
-        None => shear_strength(shot.plate)?,
-    };
+    let strength = strength_of(scenario, &shot)?;
     Some(limit_of_work(&shot, shear_work(&shot, strength)))
 }
 
 /// Common speed of projectile and plug behind the plate [m/s] \[recht1963\].
-pub(super) fn residual_with_plug(shot: &PlateShot<'_>, ballistic_limit: f64) -> f64 {
+fn residual_with_plug(shot: &PlateShot<'_>, ballistic_limit: f64) -> f64 {
     let excess = (shot.speed.powi(2) - ballistic_limit.powi(2)).max(0.0);
     shot.mass / (shot.mass + shot.plug_mass()) * excess.sqrt()
 }
@@ -128,12 +133,16 @@ impl Model for Plugging {
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let (Some(shot), Some(limit)) = (PlateShot::of(scenario), ballistic_limit(scenario)) else {
+        let inputs =
+            PlateShot::of(scenario).and_then(|shot| Some((strength_of(scenario, &shot)?, shot)));
+        let Some((strength, shot)) = inputs else {
             return Err(refuse(
                 self.name(),
                 "it takes one plate of a metal that flows",
             ));
         };
+        let work = shear_work(&shot, strength);
+        let limit = limit_of_work(&shot, work);
         let residual = residual_with_plug(&shot, limit);
         let mut result = plate_result(self.name(), "plug", shot.speed, limit, residual);
         if shot.speed <= limit {
@@ -141,9 +150,6 @@ impl Model for Plugging {
             let part = (shot.speed / limit).powi(2);
             result.depth_of_penetration = Some(shot.thickness * (1.0 - (1.0 - part).sqrt()));
         }
-        let work = limit_of_work(&shot, 1.0);
-        let work = (limit / work).powi(2);
-        let strength = work / shear_work(&shot, 1.0);
         if scenario.plugging.shear_strength.is_none() {
             let law = shot.plate.strength.law();
             let at = |stress: Option<f64>| {

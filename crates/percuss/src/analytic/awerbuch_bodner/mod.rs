@@ -21,7 +21,7 @@ use crate::{
     guard::{Guard, NoseKind},
     material::tensile_strength,
     model::{Control, Model},
-    outcome::{Band, BandQuantity, Detail, RunResult, Termination},
+    outcome::{Band, BandQuantity, Detail, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
     units::Pressure,
 };
@@ -143,8 +143,8 @@ impl Model for AwerbuchBodner {
         if shot.speed > 0.0 {
             let run = impact.shot(shot.speed, true);
             result.outcome = match run.contact_time {
-                Some(_) => crate::outcome::Outcome::Perforated,
-                None => crate::outcome::Outcome::AtRest,
+                Some(_) => Outcome::Perforated,
+                None => Outcome::AtRest,
             };
             result.termination = match run.contact_time {
                 Some(_) => Termination::LeftTarget,
