@@ -209,4 +209,10 @@ pub mod limits {
     pub const FRONT: Limits = limits(0.0, 0.9);
     /// Contact pressure of a constant-pressure target [Pa].
     pub const CONTACT_PRESSURE: Limits = limits(1e3, 1e11);
+    /// Coefficient B of the inertial pressure of a cavity.
+    pub const INERTIA_COEFFICIENT: Limits = limits(0.0, 10.0);
+    /// Factor a of a residual velocity.
+    pub const RESIDUAL_FACTOR: Limits = limits(0.01, 1.0);
+    /// Exponent p of a residual velocity.
+    pub const RESIDUAL_EXPONENT: Limits = limits(1.0, 20.0);
 }

@@ -5,9 +5,10 @@ use std::ops::ControlFlow;
 use crate::{
     Error, Scenario,
     analytic::{
-        CraterEnergy, Forrestal, ForrestalConcrete, Poncelet, QuasiStatic, Taylor, WilkinsGuinan,
+        AwerbuchBodner, CraterEnergy, Forrestal, ForrestalConcrete, Hydrodynamic, LambertJonas,
+        LanzOdermatt, PlateCavity, Plugging, Poncelet, QuasiStatic, RechtIpson, Tate, Taylor,
+        WalkerAnderson, WilkinsGuinan,
     },
-    analytic::{Hydrodynamic, LanzOdermatt, Tate, WalkerAnderson},
     chain::Chain,
     error::nearest,
     fdm::Fdm,
@@ -54,6 +55,11 @@ pub static MODELS: &[&dyn Model] = &[
     &CraterEnergy,
     &Taylor,
     &WilkinsGuinan,
+    &PlateCavity,
+    &Plugging,
+    &RechtIpson,
+    &LambertJonas,
+    &AwerbuchBodner,
 ];
 
 /// The model with this name.

@@ -21,10 +21,10 @@ struct File {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Expected {
-    quantity: String,
-    /// Model that the number is of.
+    /// Model that gives the number.
     #[serde(default = "chain")]
     model: String,
+    quantity: String,
     /// Impact speed in place of the scenario's.
     velocity: Option<Velocity>,
     /// Span of time over which a sampled quantity is averaged.
@@ -138,4 +138,5 @@ cases! {
     taylor_copper_wilkins: "taylor-copper-wilkins",
     elastic_bars: "elastic-bars",
     concrete_forrestal_1994: "concrete-forrestal-1994",
+    weldox_borvik_2002: "weldox-borvik-2002",
 }

@@ -15,7 +15,7 @@ use crate::{
     guard::{Guard, Measure, Outside, Range},
     material::cavity_expansion_pressure,
     model::{Control, Model},
-    outcome::{Outcome, RunResult},
+    outcome::{BandQuantity, Outcome, RunResult},
     regime::{ProjectileRegime, Regime, TargetKind},
     units::Pressure,
 };
@@ -115,6 +115,7 @@ impl Model for CraterEnergy {
     fn guard(&self) -> &'static Guard {
         const {
             &Guard {
+                predicts: &[BandQuantity::DepthOfPenetration],
                 targets: TargetKind::DEEP,
                 ranges: &[Range {
                     measure: Measure::ThicknessToDiameter,

@@ -179,6 +179,7 @@ impl Model for Forrestal {
     fn guard(&self) -> &'static Guard {
         const {
             &Guard {
+                predicts: &[BandQuantity::DepthOfPenetration],
                 projectile: &[ProjectileRegime::Rigid],
                 targets: TargetKind::DEEP,
                 ranges: &[

@@ -14,7 +14,7 @@ use crate::{
     guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
     material::{MaterialClass, Strength},
     model::{Control, Model},
-    outcome::RunResult,
+    outcome::{BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind, nose_factor},
 };
 
@@ -130,6 +130,7 @@ impl Model for ForrestalConcrete {
     fn guard(&self) -> &'static Guard {
         const {
             &Guard {
+                predicts: &[BandQuantity::DepthOfPenetration],
                 projectile: &[ProjectileRegime::Rigid],
                 targets: TargetKind::DEEP,
                 noses: NoseKind::SHARP,

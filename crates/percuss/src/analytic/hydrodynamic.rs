@@ -5,7 +5,7 @@ use crate::{
     Error, Scenario,
     guard::{Guard, Measure, Outside, Range},
     model::{Control, Model},
-    outcome::{Outcome, RunResult, Termination},
+    outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
 };
 
@@ -28,6 +28,7 @@ impl Model for Hydrodynamic {
     fn guard(&self) -> &'static Guard {
         const {
             &Guard {
+                predicts: &[BandQuantity::DepthOfPenetration],
                 projectile: &[ProjectileRegime::Eroding],
                 targets: TargetKind::DEEP,
                 ranges: &[

@@ -10,7 +10,7 @@ use crate::{
     check::{Check, limits},
     guard::{Guard, Measure, Outside, Range},
     model::{Control, Model},
-    outcome::{Outcome, RunResult, Termination},
+    outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::TargetKind,
     units::significant,
 };
@@ -91,6 +91,7 @@ impl Model for LanzOdermatt {
     fn guard(&self) -> &'static Guard {
         const {
             &Guard {
+                predicts: &[BandQuantity::DepthOfPenetration],
                 targets: TargetKind::DEEP,
                 ranges: &[Range {
                     measure: Measure::LengthToDiameter,

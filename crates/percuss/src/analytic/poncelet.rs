@@ -15,7 +15,7 @@ use crate::{
     guard::{Guard, Measure, Outside, Range},
     material::cavity_expansion_pressure,
     model::{Control, Model},
-    outcome::RunResult,
+    outcome::{BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind, nose_factor},
     scenario::TargetBody,
     units::Pressure,
@@ -80,6 +80,7 @@ impl Model for Poncelet {
     fn guard(&self) -> &'static Guard {
         const {
             &Guard {
+                predicts: &[BandQuantity::DepthOfPenetration],
                 projectile: &[ProjectileRegime::Rigid],
                 targets: &[
                     TargetKind::SemiInfinite,

@@ -35,6 +35,7 @@ impl Model for QuasiStatic {
     fn guard(&self) -> &'static Guard {
         const {
             &Guard {
+                predicts: &[BandQuantity::DepthOfPenetration],
                 projectile: &[ProjectileRegime::Rigid],
                 targets: TargetKind::DEEP,
                 ranges: &[Range {

@@ -13,7 +13,7 @@ use crate::{
     check::{Check, limits},
     guard::{Guard, Measure, NoseKind, Outside, Range},
     model::{Control, Model},
-    outcome::{Outcome, RunResult},
+    outcome::{BandQuantity, Outcome, RunResult},
     regime::{ProjectileRegime, TargetKind},
     units::Pressure,
 };
@@ -185,6 +185,7 @@ impl Taylor {
 
 /// The regime of both models of a rod on a wall.
 pub(super) const WALL: &Guard = &Guard {
+    predicts: &[BandQuantity::ProjectileFinalLength],
     projectile: &[ProjectileRegime::Rigid, ProjectileRegime::Deforming],
     targets: &[TargetKind::RigidWall],
     noses: &[NoseKind::Flat],

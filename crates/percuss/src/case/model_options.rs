@@ -8,8 +8,10 @@ use serde::{Deserialize, Serialize};
 use super::{ChainOptions, Experiment, Projectile, Target};
 use crate::{
     analytic::{
-        CraterEnergyOptions, ForrestalConcreteOptions, ForrestalOptions, LanzOdermattOptions,
-        PonceletOptions, TateOptions, TaylorOptions, WalkerAndersonOptions, WilkinsGuinanOptions,
+        AwerbuchBodnerOptions, CraterEnergyOptions, ForrestalConcreteOptions, ForrestalOptions,
+        LambertJonasOptions, LanzOdermattOptions, PlateCavityOptions, PluggingOptions,
+        PonceletOptions, RechtIpsonOptions, TateOptions, TaylorOptions, WalkerAndersonOptions,
+        WilkinsGuinanOptions,
     },
     check::Check,
     fdm::FdmOptions,
@@ -102,4 +104,9 @@ case_with_model_options! {
     crater_energy: CraterEnergyOptions,
     taylor: TaylorOptions,
     wilkins_guinan: WilkinsGuinanOptions,
+    plate_cavity: PlateCavityOptions,
+    plugging: PluggingOptions,
+    recht_ipson: RechtIpsonOptions,
+    lambert_jonas: LambertJonasOptions,
+    awerbuch_bodner: AwerbuchBodnerOptions,
 }

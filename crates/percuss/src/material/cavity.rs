@@ -1,4 +1,4 @@
-//! Quasi-static expansion of a spherical cavity: the pressure that a metal opposes to slow penetration.
+//! Quasi-static expansion of a spherical or cylindrical cavity: the pressure that a metal opposes to slow penetration.
 
 use super::{FlowState, Material};
 
@@ -13,6 +13,22 @@ const PANELS: u32 = 2000;
 /// `2Y/3`, and the strength law beyond it, slow and at room temperature. With constant flow stress it is
 /// `(2Y/3)(1 + ln(2E/3Y))` up to terms of the order of Y/E.
 pub fn cavity_expansion_pressure(material: &Material) -> Option<f64> {
+    expansion_pressure(material, 1.5)
+}
+
+/// Pressure that expands a long cylindrical cavity from nothing, slowly, in plane strain, in an infinite incompressible body [Pa]
+/// \[bishop1945, hill1950\]; `None` for a law that never flows.
+///
+/// `p = ∫₀^∞ σ(ε)/(e^{√3 ε} − 1) dε`: the shell at radius r has the effective strain `ε = −ln(1 − a²/r²)/√3`, the stresses differ by
+/// `2σ/√3` (von Mises), and `dσ_r/dr = −(2σ/√3)/r`. The elastic line gives `Y/√3`. With constant flow stress it is
+/// `(Y/√3)(1 + ln(E/(√3 Y)))` up to terms of the order of Y/E, and for `σ = Y (Eε/Y)ⁿ` it is
+/// `(Y/√3){1 + [E/(√3 Y)]ⁿ ∫₀^{1−√3Y/E} (−ln x)ⁿ/(1−x) dx}`.
+pub fn cylindrical_cavity_pressure(material: &Material) -> Option<f64> {
+    expansion_pressure(material, 3.0_f64.sqrt())
+}
+
+/// `∫₀^∞ σ(ε)/(e^{gε} − 1) dε`: g is 3/2 for a sphere and √3 for a cylinder.
+fn expansion_pressure(material: &Material, exponent: f64) -> Option<f64> {
     let law = material.strength.law();
     let yield_stress = law.initial_yield_stress(material)?;
     let prepared = law.prepare(material, 1.0);
@@ -31,7 +47,7 @@ pub fn cavity_expansion_pressure(material: &Material) -> Option<f64> {
     let step = (to - from) / f64::from(PANELS);
     let integrand = |x: f64| {
         let strain = x.exp().max(yield_strain);
-        stress(strain) * strain / (1.5 * strain).exp_m1()
+        stress(strain) * strain / (exponent * strain).exp_m1()
     };
     let sum: f64 = (0..PANELS)
         .map(|i| {
@@ -39,7 +55,7 @@ pub fn cavity_expansion_pressure(material: &Material) -> Option<f64> {
             integrand(x) + 4.0 * integrand(x + step / 2.0) + integrand(x + step)
         })
         .sum();
-    Some(2.0 / 3.0 * yield_stress + sum * step / 6.0)
+    Some(yield_stress / exponent + sum * step / 6.0)
 }
 
 #[cfg(test)]
@@ -75,5 +91,45 @@ mod tests {
         ));
         let ratio = cavity_expansion_pressure(&metal).unwrap() / yield_stress;
         assert!((ratio - 4.594).abs() < 4e-3, "{ratio}");
+    }
+
+    #[test]
+    fn a_cylinder_in_a_perfectly_plastic_body_has_its_closed_form() {
+        let metal = material("perfectly_plastic = { flow_stress = '276 MPa' }");
+        let root = 3.0_f64.sqrt();
+        let closed = 276e6 / root * (1.0 + (68.9e9 / (root * 276e6)).ln());
+        let pressure = cylindrical_cavity_pressure(&metal).unwrap();
+        // What is left out is of the order of √3 Y/2E = 0.35 % of Y/√3.
+        assert!(
+            (pressure / closed - 1.0).abs() < 1e-3,
+            "{pressure} {closed}"
+        );
+    }
+
+    #[test]
+    fn a_cylinder_in_a_power_law_body_has_its_published_form() {
+        let (modulus, yield_stress, exponent): (f64, f64, f64) = (68.9e9, 276e6, 0.051);
+        let root = 3.0_f64.sqrt();
+        // x = 1 − t², which takes the end of the interval with care.
+        let last = (root * yield_stress / modulus).sqrt();
+        let n = 20_000;
+        let step = (1.0 - last) / f64::from(n);
+        let integral: f64 = (0..n)
+            .map(|i| {
+                let t = last + (f64::from(i) + 0.5) * step;
+                2.0 / t * (-(1.0 - t * t).ln()).powf(exponent) * step
+            })
+            .sum();
+        let published = yield_stress / root
+            * (1.0 + (modulus / (root * yield_stress)).powf(exponent) * integral);
+        let coefficient = yield_stress * (modulus / yield_stress).powf(exponent) / 1e6;
+        let metal = material(&format!(
+            "power_law = {{ coefficient = '{coefficient} MPa', exponent = {exponent} }}"
+        ));
+        let pressure = cylindrical_cavity_pressure(&metal).unwrap();
+        assert!(
+            (pressure / published - 1.0).abs() < 2e-3,
+            "{pressure} {published}"
+        );
     }
 }

@@ -6,6 +6,7 @@ mod library;
 mod references;
 mod sanity;
 mod strength;
+mod tensile;
 #[cfg(test)]
 mod tests;
 
@@ -16,11 +17,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::units::{Density, Pressure, SpecificHeat, StrainRate, Temperature};
 
-pub use cavity::cavity_expansion_pressure;
+pub use cavity::{cavity_expansion_pressure, cylindrical_cavity_pressure};
 pub use equation_of_state::EquationOfState;
 pub use library::{Library, MaterialEntry};
 pub use references::{Reference, references};
 pub use strength::*;
+pub use tensile::tensile_strength;
 
 /// One parameter set of a material, as a file holds it.
 ///

@@ -170,6 +170,10 @@ impl Model for Tate {
     fn guard(&self) -> &'static Guard {
         const {
             &Guard {
+                predicts: &[
+                    BandQuantity::DepthOfPenetration,
+                    BandQuantity::ProjectileFinalLength,
+                ],
                 projectile: &[ProjectileRegime::Eroding, ProjectileRegime::Rigid],
                 targets: TargetKind::DEEP,
                 ranges: LONG_ROD,

@@ -22,7 +22,7 @@ use crate::{
     guard::Guard,
     material::Material,
     model::{Control, Model},
-    outcome::{Outcome, RunResult, Termination},
+    outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, Regime, TargetKind},
     units::{Length, Pressure, significant},
 };
@@ -156,6 +156,10 @@ impl Model for WalkerAnderson {
     fn guard(&self) -> &'static Guard {
         const {
             &Guard {
+                predicts: &[
+                    BandQuantity::DepthOfPenetration,
+                    BandQuantity::ProjectileFinalLength,
+                ],
                 projectile: &[ProjectileRegime::Eroding, ProjectileRegime::Rigid],
                 targets: TargetKind::DEEP,
                 ranges: LONG_ROD,

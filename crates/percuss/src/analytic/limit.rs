@@ -1,0 +1,56 @@
+//! The ballistic limit that the models of residual velocity start from: given, or computed by another model.
+
+use super::{
+    plate_cavity::{Passage, PlateCavity},
+    plugging::{Plugging, ballistic_limit},
+};
+use crate::{
+    Scenario,
+    guard::NoseKind,
+    model::{Model, applicability},
+    units::{Velocity, significant},
+};
+
+/// A ballistic limit and where it comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Limit {
+    /// Impact speed above which the plate is perforated [m/s].
+    pub speed: f64,
+    /// What to know of a limit that the case does not give.
+    pub warnings: Vec<String>,
+}
+
+/// The ballistic limit of a case; the reason in words when there is none. `table` is the option table to add one to.
+pub(super) fn limit(
+    scenario: &Scenario,
+    given: Option<Velocity>,
+    table: &str,
+) -> Result<Limit, String> {
+    if let Some(given) = given {
+        return Ok(Limit {
+            speed: given.si(),
+            warnings: Vec::new(),
+        });
+    }
+    let (model, speed): (&dyn Model, _) = match NoseKind::of(scenario.projectile.nose) {
+        NoseKind::Flat => (&Plugging, ballistic_limit(scenario)),
+        _ => (
+            &PlateCavity,
+            Passage::of(scenario).map(|passage| passage.ballistic_limit()),
+        ),
+    };
+    let refuse = |reason: &str| {
+        format!(
+            "no ballistic limit is given, and model `{}` gives none: {reason}; add `{table}.ballistic_limit`",
+            model.name()
+        )
+    };
+    let mut warnings = applicability(model, scenario).map_err(|reason| refuse(&reason))?;
+    let speed = speed.ok_or_else(|| refuse("the plate's strength law never flows"))?;
+    warnings.push(format!(
+        "no ballistic limit is given: that of model `{}`, {}, is used; `{table}.ballistic_limit` sets a measured one",
+        model.name(),
+        Velocity::new(significant(speed, 4).parse().unwrap_or(speed))
+    ));
+    Ok(Limit { speed, warnings })
+}

@@ -1,0 +1,106 @@
+//! How much of a plate a nose has opened.
+
+use std::f64::consts::PI;
+
+use crate::case::Nose;
+
+const PANELS: u32 = 200;
+
+/// Radius of the projectile [m] at a distance behind its tip [m], on a shank of this diameter [m].
+pub(super) fn radius(nose: Nose, diameter: f64, behind_tip: f64) -> f64 {
+    let shank = diameter / 2.0;
+    let length = nose.length(diameter);
+    if behind_tip <= 0.0 {
+        return 0.0;
+    }
+    if behind_tip >= length {
+        return shank;
+    }
+    match nose {
+        Nose::Flat => shank,
+        Nose::Hemisphere => (behind_tip * (diameter - behind_tip)).sqrt(),
+        Nose::Cone { .. } => shank * behind_tip / length,
+        Nose::Ogive { crh } => {
+            let arc = crh * diameter;
+            let to_shank = length - behind_tip;
+            (arc * arc - to_shank * to_shank).max(0.0).sqrt() - (arc - shank)
+        }
+    }
+}
+
+/// Volume [m3] of the part of the projectile within a distance behind its tip [m].
+fn volume_behind_tip(nose: Nose, diameter: f64, distance: f64) -> f64 {
+    if distance <= 0.0 {
+        return 0.0;
+    }
+    let within_nose = distance.min(nose.length(diameter));
+    let square = |x: f64| radius(nose, diameter, x).powi(2);
+    let step = within_nose / f64::from(PANELS);
+    let sum: f64 = (0..PANELS)
+        .map(|i| {
+            let x = f64::from(i) * step;
+            square(x) + 4.0 * square(x + step / 2.0) + square(x + step)
+        })
+        .sum();
+    PI * sum * step / 6.0 + PI * diameter * diameter / 4.0 * (distance - within_nose)
+}
+
+/// Volume of a plate [m3] that is filled when the tip has moved this far below the struck face [m].
+pub(super) fn opened_volume(nose: Nose, diameter: f64, thickness: f64, tip: f64) -> f64 {
+    volume_behind_tip(nose, diameter, tip) - volume_behind_tip(nose, diameter, tip - thickness)
+}
+
+/// Depth of the tip [m] at which this part of the hole through a plate is opened, 0 to 1.
+pub(super) fn tip_depth(nose: Nose, diameter: f64, thickness: f64, part: f64) -> f64 {
+    let whole = PI * diameter * diameter / 4.0 * thickness;
+    let (mut low, mut high) = (0.0, thickness + nose.length(diameter));
+    for _ in 0..60 {
+        let middle = (low + high) / 2.0;
+        if opened_volume(nose, diameter, thickness, middle) < part * whole {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    (low + high) / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_nose_that_went_through_opened_the_whole_hole() {
+        for nose in [
+            Nose::Hemisphere,
+            Nose::Cone {
+                length_to_diameter: 1.5,
+            },
+            Nose::Ogive { crh: 3.0 },
+        ] {
+            let (diameter, thickness) = (0.02, 0.012);
+            let through = thickness + nose.length(diameter);
+            let whole = PI * diameter * diameter / 4.0 * thickness;
+            let opened = opened_volume(nose, diameter, thickness, through);
+            assert!(
+                (opened / whole - 1.0).abs() < 1e-6,
+                "{nose:?} {opened} {whole}"
+            );
+            let nose_volume = volume_behind_tip(nose, diameter, nose.length(diameter));
+            assert!(
+                (nose_volume / nose.volume(diameter) - 1.0).abs() < 1e-6,
+                "{nose:?}"
+            );
+            assert!(tip_depth(nose, diameter, thickness, 0.0) < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_cone_opens_the_cube_of_its_depth() {
+        let nose = Nose::Cone {
+            length_to_diameter: 2.0,
+        };
+        let opened = |tip| opened_volume(nose, 0.01, 0.02, tip);
+        assert!((opened(0.01) / opened(0.005) - 8.0).abs() < 1e-9);
+    }
+}

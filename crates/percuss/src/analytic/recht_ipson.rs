@@ -1,0 +1,107 @@
+//! Model `recht_ipson`: residual velocity from a ballistic limit by energy and momentum.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    limit::limit,
+    plate_shot::{PlateShot, plate_result, refuse, taken_as_rigid},
+};
+use crate::{
+    Error, Scenario,
+    case::Target,
+    check::{Check, limits},
+    guard::{Guard, NoseKind},
+    model::{Control, Model},
+    outcome::{BandQuantity, Detail, RunResult},
+    regime::{ProjectileRegime, TargetKind},
+    units::Velocity,
+};
+
+/// Recht and Ipson's residual velocity.
+#[derive(Debug, Clone, Copy)]
+pub struct RechtIpson;
+
+/// Options of the model `recht_ipson`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RechtIpsonOptions {
+    /// Ballistic limit [m/s]; that of `plugging` (flat noses) or `plate_cavity` (sharp ones) when not given.
+    pub ballistic_limit: Option<Velocity>,
+}
+
+impl RechtIpsonOptions {
+    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
+        if let Some(limit) = self.ballistic_limit {
+            check.quantity("ballistic_limit", limit, limits::IMPACT_SPEED);
+        }
+    }
+}
+
+impl Model for RechtIpson {
+    fn name(&self) -> &'static str {
+        "recht_ipson"
+    }
+
+    fn summary(&self) -> &'static str {
+        "residual velocity behind a plate from a ballistic limit, by energy and momentum"
+    }
+
+    fn guard(&self) -> &'static Guard {
+        const {
+            &Guard {
+                predicts: &[BandQuantity::ResidualVelocity],
+                projectile: &[ProjectileRegime::Rigid, ProjectileRegime::Deforming],
+                targets: TargetKind::PLATES,
+                notes: &[
+                    "normal impact; the work that the plate takes does not depend on the speed",
+                    "a flat nose drives a plug of its own diameter through the whole thickness; a sharp nose leaves the metal in the plate",
+                ],
+                ..Guard::OPEN
+            }
+        }
+    }
+
+    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+        limit(
+            scenario,
+            scenario.options.recht_ipson.ballistic_limit,
+            self.name(),
+        )
+        .err()
+    }
+
+    fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
+        let given = scenario.options.recht_ipson.ballistic_limit;
+        let limit =
+            limit(scenario, given, self.name()).map_err(|reason| refuse(self.name(), reason))?;
+        let shot =
+            PlateShot::of(scenario).ok_or_else(|| refuse(self.name(), "it takes one plate"))?;
+        let plug = match NoseKind::of(scenario.projectile.nose) {
+            NoseKind::Flat => shot.plug_mass(),
+            _ => 0.0,
+        };
+        let factor = shot.mass / (shot.mass + plug);
+        let excess = (shot.speed.powi(2) - limit.speed.powi(2)).max(0.0);
+        let residual = factor * excess.sqrt();
+        let mut result = plate_result(self.name(), "", shot.speed, limit.speed, residual);
+        let detail = |name, unit, value| Detail { name, unit, value };
+        // Energy: ½mV² = capture + work + ½(m + m_p)V_r², and the work is what the limit leaves after the capture.
+        result.details = vec![
+            detail("mass of the plug", "g", plug * 1e3),
+            detail(
+                "work that the plate takes",
+                "J",
+                0.5 * shot.mass * factor * limit.speed.powi(2),
+            ),
+            detail(
+                "energy lost to the capture of the plug",
+                "J",
+                0.5 * shot.mass * (1.0 - factor) * shot.speed.powi(2),
+            ),
+        ];
+        result.warnings.extend(limit.warnings);
+        result.warnings.extend(taken_as_rigid(scenario));
+        Ok(result)
+    }
+}
