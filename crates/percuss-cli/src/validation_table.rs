@@ -59,8 +59,21 @@ fn section(validation: &Validation, kind: Kind, in_detail: bool) -> String {
             .map(|group| (group.model.to_owned(), &group.errors));
         text += &table("model", rows, true);
     }
-    for coverage in coverage.iter().filter(|c| c.kind == kind) {
-        text += &unused(coverage);
+    // Models of which the same is to be said share a line; those that are for something else are left out.
+    let mut lines: Vec<(Vec<&str>, String)> = Vec::new();
+    for coverage in coverage
+        .iter()
+        .filter(|c| c.kind == kind && (in_detail || c.is_given()))
+    {
+        let line = unused(coverage);
+        match lines.iter_mut().find(|(_, other)| *other == line) {
+            Some((models, _)) => models.push(coverage.model),
+            None => lines.push((vec![coverage.model], line)),
+        }
+    }
+    for (models, line) in lines.iter().filter(|(_, line)| !line.is_empty()) {
+        let line = format!("{}: {line}", models.join(", "));
+        text += &format!("{}\n", wrap(&line, width(), 2));
     }
     if !in_detail {
         return text;
@@ -93,7 +106,7 @@ fn groups(validation: &Validation, grouping: Grouping) -> Vec<Group> {
     validate::statistics(validation, grouping)
 }
 
-/// One line for the shots that a model is not counted on.
+/// What is to be said of the shots that a model is not counted on, without its name.
 fn unused(coverage: &Coverage) -> String {
     let counted = coverage.count(Standing::Counted);
     let without: usize = [
@@ -120,18 +133,14 @@ fn unused(coverage: &Coverage) -> String {
             };
             format!(": {reason}{most}")
         });
-    let mut line = format!(
-        "{}: {counted} of {} counted",
-        coverage.model,
-        coverage.total()
-    );
+    let mut line = format!("{counted} of {} counted", coverage.total());
     if stopped > 0 {
         line += &format!(", {stopped} stopped in the test, which leaves no relative error");
     }
     if without > 0 {
         line += &format!(", {without} without a number{reason}");
     }
-    format!("{}\n", wrap(&line, width(), 2))
+    line
 }
 
 fn table<'a>(

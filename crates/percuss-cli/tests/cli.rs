@@ -284,10 +284,12 @@ fn models_as_json_hold_their_whole_guard() {
                 "first_choice",
                 "noses",
                 "notes",
+                "predicts",
                 "projectile",
                 "projectile_materials",
                 "ranges",
                 "sees_back_face",
+                "start_temperature",
                 "target_materials",
                 "targets",
             ]

@@ -81,7 +81,7 @@ pub(super) fn groups(validation: &Validation, kind: Kind, grouping: Grouping) ->
     table
 }
 
-/// What became of the shots of a kind.
+/// What became of the shots of a kind, for the models that give what it measures.
 pub(super) fn coverage(validation: &Validation, kind: Kind) -> Table {
     let mut table = Table::new(&[
         "model",
@@ -98,7 +98,7 @@ pub(super) fn coverage(validation: &Validation, kind: Kind) -> Table {
     ]);
     for coverage in validate::coverage(validation)
         .into_iter()
-        .filter(|c| c.kind == kind)
+        .filter(|c| c.kind == kind && c.is_given())
     {
         let mut row = vec![coverage.model.to_owned(), coverage.total().to_string()];
         row.extend(Standing::ALL.map(|standing| coverage.count(standing).to_string()));

@@ -43,6 +43,11 @@ impl<'a> LongRod<'a> {
         })
     }
 
+    /// Length over all of a projectile of which so much of the flat-ended rod is left [m]: the nose goes first.
+    pub(super) fn length_over_all(&self, scenario: &Scenario, left: f64) -> f64 {
+        (scenario.projectile.length - (self.length - left)).max(0.0)
+    }
+
     pub(super) fn densities(&self) -> (f64, f64) {
         (self.projectile.density.si(), self.target.density.si())
     }

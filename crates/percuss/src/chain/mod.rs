@@ -53,7 +53,14 @@ impl Model for Chain {
                 start_temperature: true,
                 first_choice: &[FirstChoice {
                     projectile: ProjectileRegime::Deforming,
-                    targets: TargetKind::ALL,
+                    targets: &[
+                        TargetKind::SemiInfinite,
+                        TargetKind::ThickPlate,
+                        TargetKind::Plate,
+                        TargetKind::Layered,
+                        TargetKind::RigidWall,
+                        TargetKind::ConstantPressure,
+                    ],
                     noses: &[NoseKind::Flat],
                     target_material: MaterialClass::Metal,
                     because: "it follows the deformation of the projectile and balances its books",

@@ -13,9 +13,11 @@ pub use rod::Rod;
 
 use crate::{
     Error, Scenario,
+    case::ErosionStrain,
     guard::{Guard, NoseKind},
     model::{Control, Model},
     outcome::RunResult,
+    regime::{ProjectileRegime, Regime},
 };
 
 /// One-dimensional finite differences, as a rod or as a planar impact.
@@ -36,7 +38,9 @@ impl Model for Fdm {
             &Guard {
                 noses: &[NoseKind::Flat],
                 notes: &[
-                    "normal impact of a flat-ended projectile; no erosion",
+                    "normal impact of a flat-ended projectile",
+                    "geometry `rod` has no erosion: a rod that erodes gets no number, unless the case asks for a comparison without \
+                     erosion by `chain.erosion_strain = \"never\"`",
                     "geometry `rod`: the column of target in line with the rod stands for the target, closed as in `chain`",
                     "geometry `planar`: uniaxial strain, until release waves from the edges arrive; needs the materials' equations \
                      of state",
@@ -48,7 +52,7 @@ impl Model for Fdm {
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
         match scenario.options.fdm.geometry {
-            Geometry::Rod => None,
+            Geometry::Rod => erodes(scenario),
             Geometry::Planar => planar::not_applicable(scenario),
         }
     }
@@ -59,4 +63,19 @@ impl Model for Fdm {
             Geometry::Planar => planar::run(scenario, control),
         }
     }
+}
+
+/// Why a rod that erodes gets no number: its cells are crushed instead, to nothing and at the cost of any number of time steps.
+fn erodes(scenario: &Scenario) -> Option<String> {
+    let regime = Regime::of(scenario);
+    let asked = scenario.options.chain.erosion_strain == Some(ErosionStrain::Never);
+    let sharply = regime.projectile == ProjectileRegime::Eroding
+        && regime.neighbour != Some(ProjectileRegime::Deforming);
+    (sharply && !asked).then(|| {
+        format!(
+            "geometry `rod` has no erosion, and this rod erodes: {}; for a comparison without erosion give \
+             `chain.erosion_strain = \"never\"`",
+            regime.because
+        )
+    })
 }

@@ -175,6 +175,11 @@ impl Coverage {
         self.standings[standing as usize]
     }
 
+    /// Whether the model gives the quantity that this kind of shot measures.
+    pub fn is_given(&self) -> bool {
+        self.count(Standing::NotGiven) == 0
+    }
+
     /// How many shots there are.
     pub fn total(&self) -> usize {
         self.standings.iter().sum()

@@ -223,7 +223,7 @@ impl Model for Tate {
         let mut result = RunResult::new(self.name(), "alekseevskii-tate", outcome, termination);
         result.depth_of_penetration = Some(stop.depth);
         result.residual_velocity = Some(0.0);
-        result.projectile_final_length = Some(stop.length);
+        result.projectile_final_length = Some(rod.length_over_all(scenario, stop.length));
         result.projectile_final_mass = Some(scenario.projectile.mass * stop.length / rod.length);
         result.time_to_rest = Some(stop.time);
         result.end_time = Some(stop.time);

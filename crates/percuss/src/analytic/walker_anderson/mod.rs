@@ -195,7 +195,7 @@ impl Model for WalkerAnderson {
                 RunResult::new(self.name(), "", Outcome::AtRest, Termination::NothingMoves);
             result.depth_of_penetration = Some(0.0);
             result.residual_velocity = Some(0.0);
-            result.projectile_final_length = Some(rod.length);
+            result.projectile_final_length = Some(scenario.projectile.length);
             result.projectile_final_mass = Some(scenario.projectile.mass);
             return Ok(result);
         }
@@ -208,7 +208,7 @@ impl Model for WalkerAnderson {
         let mut result = RunResult::new(self.name(), "", outcome, termination);
         result.depth_of_penetration = Some(stop.depth);
         result.residual_velocity = Some(0.0);
-        result.projectile_final_length = Some(stop.length);
+        result.projectile_final_length = Some(rod.length_over_all(scenario, stop.length));
         result.projectile_final_mass = Some(scenario.projectile.mass * stop.length / rod.length);
         result.time_to_rest = Some(stop.time);
         result.end_time = Some(stop.time);
