@@ -110,19 +110,9 @@ impl Guard {
             }
         }
         for range in self.ranges {
-            let Some(value) = range.measure.of(scenario) else {
+            let Some(outside) = range.finding(scenario) else {
                 continue;
             };
-            if (range.min..=range.max).contains(&value) {
-                continue;
-            }
-            let outside = format!(
-                "{} of {} is outside {}: {}",
-                range.measure.in_words(),
-                range.measure.with_unit(value),
-                range.in_words(),
-                range.because
-            );
             match range.outside {
                 Outside::NotApplicable => return Verdict::Outside(outside),
                 Outside::Warning => warnings.push(outside),
@@ -241,6 +231,29 @@ pub struct Range {
 }
 
 impl Range {
+    /// A warning on thin plates, for models whose target is a column: it can neither let go a plug nor bend.
+    pub(crate) const COLUMN: Self = Self {
+        measure: Measure::ThicknessToDiameter,
+        min: crate::regime::THIN,
+        max: f64::INFINITY,
+        outside: Outside::Warning,
+        because: "a thin plate is plugged or bent, and a column can do neither: it says nothing of perforation",
+    };
+
+    /// What is to be said of a case outside; `None` for a case inside, or without such a measure.
+    pub fn finding(&self, scenario: &Scenario) -> Option<String> {
+        let value = self.measure.of(scenario)?;
+        (!(self.min..=self.max).contains(&value)).then(|| {
+            format!(
+                "{} of {} is outside {}: {}",
+                self.measure.in_words(),
+                self.measure.with_unit(value),
+                self.in_words(),
+                self.because
+            )
+        })
+    }
+
     /// The range in words, with its unit.
     pub fn in_words(&self) -> String {
         if self.max.is_infinite() {

@@ -95,6 +95,14 @@ pub(super) const PLUG_RANGES: &[Range] = &[
     },
 ];
 
+const PLUGS: FirstChoice = FirstChoice {
+    projectile: ProjectileRegime::Rigid,
+    targets: &[TargetKind::ThinPlate],
+    noses: &[NoseKind::Flat],
+    target_material: MaterialClass::Metal,
+    because: "a thin plate under a blunt nose fails by shearing a plug",
+};
+
 impl Model for Plugging {
     fn name(&self) -> &'static str {
         "plugging"
@@ -112,16 +120,16 @@ impl Model for Plugging {
                 targets: TargetKind::PLATES,
                 noses: &[NoseKind::Flat],
                 ranges: PLUG_RANGES,
-                first_choice: &[FirstChoice {
-                    projectile: ProjectileRegime::Rigid,
-                    targets: &[TargetKind::ThinPlate],
-                    noses: &[NoseKind::Flat],
-                    target_material: MaterialClass::Metal,
-                    because: "a thin plate under a blunt nose fails by shearing a plug",
-                }],
+                first_choice: &[
+                    PLUGS,
+                    FirstChoice {
+                        projectile: ProjectileRegime::Deforming,
+                        ..PLUGS
+                    },
+                ],
                 notes: &[
                     "normal impact; the whole thickness shears along the rim at a constant stress",
-                    "bending of the plate, indentation, rate and heat are left out: real limits of tough plates lie higher",
+                    "bending of the plate, indentation, rate and heat are left out: see the validation report for how far measured limits lie off",
                 ],
                 ..Guard::OPEN
             }

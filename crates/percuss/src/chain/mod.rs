@@ -26,7 +26,7 @@ pub use published::Published;
 use crate::{
     Error, Scenario,
     case::Scheme,
-    guard::{FirstChoice, Guard, NoseKind},
+    guard::{FirstChoice, Guard, NoseKind, Range},
     material::MaterialClass,
     model::{Control, Model},
     outcome::RunResult,
@@ -51,6 +51,7 @@ impl Model for Chain {
             &Guard {
                 noses: &[NoseKind::Flat],
                 start_temperature: true,
+                ranges: &[Range::COLUMN],
                 first_choice: &[FirstChoice {
                     projectile: ProjectileRegime::Deforming,
                     targets: &[

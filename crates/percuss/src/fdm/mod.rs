@@ -14,7 +14,7 @@ pub use rod::Rod;
 use crate::{
     Error, Scenario,
     case::ErosionStrain,
-    guard::{Guard, NoseKind},
+    guard::{Guard, NoseKind, Range},
     model::{Control, Model},
     outcome::RunResult,
     regime::{ProjectileRegime, Regime},
@@ -59,7 +59,11 @@ impl Model for Fdm {
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
         match scenario.options.fdm.geometry {
-            Geometry::Rod => Rod::new(scenario).run(control),
+            Geometry::Rod => {
+                let mut result = Rod::new(scenario).run(control)?;
+                result.warnings.extend(Range::COLUMN.finding(scenario));
+                Ok(result)
+            }
             Geometry::Planar => planar::run(scenario, control),
         }
     }

@@ -103,7 +103,7 @@ impl Model for AwerbuchBodner {
                 ranges: PLUG_RANGES,
                 notes: &[
                     "normal impact; reconstructed: the original paper could not be read",
-                    "bending of the plate, rate and heat are left out: real limits of tough plates lie higher",
+                    "bending of the plate, rate and heat are left out: see the validation report for how far measured limits lie off",
                 ],
                 ..Guard::OPEN
             }
