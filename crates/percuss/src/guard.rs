@@ -286,6 +286,8 @@ pub enum Outside {
 pub enum Measure {
     /// Length of the projectile over its diameter.
     LengthToDiameter,
+    /// Length of the flat-ended rod of the same mass and diameter, over its diameter.
+    FlatRodLengthToDiameter,
     /// Thickness of the target over the projectile's diameter.
     ThicknessToDiameter,
     /// Impact speed [m/s].
@@ -298,6 +300,10 @@ impl Measure {
         let rod = &scenario.projectile;
         match self {
             Self::LengthToDiameter => Some(rod.length / rod.diameter),
+            Self::FlatRodLengthToDiameter => {
+                let length = rod.mass / (rod.material.density.si() * rod.area());
+                Some(length / rod.diameter)
+            }
             Self::ThicknessToDiameter => Some(scenario.target_thickness()? / rod.diameter),
             Self::ImpactSpeed => Some(scenario.impact_speed),
         }
@@ -307,6 +313,7 @@ impl Measure {
     pub fn in_words(self) -> &'static str {
         match self {
             Self::LengthToDiameter => "length to diameter",
+            Self::FlatRodLengthToDiameter => "length to diameter, as a flat-ended rod of its mass,",
             Self::ThicknessToDiameter => "thickness to projectile diameter",
             Self::ImpactSpeed => "impact speed",
         }

@@ -200,7 +200,11 @@ impl Regime {
         let (projectile, neighbour) = match (stays_rigid, erodes) {
             (true, _) => (
                 ProjectileRegime::Rigid,
-                stress_is_close.then_some(ProjectileRegime::Deforming),
+                stress_is_close.then_some(if erodes {
+                    ProjectileRegime::Eroding
+                } else {
+                    ProjectileRegime::Deforming
+                }),
             ),
             (false, true) => (
                 ProjectileRegime::Eroding,

@@ -42,6 +42,12 @@ const SHOTS: &[(&str, &str, &[f64])] = &[
         &[1000.0, 1200.0, 1500.0, 1800.0],
     ),
     (
+        "strong rod into a weaker target, from rigid to eroding",
+        r#"projectile = { material = "strong", length = "100 mm", diameter = "10 mm", nose = "hemisphere", velocity = "1500 m/s" }
+           target = { material = "light", thickness = "semi-infinite" }"#,
+        &[200.0, 500.0, 1000.0, 1600.0, 2000.0, 2500.0],
+    ),
+    (
         "soft rod on a rigid wall",
         r#"projectile = { material = "soft", length = "23.47 mm", diameter = "7.62 mm", velocity = "183 m/s" }
            target = { rigid_wall = true }"#,
@@ -105,6 +111,14 @@ brinell_hardness = 270.0
 equation_of_state = { sound_speed = "4570 m/s", slope = 1.49, gruneisen = 1.93 }
 strength.perfectly_plastic = { flow_stress = "800 MPa" }
 
+[materials.strong]
+name = "strong steel"
+density = "7850 kg/m3"
+youngs_modulus = "205 GPa"
+poissons_ratio = 0.29
+equation_of_state = { sound_speed = "4570 m/s", slope = 1.49, gruneisen = 1.93 }
+strength.perfectly_plastic = { flow_stress = "2.5 GPa" }
+
 [materials.tool]
 name = "very hard steel"
 density = "8000 kg/m3"
@@ -122,11 +136,19 @@ strength.concrete = { compressive_strength = "35.2 MPa" }
 "#;
 
 /// Model, identity and reason of what is known to fail.
-const KNOWN_FAILURES: &[(&str, Identity, &str)] = &[(
-    "hydrodynamic",
-    Identity::FasterGoesDeeper,
-    "its depth is that of infinite speed: it does not depend on the speed",
-)];
+const KNOWN_FAILURES: &[(&str, Identity, &str)] = &[
+    (
+        "hydrodynamic",
+        Identity::FasterGoesDeeper,
+        "its depth is that of infinite speed: it does not depend on the speed",
+    ),
+    ("tate", Identity::FasterGoesDeeper, STRONGER_RODS),
+    ("walker_anderson", Identity::FasterGoesDeeper, STRONGER_RODS),
+    ("crater_energy", Identity::FasterGoesDeeper, STRONGER_RODS),
+];
+
+const STRONGER_RODS: &str = "a rod that is stronger than its target goes deepest where it just stays rigid, and less deep once it \
+                             erodes";
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Identity {

@@ -295,6 +295,18 @@ fn finer_meshes_agree_better() {
 }
 
 #[test]
+fn a_rod_that_erodes_is_refused_unless_the_case_asks_for_no_erosion() {
+    let model = model::model("fdm").unwrap();
+    let run = |options: &str| {
+        let scenario = common::scenario(&paper(1000.0, (10, 20), options));
+        model::run(model, &scenario, &mut Control::default())
+    };
+    let refused = run("").unwrap_err().to_string();
+    assert!(refused.contains("no erosion"), "{refused}");
+    assert!(run("erosion_strain = \"never\"").is_ok());
+}
+
+#[test]
 fn without_erosion_a_crushed_cell_is_warned_of() {
     let says = |result: RunResult| {
         result
@@ -302,7 +314,11 @@ fn without_erosion_a_crushed_cell_is_warned_of() {
             .iter()
             .any(|line| line.contains("no erosion"))
     };
-    assert!(says(fdm(&paper(1000.0, (10, 20), ""))));
+    assert!(says(fdm(&paper(
+        1000.0,
+        (10, 20),
+        "erosion_strain = \"never\""
+    ))));
     assert!(!says(fdm(&paper(230.0, (10, 20), ""))));
 }
 

@@ -148,7 +148,8 @@ impl Model for CraterEnergy {
         let rod = shot.rod;
         let energy = 0.5 * rod.mass * shot.speed * shot.speed;
         let given = scenario.options.crater_energy.crater_to_projectile_diameter;
-        let regime = Regime::of(scenario).projectile;
+        let judged = Regime::of(scenario);
+        let regime = judged.projectile;
         let strength = rod.material.flow_stress(STRENGTH_STRAIN);
         let (mut result, growth) = match (regime, given, strength) {
             (ProjectileRegime::Rigid, None, _) | (_, None, None) => {
@@ -189,6 +190,18 @@ impl Model for CraterEnergy {
             detail("crater diameter ratio", "", growth.sqrt()),
             detail("crater volume", "cm3", energy / resistance * 1e6),
         ];
+        let rigid_or_not = [regime].into_iter().chain(judged.neighbour);
+        if judged.neighbour.is_some()
+            && rigid_or_not
+                .into_iter()
+                .any(|r| r == ProjectileRegime::Rigid)
+        {
+            result.warnings.push(
+                "the judgement whether the projectile stays rigid is not sharp here, and this model's depth jumps there: compare \
+                 with the models of the other regime"
+                    .to_owned(),
+            );
+        }
         match regime {
             ProjectileRegime::Rigid => {}
             ProjectileRegime::Deforming => result.warnings.push(

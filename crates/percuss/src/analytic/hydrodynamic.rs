@@ -33,7 +33,7 @@ impl Model for Hydrodynamic {
                 targets: TargetKind::DEEP,
                 ranges: &[
                     Range {
-                        measure: Measure::LengthToDiameter,
+                        measure: Measure::FlatRodLengthToDiameter,
                         min: 3.0,
                         max: f64::INFINITY,
                         outside: Outside::NotApplicable,

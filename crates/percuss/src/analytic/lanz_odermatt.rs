@@ -94,7 +94,7 @@ impl Model for LanzOdermatt {
                 predicts: &[BandQuantity::DepthOfPenetration],
                 targets: TargetKind::DEEP,
                 ranges: &[Range {
-                    measure: Measure::LengthToDiameter,
+                    measure: Measure::FlatRodLengthToDiameter,
                     min: 4.0,
                     max: f64::INFINITY,
                     outside: Outside::NotApplicable,

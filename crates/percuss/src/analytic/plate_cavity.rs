@@ -165,6 +165,13 @@ impl Model for PlateCavity {
                     },
                     Range {
                         measure: Measure::ThicknessToDiameter,
+                        min: 0.0,
+                        max: 50.0,
+                        outside: Outside::NotApplicable,
+                        because: "no projectile perforates a plate so thick, and the plate's inertia grows beyond all numbers",
+                    },
+                    Range {
+                        measure: Measure::ThicknessToDiameter,
                         min: 1.0,
                         max: 10.0,
                         outside: Outside::Warning,

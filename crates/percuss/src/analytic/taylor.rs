@@ -69,12 +69,14 @@ impl TaylorRod {
         let whole = exponent(left);
         // In u = ln(1 − e): ∫ (1 − e) dh = ∫ h (2 − e)/2 du from u(V) to 0.
         let from = left.ln();
-        let step = -from / f64::from(PANELS);
+        // A fast rod has nearly all of its deformed part near u(V): the panels shrink with it.
+        let panels = (f64::from(PANELS) * (number / 4.0).clamp(1.0, 1000.0)).ceil() as u32;
+        let step = -from / f64::from(panels);
         let integrand = |u: f64| {
             let left = u.exp();
             (-(whole - exponent(left)) / 2.0).exp() * (1.0 + left) / 2.0
         };
-        let deformed: f64 = (0..PANELS)
+        let deformed: f64 = (0..panels)
             .map(|i| {
                 let u = from + f64::from(i) * step;
                 step / 6.0 * (integrand(u) + 4.0 * integrand(u + step / 2.0) + integrand(u + step))
@@ -231,6 +233,8 @@ pub(super) fn on_wall(
     } else {
         result.projectile_final_diameter = Some(rod.diameter);
         if scenario.impact_speed > 0.0 {
+            result.outcome = Outcome::Rebounded;
+            result.residual_velocity = Some(-scenario.impact_speed);
             result.warnings.push(
                 "an elastic wave of this speed does not reach the yield stress: the rod keeps its length and bounces".to_owned(),
             );

@@ -22,6 +22,7 @@ pub use conservative::{Conservative, ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
 pub(crate) use mesh::modelled_thickness;
 pub(crate) use part::constraint_factor;
 pub use published::Published;
+pub(crate) use warnings::held_back;
 
 use crate::{
     Error, Scenario,

@@ -2,9 +2,10 @@
 
 use super::mesh;
 use crate::{
-    case::ErosionClosure,
+    case::{BackFace, ErosionClosure},
     material::{Material, Strength},
     outcome::{Outcome, RunResult},
+    regime::THICK,
     scenario::{Scenario, TargetBody},
     units::{StrainRate, Temperature, significant},
 };
@@ -31,6 +32,7 @@ pub(super) fn warnings(
         ),
         _ => {}
     }
+    warnings.extend(held_back(scenario));
     warn_of_closure(scenario, result, &mut warnings);
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
     let heated = scenario.options.chain.adiabatic_heating.unwrap_or(true);
@@ -50,6 +52,23 @@ pub(super) fn warnings(
         }
     }
     warnings
+}
+
+/// What a held back face does to a plate that is not thick.
+pub(crate) fn held_back(scenario: &Scenario) -> Option<String> {
+    let TargetBody::Layers {
+        back_face: BackFace::Fixed,
+        ..
+    } = scenario.target
+    else {
+        return None;
+    };
+    let ratio = scenario.target_thickness()? / scenario.projectile.diameter;
+    (ratio < THICK).then(|| {
+        "the back face is held (`target.back_face = \"fixed\"`, the default of a plate): nothing can leave through it; give \
+         \"free\" for a plate that the projectile may perforate"
+            .to_owned()
+    })
 }
 
 /// A column of target resists by its constraint factor and its border shear: both are closures, not results.

@@ -14,6 +14,7 @@ pub use rod::Rod;
 use crate::{
     Error, Scenario,
     case::ErosionStrain,
+    chain::held_back,
     guard::{Guard, NoseKind, Range},
     model::{Control, Model},
     outcome::RunResult,
@@ -62,6 +63,7 @@ impl Model for Fdm {
             Geometry::Rod => {
                 let mut result = Rod::new(scenario).run(control)?;
                 result.warnings.extend(Range::COLUMN.finding(scenario));
+                result.warnings.extend(held_back(scenario));
                 Ok(result)
             }
             Geometry::Planar => planar::run(scenario, control),

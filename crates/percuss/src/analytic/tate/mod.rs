@@ -53,14 +53,14 @@ pub struct Tate;
 /// Range of length to diameter of a long rod, and of speeds, shared by the models of eroding rods.
 pub(super) const LONG_ROD: &[Range] = &[
     Range {
-        measure: Measure::LengthToDiameter,
+        measure: Measure::FlatRodLengthToDiameter,
         min: 3.0,
         max: f64::INFINITY,
         outside: Outside::NotApplicable,
         because: "its steady flow needs a rod that is long against the tip",
     },
     Range {
-        measure: Measure::LengthToDiameter,
+        measure: Measure::FlatRodLengthToDiameter,
         min: 10.0,
         max: f64::INFINITY,
         outside: Outside::Warning,
@@ -225,8 +225,13 @@ impl Model for Tate {
         result.residual_velocity = Some(0.0);
         result.projectile_final_length = Some(rod.length_over_all(scenario, stop.length));
         result.projectile_final_mass = Some(scenario.projectile.mass * stop.length / rod.length);
-        result.time_to_rest = Some(stop.time);
-        result.end_time = Some(stop.time);
+        // A rod that is weaker than the target goes on flattening at its face: what is left of that takes no part in the depth,
+        // and its time is not followed.
+        let flattens = rods.target_resistance > rods.projectile_strength
+            && rod.speed > 0.0
+            && stop.length > 0.0;
+        result.time_to_rest = (!flattens).then_some(stop.time);
+        result.end_time = result.time_to_rest;
         result.band = band(scenario, &rod, rods, stop.depth)?;
         result.details = vec![
             detail(
@@ -256,13 +261,23 @@ impl Model for Tate {
             ]);
         }
         let options = &scenario.options.tate;
-        if options.projectile_strength.is_none() || options.target_resistance.is_none() {
-            result.warnings.push(rests_on(
-                rods.projectile_strength,
-                rods.target_resistance,
-                "estimated from the strength laws: `tate.projectile_strength` and `tate.target_resistance` replace them",
-            ));
-        }
+        let estimated = match (options.projectile_strength, options.target_resistance) {
+            (None, None) => {
+                "estimated from the strength laws: `tate.projectile_strength` and `tate.target_resistance` replace them"
+            }
+            (None, Some(_)) => {
+                "the first estimated from the strength law: `tate.projectile_strength` replaces it"
+            }
+            (Some(_), None) => {
+                "the second estimated from the strength law: `tate.target_resistance` replaces it"
+            }
+            (Some(_), Some(_)) => "both given",
+        };
+        result.warnings.push(rests_on(
+            rods.projectile_strength,
+            rods.target_resistance,
+            estimated,
+        ));
         if rods.phase(rod.speed) == Phase::Flattening && rod.speed > 0.0 {
             result.warnings.push(
                 "the rod is too slow for its strength to penetrate: it erodes on the face of the target".to_owned(),

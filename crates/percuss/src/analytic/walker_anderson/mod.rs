@@ -134,6 +134,15 @@ impl WalkerAnderson {
         }
         if rod.speed > 0.0 {
             let tip = motion.tip_speed_at_impact(rod.speed);
+            let limit = target_sound_speed + target_slope * tip;
+            if tip >= limit {
+                return Err(format!(
+                    "the tip would move at {} m/s, faster than the target's shock at {} m/s: the flow of the target is not the \
+                     model's",
+                    significant(tip, 4),
+                    significant(limit, 4)
+                ));
+            }
             if motion.plastic_length(rod.speed, tip) >= rod.length {
                 return Err("the plastic zone at impact is longer than the rod: it takes longer rods or a smaller \
                             `walker_anderson.crater_radius`"
