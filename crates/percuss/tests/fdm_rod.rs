@@ -3,7 +3,10 @@
 mod common;
 
 use common::{assert_near, fdm, fdm_recorded, mean, paper, run, wilkins};
-use percuss::outcome::{Outcome, RunResult};
+use percuss::{
+    model::{self, Control},
+    outcome::{Outcome, RunResult},
+};
 
 fn assert_books(result: &RunResult) {
     let numerics = result.numerics();
