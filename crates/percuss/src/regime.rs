@@ -6,8 +6,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
+    analytic::strength_factor,
     case::Nose,
-    material::cavity_expansion_pressure,
+    material::{Material, Strength, cavity_expansion_pressure},
     scenario::{Scenario, TargetBody},
     units::{Pressure, Velocity, significant},
 };
@@ -116,7 +117,7 @@ const SPEED_EDGE: f64 = 1.25;
 impl Regime {
     /// The regime of a case.
     ///
-    /// The stress behind a rigid nose, `p = R + N ρ V²` with the quasi-static cavity-expansion pressure R of the target and the
+    /// The stress behind a rigid nose, `p = R + N ρ V²` with the quasi-static resistance R of the target and the
     /// nose's shape factor N, is compared with the projectile's flow stress Y at a plastic strain of 0.1. Below it the projectile
     /// stays rigid. Above, it erodes where Alekseevskii and Tate let it penetrate or erode: beyond `√(2(R − Y)/ρ_p)`, or beyond
     /// `√(2(Y − R)/ρ_t)` when it is stronger than the target; otherwise it deforms \[tate1967\].
@@ -150,7 +151,7 @@ impl Regime {
             }
             TargetBody::Layers { layers, .. } => {
                 let front = &layers[0].material;
-                let resistance = cavity_expansion_pressure(front);
+                let resistance = target_resistance(front);
                 let density = front.density.si();
                 let pressure = resistance.map_or(f64::INFINITY, |resistance| {
                     resistance + nose_factor(rod.nose) * density * speed * speed
@@ -283,6 +284,18 @@ fn kind(scenario: &Scenario) -> TargetKind {
             Some(h) if h < THIN * scenario.projectile.diameter => TargetKind::ThinPlate,
             Some(_) => TargetKind::Plate,
         },
+    }
+}
+
+/// Pressure that a target opposes to slow penetration [Pa]: of concrete `S f_c` \[forrestal1994\], of a metal the expansion of a
+/// spherical cavity; `None` for a law that never flows.
+fn target_resistance(material: &Material) -> Option<f64> {
+    match &material.strength {
+        Strength::Concrete(law) => {
+            let strength = law.compressive_strength.si();
+            Some(strength * strength_factor(strength))
+        }
+        _ => cavity_expansion_pressure(material),
     }
 }
 

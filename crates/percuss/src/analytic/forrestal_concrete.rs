@@ -47,7 +47,7 @@ impl ForrestalConcreteOptions {
 pub struct ForrestalConcrete;
 
 /// Factor S on the compressive strength [Pa] of concrete \[forrestal1994\].
-fn strength_factor(compressive_strength: f64) -> f64 {
+pub(crate) fn strength_factor(compressive_strength: f64) -> f64 {
     82.6 * (compressive_strength * 1e-6).powf(-0.544)
 }
 

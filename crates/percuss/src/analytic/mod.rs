@@ -32,6 +32,7 @@ pub use cavity_expansion::{CavityExpansion, CavityFit, effective_yield_stress};
 pub use crater_energy::{CraterEnergy, CraterEnergyOptions};
 pub use dynamic_yield::mean_flow_stress;
 pub use forrestal::{Cavity, Entry, Forrestal, ForrestalOptions};
+pub(crate) use forrestal_concrete::strength_factor;
 pub use forrestal_concrete::{ForrestalConcrete, ForrestalConcreteOptions};
 pub use hydrodynamic::Hydrodynamic;
 pub use lambert_jonas::{LambertJonas, LambertJonasOptions};
