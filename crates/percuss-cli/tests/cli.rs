@@ -137,6 +137,41 @@ fn quiet_is_one_line_with_the_values_of_json() {
 }
 
 #[test]
+fn every_model_that_applies_writes_its_folder() {
+    const PLATE: &str = r#"
+projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "300 m/s" }
+target = { material = "weldox-460-e", thickness = "12 mm" }
+chain = { projectile_elements = 10, target_elements = 10 }
+"#;
+    let without = "  no time history: this model ";
+    let mut silent = 0;
+    for case in [CASE, PLATE] {
+        let folder = folder_with(case);
+        let compared = ok(folder.path(), &["compare", "shot.toml", "--json"]);
+        for result in json(&compared)["results"].as_array().unwrap() {
+            if result["outcome"] == "not_applicable" {
+                continue;
+            }
+            let model = result["model"].as_str().unwrap();
+            let out = format!("out-{model}");
+            let arguments = ["run", "shot.toml", "--model", model, "--out", &out];
+            let text = ok(folder.path(), &arguments);
+            let written = folder.path().join(&out);
+            assert!(text.contains("outcome  "), "{model}: {text}");
+            assert!(written.join("result.json").is_file(), "{model}");
+            let history = written.join("history.csv").is_file();
+            assert_eq!(text.contains(without), !history, "{model}: {text}");
+            silent += usize::from(!history);
+        }
+    }
+    assert!(silent >= 5, "{silent}");
+    let folder = folder_with(PLATE);
+    let arguments = ["run", "shot.toml", "--model", "plugging", "--out", "out"];
+    let text = ok(folder.path(), &arguments);
+    assert!(text.contains("no time history: this model is a formula\n"));
+}
+
+#[test]
 fn a_folder_holds_case_result_histories_and_figures() {
     let folder = folder_with(CASE);
     let arguments = ["run", "shot.toml", "--json", "--out", "deep/out"];

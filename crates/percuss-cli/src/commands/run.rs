@@ -4,12 +4,12 @@ use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario, case,
     model::{self, Control, MODELS},
-    outcome::RunResult,
+    outcome::{RunResult, Termination},
     summary::{CaseResults, ResultRecord},
 };
 
 use crate::{
-    diagnostic, failure::Failure, progress::Progress, result_table, run_folder::RunFolder, terminal,
+    diagnostic, failure::Failure, progress::Progress, result_table, run_folder::{self, RunFolder}, terminal,
 };
 
 const LONG_ABOUT: &str = "\
@@ -24,8 +24,9 @@ With --quiet one line is printed, of NAME=VALUE pairs with the names of --json:
 
 With --out DIR a copy of the case (case-as-run.toml; files it names are not
 copied), result.json, the time histories (CSV and Parquet) and the figures (SVG
-and PNG) are written to DIR, which is made if it does not exist. Files of the
-same names are replaced, others are left alone.
+and PNG) are written to DIR, which is made if it does not exist. A model without
+time histories writes the first two only. Files of the same names are replaced,
+others are left alone.
 
 Anything longer than a second shows its progress, if standard error is a
 terminal.";
@@ -82,10 +83,13 @@ impl Run {
             }
             None => Vec::new(),
         };
-        let wrote: String = files
+        let mut wrote: String = files
             .iter()
             .map(|file| format!("  {}\n", file.display()))
             .collect();
+        if !run_folder::has_history(&result) {
+            wrote += &format!("  no time history: this model {}\n", without_history(&result));
+        }
         if self.json {
             terminal::print_json(&results)?;
             if !files.is_empty() && !self.quiet {
@@ -118,6 +122,14 @@ impl Run {
         let result = model::run(model, scenario, &mut control);
         progress.finish();
         Ok(result?)
+    }
+}
+
+/// Why there is no history of a result.
+fn without_history(result: &RunResult) -> &'static str {
+    match result.termination {
+        Termination::ClosedForm => "is a formula",
+        _ => "keeps none",
     }
 }
 
