@@ -117,7 +117,7 @@ impl Guard {
                 continue;
             }
             let outside = format!(
-                "{} of {} is outside {}: {}",
+                "{} is {}, and it takes {}: {}",
                 range.measure.in_words(),
                 range.measure.with_unit(value),
                 range.in_words(),
@@ -166,9 +166,9 @@ impl Guard {
             list(self.noses.iter().map(|nose| nose.name())),
         );
         let target = format!(
-            "against {}, of {}{}",
+            "against {}{}{}",
             list(self.targets.iter().map(|kind| kind.in_words())),
-            list(self.target_materials.iter().map(|class| class.in_words())),
+            of_material(self.targets, self.target_materials),
             if self.sees_back_face {
                 ""
             } else {
@@ -244,7 +244,7 @@ impl Range {
     /// The range in words, with its unit.
     pub fn in_words(&self) -> String {
         if self.max.is_infinite() {
-            format!("{} and more", self.measure.with_unit(self.min))
+            format!("{} or more", self.measure.with_unit(self.min))
         } else if self.min <= 0.0 {
             format!("up to {}", self.measure.with_unit(self.max))
         } else {
@@ -377,6 +377,14 @@ impl NoseKind {
             Self::Cone => "cone",
             Self::Ogive => "ogive",
         }
+    }
+}
+
+/// `, of metal` behind a list of targets; nothing where none of them is made of anything.
+pub fn of_material(targets: &[TargetKind], classes: &[MaterialClass]) -> String {
+    match targets.iter().any(|kind| kind.has_material()) {
+        true => format!(", of {}", list(classes.iter().map(|class| class.in_words()))),
+        false => String::new(),
     }
 }
 
