@@ -133,7 +133,9 @@ fn quiet_is_one_line_with_the_values_of_json() {
             ),
         }
     }
-    assert!(line.contains("depth_of_penetration_mm="));
+    for name in ["depth_of_penetration_mm", "ballistic_limit_m_s"] {
+        assert!(line.contains(&format!("{name}=")), "{line}");
+    }
 }
 
 #[test]

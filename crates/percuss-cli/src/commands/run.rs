@@ -19,7 +19,7 @@ momentum balance, and what to know before relying on the numbers.
 
 With --quiet one line is printed, of NAME=VALUE pairs with the names of --json:
   outcome=at_rest depth_of_penetration_mm=0.0436 residual_velocity_m_s=-1.2
-  projectile_final_length_mm=12.7 warnings=1
+  ballistic_limit_m_s=null projectile_final_length_mm=12.7 warnings=1
 (in one line; a number that does not exist is `null`).
 
 With --out DIR a copy of the case (case-as-run.toml; files it names are not
@@ -48,7 +48,7 @@ pub struct Run {
     /// Case file; `percuss new` writes one to start from
     #[arg(value_name = "CASE.toml")]
     case: PathBuf,
-    /// Model to compute with; `percuss models` describes them
+    /// Model to compute with; `percuss models` describes them, `percuss compare CASE` names those that apply
     #[arg(long, value_name = "NAME", default_value = "chain")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: String,
@@ -138,10 +138,12 @@ fn one_line(record: &ResultRecord) -> String {
     let outcome = serde_json::json!(record.outcome);
     let value = |value: Option<f64>| value.map_or_else(|| "null".to_owned(), |v| v.to_string());
     format!(
-        "outcome={} depth_of_penetration_mm={} residual_velocity_m_s={} projectile_final_length_mm={} warnings={}\n",
+        "outcome={} depth_of_penetration_mm={} residual_velocity_m_s={} \
+         ballistic_limit_m_s={} projectile_final_length_mm={} warnings={}\n",
         outcome.as_str().unwrap_or_default(),
         value(record.depth_of_penetration_mm),
         value(record.residual_velocity_m_s),
+        value(record.ballistic_limit_m_s),
         value(record.projectile_final_length_mm),
         record.warnings.len(),
     )
