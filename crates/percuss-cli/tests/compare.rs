@@ -210,6 +210,7 @@ fn speeds_that_are_none_are_refused_with_what_is_allowed() {
         ("200..1500:1", "`1` is not a number of speeds"),
         ("200 mph", "`mph` is not a unit of speed"),
         ("20 km/s", "20000 m/s is out of range"),
+        ("-5", "-5 m/s is out of range"),
     ] {
         let said = compare(&folder, &["--velocity", speeds]);
         assert_eq!((said.code, said.stdout.as_str()), (2, ""), "{speeds}");

@@ -383,7 +383,10 @@ impl NoseKind {
 /// `, of metal` behind a list of targets; nothing where none of them is made of anything.
 pub fn of_material(targets: &[TargetKind], classes: &[MaterialClass]) -> String {
     match targets.iter().any(|kind| kind.has_material()) {
-        true => format!(", of {}", list(classes.iter().map(|class| class.in_words()))),
+        true => format!(
+            ", of {}",
+            list(classes.iter().map(|class| class.in_words()))
+        ),
         false => String::new(),
     }
 }

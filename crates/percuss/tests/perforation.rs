@@ -286,11 +286,7 @@ fn residual_velocity_grows_with_speed_and_stays_below_it() {
             let result = run(name, &scenario(nose, speed, thickness, METAL, ""));
             let residual = result.residual_velocity.unwrap();
             let perforated = result.outcome == Outcome::Perforated;
-            assert_eq!(
-                perforated,
-                speed > limit(&result),
-                "{name} {speed}"
-            );
+            assert_eq!(perforated, speed > limit(&result), "{name} {speed}");
             assert!(
                 residual >= before && residual <= speed,
                 "{name} {speed} {residual}"

@@ -9,7 +9,12 @@ use percuss::{
 };
 
 use crate::{
-    diagnostic, failure::Failure, progress::Progress, result_table, run_folder::{self, RunFolder}, terminal,
+    diagnostic,
+    failure::Failure,
+    progress::Progress,
+    result_table,
+    run_folder::{self, RunFolder},
+    terminal,
 };
 
 const LONG_ABOUT: &str = "\
@@ -88,7 +93,10 @@ impl Run {
             .map(|file| format!("  {}\n", file.display()))
             .collect();
         if !run_folder::has_history(&result) {
-            wrote += &format!("  no time history: this model {}\n", without_history(&result));
+            wrote += &format!(
+                "  no time history: this model {}\n",
+                without_history(&result)
+            );
         }
         if self.json {
             terminal::print_json(&results)?;
