@@ -1,6 +1,7 @@
 //! What a model is made for, as data: projectile, target, nose, materials, and ranges of ratios and speed.
 
 mod temperature;
+mod words;
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -13,6 +14,10 @@ use crate::{
     scenario::{Scenario, TargetBody},
     units::significant,
 };
+
+use words::conjunction;
+pub(crate) use words::list;
+pub use words::of_material;
 
 /// The regime that a model declares. A case outside gets a reason in place of a number; at an edge, a warning.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -377,36 +382,6 @@ impl NoseKind {
             Self::Cone => "cone",
             Self::Ogive => "ogive",
         }
-    }
-}
-
-/// `, of metal` behind a list of targets; nothing where none of them is made of anything.
-pub fn of_material(targets: &[TargetKind], classes: &[MaterialClass]) -> String {
-    match targets.iter().any(|kind| kind.has_material()) {
-        true => format!(
-            ", of {}",
-            list(classes.iter().map(|class| class.in_words()))
-        ),
-        false => String::new(),
-    }
-}
-
-/// `a`, `a or b`, `a, b or c`.
-pub(crate) fn list(words: impl Iterator<Item = &'static str>) -> String {
-    joined(words, "or")
-}
-
-/// `a`, `a and b`, `a, b and c`.
-fn conjunction(words: impl Iterator<Item = &'static str>) -> String {
-    joined(words, "and")
-}
-
-fn joined(words: impl Iterator<Item = &'static str>, last_word: &str) -> String {
-    let words: Vec<&str> = words.collect();
-    match words.as_slice() {
-        [] => "nothing".to_owned(),
-        [one] => (*one).to_owned(),
-        [first @ .., last] => format!("{} {last_word} {last}", first.join(", ")),
     }
 }
 
