@@ -11,6 +11,9 @@ use percuss_report::{ReportError, paper::ReproduceError};
 
 use crate::{diagnostic, terminal};
 
+/// Help for a model that does not apply and names no remedy.
+const WHICH_APPLY: &str = "`percuss compare CASE.toml` names the models that apply";
+
 /// Any failure of a command.
 #[derive(Debug)]
 pub enum Failure {
@@ -81,7 +84,7 @@ impl Failure {
         let text = match self {
             Self::Library(Error::Input(error)) => diagnostic::input_error(error),
             Self::Library(Error::NotApplicable { model, reason }) => {
-                let (reason, help) = reason.split_once("; ").unwrap_or((reason, ""));
+                let (reason, help) = reason.split_once("; ").unwrap_or((reason, WHICH_APPLY));
                 let message = format!("model `{model}` does not apply to this case: {reason}");
                 diagnostic::message(&message, help)
             }

@@ -9,7 +9,10 @@ use percuss::{
 
 use crate::terminal::{bold, width, wrap, yellow};
 
+/// Least width of a column of labels.
 const LABEL: usize = 28;
+/// Least space between a label and its value.
+const GAP: usize = 2;
 /// Characters of a full bar.
 const BAR: f64 = 30.0;
 /// Part of the initial energy below which a line is rounding, not physics.
@@ -49,16 +52,12 @@ fn head(scenario: &Scenario, result: &RunResult, text: &mut String) {
 }
 
 fn outcome(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text: &mut String) {
-    row("outcome", bold(result.outcome.in_words()), text);
-    let reason = wrap(result.termination.in_words(), width() - LABEL, 0);
-    row(
-        "run ended because",
-        reason.replace('\n', &format!("\n{:LABEL$}", "")),
-        text,
-    );
+    let mut rows = Rows::default();
+    rows.add("outcome", bold(result.outcome.in_words()));
+    rows.add("run ended because", result.termination.in_words());
     let mut present = |label: &str, value: Option<f64>, unit: &str| {
         if let Some(value) = value {
-            row(label, number(value, unit), text);
+            rows.add(label, number(value, unit));
         }
     };
     present("depth of penetration", record.depth_of_penetration_mm, "mm");
@@ -72,17 +71,12 @@ fn outcome(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text:
             number(band.high, band.quantity.unit()),
             band.basis
         );
-        let wrapped = wrap(&range, width() - LABEL, 0);
-        row(
-            &format!("range of {}", band.quantity.in_words()),
-            wrapped.replace('\n', &format!("\n{:LABEL$}", "")),
-            text,
-        );
+        rows.add(&format!("range of {}", band.quantity.in_words()), range);
     }
     if let Some(time) = record.time_to_rest_us {
-        row("time to rest", number(time, "us"), text);
+        rows.add("time to rest", number(time, "us"));
     } else if result.numerics.is_some() {
-        row("time to rest", "not reached", text);
+        rows.add("time to rest", "not reached");
     }
     if let Some(velocity) = record.residual_velocity_m_s {
         let direction = match velocity {
@@ -90,11 +84,7 @@ fn outcome(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text:
             v if v > 0.0 => " (forward)",
             _ => "",
         };
-        row(
-            "residual velocity",
-            number(velocity, "m/s") + direction,
-            text,
-        );
+        rows.add("residual velocity", number(velocity, "m/s") + direction);
     }
     let rod = &scenario.projectile;
     let remains = [
@@ -119,14 +109,15 @@ fn outcome(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text:
     ];
     for (label, value, initial, unit) in remains {
         if let Some(value) = value {
-            row(label, of_initial(value, initial, unit), text);
+            rows.add(label, of_initial(value, initial, unit));
         } else if result.numerics.is_some() {
-            row(label, "none", text);
+            rows.add(label, "none");
         }
     }
     if let Some(force) = record.peak_force_kn {
-        row("peak force", number(force, "kN"), text);
+        rows.add("peak force", number(force, "kN"));
     }
+    *text += &rows.text();
 }
 
 fn details(result: &RunResult, text: &mut String) {
@@ -134,9 +125,11 @@ fn details(result: &RunResult, text: &mut String) {
         return;
     }
     *text += &format!("\n{}\n", bold(format!("model {}", result.model)));
+    let mut rows = Rows::default();
     for detail in &result.details {
-        row(detail.name, number(detail.value, detail.unit), text);
+        rows.add(detail.name, number(detail.value, detail.unit));
     }
+    *text += &rows.text();
 }
 
 fn energy(numerics: &Numerics, text: &mut String) {
@@ -164,18 +157,14 @@ fn books(numerics: &Numerics, end_time: f64, text: &mut String) {
         0.0 => format!("0 of the initial {what}"),
         _ => format!("{residual:.1e} of the initial {what}"),
     };
-    row(
-        "energy residual",
-        off(numerics.energy_residual, "energy"),
-        text,
-    );
-    row(
+    let mut rows = Rows::default();
+    rows.add("energy residual", off(numerics.energy_residual, "energy"));
+    rows.add(
         "momentum residual",
         off(numerics.momentum_residual, "momentum"),
-        text,
     );
     let steps = format!("{}, up to {}", numerics.steps, number(end_time * 1e6, "us"));
-    row("steps", steps, text);
+    rows.add("steps", steps);
     let mut step = number(numerics.first_time_step * 1e9, "ns");
     if numerics.smallest_time_step < numerics.first_time_step {
         step += &format!(
@@ -183,7 +172,8 @@ fn books(numerics: &Numerics, end_time: f64, text: &mut String) {
             number(numerics.smallest_time_step * 1e9, "ns")
         );
     }
-    row("time step", step, text);
+    rows.add("time step", step);
+    *text += &rows.text();
 }
 
 fn warnings(result: &RunResult, text: &mut String) {
@@ -194,8 +184,25 @@ fn warnings(result: &RunResult, text: &mut String) {
     }
 }
 
-fn row(label: &str, value: impl AsRef<str>, text: &mut String) {
-    *text += &format!("{label:<LABEL$}{}\n", value.as_ref());
+/// Rows of a label and a value; the values of a block stand below each other.
+#[derive(Default)]
+struct Rows(Vec<(String, String)>);
+
+impl Rows {
+    fn add(&mut self, label: &str, value: impl Into<String>) {
+        self.0.push((label.to_owned(), value.into()));
+    }
+
+    fn text(&self) -> String {
+        let longest = self.0.iter().map(|(label, _)| label.chars().count()).max();
+        let column = LABEL.max(longest.unwrap_or(0) + GAP);
+        let line = |(label, value): &(String, String)| {
+            let value = wrap(value, width().saturating_sub(column), 0);
+            let value = value.replace('\n', &format!("\n{:column$}", ""));
+            format!("{label:<column$}{value}\n")
+        };
+        self.0.iter().map(line).collect()
+    }
 }
 
 fn number(value: f64, unit: &str) -> String {
@@ -220,5 +227,25 @@ fn percentage(share: f64) -> String {
         format!("{percent:.0e}")
     } else {
         format!("{percent:.2}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Rows, number};
+
+    #[test]
+    fn values_stand_behind_the_longest_label() {
+        let mut rows = Rows::default();
+        rows.add("factor a", number(0.9, ""));
+        assert_eq!(rows.text(), format!("{:28}0.9\n", "factor a"));
+        let long = "energy lost to the capture of the plug";
+        rows.add(long, number(1157.8, "J"));
+        let text = rows.text();
+        assert_eq!(
+            text,
+            format!("{:40}0.9\n{long}  1157.8 J\n", "factor a"),
+            "{text}"
+        );
     }
 }

@@ -28,6 +28,12 @@ pub fn make_folder(path: &Path) -> Result<(), Failure> {
     })
 }
 
+/// Whether a result has something to draw and write against time.
+pub fn has_history(result: &RunResult) -> bool {
+    let history = result.history.as_ref();
+    history.is_some_and(|history| !history.samples.is_empty())
+}
+
 /// A folder that can be written.
 pub struct RunFolder {
     path: PathBuf,
@@ -51,7 +57,7 @@ impl RunFolder {
         Ok(folder)
     }
 
-    /// Writes everything that a run gives; returns the files.
+    /// Writes everything that a run gives; returns the files. Without a history there is neither file nor figure of one.
     pub fn write(
         mut self,
         scenario: &Scenario,
@@ -60,6 +66,9 @@ impl RunFolder {
         progress: &mut Progress,
     ) -> Result<Vec<PathBuf>, Failure> {
         self.put("result.json", terminal::json(results)?.as_bytes())?;
+        if !has_history(result) {
+            return Ok(self.written);
+        }
         progress.update(0.0, "writing histories");
         self.written
             .extend(percuss_report::write_histories(&self.path, result)?);

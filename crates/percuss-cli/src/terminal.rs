@@ -69,6 +69,14 @@ pub fn json(value: &impl Serialize) -> Result<String, Failure> {
         .map_err(|error| Failure::Output(error.into()))
 }
 
+/// `1 model`, `2 models`.
+pub fn counted(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        _ => format!("{count} {what}s"),
+    }
+}
+
 /// Breaks a text into lines of at most `width` characters; lines after the first are set in by `indent`.
 pub fn wrap(text: &str, width: usize, indent: usize) -> String {
     let mut lines = String::new();

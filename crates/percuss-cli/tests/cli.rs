@@ -127,13 +127,65 @@ fn quiet_is_one_line_with_the_values_of_json() {
                 assert_eq!(value, result[name].as_array().unwrap().len().to_string());
             }
             "outcome" => assert_eq!(value, result[name].as_str().unwrap()),
+            _ if value == "null" => assert!(result[name].is_null(), "{pair}"),
             _ => assert_eq!(
                 value.parse::<f64>().unwrap(),
                 result[name].as_f64().unwrap()
             ),
         }
     }
-    assert!(line.contains("depth_of_penetration_mm="));
+    for name in ["depth_of_penetration_mm", "ballistic_limit_m_s"] {
+        assert!(line.contains(&format!("{name}=")), "{line}");
+    }
+}
+
+#[test]
+fn every_model_that_applies_writes_its_folder() {
+    const PLATE: &str = r#"
+projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "300 m/s" }
+target = { material = "weldox-460-e", thickness = "12 mm" }
+chain = { projectile_elements = 10, target_elements = 10 }
+"#;
+    const ROD: &str = r#"
+projectile = { material = "4340", length = "80 mm", diameter = "5 mm", velocity = "1500 m/s" }
+target = { material = "aluminium-2024-t351", thickness = "semi-infinite" }
+chain = { projectile_elements = 10, target_elements = 10 }
+"#;
+    const CORE: &str = r#"
+projectile = { material = "apm2-core", length = "35 mm", diameter = "6.17 mm", velocity = "300 m/s", nose = { ogive = { crh = 3.0 } } }
+target = { material = "aluminium-2024-t351", thickness = "semi-infinite" }
+"#;
+    const WALL: &str = r#"
+projectile = { material = "ofhc-copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "183 m/s" }
+target = { rigid_wall = true }
+chain = { projectile_elements = 10 }
+"#;
+    let without = "  no time history: this model ";
+    let mut silent = 0;
+    for case in [CASE, PLATE, ROD, CORE, WALL] {
+        let folder = folder_with(case);
+        let compared = ok(folder.path(), &["compare", "shot.toml", "--json"]);
+        for result in json(&compared)["results"].as_array().unwrap() {
+            if result["outcome"] == "not_applicable" {
+                continue;
+            }
+            let model = result["model"].as_str().unwrap();
+            let out = format!("out-{model}");
+            let arguments = ["run", "shot.toml", "--model", model, "--out", &out];
+            let text = ok(folder.path(), &arguments);
+            let written = folder.path().join(&out);
+            assert!(text.contains("outcome  "), "{model}: {text}");
+            assert!(written.join("result.json").is_file(), "{model}");
+            let history = written.join("history.csv").is_file();
+            assert_eq!(text.contains(without), !history, "{model}: {text}");
+            silent += usize::from(!history);
+        }
+    }
+    assert!(silent >= 5, "{silent}");
+    let folder = folder_with(PLATE);
+    let arguments = ["run", "shot.toml", "--model", "plugging", "--out", "out"];
+    let text = ok(folder.path(), &arguments);
+    assert!(text.contains("no time history: this model is a formula\n"));
 }
 
 #[test]

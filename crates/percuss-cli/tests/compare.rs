@@ -210,6 +210,7 @@ fn speeds_that_are_none_are_refused_with_what_is_allowed() {
         ("200..1500:1", "`1` is not a number of speeds"),
         ("200 mph", "`mph` is not a unit of speed"),
         ("20 km/s", "20000 m/s is out of range"),
+        ("-5", "-5 m/s is out of range"),
     ] {
         let said = compare(&folder, &["--velocity", speeds]);
         assert_eq!((said.code, said.stdout.as_str()), (2, ""), "{speeds}");
@@ -237,3 +238,58 @@ fn a_failure_is_told_and_named() {
     assert_eq!(said.code, 2);
     assert!(said.stderr.contains("  chain: failed: "), "{}", said.stderr);
 }
+
+#[test]
+fn a_sweep_has_a_reason_a_kind() {
+    let text = ok(&folder_with(OGIVE), &["--velocity", "200..1500:14"]);
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in [
+        "not applicable at 200 to 500 m/s: it takes rigid projectiles, and this one is deforming",
+        "(at 200 m/s); at 600 to 1500 m/s: it takes rigid projectiles, and this one is eroding",
+    ] {
+        assert!(words.contains(part), "{part:?} is not in:\n{text}");
+    }
+}
+
+#[test]
+fn what_a_recommended_model_gives_and_what_was_measured_is_printed() {
+    let plate = "
+projectile = { material = 'apm2-core', length = '27.6 mm', diameter = '6.17 mm', velocity = '300 m/s', nose = { ogive = { crh = 3.0 } } }
+target = { material = 'aluminium-2024-t351', thickness = '40 mm' }
+[[experiments]]
+velocity = '200 m/s'
+depth_of_penetration = '3 mm'
+source = 'a'
+[[experiments]]
+velocity = '700 m/s'
+residual_velocity = '300 m/s'
+source = 'a'
+";
+    let folder = folder_with(plate);
+    let sweep = ok(&folder, &["--velocity", "200,900"]);
+    assert!(sweep.contains("recommended  forrestal"), "{sweep}");
+    assert!(sweep.contains("depth [mm]\n"), "{sweep}");
+    assert!(
+        sweep.contains("\n1 experiment at another speed: `--velocity experiments`\n"),
+        "{sweep}"
+    );
+    let own = ok(&folder, &[]);
+    assert!(own.contains("\n2 experiments at other speeds: "), "{own}");
+    assert!(!ok(&folder, &["--velocity", "experiments"]).contains("other speed"));
+    // A limit that no model gives is shown all the same.
+    let limit = format!("{BLUNT}[[experiments]]\nballistic_limit = '777 m/s'\nsource = 'a'\n");
+    for speeds in ["100", "100,110"] {
+        let text = ok(
+            &folder_with(&limit),
+            &["--model", "chain", "--velocity", speeds],
+        );
+        assert!(text.contains("777"), "{text}");
+    }
+}
+
+/// A blunt rod on a plate that it does not perforate.
+const BLUNT: &str = "
+projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '100 m/s' }
+target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
+chain = { projectile_elements = 10, target_elements = 20 }
+";

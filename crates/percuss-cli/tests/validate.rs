@@ -189,6 +189,7 @@ fn wrong_files_are_refused_with_place_and_remedy() {
         (String::new(), ["the first line lacks", "help: "]),
     ] {
         let stderr = refused(&shots, &file);
+        assert!(!stderr.contains("key:"), "{stderr}");
         for part in parts {
             assert!(stderr.contains(part), "{part:?} is not in:\n{stderr}");
         }

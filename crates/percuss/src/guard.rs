@@ -1,6 +1,7 @@
 //! What a model is made for, as data: projectile, target, nose, materials, and ranges of ratios and speed.
 
 mod temperature;
+mod words;
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -13,6 +14,10 @@ use crate::{
     scenario::{Scenario, TargetBody},
     units::significant,
 };
+
+use words::conjunction;
+pub(crate) use words::list;
+pub use words::of_material;
 
 /// The regime that a model declares. A case outside gets a reason in place of a number; at an edge, a warning.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -156,9 +161,9 @@ impl Guard {
             list(self.noses.iter().map(|nose| nose.name())),
         );
         let target = format!(
-            "against {}, of {}{}",
+            "against {}{}{}",
             list(self.targets.iter().map(|kind| kind.in_words())),
-            list(self.target_materials.iter().map(|class| class.in_words())),
+            of_material(self.targets, self.target_materials),
             if self.sees_back_face {
                 ""
             } else {
@@ -245,7 +250,7 @@ impl Range {
         let value = self.measure.of(scenario)?;
         (!(self.min..=self.max).contains(&value)).then(|| {
             format!(
-                "{} of {} is outside {}: {}",
+                "{} is {}, and it takes {}: {}",
                 self.measure.in_words(),
                 self.measure.with_unit(value),
                 self.in_words(),
@@ -257,7 +262,7 @@ impl Range {
     /// The range in words, with its unit.
     pub fn in_words(&self) -> String {
         if self.max.is_infinite() {
-            format!("{} and more", self.measure.with_unit(self.min))
+            format!("{} or more", self.measure.with_unit(self.min))
         } else if self.min <= 0.0 {
             format!("up to {}", self.measure.with_unit(self.max))
         } else {
@@ -397,25 +402,6 @@ impl NoseKind {
             Self::Cone => "cone",
             Self::Ogive => "ogive",
         }
-    }
-}
-
-/// `a`, `a or b`, `a, b or c`.
-pub(crate) fn list(words: impl Iterator<Item = &'static str>) -> String {
-    joined(words, "or")
-}
-
-/// `a`, `a and b`, `a, b and c`.
-fn conjunction(words: impl Iterator<Item = &'static str>) -> String {
-    joined(words, "and")
-}
-
-fn joined(words: impl Iterator<Item = &'static str>, last_word: &str) -> String {
-    let words: Vec<&str> = words.collect();
-    match words.as_slice() {
-        [] => "nothing".to_owned(),
-        [one] => (*one).to_owned(),
-        [first @ .., last] => format!("{} {last_word} {last}", first.join(", ")),
     }
 }
 

@@ -92,6 +92,11 @@ impl TargetKind {
             Self::ConstantPressure => "constant pressures",
         }
     }
+
+    /// Whether it is made of a material: a rigid wall and a pressure are not.
+    pub fn has_material(self) -> bool {
+        !matches!(self, Self::RigidWall | Self::ConstantPressure)
+    }
 }
 
 /// What kind of shot a case is.

@@ -4,12 +4,17 @@ use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario, case,
     model::{self, Control, MODELS},
-    outcome::RunResult,
+    outcome::{RunResult, Termination},
     summary::{CaseResults, ResultRecord},
 };
 
 use crate::{
-    diagnostic, failure::Failure, progress::Progress, result_table, run_folder::RunFolder, terminal,
+    diagnostic,
+    failure::Failure,
+    progress::Progress,
+    result_table,
+    run_folder::{self, RunFolder},
+    terminal,
 };
 
 const LONG_ABOUT: &str = "\
@@ -19,13 +24,14 @@ momentum balance, and what to know before relying on the numbers.
 
 With --quiet one line is printed, of NAME=VALUE pairs with the names of --json:
   outcome=at_rest depth_of_penetration_mm=0.0436 residual_velocity_m_s=-1.2
-  projectile_final_length_mm=12.7 warnings=1
+  ballistic_limit_m_s=null projectile_final_length_mm=12.7 warnings=1
 (in one line; a number that does not exist is `null`).
 
 With --out DIR a copy of the case (case-as-run.toml; files it names are not
 copied), result.json, the time histories (CSV and Parquet) and the figures (SVG
-and PNG) are written to DIR, which is made if it does not exist. Files of the
-same names are replaced, others are left alone.
+and PNG) are written to DIR, which is made if it does not exist. A model without
+time histories writes the first two only. Files of the same names are replaced,
+others are left alone.
 
 Anything longer than a second shows its progress, if standard error is a
 terminal.";
@@ -47,7 +53,7 @@ pub struct Run {
     /// Case file; `percuss new` writes one to start from
     #[arg(value_name = "CASE.toml")]
     case: PathBuf,
-    /// Model to compute with; `percuss models` describes them
+    /// Model to compute with; `percuss models` describes them, `percuss compare CASE` names those that apply
     #[arg(long, value_name = "NAME", default_value = "chain")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: String,
@@ -82,10 +88,16 @@ impl Run {
             }
             None => Vec::new(),
         };
-        let wrote: String = files
+        let mut wrote: String = files
             .iter()
             .map(|file| format!("  {}\n", file.display()))
             .collect();
+        if !run_folder::has_history(&result) {
+            wrote += &format!(
+                "  no time history: this model {}\n",
+                without_history(&result)
+            );
+        }
         if self.json {
             terminal::print_json(&results)?;
             if !files.is_empty() && !self.quiet {
@@ -121,15 +133,25 @@ impl Run {
     }
 }
 
+/// Why there is no history of a result.
+fn without_history(result: &RunResult) -> &'static str {
+    match result.termination {
+        Termination::ClosedForm => "is a formula",
+        _ => "keeps none",
+    }
+}
+
 /// A result in one line for scripts.
 fn one_line(record: &ResultRecord) -> String {
     let outcome = serde_json::json!(record.outcome);
     let value = |value: Option<f64>| value.map_or_else(|| "null".to_owned(), |v| v.to_string());
     format!(
-        "outcome={} depth_of_penetration_mm={} residual_velocity_m_s={} projectile_final_length_mm={} warnings={}\n",
+        "outcome={} depth_of_penetration_mm={} residual_velocity_m_s={} \
+         ballistic_limit_m_s={} projectile_final_length_mm={} warnings={}\n",
         outcome.as_str().unwrap_or_default(),
         value(record.depth_of_penetration_mm),
         value(record.residual_velocity_m_s),
+        value(record.ballistic_limit_m_s),
         value(record.projectile_final_length_mm),
         record.warnings.len(),
     )

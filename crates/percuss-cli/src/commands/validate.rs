@@ -216,7 +216,11 @@ impl Validate {
         library: &Library,
     ) -> Result<Validation, Failure> {
         let progress = Mutex::new(Progress::new(!self.quiet));
-        let words = format!("{} shots, {} models", shots.len(), models.len());
+        let words = format!(
+            "{}, {}",
+            terminal::counted(shots.len(), "shot"),
+            terminal::counted(models.len(), "model")
+        );
         let report = |fraction: f64| {
             // A bar that another thread is drawing has no need of this one.
             if let Ok(mut progress) = progress.try_lock() {

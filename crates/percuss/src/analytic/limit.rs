@@ -8,6 +8,7 @@ use crate::{
     Scenario,
     guard::NoseKind,
     model::{Model, applicability},
+    outcome::Detail,
     units::{Velocity, significant},
 };
 
@@ -16,6 +17,8 @@ use crate::{
 pub(super) struct Limit {
     /// Impact speed above which the plate is perforated [m/s].
     pub speed: f64,
+    /// The limit with its origin in the name.
+    pub detail: Detail,
     /// What to know of a limit that the case does not give.
     pub warnings: Vec<String>,
 }
@@ -29,13 +32,19 @@ pub(super) fn limit(
     if let Some(given) = given {
         return Ok(Limit {
             speed: given.si(),
+            detail: detail("ballistic limit, given", given.si()),
             warnings: Vec::new(),
         });
     }
-    let (model, speed): (&dyn Model, _) = match NoseKind::of(scenario.projectile.nose) {
-        NoseKind::Flat => (&Plugging, ballistic_limit(scenario)),
+    let (model, name, speed): (&dyn Model, _, _) = match NoseKind::of(scenario.projectile.nose) {
+        NoseKind::Flat => (
+            &Plugging,
+            "ballistic limit by plugging",
+            ballistic_limit(scenario),
+        ),
         _ => (
             &PlateCavity,
+            "ballistic limit by plate_cavity",
             Passage::of(scenario).map(|passage| passage.ballistic_limit()),
         ),
     };
@@ -52,5 +61,17 @@ pub(super) fn limit(
         model.name(),
         Velocity::new(significant(speed, 4).parse().unwrap_or(speed))
     ));
-    Ok(Limit { speed, warnings })
+    Ok(Limit {
+        speed,
+        detail: detail(name, speed),
+        warnings,
+    })
+}
+
+fn detail(name: &'static str, speed: f64) -> Detail {
+    Detail {
+        name,
+        unit: "m/s",
+        value: speed,
+    }
 }

@@ -85,9 +85,12 @@ impl Model for RechtIpson {
         let excess = (shot.speed.powi(2) - limit.speed.powi(2)).max(0.0);
         let residual = factor * excess.sqrt();
         let mut result = plate_result(self.name(), "", shot.speed, limit.speed, residual);
+        // What the model starts from is no prediction of it.
+        result.ballistic_limit = None;
         let detail = |name, unit, value| Detail { name, unit, value };
         // Energy: ½mV² = capture + work + ½(m + m_p)V_r², and the work is what the limit leaves after the capture.
         result.details = vec![
+            limit.detail,
             detail("mass of the plug", "g", plug * 1e3),
             detail(
                 "work that the plate takes",

@@ -131,6 +131,10 @@ pub fn compare(
 /// Part of an impact speed by which a shot may differ from a measured one and still be the same.
 const SAME_SPEED: f64 = 1e-3;
 
+fn same_speed(measured: f64, speed: f64) -> bool {
+    (measured - speed).abs() <= SAME_SPEED * speed
+}
+
 impl Comparison {
     /// Impact speeds [m/s].
     pub fn speeds(&self) -> Vec<f64> {
@@ -167,6 +171,18 @@ impl Comparison {
         self.results.iter().any(ResultRecord::is_result)
     }
 
+    /// How many measurements were made at none of the speeds; a ballistic limit holds for every speed.
+    pub fn experiments_elsewhere(&self) -> usize {
+        let speeds = self.speeds();
+        let elsewhere = |measured: &&ExperimentRecord| {
+            measured.quantity != BandQuantity::BallisticLimit
+                && measured
+                    .impact_velocity_m_s
+                    .is_some_and(|at| !speeds.iter().any(|speed| same_speed(at, *speed)))
+        };
+        self.experiments.iter().filter(elsewhere).count()
+    }
+
     /// Mean of what was measured of a quantity at a speed [m/s], in the quantity's unit, and of how many values.
     ///
     /// A ballistic limit holds for every speed.
@@ -177,7 +193,7 @@ impl Comparison {
             .filter(|measured| measured.quantity == quantity)
             .filter(|measured| match measured.impact_velocity_m_s {
                 _ if quantity == BandQuantity::BallisticLimit => true,
-                Some(at) => (at - speed).abs() <= SAME_SPEED * speed,
+                Some(at) => same_speed(at, speed),
                 None => false,
             })
             .map(|measured| measured.value)

@@ -147,7 +147,7 @@ fn ranges_refuse_or_warn_and_hold_their_ends() {
     }
     assert_eq!(
         reason(&speed, &at(99.9)),
-        "impact speed of 99.9 m/s is outside 100 to 900 m/s: it was fitted there"
+        "impact speed is 99.9 m/s, and it takes 100 to 900 m/s: it was fitted there"
     );
     let length = Guard {
         ranges: LENGTH,
@@ -156,7 +156,7 @@ fn ranges_refuse_or_warn_and_hold_their_ends() {
     assert_eq!(
         verdict(&length, &at(500.0)),
         Verdict::Inside(vec![
-            "length to diameter of 10 is outside up to 8: it was fitted there".to_owned()
+            "length to diameter is 10, and it takes up to 8: it was fitted there".to_owned()
         ])
     );
     let thickness = Guard {
@@ -165,7 +165,7 @@ fn ranges_refuse_or_warn_and_hold_their_ends() {
     };
     assert_eq!(
         reason(&thickness, &at(500.0)),
-        "thickness to projectile diameter of 6 is outside 7 and more: it was fitted there"
+        "thickness to projectile diameter is 6, and it takes 7 or more: it was fitted there"
     );
     // What has no thickness has nothing to be measured.
     let wall = scenario("rigid_wall = true", "'flat'", 500.0);
@@ -228,6 +228,27 @@ fn lists_read_as_english() {
     assert_eq!(list(["a"].into_iter()), "a");
     assert_eq!(list(["a", "b"].into_iter()), "a or b");
     assert_eq!(list(["a", "b", "c"].into_iter()), "a, b or c");
+}
+
+#[test]
+fn what_has_no_material_is_said_to_be_of_none() {
+    for (targets, words) in [
+        (&[TargetKind::RigidWall][..], "against rigid walls"),
+        (
+            &[TargetKind::RigidWall, TargetKind::ConstantPressure],
+            "against rigid walls or constant pressures",
+        ),
+        (
+            &[TargetKind::RigidWall, TargetKind::ThinPlate],
+            "against rigid walls or thin plates, of metal",
+        ),
+    ] {
+        let guard = Guard {
+            targets,
+            ..Guard::OPEN
+        };
+        assert_eq!(guard.in_words()[1], words);
+    }
 }
 
 #[test]

@@ -50,7 +50,7 @@ pub(super) fn check(table: &Table<'_>) -> Result<(), Box<InputError>> {
     };
     Err(table.error(
         0..0,
-        missing[0],
+        "",
         format!("the first line lacks {}", in_ticks(&missing)),
         format!(
             "the first line names the columns; required are {}{separator}",

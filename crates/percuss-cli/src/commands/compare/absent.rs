@@ -3,10 +3,9 @@
 use percuss::{
     compare::Comparison,
     outcome::{BandQuantity, Outcome},
-    summary::ResultRecord,
 };
 
-use super::head::speed_range;
+use super::kinds::{by_models, kinds};
 use crate::terminal::{bold, width, wrap};
 
 /// The list below the tables; empty when every model says everything.
@@ -25,51 +24,49 @@ pub fn text(comparison: &Comparison) -> String {
 
 /// One line a kind of absence: which models, where, and why.
 pub fn reasons(comparison: &Comparison) -> Vec<String> {
-    let mut groups: Vec<(Vec<&str>, String)> = Vec::new();
+    let mut entries = Vec::new();
     for model in comparison.models() {
         for outcome in [Outcome::NotApplicable, Outcome::Failed] {
-            let Some(why) = why(comparison, model, outcome) else {
-                continue;
-            };
-            match groups.iter_mut().find(|group| group.1 == why) {
-                Some(group) => group.0.push(model),
-                None => groups.push((vec![model], why)),
-            }
+            entries.extend(why(comparison, model, outcome).map(|why| (model, why)));
         }
     }
-    groups
-        .into_iter()
-        .map(|(models, why)| format!("{}: {why}", models.join(", ")))
-        .collect()
+    by_models(entries)
 }
 
-/// Where a model has an outcome that is no result, and the reason at the first such speed.
+/// Where a model has an outcome that is no result, and the reasons; one that differs in its numbers only stands once.
 fn why(comparison: &Comparison, model: &str, outcome: Outcome) -> Option<String> {
     let speeds = comparison.speeds();
-    let records: Vec<&ResultRecord> = comparison.of_model(model).collect();
-    let absent: Vec<bool> = records.iter().map(|r| r.outcome == outcome).collect();
-    let first = absent.iter().position(|absent| *absent)?;
-    let at = match absent.iter().all(|absent| *absent) {
-        true => String::new(),
-        false => format!(" at {}", ranges(&speeds, &absent)),
+    let absent = comparison
+        .of_model(model)
+        .enumerate()
+        .filter(|(_, record)| record.outcome == outcome)
+        .map(|(speed, record)| {
+            let reason = record.reason.as_deref();
+            (speed, reason.unwrap_or("it does not say why"))
+        });
+    let kinds = kinds(absent, speeds.len());
+    let what = match outcome {
+        Outcome::Failed => "failed",
+        _ => "not applicable",
     };
-    let reason = records[first]
-        .reason
-        .as_deref()
-        .unwrap_or("it does not say why");
-    // A reason with numbers in it may hold for one speed only.
-    let speed = speed_range(&speeds[first..=first]);
-    let differs = records
-        .iter()
-        .any(|r| r.outcome == outcome && r.reason != records[first].reason);
-    let of = match differs && !reason.contains(&speed) {
-        true => format!(" (at {speed})"),
-        false => String::new(),
-    };
-    Some(match outcome {
-        Outcome::Failed => format!("failed{at}: {reason}{of}"),
-        _ => format!("not applicable{at}, because {reason}{of}"),
-    })
+    match kinds.as_slice() {
+        [] => None,
+        [one] => {
+            let because = match outcome {
+                Outcome::Failed => ":",
+                _ => ", because",
+            };
+            let (place, reason) = (one.place(&speeds), one.in_words(&speeds));
+            Some(format!("{what}{place}{because} {reason}"))
+        }
+        several => {
+            let each = several.iter().map(|kind| {
+                let (place, reason) = (kind.place(&speeds), kind.in_words(&speeds));
+                format!("{}: {reason}", place.trim_start())
+            });
+            Some(format!("{what} {}", each.collect::<Vec<_>>().join("; ")))
+        }
+    }
 }
 
 /// Models with results that lack the leading quantity.
@@ -110,17 +107,4 @@ fn gives(comparison: &Comparison, model: &str) -> String {
         [] => String::new(),
         _ => format!(", but {}", given.join(", ")),
     }
-}
-
-/// `200 to 300 m/s and 450 m/s`: where a flag is set.
-fn ranges(speeds: &[f64], flags: &[bool]) -> String {
-    let mut parts = Vec::new();
-    let mut from = 0;
-    for run in flags.chunk_by(|a, b| a == b) {
-        if run[0] {
-            parts.push(speed_range(&speeds[from..from + run.len()]));
-        }
-        from += run.len();
-    }
-    parts.join(" and ")
 }

@@ -6,7 +6,7 @@ use percuss::{
     units::significant,
 };
 
-use crate::terminal::{bold, width, wrap};
+use crate::terminal::{bold, counted, width, wrap};
 
 const LABEL: usize = 13;
 
@@ -21,10 +21,7 @@ pub fn text(scenario: &Scenario, comparison: &Comparison) -> String {
         1 => speed_range(&speeds),
         count => format!("{count} speeds, {}", speed_range(&speeds)),
     };
-    let models = match comparison.models().len() {
-        1 => "1 model".to_owned(),
-        count => format!("{count} models"),
-    };
+    let models = counted(comparison.models().len(), "model");
     let line = format!("case {}, impact at {at}, {models}", scenario.name);
     let mut text = format!(
         "{}\n{}\n",

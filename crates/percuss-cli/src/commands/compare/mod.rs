@@ -1,10 +1,13 @@
 mod absent;
 mod head;
+mod kinds;
+mod shown;
 mod single;
 mod speeds;
 mod sweep;
 #[cfg(test)]
 mod tests;
+mod warnings;
 
 use std::{ops::ControlFlow, path::PathBuf};
 
@@ -54,7 +57,8 @@ pub struct Compare {
     #[arg(value_name = "CASE.toml")]
     case: PathBuf,
     /// Impact speeds: FROM..TO:COUNT, a list, one, or `experiments`
-    #[arg(long, value_name = "SPEEDS")]
+    // A negative speed is answered with the range that speeds have.
+    #[arg(long, value_name = "SPEEDS", allow_hyphen_values = true)]
     velocity: Option<Speeds>,
     /// Compare this model only; may be given several times
     #[arg(long, value_name = "NAME")]
@@ -159,6 +163,8 @@ impl Compare {
                 1 => single::text(comparison),
                 _ => sweep::text(comparison),
             };
+            text += &shown::elsewhere(comparison);
+            text += &warnings::text(comparison);
             text += &absent::text(comparison);
             text += &format!(
                 "{}\n",

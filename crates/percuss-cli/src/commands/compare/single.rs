@@ -4,31 +4,24 @@ use percuss::{
     compare::Comparison, outcome::BandQuantity, summary::ResultRecord, units::significant,
 };
 
+use super::shown;
 use crate::{
     table::{Column, blocks},
-    terminal::{bold, width, wrap, yellow},
+    terminal::bold,
 };
 
 /// Mark of a recommended model.
 pub const RECOMMENDED: &str = "★";
 
-/// Table and the warnings of what is recommended.
+/// The table.
 pub fn text(comparison: &Comparison) -> String {
-    numbers(comparison) + &warnings(comparison)
-}
-
-fn numbers(comparison: &Comparison) -> String {
     let speed = comparison.speeds()[0];
     let records: Vec<&ResultRecord> = comparison
         .at_speed(0)
         .iter()
         .filter(|record| record.is_result())
         .collect();
-    let quantities: Vec<BandQuantity> = BandQuantity::ALL
-        .iter()
-        .copied()
-        .filter(|quantity| relevant(comparison, *quantity))
-        .collect();
+    let quantities = shown::quantities(comparison);
     let measured = |quantity| comparison.measured(quantity, speed);
     let any_measured = quantities.iter().any(|q| measured(*q).is_some());
     // The last row holds what was measured, if anything was.
@@ -63,7 +56,7 @@ fn numbers(comparison: &Comparison) -> String {
                 measurement(comparison, quantity, mean, count)
             }),
         ));
-        if let Some((measured, _)) = measured {
+        if let Some((measured, _)) = measured.filter(|_| shown::is_given(comparison, quantity)) {
             columns.push(column(
                 "off by\n[%]".to_owned(),
                 true,
@@ -92,23 +85,6 @@ fn numbers(comparison: &Comparison) -> String {
         String::new(),
     ));
     blocks(&models, columns)
-}
-
-/// Whether a quantity belongs into the table: it leads, was measured, or is a depth beside the speeds of a plate.
-fn relevant(comparison: &Comparison, quantity: BandQuantity) -> bool {
-    let speed = comparison.speeds()[0];
-    let given = comparison
-        .results
-        .iter()
-        .any(|record| record.value(quantity).is_some());
-    let beside = quantity == BandQuantity::DepthOfPenetration
-        && comparison
-            .quantities
-            .contains(&BandQuantity::ResidualVelocity);
-    given
-        && (comparison.quantities.contains(&quantity)
-            || comparison.measured(quantity, speed).is_some()
-            || beside)
 }
 
 /// Name of a model, with its mark where it is recommended at any speed.
@@ -161,22 +137,6 @@ fn range(record: &ResultRecord, leading: BandQuantity) -> String {
         true => ends,
         false => format!("{} {ends}", band.quantity.in_words()),
     }
-}
-
-fn warnings(comparison: &Comparison) -> String {
-    let mut text = String::new();
-    for choice in &comparison.recommended[0].models {
-        let records = comparison.of_model(choice.model);
-        for warning in records.flat_map(|record| &record.warnings) {
-            let line = format!("warning: {}: {warning}", choice.model);
-            let wrapped = wrap(&line, width(), 9);
-            text += &format!(
-                "{}\n\n",
-                wrapped.replacen("warning:", &yellow("warning:"), 1)
-            );
-        }
-    }
-    text
 }
 
 /// For scripts: a line for each speed and model.

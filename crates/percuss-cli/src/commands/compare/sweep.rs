@@ -2,13 +2,16 @@
 
 use percuss::{compare::Comparison, outcome::BandQuantity, units::significant};
 
-use super::single::{RECOMMENDED, heading, name, number, off_by};
+use super::{
+    shown,
+    single::{RECOMMENDED, heading, name, number, off_by},
+};
 use crate::table::{Column, blocks};
 
 /// Tables of all relevant quantities, and how far they are from experiment.
 pub fn text(comparison: &Comparison) -> String {
     let mut text = String::new();
-    for quantity in BandQuantity::ALL.iter().copied() {
+    for quantity in shown::quantities(comparison) {
         let given: Vec<&str> = comparison
             .models()
             .into_iter()
@@ -18,13 +21,6 @@ pub fn text(comparison: &Comparison) -> String {
                     .any(|r| r.value(quantity).is_some())
             })
             .collect();
-        let measured = comparison
-            .experiments
-            .iter()
-            .any(|m| m.quantity == quantity);
-        if given.is_empty() || !(comparison.quantities.contains(&quantity) || measured) {
-            continue;
-        }
         text += &match quantity {
             BandQuantity::BallisticLimit => limits(comparison, &given),
             _ => over_speed(comparison, quantity, &given),
@@ -87,7 +83,7 @@ fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) 
         shown.insert(0, experiment(&all));
     }
     text += &blocks(&speed_column(&all), shown);
-    if !compared.is_empty() {
+    if !compared.is_empty() && !models.is_empty() {
         text += &heading(&format!("{}, off experiment by [%]", quantity.in_words()));
         let off = columns(&compared, &|i, value| {
             let measured = comparison.measured(quantity, speeds[i]);
@@ -102,6 +98,11 @@ fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) 
 fn limits(comparison: &Comparison, models: &[&str]) -> String {
     let quantity = BandQuantity::BallisticLimit;
     let measured = comparison.measured(quantity, 0.0);
+    let title = heading("ballistic limit [m/s]");
+    if models.is_empty() {
+        let measured = number(measured.map(|(value, _)| value));
+        return format!("{title}{measured} measured; no model gives one\n\n");
+    }
     let value = |model: &str| comparison.of_model(model).find_map(|r| r.value(quantity));
     let first = Column {
         heading: "model".to_owned(),
@@ -123,7 +124,7 @@ fn limits(comparison: &Comparison, models: &[&str]) -> String {
             numbers: true,
         });
     }
-    heading("ballistic limit [m/s]") + &blocks(&first, columns)
+    title + &blocks(&first, columns)
 }
 
 /// Name of a model over lines that are short.

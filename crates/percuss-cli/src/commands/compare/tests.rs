@@ -10,7 +10,7 @@ use percuss::{
     regime::{ProjectileRegime, TargetKind},
 };
 
-use super::{absent, head, single, sweep};
+use super::{absent, head, shown, single, sweep, warnings};
 
 struct Fake {
     name: &'static str,
@@ -149,6 +149,7 @@ fn one_speed_is_one_table() {
     let (scenario, comparison) = comparison(&[1000.0]);
     let text = head::text(&scenario, &comparison)
         + &single::text(&comparison)
+        + &warnings::text(&comparison)
         + &absent::text(&comparison);
     narrow(&text);
     insta::with_settings!({ snapshot_path => "snapshots", prepend_module_to_snapshot => false, omit_expression => true }, {
@@ -160,10 +161,36 @@ fn one_speed_is_one_table() {
 fn a_sweep_is_as_many_tables_as_fit() {
     let speeds: Vec<f64> = (0..9).map(|i| 200.0 + 100.0 * f64::from(i)).collect();
     let (scenario, comparison) = comparison(&speeds);
-    let text =
-        head::text(&scenario, &comparison) + &sweep::text(&comparison) + &absent::text(&comparison);
+    let text = head::text(&scenario, &comparison)
+        + &sweep::text(&comparison)
+        + &warnings::text(&comparison)
+        + &absent::text(&comparison);
     narrow(&text);
     insta::with_settings!({ snapshot_path => "snapshots", prepend_module_to_snapshot => false, omit_expression => true }, {
         insta::assert_snapshot!("compare-sweep", text);
     });
+}
+
+#[test]
+fn what_was_measured_at_other_speeds_is_counted() {
+    let (_, here) = comparison(&[1000.0]);
+    assert_eq!(shown::elsewhere(&here), "");
+    let (_, elsewhere) = comparison(&[500.0]);
+    assert_eq!(
+        shown::elsewhere(&elsewhere),
+        "1 experiment at another speed: `--velocity experiments`\n\n"
+    );
+}
+
+#[test]
+fn without_a_recommendation_all_warnings_are_printed_once() {
+    let (_, comparison) = comparison(&[200.0]);
+    assert!(comparison.recommended[0].models.is_empty());
+    let text = warnings::text(&comparison);
+    assert_eq!(text.matches("warning:").count(), 1, "{text}");
+    assert!(
+        text.starts_with("warning: chain, fdm, walker_anderson"),
+        "{text}"
+    );
+    assert!(!text.contains("of the others"), "{text}");
 }

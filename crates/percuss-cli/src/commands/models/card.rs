@@ -1,6 +1,6 @@
 //! One model in full.
 
-use percuss::guard::FirstChoice;
+use percuss::guard::{FirstChoice, of_material};
 
 use super::ModelRecord;
 use crate::terminal::{bold, width, wrap};
@@ -33,11 +33,11 @@ fn in_words(choice: &FirstChoice) -> String {
     let targets: Vec<&str> = choice.targets.iter().map(|kind| kind.in_words()).collect();
     let noses: Vec<&str> = choice.noses.iter().map(|nose| nose.name()).collect();
     format!(
-        "{} projectiles with {} noses against {}, of {}: {}",
+        "{} projectiles with {} noses against {}{}: {}",
         choice.projectile.in_words(),
         noses.join(", "),
         targets.join(", "),
-        choice.target_material.in_words(),
+        of_material(choice.targets, &[choice.target_material]),
         choice.because
     )
 }

@@ -1,0 +1,62 @@
+//! What to know before relying on the numbers.
+
+use percuss::{compare::Comparison, summary::ResultRecord};
+
+use super::kinds::{by_models, kinds};
+use crate::terminal::{width, wrap, yellow};
+
+/// Warnings of the recommended models; where none is recommended, those of all.
+pub fn text(comparison: &Comparison) -> String {
+    let mut text: String = lines(comparison)
+        .iter()
+        .map(|line| {
+            let wrapped = wrap(&format!("warning: {line}"), width(), 9);
+            let marked = wrapped.replacen("warning:", &yellow("warning:"), 1);
+            format!("{marked}\n\n")
+        })
+        .collect();
+    if others(comparison) {
+        let words = "`percuss run CASE.toml --model NAME` prints the warnings of the others";
+        text += &format!("{}\n\n", wrap(words, width(), 0));
+    }
+    text
+}
+
+fn lines(comparison: &Comparison) -> Vec<String> {
+    let speeds = comparison.speeds();
+    let mut entries = Vec::new();
+    for model in comparison.models() {
+        let records = comparison.of_model(model).enumerate();
+        let said = records
+            .filter(|(speed, record)| is_shown(comparison, *speed, record))
+            .flat_map(|(speed, record)| record.warnings.iter().map(move |w| (speed, w.as_str())));
+        for kind in kinds(said, speeds.len()) {
+            let words = kind.in_words(&speeds);
+            entries.push((
+                model,
+                match kind.place(&speeds).trim_start() {
+                    "" => words,
+                    place => format!("{place}: {words}"),
+                },
+            ));
+        }
+    }
+    by_models(entries)
+}
+
+fn is_shown(comparison: &Comparison, speed: usize, record: &ResultRecord) -> bool {
+    let choices = &comparison.recommended[speed].models;
+    record.is_result()
+        && (choices.is_empty() || choices.iter().any(|choice| choice.model == record.model))
+}
+
+/// Whether a result has warnings that are not shown.
+fn others(comparison: &Comparison) -> bool {
+    (0..comparison.regime.len()).any(|speed| {
+        comparison.at_speed(speed).iter().any(|record| {
+            record.is_result()
+                && !record.warnings.is_empty()
+                && !is_shown(comparison, speed, record)
+        })
+    })
+}
