@@ -247,6 +247,9 @@ fn models_are_listed_and_shown() {
         "made for\n",
         "  - normal impact",
         "first choice for\n  - deforming projectiles",
+        "options in [chain] of a case file\n  - ",
+        "\n  - courant: Courant number",
+        "page\n  - docs/models/chain.md: ",
     ] {
         assert!(card.contains(part), "{part:?} is not in:\n{card}");
     }
@@ -254,6 +257,7 @@ fn models_are_listed_and_shown() {
         card.lines().all(|line| line.chars().count() <= 80),
         "{card}"
     );
+    assert!(!ok(folder.path(), &["models", "hydrodynamic"]).contains("options"));
     let said = percuss(folder.path(), ["models", "chian"]);
     assert_eq!(said.code, 2);
     assert!(
@@ -273,10 +277,18 @@ fn models_as_json_hold_their_whole_guard() {
     );
     assert_eq!(list[0]["name"], "chain");
     assert_eq!(list[0]["guard"]["noses"], serde_json::json!(["flat"]));
+    assert_eq!(
+        list[2]["options"],
+        serde_json::json!(["projectile_strength", "target_resistance"])
+    );
     let keys =
         |value: &Value| -> Vec<String> { value.as_object().unwrap().keys().cloned().collect() };
     for model in list.as_array().unwrap() {
-        assert_eq!(keys(model), ["guard", "name", "summary"]);
+        assert_eq!(keys(model), ["guard", "name", "options", "page", "summary"]);
+        let page = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../..")
+            .join(model["page"].as_str().unwrap());
+        assert!(page.is_file(), "{}", page.display());
         let guard = &model["guard"];
         assert_eq!(
             keys(guard),
