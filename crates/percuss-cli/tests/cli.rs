@@ -299,6 +299,9 @@ fn models_are_listed_and_shown() {
         "made for\n",
         "  - normal impact",
         "first choice for\n  - deforming projectiles",
+        "options in [chain] of a case file\n  - ",
+        "\n  - courant: Courant number",
+        "page\n  - docs/models/chain.md: ",
     ] {
         assert!(card.contains(part), "{part:?} is not in:\n{card}");
     }
@@ -306,6 +309,7 @@ fn models_are_listed_and_shown() {
         card.lines().all(|line| line.chars().count() <= 80),
         "{card}"
     );
+    assert!(!ok(folder.path(), &["models", "hydrodynamic"]).contains("options"));
     let said = percuss(folder.path(), ["models", "chian"]);
     assert_eq!(said.code, 2);
     assert!(
@@ -325,10 +329,18 @@ fn models_as_json_hold_their_whole_guard() {
     );
     assert_eq!(list[0]["name"], "chain");
     assert_eq!(list[0]["guard"]["noses"], serde_json::json!(["flat"]));
+    assert_eq!(
+        list[2]["options"],
+        serde_json::json!(["projectile_strength", "target_resistance"])
+    );
     let keys =
         |value: &Value| -> Vec<String> { value.as_object().unwrap().keys().cloned().collect() };
     for model in list.as_array().unwrap() {
-        assert_eq!(keys(model), ["guard", "name", "summary"]);
+        assert_eq!(keys(model), ["guard", "name", "options", "page", "summary"]);
+        let page = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../..")
+            .join(model["page"].as_str().unwrap());
+        assert!(page.is_file(), "{}", page.display());
         let guard = &model["guard"];
         assert_eq!(
             keys(guard),
@@ -662,37 +674,64 @@ fn the_experiment_of_a_new_case_is_compared() {
 }
 
 #[test]
+fn the_example_options_of_a_new_case_can_be_written() {
+    let (text, _) = starter();
+    let block = text
+        .split_once("# Options of the other models")
+        .and_then(|(_, rest)| rest.split_once("\n\n"))
+        .map(|(block, _)| block)
+        .unwrap();
+    let lines = block.lines().filter_map(|line| line.strip_prefix("#   "));
+    let together = lines.filter(|line| !line.contains("in place of"));
+    let (planar, rod): (Vec<&str>, Vec<&str>) =
+        together.partition(|line| line.contains("geometry \"planar\" only"));
+    let examples = [
+        rod.join("\n"),
+        format!("[fdm]\ngeometry = \"planar\"\n{}", planar.join("\n")),
+        "[forrestal]\ncavity = \"incompressible\"".to_owned(),
+    ];
+    for example in examples {
+        let folder = folder_with(&format!("{text}\n{example}\n"));
+        ok(folder.path(), &["run", "shot.toml"]);
+    }
+}
+
+#[test]
 fn a_new_case_names_every_key_of_the_schema() {
     let folder = TempDir::new().unwrap();
     let (text, _) = starter();
     let schema = json(&ok(folder.path(), &["schema"]));
-    for definition in [
-        "Projectile",
-        "Target",
-        "ChainOptions",
-        "PublishedOptions",
-        "ArtificialViscosity",
-        "Experiment",
-        "ForrestalOptions",
-        "ForrestalConcreteOptions",
-        "PonceletOptions",
-        "CraterEnergyOptions",
-        "TaylorOptions",
-        "WilkinsGuinanOptions",
-    ] {
-        for key in schema["$defs"][definition]["properties"]
-            .as_object()
-            .unwrap()
-            .keys()
-        {
-            let named = format!("{key} = ");
-            let header = format!(".{key}]");
-            assert!(
-                text.contains(&named) || text.contains(&header),
-                "{definition}.{key}"
-            );
+    let definitions = schema["$defs"].as_object().unwrap().iter();
+    let root = "Case".to_owned();
+    let objects = definitions.chain([(&root, &schema)]);
+    for (definition, object) in objects {
+        for key in keys_of(object) {
+            assert!(is_named(&text, key), "{definition}.{key}");
         }
     }
+}
+
+/// Whether a file has a key: `key = `, `[key]`, or in a path such as `strength.power_law`.
+fn is_named(text: &str, key: &str) -> bool {
+    text.match_indices(key).any(|(at, _)| {
+        let (before, after) = (&text[..at], &text[at + key.len()..]);
+        let part_of_word = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
+        let in_path = |rest: &str| rest.starts_with(|c: char| c.is_lowercase());
+        !before.ends_with(part_of_word)
+            && (after.starts_with(" = ")
+                || after.starts_with(']')
+                || after.strip_prefix('.').is_some_and(in_path))
+    })
+}
+
+/// Every key that an object or a variant of a choice in the schema has.
+fn keys_of(object: &Value) -> Vec<&String> {
+    let own = object["properties"].as_object().into_iter();
+    let choices = ["oneOf", "anyOf"].into_iter();
+    let variants = choices.filter_map(|choice| object[choice].as_array());
+    own.flat_map(|properties| properties.keys())
+        .chain(variants.flatten().flat_map(keys_of))
+        .collect()
 }
 
 #[test]

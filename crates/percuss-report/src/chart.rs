@@ -23,7 +23,7 @@ const BAND_OPACITY: f64 = 0.18;
 /// Most characters of a name in the legend.
 const LEGEND_CHARS: usize = 30;
 /// Shapes of markers, in the order in which series take them.
-const MARKERS: [MarkerShape; 8] = [
+const MARKERS: [MarkerShape; 9] = [
     MarkerShape::Circle,
     MarkerShape::Square,
     MarkerShape::Triangle,
@@ -32,6 +32,7 @@ const MARKERS: [MarkerShape; 8] = [
     MarkerShape::TriangleDown,
     MarkerShape::Plus,
     MarkerShape::Star,
+    MarkerShape::Pentagon,
 ];
 
 /// A chart of lines and markers.
@@ -216,12 +217,12 @@ impl LineChart {
                 _ => LegendShape::Marker(marker(index, series)),
             };
             let dashes = (series.style == Style::Dashed).then(|| DASHES.to_owned());
-            (&series.name, self.color(index), shape, dashes)
+            (legend_name(series), self.color(index), shape, dashes)
         });
         let marks = self.marks.iter().map(|mark| {
             let dashes = Some(MARK_DASHES.to_owned());
             (
-                &mark.name,
+                mark.name.clone(),
                 palette::MARK.to_owned(),
                 LegendShape::Line,
                 dashes,
@@ -231,7 +232,7 @@ impl LineChart {
             .chain(marks)
             .filter(|entry| !entry.0.is_empty())
             .map(|(name, color, shape, dasharray)| LegendEntry {
-                label: plain(name, LEGEND_CHARS),
+                label: plain(&name, LEGEND_CHARS),
                 color,
                 shape,
                 dasharray,
@@ -260,12 +261,30 @@ fn marker(index: usize, series: &Series) -> MarkerShape {
     MARKERS[series.symbol.unwrap_or(index) % MARKERS.len()]
 }
 
+fn symbol_dashes(series: &Series) -> Option<palette::Dashes> {
+    series.symbol.and_then(palette::symbol_dashes)
+}
+
+/// Name in the legend, which shows the marker of a line with markers and therefore has to say how the line is dashed.
+fn legend_name(series: &Series) -> String {
+    match symbol_dashes(series) {
+        Some(dashes) if series.style == Style::LineAndMarkers && !series.name.is_empty() => {
+            format!("{} ({})", series.name, dashes.word)
+        }
+        _ => series.name.clone(),
+    }
+}
+
 fn line(series: &Series, run: std::ops::Range<usize>, color: &str) -> Plot {
     let mut line = LinePlot::new()
         .with_color(color)
         .with_stroke_width(series.width);
-    if series.style == Style::Dashed || series.symbol.is_some_and(palette::symbol_is_dashed) {
-        line = line.with_line_style(LineStyle::Custom(DASHES.to_owned()));
+    let dashes = match series.style {
+        Style::Dashed => Some(DASHES),
+        _ => symbol_dashes(series).map(|dashes| dashes.pattern),
+    };
+    if let Some(dashes) = dashes {
+        line = line.with_line_style(LineStyle::Custom(dashes.to_owned()));
     }
     line.data = run
         .map(|i| LinePoint {
@@ -328,4 +347,26 @@ fn true_to_scale(x: &mut Axis, y: &mut Axis, x_extent: (f64, f64), y_extent: (f6
     *x = x.clone().range(x_range.0, x_range.1);
     *y = y.clone().range(y_range.0, y_range.1);
     height + SURROUNDINGS
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn symbols_differ_in_colour_and_marker_and_those_of_one_colour_in_dashes() {
+        let all: Vec<_> = (0..18)
+            .map(|index| {
+                let series = Series::new("", []).symbol(index);
+                let dashes = symbol_dashes(&series).map(|dashes| dashes.pattern);
+                (series.color.clone(), marker(0, &series), dashes)
+            })
+            .collect();
+        for (i, a) in all.iter().enumerate() {
+            for b in &all[..i] {
+                let same_color = a.0 == b.0;
+                assert!(!same_color || (a.1 as u8 != b.1 as u8 && a.2 != b.2));
+            }
+        }
+    }
 }

@@ -21,9 +21,21 @@ pub fn symbol_color(index: usize) -> &'static str {
     SERIES[index % SYMBOLS]
 }
 
-/// Whether symbol `index` has a dashed line: colours return after each round, and markers do not suffice to tell lines apart.
-pub(crate) fn symbol_is_dashed(index: usize) -> bool {
-    (index / SYMBOLS) % 2 == 1
+/// Dashes and gaps of a line [px], and what a legend calls it.
+pub(crate) struct Dashes {
+    pub(crate) pattern: &'static str,
+    pub(crate) word: &'static str,
+}
+
+/// How the line of symbol `index` is interrupted, if it is: so differ the lines of one colour, which returns after each round.
+pub(crate) fn symbol_dashes(index: usize) -> Option<Dashes> {
+    let (pattern, word) = match (index / SYMBOLS) % 4 {
+        1 => ("7 3", "dashed"),
+        2 => ("1.5 2.5", "dotted"),
+        3 => ("7 2.5 1.5 2.5", "dash-dotted"),
+        _ => return None,
+    };
+    Some(Dashes { pattern, word })
 }
 
 /// Colour of what has no value in a heat map.

@@ -69,7 +69,7 @@ impl Series {
         self
     }
 
-    /// Sets colour, marker and dashes together: up to 24 symbols differ in colour and marker.
+    /// Sets colour, marker and dashes together: up to 18 symbols differ in colour and marker.
     pub fn symbol(mut self, index: usize) -> Self {
         self.color = Some(crate::palette::symbol_color(index).to_owned());
         self.symbol = Some(index);

@@ -8,7 +8,7 @@ use clap::Args;
 
 use crate::{failure::Failure, run_folder::make_folder, terminal};
 
-/// The case that `percuss new` writes: it runs as it is, and shows every option with its default.
+/// The case that `percuss new` writes: it runs as it is, and shows every option, at its default or with an example.
 const STARTER: &str = include_str!("new/starter.toml");
 
 const AFTER_HELP: &str = "\
@@ -22,8 +22,8 @@ Exit codes: 0 ok, 2 bad input, 4 the file could not be written";
 /// Write a starter case
 ///
 /// Writes NAME/scenario.toml: a case that runs as it is, with every option of a
-/// case file explained and commented out at its default. A file that exists is
-/// not overwritten without --force.
+/// case file explained and commented out, at its default or with an example. A
+/// file that exists is not overwritten without --force.
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment, after_help = AFTER_HELP)]
 pub struct New {

@@ -1,6 +1,6 @@
 //! Parity plots and residuals, one of each a kind of shot and model.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use percuss::{
     shots::Kind,
@@ -25,6 +25,7 @@ pub(super) struct Drawn {
 pub(super) fn draw(validation: &Validation) -> Vec<Drawn> {
     let mut drawn = Vec::new();
     for kind in Kind::ALL {
+        let symbols = symbols(validation, kind);
         for &model in &validation.models {
             let groups = groups(validation, kind, model);
             let counted: usize = groups
@@ -36,8 +37,8 @@ pub(super) fn draw(validation: &Validation) -> Vec<Drawn> {
                 continue;
             }
             for drawing in [
-                parity(validation, kind, model, &groups),
-                residuals(validation, kind, model, &groups),
+                parity(validation, kind, model, &groups, &symbols),
+                residuals(validation, kind, model, &groups, &symbols),
             ] {
                 drawn.push(Drawn {
                     kind,
@@ -55,28 +56,55 @@ const FLAGGED: &str = " suspect, not counted";
 
 type Groups<'a> = BTreeMap<String, Vec<&'a Prediction>>;
 
-/// Predictions of a model by what tells most about them: the material record of a Taylor rod, otherwise the projectile.
+/// Names of groups in the order of their symbols, which hold in all figures of a kind of shot.
+type Symbols = BTreeSet<String>;
+
+/// The group of a prediction by what tells most about it: the material record of a Taylor rod, otherwise the projectile.
+fn group(validation: &Validation, prediction: &Prediction) -> Option<String> {
+    let shot = validation.shot(prediction);
+    match prediction.standing {
+        Standing::Flagged => Some(FLAGGED.to_owned()),
+        Standing::Counted if shot.kind == Kind::Taylor => Some(prediction.record.clone()),
+        Standing::Counted if prediction.main_record => Some(shot.projectile_class.clone()),
+        _ => None,
+    }
+}
+
+fn of_kind(validation: &Validation, kind: Kind) -> impl Iterator<Item = (String, &Prediction)> {
+    let predictions = validation.predictions.iter();
+    predictions
+        .filter(move |prediction| validation.shot(prediction).kind == kind)
+        .filter_map(|prediction| Some((group(validation, prediction)?, prediction)))
+}
+
+fn symbols(validation: &Validation, kind: Kind) -> Symbols {
+    of_kind(validation, kind)
+        .map(|(name, _)| name)
+        .filter(|name| name != FLAGGED)
+        .collect()
+}
+
 fn groups<'a>(validation: &'a Validation, kind: Kind, model: &str) -> Groups<'a> {
     let mut groups = Groups::new();
-    for prediction in &validation.predictions {
-        let shot = validation.shot(prediction);
-        let name = match prediction.standing {
-            Standing::Flagged => FLAGGED.to_owned(),
-            Standing::Counted if kind == Kind::Taylor => prediction.record.clone(),
-            Standing::Counted if prediction.main_record => shot.projectile_class.clone(),
-            _ => continue,
-        };
-        if shot.kind == kind && prediction.model == model {
+    for (name, prediction) in of_kind(validation, kind) {
+        if prediction.model == model {
             groups.entry(name).or_default().push(prediction);
         }
     }
     groups
 }
 
-fn series<'a>(groups: &Groups<'a>, point: impl Fn(&Prediction) -> (f64, f64)) -> Vec<Series> {
+fn series<'a>(
+    groups: &Groups<'a>,
+    symbols: &Symbols,
+    point: impl Fn(&Prediction) -> (f64, f64),
+) -> Vec<Series> {
     let series = groups.iter().map(|(name, group)| {
         let points = group.iter().map(|prediction| point(prediction));
-        let series = Series::new(name.trim(), points).style(Style::Cloud);
+        let index = symbols.iter().position(|symbol| symbol == name);
+        let series = Series::new(name.trim(), points)
+            .style(Style::Cloud)
+            .symbol(index.unwrap_or(0));
         match name.as_str() {
             FLAGGED => series.color(palette::NO_VALUE),
             _ => series,
@@ -103,7 +131,13 @@ fn scale(validation: &Validation, prediction: &Prediction) -> f64 {
     }
 }
 
-fn parity(validation: &Validation, kind: Kind, model: &str, groups: &Groups<'_>) -> Figure {
+fn parity(
+    validation: &Validation,
+    kind: Kind,
+    model: &str,
+    groups: &Groups<'_>,
+    symbols: &Symbols,
+) -> Figure {
     let (stem, title) = what(kind);
     let unit = match kind {
         Kind::Taylor => "over the length before".to_owned(),
@@ -141,18 +175,29 @@ fn parity(validation: &Validation, kind: Kind, model: &str, groups: &Groups<'_>)
     .series(line(1.0, Style::Line))
     .series(line(1.0 + BAND, Style::Dashed))
     .series(line(1.0 - BAND, Style::Dashed));
-    let chart = series(groups, point)
+    let chart = series(groups, symbols, point)
         .into_iter()
         .fold(chart, LineChart::series);
     chart.draw()
 }
 
-fn residuals(validation: &Validation, kind: Kind, model: &str, groups: &Groups<'_>) -> Figure {
+fn residuals(
+    validation: &Validation,
+    kind: Kind,
+    model: &str,
+    groups: &Groups<'_>,
+    symbols: &Symbols,
+) -> Figure {
     let (stem, title) = what(kind);
+    // A limit has no impact speed but itself.
+    let speed = match kind {
+        Kind::BallisticLimit => "measured limit",
+        _ => "impact speed",
+    };
     let chart = LineChart::new(
         format!("residuals-{stem}-{}", model.replace('_', "-")),
-        format!("{title}: error of {model} against impact speed"),
-        Axis::new("impact speed [m/s]"),
+        format!("{title}: error of {model} against {speed}"),
+        Axis::new(format!("{speed} [m/s]")),
         Axis::new("predicted over measured, less 1 [%]"),
     )
     .mark(Mark::horizontal("", 0.0))
@@ -162,7 +207,7 @@ fn residuals(validation: &Validation, kind: Kind, model: &str, groups: &Groups<'
         let error = p.relative_error.unwrap_or(f64::NAN);
         (validation.shot(p).impact_velocity, 100.0 * error)
     };
-    let chart = series(groups, point)
+    let chart = series(groups, symbols, point)
         .into_iter()
         .fold(chart, LineChart::series);
     chart

@@ -30,13 +30,13 @@ pub struct PlateCavity;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlateCavityOptions {
-    /// CavityShape whose quasi-static pressure resists.
+    /// Cavity whose quasi-static pressure resists; `cylinder` when not given, or `sphere`.
     pub cavity: CavityShape,
     /// Coefficient B of the inertial pressure `B ρ (V sin θ)²` on the nose; 1.5 when not given, 0 leaves inertia out.
     pub inertia: Option<f64>,
 }
 
-/// CavityShape whose quasi-static pressure resists.
+/// Cavity whose quasi-static pressure resists; `cylinder` when not given, or `sphere`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CavityShape {

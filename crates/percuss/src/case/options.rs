@@ -17,7 +17,7 @@ use crate::{
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ChainOptions {
-    /// Scheme.
+    /// Scheme; `conservative` when not given, or `published`.
     pub scheme: Scheme,
     /// Elements along the projectile; 40 when not given.
     pub projectile_elements: Option<u32>,
@@ -27,7 +27,7 @@ pub struct ChainOptions {
     pub constraint_factor: Option<ConstraintFactor>,
     /// Border-shear coefficient C in `Fy = C π d h σ_f` \[paper, eq. 24\]; 0.577 when not given.
     pub border_shear: Option<f64>,
-    /// Strain measure and area change; scheme `conservative` only.
+    /// Strain measure and area change; `logarithmic` when not given; scheme `conservative` only.
     pub kinematics: Option<Kinematics>,
     /// Courant number on the current smallest transit time; scheme `conservative` only.
     pub courant: Option<f64>,

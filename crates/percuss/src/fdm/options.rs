@@ -17,7 +17,7 @@ use crate::{
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FdmOptions {
-    /// Geometry.
+    /// Geometry; `rod` when not given, or `planar`.
     pub geometry: Geometry,
     /// Cells along the projectile; when not given, that of `[chain]` in a rod and 200 in a planar impact.
     pub projectile_elements: Option<u32>,

@@ -5,7 +5,7 @@ use percuss::guard::{FirstChoice, of_material};
 use super::ModelRecord;
 use crate::terminal::{bold, width, wrap};
 
-/// Name, what it is made for, and where it is the first choice.
+/// Name, what it is made for, where it is the first choice, its options, and where to read on.
 pub fn text(model: &ModelRecord) -> String {
     let mut text = format!(
         "{}\n{}\n\n{}\n",
@@ -22,7 +22,18 @@ pub fn text(model: &ModelRecord) -> String {
             text += &item(&in_words(choice));
         }
     }
-    text
+    if !model.options.is_empty() {
+        let title = format!("options in [{}] of a case file", model.name);
+        text += &format!("\n{}\n", bold(&title));
+        for option in &model.options {
+            text += &item(&format!("{}: {}", option.key, option.meaning));
+        }
+    }
+    let page = format!(
+        "{}: equations, sources, checks, and whether the formulae were read, derived or reconstructed",
+        model.page
+    );
+    text + &format!("\n{}\n{}", bold("page"), item(&page))
 }
 
 fn item(line: &str) -> String {

@@ -1,21 +1,27 @@
 mod card;
+mod options;
 mod table;
 
 use clap::Args;
 use percuss::{
+    case::Case,
     guard::Guard,
     model::{self, MODELS, Model},
 };
 use serde::Serialize;
+use serde_json::Value;
 
+use self::options::ModelOption;
 use crate::{failure::Failure, terminal};
 
 const LONG_ABOUT: &str = "\
-List the models: what each of them is, which projectiles and targets it is made
-for, and for which cases it is the first choice.
+List the models: what each of them is, and which projectiles and targets it is
+made for.
 
-`percuss models NAME` prints everything that a model is made for, takes and
-leaves out. `percuss compare CASE.toml` runs those that apply to a case.";
+`percuss models NAME` prints everything that a model is made for, for which
+cases it is the first choice, its options in a case file, and which page says
+how far its equations can be trusted. `percuss compare CASE.toml` runs the
+models that apply to a case.";
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -42,28 +48,39 @@ struct ModelRecord {
     name: &'static str,
     summary: &'static str,
     guard: &'static Guard,
+    /// Keys of the model's table in a case file.
+    #[serde(serialize_with = "options::keys")]
+    options: Vec<ModelOption>,
+    /// Where its equations, sources and checks are, in the project's folder.
+    page: String,
 }
 
 impl ModelRecord {
-    fn new(model: &dyn Model) -> Self {
+    fn new(model: &dyn Model, schema: &Value) -> Self {
         Self {
             name: model.name(),
             summary: model.summary(),
             guard: model.guard(),
+            options: options::of(model.name(), schema),
+            page: format!("docs/models/{}.md", model.name()),
         }
     }
 }
 
 impl Models {
     pub fn run(&self) -> Result<(), Failure> {
+        let schema = schemars::schema_for!(Case).to_value();
         if let Some(name) = &self.name {
-            let model = ModelRecord::new(model::model(name)?);
+            let model = ModelRecord::new(model::model(name)?, &schema);
             return match self.json {
                 true => terminal::print_json(&model),
                 false => terminal::print(&card::text(&model)),
             };
         }
-        let models: Vec<ModelRecord> = MODELS.iter().map(|m| ModelRecord::new(*m)).collect();
+        let models: Vec<ModelRecord> = MODELS
+            .iter()
+            .map(|model| ModelRecord::new(*model, &schema))
+            .collect();
         match self.json {
             true => terminal::print_json(&models),
             false => terminal::print(&table::text(&models)),
