@@ -143,6 +143,34 @@ fn breakdown<'a>(validation: &Validation, kind: Kind) -> Vec<Block<'a>> {
     blocks
 }
 
+/// Why predictions are not blind: a line for the rows of data, and one a model and reason.
+fn not_blind(validation: &Validation) -> Vec<String> {
+    let fitted = validation
+        .shots
+        .iter()
+        .filter(|shot| shot.split == Split::Calibration);
+    let mut sources: Vec<&str> = fitted.map(|shot| shot.source.as_str()).collect();
+    sources.sort_unstable();
+    sources.dedup();
+    let mut lines = Vec::new();
+    if !sources.is_empty() {
+        lines.push(format!(
+            "Every model on {}: a constant of the library may have been fitted to it.",
+            sources.join(", ")
+        ));
+    }
+    for (model, fitted) in validation.models.iter().zip(&validation.fitted_to) {
+        lines.extend(fitted.iter().map(|fitted| {
+            format!(
+                "{model} on {}: {}.",
+                fitted.sources.join(", "),
+                fitted.because
+            )
+        }));
+    }
+    lines
+}
+
 fn blind<'a>(validation: &Validation) -> Vec<Block<'a>> {
     let mut table = Table::new(&["kind", "model", "split", "#n", "#bias [%]", "#RMS [%]"]);
     for group in statistics(validation, Grouping::Split) {
@@ -155,17 +183,10 @@ fn blind<'a>(validation: &Validation) -> Vec<Block<'a>> {
             tables::percent(group.errors.rms),
         ]);
     }
-    let fitted = validation
-        .shots
-        .iter()
-        .filter(|shot| shot.split == Split::Calibration);
-    let mut sources: Vec<&str> = fitted.map(|shot| shot.source.as_str()).collect();
-    sources.sort_unstable();
-    sources.dedup();
-    let fitted = match sources.as_slice() {
-        [] => "none".to_owned(),
-        sources => sources.join(", "),
-    };
+    let mut exceptions = not_blind(validation);
+    if exceptions.is_empty() {
+        exceptions.push("none".to_owned());
+    }
     let counted = |standing| {
         validation
             .predictions
@@ -175,14 +196,15 @@ fn blind<'a>(validation: &Validation) -> Vec<Block<'a>> {
     };
     vec![
         Block::Heading("What is blind and what is not".to_owned()),
-        Block::List(vec![
-            "The split is by source and stored with the data. A source is blind when no constant that the program ships was fitted to it. \
-             Nothing is fitted here: models have published constants, records come from the library."
+        Block::Text(
+            "The split is by source and model. A prediction is blind when no constant that the program ships was fitted to the source of \
+             its shot, and neither a constant nor the form of the model was chosen on it. All are blind but these, whose rows are in the \
+             tables and stand apart in the table by split:"
                 .to_owned(),
-            format!(
-                "Calibration, because a constant of the library may have been fitted to it: {fitted}. Its rows are in the tables and \
-                 stand apart in the table below."
-            ),
+        ),
+        Block::List(exceptions),
+        Block::Text("Further:".to_owned()),
+        Block::List(vec![
             "Properties of a plate (yield stress, hardening) come with its row of data: they are measured or handbook values, not fitted to limits."
                 .to_owned(),
             "A ballistic limit is computed for an impact at the measured limit, as the regime is judged there; a test makes sure that no \

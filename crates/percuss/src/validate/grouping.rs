@@ -104,7 +104,7 @@ impl Grouping {
             Self::Target => shot.target.name().to_owned(),
             Self::Projectile => shot.projectile_class.clone(),
             Self::Regime => prediction.regime.clone(),
-            Self::Split => shot.split.name().to_owned(),
+            Self::Split => prediction.split.name().to_owned(),
         }
     }
 }
