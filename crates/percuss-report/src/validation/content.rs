@@ -2,7 +2,7 @@
 
 use percuss::{
     shots::{Kind, Shot, Split},
-    validate::{Grouping, Standing, Validation, statistics},
+    validate::{Grouping, Standing, Validation, statistics, without_shots},
 };
 
 use super::{
@@ -32,6 +32,7 @@ pub(super) fn page<'a>(
                 "The error of a prediction is predicted over measured, less 1: positive where the model gives too much.",
                 "Bias is the mean error, RMS the root of its mean square, median the median magnitude; the worst error comes with its shot.",
                 "A shot counts once, with the main material record of its projectile. Rival records stand apart in the tables by material record.",
+                "Rods that were heated have a line of their own, as few models take them: the others are compared at room temperature.",
                 "Suspect rows, repeated rows and projectiles that were stopped (measured 0) are computed, listed and not counted.",
                 "predictions.csv and predictions.parquet hold every number with the place where its shot was read.",
             ]
@@ -81,6 +82,15 @@ fn counts(validation: &Validation) -> Vec<String> {
             count(&|shot| shot.unusable.is_none() && shot.obliquity_deg != 0.0)
         ),
         format!("models: {}", validation.models.join(", ")),
+        match without_shots(validation).as_slice() {
+            [] => "every model has a shot that is counted".to_owned(),
+            models => format!(
+                "{} of {} models have no counted shot yet: {}",
+                models.len(),
+                validation.models.len(),
+                models.join(", ")
+            ),
+        },
     ]
 }
 

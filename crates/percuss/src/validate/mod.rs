@@ -25,7 +25,9 @@ use std::{
 
 use rayon::prelude::*;
 
-pub use grouping::{Coverage, Group, Grouping, SEPARATOR, coverage, statistics};
+pub use grouping::{
+    Coverage, Group, Grouping, HOT, SEPARATOR, coverage, statistics, without_shots,
+};
 pub use prediction::{Prediction, Standing};
 pub use record::PredictionRecord;
 pub use statistics::Errors;
