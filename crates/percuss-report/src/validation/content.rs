@@ -52,7 +52,7 @@ pub(super) fn page<'a>(
         page.push(Block::Text("There are none.".to_owned()));
     } else {
         page.push(Block::Text(
-            "Far from their series, or out of order with a neighbour or with thinner or thicker plates. No statistic counts them."
+            "Far from their series or out of order with a neighbour. No statistic counts them."
                 .to_owned(),
         ));
         page.push(Block::Table(suspects));
