@@ -56,7 +56,7 @@ fn section(validation: &Validation, kind: Kind, in_detail: bool) -> String {
     if !all.is_empty() {
         let rows = all
             .iter()
-            .map(|group| (group.model.to_owned(), &group.errors));
+            .map(|group| (group.model_in_words(), &group.errors));
         text += &table("model", rows, true);
     }
     // Models of which the same is to be said share a line; those that are for something else are left out.
@@ -180,7 +180,7 @@ fn table<'a>(
 pub fn one_line(group: &Group) -> String {
     let errors = &group.errors;
     format!(
-        "model={} kind={} count={} bias={} rms={} median_absolute={} worst={} worst_id={}\n",
+        "model={} kind={} count={} bias={} rms={} median_absolute={} worst={} worst_id={} group={}\n",
         group.model,
         group.kind.name(),
         errors.count,
@@ -188,6 +188,7 @@ pub fn one_line(group: &Group) -> String {
         errors.rms,
         errors.median_absolute,
         errors.worst,
-        errors.worst_id
+        errors.worst_id,
+        group.value
     )
 }

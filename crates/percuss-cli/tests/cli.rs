@@ -346,6 +346,7 @@ fn models_as_json_hold_their_whole_guard() {
             keys(guard),
             [
                 "first_choice",
+                "fitted_to",
                 "noses",
                 "notes",
                 "predicts",

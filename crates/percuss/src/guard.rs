@@ -1,13 +1,16 @@
 //! What a model is made for, as data: projectile, target, nose, materials, and ranges of ratios and speed.
 
+mod fitted_to;
+mod nose_kind;
 mod temperature;
 mod words;
 
-use schemars::JsonSchema;
+pub use fitted_to::FittedTo;
+pub use nose_kind::NoseKind;
+
 use serde::Serialize;
 
 use crate::{
-    case::Nose,
     material::MaterialClass,
     outcome::BandQuantity,
     regime::{ProjectileRegime, Regime, TargetKind},
@@ -42,6 +45,8 @@ pub struct Guard {
     pub sees_back_face: bool,
     /// Cases for which it is the first choice.
     pub first_choice: &'static [FirstChoice],
+    /// What it was fitted to or chosen on: validation does not take it for blind there.
+    pub fitted_to: &'static [FittedTo],
     /// What it takes and leaves out, one line each.
     pub notes: &'static [&'static str],
 }
@@ -66,6 +71,7 @@ impl Guard {
         start_temperature: false,
         sees_back_face: true,
         first_choice: &[],
+        fitted_to: &[],
         notes: &[],
     };
 
@@ -192,8 +198,16 @@ impl Guard {
             .into_iter()
             .chain(temperature)
             .chain(ranges)
+            .chain(self.fitted_to.iter().map(FittedTo::in_words))
             .chain(self.notes.iter().map(|&note| note.to_owned()))
             .collect()
+    }
+
+    /// Whether the model was fitted to a source or chosen on it.
+    pub fn is_fitted_to(&self, source: &str) -> bool {
+        self.fitted_to
+            .iter()
+            .any(|fitted| fitted.sources.contains(&source))
     }
 
     /// Why a depth of penetration [m] cannot stand, if the back face of the target would have had a say in it.
@@ -361,47 +375,6 @@ impl FirstChoice {
             && self.targets.contains(&regime.target)
             && self.noses.contains(&NoseKind::of(scenario.projectile.nose))
             && classes
-    }
-}
-
-/// Shape of a nose without its numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum NoseKind {
-    /// Flat end.
-    Flat,
-    /// Hemisphere.
-    Hemisphere,
-    /// Cone.
-    Cone,
-    /// Tangent ogive.
-    Ogive,
-}
-
-impl NoseKind {
-    /// All shapes.
-    pub const ALL: &'static [Self] = &[Self::Flat, Self::Hemisphere, Self::Cone, Self::Ogive];
-    /// All shapes but the flat end.
-    pub const SHARP: &'static [Self] = &[Self::Hemisphere, Self::Cone, Self::Ogive];
-
-    /// The shape of a nose.
-    pub fn of(nose: Nose) -> Self {
-        match nose {
-            Nose::Flat => Self::Flat,
-            Nose::Hemisphere => Self::Hemisphere,
-            Nose::Cone { .. } => Self::Cone,
-            Nose::Ogive { .. } => Self::Ogive,
-        }
-    }
-
-    /// Name as a case has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Flat => "flat",
-            Self::Hemisphere => "hemisphere",
-            Self::Cone => "cone",
-            Self::Ogive => "ogive",
-        }
     }
 }
 

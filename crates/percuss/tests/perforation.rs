@@ -152,7 +152,7 @@ fn without_inertia_the_work_is_the_pressure_times_the_hole() {
     assert!((result.residual_velocity.unwrap() / residual - 1.0).abs() < 1e-12);
 }
 
-/// Ballistic limits of bullets' cores on aluminium plates, from the database of rel-plates; nothing is fitted to them.
+/// Ballistic limits of bullets' cores on aluminium plates, from the database of rel-plates; no constant is fitted to them.
 #[test]
 fn cores_on_aluminium_have_their_measured_limits() {
     // Mass [g], diameter, thickness [mm], density [g/cm3], E [GPa], Y [MPa], n, measured limit [m/s].

@@ -2,7 +2,7 @@
 
 use percuss::{
     shots::{Kind, Shot, Split},
-    validate::{Grouping, Standing, Validation, statistics},
+    validate::{Grouping, Standing, Validation, statistics, without_shots},
 };
 
 use super::{
@@ -32,6 +32,7 @@ pub(super) fn page<'a>(
                 "The error of a prediction is predicted over measured, less 1: positive where the model gives too much.",
                 "Bias is the mean error, RMS the root of its mean square, median the median magnitude; the worst error comes with its shot.",
                 "A shot counts once, with the main material record of its projectile. Rival records stand apart in the tables by material record.",
+                "Rods that were heated have a line of their own, as few models take them: the others are compared at room temperature.",
                 "Suspect rows, repeated rows and projectiles that were stopped (measured 0) are computed, listed and not counted.",
                 "predictions.csv and predictions.parquet hold every number with the place where its shot was read.",
             ]
@@ -81,6 +82,15 @@ fn counts(validation: &Validation) -> Vec<String> {
             count(&|shot| shot.unusable.is_none() && shot.obliquity_deg != 0.0)
         ),
         format!("models: {}", validation.models.join(", ")),
+        match without_shots(validation).as_slice() {
+            [] => "every model has a shot that is counted".to_owned(),
+            models => format!(
+                "{} of {} models have no counted shot yet: {}",
+                models.len(),
+                validation.models.len(),
+                models.join(", ")
+            ),
+        },
     ]
 }
 
@@ -143,6 +153,34 @@ fn breakdown<'a>(validation: &Validation, kind: Kind) -> Vec<Block<'a>> {
     blocks
 }
 
+/// Why predictions are not blind: a line for the rows of data, and one a model and reason.
+fn not_blind(validation: &Validation) -> Vec<String> {
+    let fitted = validation
+        .shots
+        .iter()
+        .filter(|shot| shot.split == Split::Calibration);
+    let mut sources: Vec<&str> = fitted.map(|shot| shot.source.as_str()).collect();
+    sources.sort_unstable();
+    sources.dedup();
+    let mut lines = Vec::new();
+    if !sources.is_empty() {
+        lines.push(format!(
+            "Every model on {}: a constant of the library may have been fitted to it.",
+            sources.join(", ")
+        ));
+    }
+    for (model, fitted) in validation.models.iter().zip(&validation.fitted_to) {
+        lines.extend(fitted.iter().map(|fitted| {
+            format!(
+                "{model} on {}: {}.",
+                fitted.sources.join(", "),
+                fitted.because
+            )
+        }));
+    }
+    lines
+}
+
 fn blind<'a>(validation: &Validation) -> Vec<Block<'a>> {
     let mut table = Table::new(&["kind", "model", "split", "#n", "#bias [%]", "#RMS [%]"]);
     for group in statistics(validation, Grouping::Split) {
@@ -155,17 +193,10 @@ fn blind<'a>(validation: &Validation) -> Vec<Block<'a>> {
             tables::percent(group.errors.rms),
         ]);
     }
-    let fitted = validation
-        .shots
-        .iter()
-        .filter(|shot| shot.split == Split::Calibration);
-    let mut sources: Vec<&str> = fitted.map(|shot| shot.source.as_str()).collect();
-    sources.sort_unstable();
-    sources.dedup();
-    let fitted = match sources.as_slice() {
-        [] => "none".to_owned(),
-        sources => sources.join(", "),
-    };
+    let mut exceptions = not_blind(validation);
+    if exceptions.is_empty() {
+        exceptions.push("none".to_owned());
+    }
     let counted = |standing| {
         validation
             .predictions
@@ -175,14 +206,15 @@ fn blind<'a>(validation: &Validation) -> Vec<Block<'a>> {
     };
     vec![
         Block::Heading("What is blind and what is not".to_owned()),
-        Block::List(vec![
-            "The split is by source and stored with the data. A source is blind when no constant that the program ships was fitted to it. \
-             Nothing is fitted here: models have published constants, records come from the library."
+        Block::Text(
+            "The split is by source and model. A prediction is blind when no constant that the program ships was fitted to the source of \
+             its shot, and neither a constant nor the form of the model was chosen on it. All are blind but these, whose rows are in the \
+             tables and stand apart in the table by split:"
                 .to_owned(),
-            format!(
-                "Calibration, because a constant of the library may have been fitted to it: {fitted}. Its rows are in the tables and \
-                 stand apart in the table below."
-            ),
+        ),
+        Block::List(exceptions),
+        Block::Text("Further:".to_owned()),
+        Block::List(vec![
             "Properties of a plate (yield stress, hardening) come with its row of data: they are measured or handbook values, not fitted to limits."
                 .to_owned(),
             "A ballistic limit is computed for an impact at the measured limit, as the regime is judged there; a test makes sure that no \

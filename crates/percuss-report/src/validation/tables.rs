@@ -51,7 +51,7 @@ fn errors(errors: &Errors) -> Vec<String> {
 pub(super) fn models(validation: &Validation, kind: Kind) -> Table {
     let mut table = Table::new(&[&["model"], ERRORS.as_slice()].concat());
     for group in of_kind(validation, kind, Grouping::All) {
-        let mut row = vec![group.model.to_owned()];
+        let mut row = vec![group.model_in_words()];
         row.extend(errors(&group.errors));
         table.rows.push(row);
     }

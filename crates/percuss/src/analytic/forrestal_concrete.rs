@@ -11,7 +11,7 @@ use crate::{
     Error, Scenario,
     case::Target,
     check::{Check, limits},
-    guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
+    guard::{FirstChoice, FittedTo, Guard, Measure, NoseKind, Outside, Range},
     material::{MaterialClass, Strength},
     model::{Control, Model},
     outcome::{BandQuantity, RunResult},
@@ -158,6 +158,10 @@ impl Model for ForrestalConcrete {
                     noses: NoseKind::SHARP,
                     target_material: MaterialClass::Concrete,
                     because: "it is made for concrete of a known compressive strength",
+                }],
+                fitted_to: &[FittedTo {
+                    sources: &["forrestal1994"],
+                    because: "the factor S is a regression on a family of tests to which these belong",
                 }],
                 notes: &[
                     "the factor S is empirical and stands for everything but inertia: aggregate, pressure and rate dependence",

@@ -11,7 +11,7 @@ use crate::{
     Error, Scenario,
     case::Target,
     check::{Check, limits},
-    guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
+    guard::{FirstChoice, FittedTo, Guard, Measure, NoseKind, Outside, Range},
     material::{
         Material, MaterialClass, cavity_expansion_pressure, cylindrical_cavity_pressure,
         tensile_strength,
@@ -53,6 +53,28 @@ const INERTIA: f64 = 1.5;
 const HARD: f64 = 300.0;
 /// Tensile strength of a steel of that hardness [Pa].
 const HARD_STRENGTH: f64 = 1.0e9;
+
+/// Sources of the REL V50 database, whose limits were in view when the form of the inertial pressure was chosen.
+const PLATES: &[&str] = &[
+    "cheeseman2008",
+    "forrestal2014",
+    "forrestal2021",
+    "fras2015",
+    "gallardy2012",
+    "gallardy2015",
+    "gallardy2016",
+    "gallardy2017",
+    "gooch2007",
+    "gooch2019",
+    "grubinskas1993",
+    "jones2004",
+    "jones2016",
+    "ryan2015",
+    "ryan2016",
+    "ryan2018",
+    "showalter2008a",
+    "showalter2008b",
+];
 
 impl PlateCavityOptions {
     pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
@@ -183,7 +205,11 @@ impl Model for PlateCavity {
                     targets: &[TargetKind::ThickPlate, TargetKind::Plate],
                     noses: NoseKind::SHARP,
                     target_material: MaterialClass::Metal,
-                    because: "sharp rigid projectiles open ductile plates by pushing the metal aside, and nothing is fitted",
+                    because: "sharp rigid projectiles open ductile plates by pushing the metal aside, and no constant is fitted",
+                }],
+                fitted_to: &[FittedTo {
+                    sources: PLATES,
+                    because: "the form of the inertial pressure, V sin θ in place of V tan θ, was chosen with limits of the REL V50 database in view",
                 }],
                 notes: &[
                     "normal impact; no friction, no free faces, no heat",

@@ -12,7 +12,7 @@ use crate::{
     Error, Scenario,
     case::Target,
     check::{Check, limits},
-    guard::Guard,
+    guard::{FittedTo, Guard},
     model::{Control, Model},
     outcome::RunResult,
     units::Pressure,
@@ -102,7 +102,15 @@ impl Model for WilkinsGuinan {
     }
 
     fn guard(&self) -> &'static Guard {
-        WALL
+        const {
+            &Guard {
+                fitted_to: &[FittedTo {
+                    sources: &["wilkins1973"],
+                    because: "the place of the plastic front, 0.12 of the length, was found there",
+                }],
+                ..*WALL
+            }
+        }
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {

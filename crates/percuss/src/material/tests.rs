@@ -387,3 +387,35 @@ fn a_slip_of_1000_is_caught() {
     // Density, modulus and at least one stress of every record, both ways.
     assert!(tried >= 6 * built_in().count(), "{tried} slips tried");
 }
+
+/// A key of the bibliography: letters, a year, perhaps one more letter.
+fn is_key(word: &str) -> bool {
+    let name = word.trim_end_matches(|c: char| c.is_ascii_lowercase());
+    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    name.len() == letters.len() + 4
+        && word.len() <= name.len() + 1
+        && !letters.is_empty()
+        && letters.chars().all(|c| c.is_ascii_lowercase())
+}
+
+#[test]
+fn pages_of_models_cite_what_the_bibliography_has() {
+    let pages = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/models");
+    let mut cited = 0;
+    for page in std::fs::read_dir(pages).unwrap() {
+        let path = page.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let bracketed = text.split('[').skip(1);
+        for words in bracketed.filter_map(|rest| rest.split(']').next()) {
+            for key in words.split([',', ' ', '\n']).filter(|word| is_key(word)) {
+                cited += 1;
+                assert!(
+                    references().contains_key(key),
+                    "{}: {key} is not in references.bib",
+                    path.display()
+                );
+            }
+        }
+    }
+    assert!(cited > 50, "{cited}");
+}

@@ -69,7 +69,7 @@ pub struct Shot {
     pub uncertainty: Option<f64>,
     /// How far the row can be trusted.
     pub trust: Trust,
-    /// Whether a constant that the program ships was fitted to its source.
+    /// Whether a constant that all models share was fitted to its source; what single models were fitted to stands in their guards.
     pub split: Split,
     /// Why the row is suspect: it is listed, and no statistic counts it.
     pub flag: Option<String>,
@@ -218,11 +218,11 @@ impl Kind {
     }
 }
 
-/// Whether a constant that the program ships was fitted to the source of a shot.
+/// Whether a constant or the form of a model was fitted to the source of a shot or chosen on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Split {
-    /// None was.
+    /// Neither was.
     Blind,
     /// One was, or may have been.
     Calibration,

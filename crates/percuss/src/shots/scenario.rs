@@ -11,6 +11,8 @@ use crate::{
 
 /// Difference from the temperature at which a material was measured that is not worth telling [K]: all laboratories are rooms.
 const ROOM: f64 = 20.0;
+/// Temperature of a laboratory [K].
+const ROOM_TEMPERATURE: f64 = 295.0;
 
 impl Shot {
     /// The shot as a case, with one of its material records for the projectile.
@@ -45,6 +47,12 @@ impl Shot {
                 significant(self.obliquity_deg, 3)
             )
         })
+    }
+
+    /// Whether its projectile was heated or cooled: most models take room temperature alone.
+    pub fn is_hot(&self) -> bool {
+        self.temperature
+            .is_some_and(|temperature| (temperature - ROOM_TEMPERATURE).abs() > 2.0 * ROOM)
     }
 
     /// Whether statistics may count it: it is neither suspect nor a repetition.

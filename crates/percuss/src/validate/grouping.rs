@@ -9,12 +9,14 @@ use crate::shots::Kind;
 
 /// What stands between the parts of a group's value.
 pub const SEPARATOR: &str = "; ";
+/// Value of [`Grouping::All`] for shots with hot projectiles.
+pub const HOT: &str = "hot";
 
 /// What predictions are grouped by, beside model and kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Grouping {
-    /// Nothing.
+    /// Nothing, but that hot projectiles stand apart: few models take them.
     All,
     /// Source.
     Source,
@@ -30,6 +32,17 @@ pub enum Grouping {
     Regime,
     /// Blind or not.
     Split,
+}
+
+impl Group {
+    /// The model, with what sets the group apart in a table of all shots.
+    pub fn model_in_words(&self) -> String {
+        if self.grouping == Grouping::All && self.value == HOT {
+            format!("{}, {HOT} projectiles", self.model)
+        } else {
+            self.model.to_owned()
+        }
+    }
 }
 
 impl Grouping {
@@ -95,6 +108,7 @@ impl Grouping {
     fn value(self, validation: &Validation, prediction: &Prediction) -> String {
         let shot = validation.shot(prediction);
         match self {
+            Self::All if shot.is_hot() => HOT.to_owned(),
             Self::All => "all".to_owned(),
             Self::Source => shot.source.clone(),
             Self::Record => [&*shot.projectile_class, &prediction.record].join(SEPARATOR),
@@ -104,7 +118,7 @@ impl Grouping {
             Self::Target => shot.target.name().to_owned(),
             Self::Projectile => shot.projectile_class.clone(),
             Self::Regime => prediction.regime.clone(),
-            Self::Split => shot.split.name().to_owned(),
+            Self::Split => prediction.split.name().to_owned(),
         }
     }
 }
@@ -212,6 +226,18 @@ pub fn coverage(validation: &Validation) -> Vec<Coverage> {
                 .map(|(reason, count)| (reason.to_owned(), count)),
         })
         .collect()
+}
+
+/// Models of which no prediction is counted.
+pub fn without_shots(validation: &Validation) -> Vec<&'static str> {
+    let counted = |model: &str| {
+        validation
+            .predictions
+            .iter()
+            .any(|p| p.model == model && p.standing == Standing::Counted && p.main_record)
+    };
+    let models = validation.models.iter().copied();
+    models.filter(|model| !counted(model)).collect()
 }
 
 fn place(validation: &Validation, model: &str) -> usize {

@@ -25,14 +25,16 @@ use std::{
 
 use rayon::prelude::*;
 
-pub use grouping::{Coverage, Group, Grouping, SEPARATOR, coverage, statistics};
+pub use grouping::{
+    Coverage, Group, Grouping, HOT, SEPARATOR, coverage, statistics, without_shots,
+};
 pub use prediction::{Prediction, Standing};
 pub use record::PredictionRecord;
 pub use statistics::Errors;
 
 use prediction::Computed;
 
-use crate::{Error, material::Library, model::Model, shots::Shot};
+use crate::{Error, guard::FittedTo, material::Library, model::Model, shots::Shot};
 
 /// What every model said of every shot.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,6 +43,8 @@ pub struct Validation {
     pub shots: Vec<Shot>,
     /// Names of the models, in their own order.
     pub models: Vec<&'static str>,
+    /// What each of them was fitted to or chosen on.
+    pub fitted_to: Vec<&'static [FittedTo]>,
     /// One entry a shot, material record and model, in that order.
     pub predictions: Vec<Prediction>,
 }
@@ -111,6 +115,7 @@ pub fn run(
     Ok(Validation {
         shots: shots.to_vec(),
         models: models.iter().map(|model| model.name()).collect(),
+        fitted_to: models.iter().map(|model| model.guard().fitted_to).collect(),
         predictions: predictions.into_iter().flatten().collect(),
     })
 }

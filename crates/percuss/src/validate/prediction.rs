@@ -10,7 +10,7 @@ use crate::{
     model::{self, Control, Model},
     outcome::{BandQuantity, Outcome, RunResult},
     regime::Regime,
-    shots::{Kind, Shot},
+    shots::{Kind, Shot, Split},
 };
 
 /// What one model said of one shot with one material record. Values are in the unit of the shot's kind, see [`Kind::unit`].
@@ -38,6 +38,8 @@ pub struct Prediction {
     pub reason: Option<String>,
     /// Warnings that came with the prediction.
     pub warnings: usize,
+    /// Whether the prediction is blind: neither the program's constants nor the model were fitted to the shot's source or chosen on it.
+    pub split: Split,
     /// Whether statistics count it, and if not, why.
     pub standing: Standing,
 }
@@ -124,6 +126,11 @@ impl Computed<'_> {
             Standing::Counted if relative_error.is_none() => Standing::MeasuredZero,
             other => other,
         };
+        let split = if model.guard().is_fitted_to(&shot.source) {
+            Split::Calibration
+        } else {
+            shot.split
+        };
         Prediction {
             shot: self.index,
             model: model.name(),
@@ -140,6 +147,7 @@ impl Computed<'_> {
             outcome: answer.outcome,
             reason: answer.reason,
             warnings: answer.warnings,
+            split,
             standing,
         }
     }

@@ -24,7 +24,7 @@ pub struct PredictionRecord {
     pub licence: String,
     /// Kind of shot.
     pub kind: Kind,
-    /// Blind or not.
+    /// Whether the prediction is blind.
     pub split: Split,
     /// How far the row can be trusted.
     pub trust: Trust,
@@ -88,7 +88,7 @@ impl Validation {
                     read_at: shot.read_at.clone(),
                     licence: shot.licence.clone(),
                     kind: shot.kind,
-                    split: shot.split,
+                    split: prediction.split,
                     trust: shot.trust,
                     projectile: shot.projectile_class.clone(),
                     record: prediction.record.clone(),

@@ -3,10 +3,11 @@ use std::{ops::ControlFlow, sync::Mutex};
 use super::*;
 use crate::Scenario;
 use crate::{
-    guard::Guard,
+    guard::{FittedTo, Guard},
+    material::references,
     model::{Control, MODELS},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
-    shots::{self, Kind},
+    shots::{self, Kind, Split},
 };
 
 /// A model whose ballistic limit is ten times the thickness in mm; it gives 450 m/s for 45 mm.
@@ -22,6 +23,10 @@ impl Model for MadeUp {
     fn guard(&self) -> &'static Guard {
         &Guard {
             predicts: &[BandQuantity::BallisticLimit],
+            fitted_to: &[FittedTo {
+                sources: &["one"],
+                because: "it was made up there",
+            }],
             ..Guard::OPEN
         }
     }
@@ -125,6 +130,44 @@ fn what_is_not_counted_says_why() {
         (7, 3)
     );
     assert_eq!(coverage[1].reason, Some(("gives no depth".to_owned(), 1)));
+}
+
+#[test]
+fn a_model_is_not_blind_to_what_it_was_fitted_to() {
+    let validation = made_up();
+    for prediction in &validation.predictions {
+        let blind = prediction.split == Split::Blind;
+        assert_eq!(blind, validation.shot(prediction).source == "two");
+    }
+    let by_split = statistics(&validation, Grouping::Split);
+    let found: Vec<(&str, usize)> = by_split
+        .iter()
+        .map(|g| (g.value.as_str(), g.errors.count))
+        .collect();
+    assert_eq!(found, [("blind", 1), ("calibration", 2)]);
+    assert_eq!(
+        validation.fitted_to[0][0].in_words(),
+        "not blind to one: it was made up there"
+    );
+}
+
+#[test]
+fn what_models_were_fitted_to_is_in_the_bibliography() {
+    let fitted = MODELS.iter().flat_map(|model| model.guard().fitted_to);
+    for source in fitted.flat_map(|fitted| fitted.sources) {
+        assert!(references().contains_key(*source), "{source}");
+    }
+}
+
+#[test]
+fn plate_cavity_is_blind_to_no_limit_of_the_database() {
+    let model = crate::model::model("plate_cavity").unwrap();
+    for shot in shots::built_in()
+        .iter()
+        .filter(|shot| shot.read_at.contains("10.17632/4f92y6jzzh.2"))
+    {
+        assert!(model.guard().is_fitted_to(&shot.source), "{}", shot.source);
+    }
 }
 
 #[test]
