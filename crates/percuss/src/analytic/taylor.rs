@@ -69,14 +69,18 @@ impl TaylorRod {
         let whole = exponent(left);
         // In u = ln(1 − e): ∫ (1 − e) dh = ∫ h (2 − e)/2 du from u(V) to 0.
         let from = left.ln();
-        // A fast rod has nearly all of its deformed part near u(V): the panels shrink with it.
-        let panels = (f64::from(PANELS) * (number / 4.0).clamp(1.0, 1000.0)).ceil() as u32;
-        let step = -from / f64::from(panels);
+        // A fast rod has all of its deformed part near u(V): the integrand falls by e^−40 over `(1 − e^−x)/left + x = 80`.
+        let span = if 80.0 * left < 1.0 {
+            (-(-80.0 * left).ln_1p()).min(-from)
+        } else {
+            -from
+        };
+        let step = span / f64::from(PANELS);
         let integrand = |u: f64| {
             let left = u.exp();
             (-(whole - exponent(left)) / 2.0).exp() * (1.0 + left) / 2.0
         };
-        let deformed: f64 = (0..panels)
+        let deformed: f64 = (0..PANELS)
             .map(|i| {
                 let u = from + f64::from(i) * step;
                 step / 6.0 * (integrand(u) + 4.0 * integrand(u + step / 2.0) + integrand(u + step))
@@ -249,7 +253,7 @@ mod tests {
 
     #[test]
     fn the_closed_form_solves_the_equations_of_the_front() {
-        for number in [1e-4, 0.01, 0.3, 1.0, 4.0] {
+        for number in [1e-4, 0.01, 0.3, 1.0, 4.0, 60.0, 1000.0] {
             let rod = TaylorRod::new(number);
             assert!((rod.strain.powi(2) / (1.0 - rod.strain) / number - 1.0).abs() < 1e-12);
             // d(ln h) = d(ρv²/Y)/(2e), in s = √(ρv²/Y) so that the integrand stays finite.
@@ -265,12 +269,14 @@ mod tests {
                 length += (before - rear) * (1.0 - e);
             }
             let error = rod.length / (rear + length) - 1.0;
+            // The stepping loses digits over the many e-folds of a fast rod.
+            let allowed = if number > 10.0 { 1e-4 } else { 1e-8 };
             println!(
                 "ρV²/Y = {number}: Lf/L0 = {:.8}, error {error:.1e}",
                 rod.length
             );
             assert!(
-                error.abs() < 1e-8 && (rod.rear / rear - 1.0).abs() < 1e-8,
+                error.abs() < allowed && (rod.rear / rear - 1.0).abs() < allowed,
                 "{rod:?}"
             );
         }
