@@ -7,8 +7,8 @@ use crate::error::NumericalError;
 const ENERGY_TOLERANCE: f64 = 1e-3;
 /// Largest momentum residual of a run that counts.
 const MOMENTUM_TOLERANCE: f64 = 1e-9;
-/// Part of the first time step below which cells are crushed to nothing: a strain of about 6.
-const COLLAPSED_STEP: f64 = 2e-3;
+/// Part of the first time step below which cells are crushed to nothing: a strain of about 4.6.
+const COLLAPSED_STEP: f64 = 1e-2;
 /// Steps between two looks at the books.
 pub(in crate::fdm) const AUDIT_INTERVAL: u64 = 128;
 
