@@ -41,7 +41,7 @@ impl Element {
         let step_before = self.plastic_step;
         self.plastic_step = 0.0;
         if trial.abs() > self.flow_stress {
-            self.flow(part, trial, time_step);
+            self.flow(part, trial, time_step, step_before);
         }
         self.axial_force = match part.kinematics {
             Kinematics::Logarithmic => self.stress * part.area * self.rest_length / length,
@@ -51,8 +51,8 @@ impl Element {
     }
 
     /// Returns a trial stress to the yield surface.
-    fn flow(&mut self, part: &Part, trial: f64, time_step: f64) {
-        let (increment, flow) = self.plastic_increment(part, trial, time_step);
+    fn flow(&mut self, part: &Part, trial: f64, time_step: f64, step_before: f64) {
+        let (increment, flow) = self.plastic_increment(part, trial, time_step, step_before);
         self.plastic_step = increment.copysign(trial);
         self.stress = trial - part.modulus * self.plastic_step;
         self.plastic_axial += self.plastic_step;
@@ -75,12 +75,22 @@ impl Element {
     /// Solves `|σ_trial| − E Δ = Y(ε_p + Δ, Δ/Δt, T)` for Δ by Newton's method, held inside a bracket.
     ///
     /// Returns Δ with the flow stress and its slope there.
-    fn plastic_increment(&self, part: &Part, trial: f64, time_step: f64) -> (f64, (f64, f64)) {
+    fn plastic_increment(
+        &self,
+        part: &Part,
+        trial: f64,
+        time_step: f64,
+        step_before: f64,
+    ) -> (f64, (f64, f64)) {
         let (sign, trial) = (trial.signum(), trial.abs());
         let (mut low, mut high) = (0.0, trial / part.modulus);
         // The flow stress at the start of the step is known: the first Newton step costs no evaluation of the law.
         let mut increment =
             ((trial - self.flow_stress) / (part.modulus + self.flow_slope)).clamp(low, high);
+        // With rate effects that step overshoots, and the last increment is nearer: a flow lasts for many steps.
+        if !part.strength.depends_on_strain_only() && step_before * sign > 0.0 {
+            increment = step_before.abs().clamp(low, high);
+        }
         let mut found = (self.flow_stress, self.flow_slope);
         for _ in 0..100 {
             let rate = if part.rate_effects {
