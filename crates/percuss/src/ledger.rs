@@ -27,11 +27,13 @@ pub struct EnergyLedger {
     pub boundary: f64,
     /// Energy that eroded elements carried away.
     pub eroded: f64,
+    /// Lost between particles and grid: motion finer than the grid; it vanishes with the cell size.
+    pub transfer: f64,
 }
 
 impl EnergyLedger {
     /// Labels and values of all lines but the initial energy, in reading order.
-    pub fn lines(&self) -> [(&'static str, f64); 11] {
+    pub fn lines(&self) -> [(&'static str, f64); 12] {
         [
             ("kinetic, projectile", self.kinetic_projectile),
             ("kinetic, target", self.kinetic_target),
@@ -44,6 +46,7 @@ impl EnergyLedger {
             ("contact", self.contact),
             ("through back face", self.boundary),
             ("eroded", self.eroded),
+            ("particles to grid", self.transfer),
         ]
     }
 

@@ -18,6 +18,7 @@
 //! ```
 
 pub mod analytic;
+pub mod axi;
 pub mod case;
 pub mod chain;
 pub mod check;

@@ -9,6 +9,7 @@ use crate::{
         LanzOdermatt, PlateCavity, Plugging, Poncelet, QuasiStatic, RechtIpson, Tate, Taylor,
         WalkerAnderson, WilkinsGuinan,
     },
+    axi::Axi,
     chain::Chain,
     error::nearest,
     fdm::Fdm,
@@ -28,6 +29,11 @@ pub trait Model: Sync {
     /// The regime that it is made for.
     fn guard(&self) -> &'static Guard;
 
+    /// Whether a run takes minutes: comparisons and validations then run it only when it is asked for by name.
+    fn is_slow(&self) -> bool {
+        false
+    }
+
     /// Why the model does not apply to a case that its guard lets pass, if it does not: an option or a number is missing.
     fn not_applicable(&self, _: &Scenario) -> Option<String> {
         None
@@ -44,6 +50,7 @@ pub trait Model: Sync {
 pub static MODELS: &[&dyn Model] = &[
     &Chain,
     &Fdm,
+    &Axi,
     &Tate,
     &WalkerAnderson,
     &LanzOdermatt,
@@ -61,6 +68,15 @@ pub static MODELS: &[&dyn Model] = &[
     &LambertJonas,
     &AwerbuchBodner,
 ];
+
+/// The models that answer at once: what comparisons and validations run unless models are named.
+pub fn quick() -> Vec<&'static dyn Model> {
+    MODELS
+        .iter()
+        .copied()
+        .filter(|model| !model.is_slow())
+        .collect()
+}
 
 /// The model with this name.
 ///

@@ -5,7 +5,7 @@
 use percuss::{
     Error, Scenario, case,
     material::{Library, MaterialClass},
-    model::{self, Control, MODELS, Model},
+    model::{self, Control, Model},
     outcome::RunResult,
 };
 
@@ -225,13 +225,13 @@ fn assert_finite(result: &RunResult) {
 
 /// Holds every model to an identity on every shot that it applies to, and known failures to failing.
 fn hold(identity: Identity, check: impl Fn(&dyn Model, &str, &[f64]) -> Result<usize, String>) {
-    for model in MODELS {
+    for model in model::quick() {
         let known = KNOWN_FAILURES
             .iter()
             .find(|known| known.0 == model.name() && known.1 == identity);
         let mut failures = Vec::new();
         for (what, text, speeds) in SHOTS {
-            match check(*model, text, speeds) {
+            match check(model, text, speeds) {
                 Ok(compared) => println!("{}: {what}: {compared} compared", model.name()),
                 Err(failure) => failures.push(format!("{}: {what}: {failure}", model.name())),
             }
@@ -452,12 +452,12 @@ fn a_denser_projectile_goes_deeper() {
 
 #[test]
 fn every_model_applies_to_some_shot_and_says_why_not_to_the_others() {
-    for model in MODELS {
+    for model in model::quick() {
         let applies = SHOTS.iter().any(|(_, text, speeds)| {
             let base = shot(text);
             speeds
                 .iter()
-                .any(|&speed| run(*model, &base.at_speed(speed)).is_some())
+                .any(|&speed| run(model, &base.at_speed(speed)).is_some())
         });
         assert!(
             applies,
@@ -496,12 +496,12 @@ fn every_material_works_in_every_model() {
         ];
         for text in cases {
             let scenario = shot(&text);
-            for model in MODELS {
-                let Some(result) = run(*model, &scenario) else {
+            for model in model::quick() {
+                let Some(result) = run(model, &scenario) else {
                     continue;
                 };
                 answered += 1;
-                let rest = run(*model, &scenario.at_speed(0.0));
+                let rest = run(model, &scenario.at_speed(0.0));
                 let depth = rest.and_then(|rest| rest.depth_of_penetration);
                 assert!(
                     depth.unwrap_or(0.0).abs() <= 1e-12,

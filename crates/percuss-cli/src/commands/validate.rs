@@ -153,7 +153,7 @@ impl Validate {
 
     fn models(&self) -> Result<Vec<&'static dyn Model>, Failure> {
         if self.model.is_empty() {
-            return Ok(MODELS.to_vec());
+            return Ok(model::quick());
         }
         let chosen = self.model.iter().map(|name| model::model(name));
         let mut models = chosen.collect::<Result<Vec<_>, _>>()?;

@@ -13,6 +13,7 @@ use crate::{
         PonceletOptions, RechtIpsonOptions, TateOptions, TaylorOptions, WalkerAndersonOptions,
         WilkinsGuinanOptions,
     },
+    axi::AxiOptions,
     check::Check,
     fdm::FdmOptions,
     material::MaterialTable,
@@ -95,6 +96,7 @@ macro_rules! case_with_model_options {
 case_with_model_options! {
     chain: ChainOptions,
     fdm: FdmOptions,
+    axi: AxiOptions,
     tate: TateOptions,
     walker_anderson: WalkerAndersonOptions,
     lanz_odermatt: LanzOdermattOptions,

@@ -214,6 +214,7 @@ impl State {
             contact: books.contact_loss,
             boundary: books.boundary_work,
             eroded: books.eroded_energy,
+            transfer: 0.0,
         }
     }
 

@@ -1,14 +1,14 @@
 //! Every model on one case, at one or many impact speeds, and which of them to rely on.
 //!
 //! ```
-//! use percuss::{case, compare::{compare, Watch}, model::MODELS};
+//! use percuss::{case, compare::{compare, Watch}, model::quick};
 //!
 //! let scenario = case::load_str("taylor", r#"
 //!     projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "183 m/s" }
 //!     target = { rigid_wall = true }
 //! "#)?;
-//! let comparison = compare(MODELS, &scenario, &[89.0, 183.0], &mut Watch::default())?;
-//! assert_eq!(comparison.results.len(), 2 * MODELS.len());
+//! let comparison = compare(&quick(), &scenario, &[89.0, 183.0], &mut Watch::default())?;
+//! assert_eq!(comparison.results.len(), 2 * quick().len());
 //! assert!(comparison.has_results());
 //! # Ok::<(), percuss::Error>(())
 //! ```

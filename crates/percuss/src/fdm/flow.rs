@@ -9,11 +9,11 @@ const MOST_ITERATIONS: u32 = 100;
 
 /// What a return to the yield surface gives.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Return {
+pub(crate) struct Return {
     /// Increment of the equivalent plastic strain.
-    pub(super) increment: f64,
+    pub(crate) increment: f64,
     /// Flow stress there, rate effect included [Pa].
-    pub(super) stress: f64,
+    pub(crate) stress: f64,
 }
 
 /// Solves `q − M Δ = Y(ε_p + Δ, Δ/Δt)` for Δ, where `q` is the trial equivalent stress and `M` its fall per plastic strain.
@@ -21,7 +21,7 @@ pub(super) struct Return {
 /// `known` is the slow flow stress at the start, below `q`; `elapsed` the time in which the strain came about [s], `None`
 /// leaves the strain rate out. The root is bracketed by 0 and q/M and found by Newton's method from the increment of a
 /// material that does not harden; a step that leaves the bracket is replaced by its middle.
-pub(super) fn plastic_return(
+pub(crate) fn plastic_return(
     strength: &dyn PreparedStrength,
     start: &FlowState,
     known: f64,

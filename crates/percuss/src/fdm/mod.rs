@@ -8,7 +8,9 @@ mod rod;
 mod viscosity;
 mod warnings;
 
+pub(crate) use flow::plastic_return;
 pub use options::{FdmOptions, Geometry};
+pub use planar::StateEquation;
 pub use rod::Rod;
 
 use crate::{

@@ -15,7 +15,7 @@ use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario, case,
     compare::{self, Comparison, Watch},
-    model::{MODELS, Model},
+    model::{self, MODELS, Model},
 };
 
 use crate::{diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, terminal};
@@ -79,13 +79,14 @@ impl Compare {
     pub fn run(&self) -> Result<(), Failure> {
         let scenario = case::load(&self.case)?;
         let speeds = self.speeds(&scenario)?;
-        let models: Vec<&dyn Model> = MODELS
-            .iter()
-            .copied()
-            .filter(|model| {
-                self.model.is_empty() || self.model.iter().any(|name| name == model.name())
-            })
-            .collect();
+        let models: Vec<&dyn Model> = match self.model.is_empty() {
+            true => model::quick(),
+            false => MODELS
+                .iter()
+                .copied()
+                .filter(|model| self.model.iter().any(|name| name == model.name()))
+                .collect(),
+        };
         // Before runs that may take long: a folder that cannot be written should be known at once.
         let folder = match &self.out {
             Some(out) => Some(RunFolder::create(out, &self.case)?),

@@ -75,6 +75,7 @@ impl<L: Law> Grid<L> {
             contact: self.books.contact_loss,
             boundary: self.books.boundary_work,
             eroded: 0.0,
+            transfer: 0.0,
         }
     }
 

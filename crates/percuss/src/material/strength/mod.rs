@@ -55,6 +55,11 @@ pub trait PreparedStrength: fmt::Debug + Send + Sync {
     fn depends_on_strain_only(&self) -> bool {
         false
     }
+
+    /// Whether the flow stress changes with the pressure, without any flow.
+    fn depends_on_pressure(&self) -> bool {
+        false
+    }
 }
 
 /// What every strength law says of itself.

@@ -79,6 +79,10 @@ impl PreparedStrength for Prepared {
             rate_slope: 0.0,
         }
     }
+
+    fn depends_on_pressure(&self) -> bool {
+        self.law.pressure_coefficient.si() != 0.0
+    }
 }
 
 impl StrengthLaw for SteinbergGuinan {

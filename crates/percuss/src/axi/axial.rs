@@ -1,0 +1,110 @@
+//! Histories: what happens along the axis, as in one dimension.
+
+use super::{
+    body::Body,
+    crater::{axis_velocity, ends},
+    field::VOLUME,
+    solver::Solver,
+    watch::Watch,
+};
+use crate::history::{ElementState, Profile, Sample};
+
+/// State of the shot at this time.
+pub(super) fn sample(solver: &Solver, watch: &Watch) -> Sample {
+    let cell = solver.cell;
+    let rod = &solver.bodies[0];
+    let (tail, tip) = ends(rod, cell).unwrap_or((0.0, 0.0));
+    let sums = &solver.sums[0];
+    let target = solver.bodies.get(1);
+    Sample {
+        time: solver.time,
+        step: solver.step,
+        tip_velocity: axis_velocity(rod, tip, cell),
+        tail_velocity: axis_velocity(rod, tail, cell),
+        interface_velocity: target.map_or(0.0, |body| axis_velocity(body, watch.depth, cell)),
+        mean_velocity: if sums.mass > 0.0 {
+            sums.momentum / sums.mass
+        } else {
+            0.0
+        },
+        tip_position: tip,
+        depth: watch.depth,
+        projectile_length: tip - tail,
+        contact_force: solver.pending.contact_force,
+        back_force: solver.pending.support_impulse / solver.time_step,
+        energy: solver.energy(),
+        momentum: solver.momentum(),
+    }
+}
+
+/// Means over the particles within a cell of the axis, a row of cells at a time; the diameter is that of a circle with the area of
+/// the body's cross-section.
+pub(super) fn profile(solver: &Solver) -> Profile {
+    let elements = solver.bodies.iter().enumerate();
+    Profile {
+        time: solver.time,
+        elements: elements
+            .flat_map(|(part, body)| along_axis(part, body, solver.cell))
+            .collect(),
+    }
+}
+
+fn along_axis(part: usize, body: &Body, cell: f64) -> Vec<ElementState> {
+    let Some((tail, tip)) = ends(body, cell) else {
+        return Vec::new();
+    };
+    let (first, last) = ((tail / cell).floor() as isize, (tip / cell).ceil() as isize);
+    let rows = (last - first).max(0) as usize;
+    let mut sums = vec![[0.0_f64; 6]; rows];
+    for particle in body
+        .particles
+        .iter()
+        .filter(|p| p.mass > 0.0 && p.position[0] < cell)
+    {
+        let row = (particle.position[1] / cell).floor() as isize - first;
+        let Some(sum) = usize::try_from(row).ok().and_then(|row| sums.get_mut(row)) else {
+            continue;
+        };
+        let mass = particle.mass;
+        let stress = particle.pressure + particle.viscous_pressure - particle.deviator[1];
+        let strain = -(particle.volume * body.law.density / mass).ln();
+        let values = [
+            1.0,
+            particle.position[1],
+            stress,
+            particle.plastic_strain,
+            strain,
+            particle.temperature,
+        ];
+        for (entry, value) in sum.iter_mut().zip(values) {
+            *entry += mass * value;
+        }
+    }
+    let section = |row: isize| -> f64 {
+        let columns = 1..body.field.columns;
+        columns
+            .map(|column| body.field.node(row, column)[VOLUME])
+            .sum::<f64>()
+            / cell
+    };
+    let means = sums.iter().enumerate().filter(|(_, sum)| sum[0] > 0.0);
+    means
+        .map(|(row, sum)| {
+            let at = first + row as isize;
+            let area = 0.5 * (section(at) + section(at + 1));
+            let [_, position, stress, plastic_strain, strain, temperature] =
+                sum.map(|value| value / sum[0]);
+            ElementState {
+                part,
+                initial_position: position,
+                position,
+                length: cell,
+                stress,
+                strain,
+                plastic_strain,
+                diameter: 2.0 * (area / std::f64::consts::PI).sqrt(),
+                temperature,
+            }
+        })
+        .collect()
+}

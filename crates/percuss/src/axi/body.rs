@@ -1,0 +1,191 @@
+//! A body: its law, its particles in chunks, and its nodes.
+
+use super::{
+    field::{Field, Strip},
+    law::{Law, Work},
+    particle::Particle,
+    transfer::{gather, scatter},
+};
+
+/// Particles that one task takes. It does not depend on the number of threads, so sums come out the same on any.
+pub(super) const CHUNK: usize = 2048;
+
+/// A body with a velocity field of its own.
+#[derive(Debug)]
+pub(super) struct Body {
+    pub(super) law: Law,
+    pub(super) particles: Vec<Particle>,
+    pub(super) strips: Vec<Strip>,
+    pub(super) field: Field,
+    /// Rows of all strips together when the particles were last put in order.
+    pub(super) rows_in_order: usize,
+}
+
+/// What all particles of a step have in common.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pass {
+    pub(super) time_step: f64,
+    pub(super) cell: f64,
+    /// Radius and range of depth beyond which particles are given up [m].
+    pub(super) limits: Limits,
+}
+
+/// Where particles are followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Limits {
+    pub(super) radius: f64,
+    pub(super) back: f64,
+    pub(super) front: f64,
+}
+
+/// Sums over a chunk after a step.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Sums {
+    /// Mass [kg], axial momentum [N s] and kinetic energy [J].
+    pub(super) mass: f64,
+    pub(super) momentum: f64,
+    pub(super) kinetic: f64,
+    /// Work of the step [J].
+    pub(super) work: Work,
+    /// What left the body in the step: particles, their axial momentum and kinetic energy.
+    pub(super) lost: (usize, f64, f64),
+    /// Largest square of a wave speed and of a particle's speed [m2/s2].
+    pub(super) wave_squared: f64,
+    pub(super) speed_squared: f64,
+    /// Whether a number ceased to be one.
+    pub(super) broken: bool,
+}
+
+impl Sums {
+    pub(super) fn add(&mut self, other: &Self) {
+        self.mass += other.mass;
+        self.momentum += other.momentum;
+        self.kinetic += other.kinetic;
+        self.work.total += other.work.total;
+        self.work.plastic += other.work.plastic;
+        self.work.viscous += other.work.viscous;
+        self.work.failure += other.work.failure;
+        self.lost.0 += other.lost.0;
+        self.lost.1 += other.lost.1;
+        self.lost.2 += other.lost.2;
+        self.wave_squared = self.wave_squared.max(other.wave_squared);
+        self.speed_squared = self.speed_squared.max(other.speed_squared);
+        self.broken |= other.broken;
+    }
+}
+
+impl Body {
+    pub(super) fn new(law: Law, particles: Vec<Particle>) -> Self {
+        let chunks = particles.len().div_ceil(CHUNK);
+        Self {
+            law,
+            particles,
+            strips: (0..chunks).map(|_| Strip::default()).collect(),
+            field: Field::default(),
+            rows_in_order: 0,
+        }
+    }
+
+    /// Puts particles in the order of their cells, row by row, and drops those that have left.
+    pub(super) fn put_in_order(&mut self, cell: f64) {
+        let per_cell = 1.0 / cell;
+        self.particles.retain(|particle| particle.mass > 0.0);
+        self.particles.sort_by_cached_key(|particle| {
+            let [radius, depth] = particle.position.map(|x| (x * per_cell).floor() as i64);
+            (depth, radius)
+        });
+        let chunks = self.particles.len().div_ceil(CHUNK);
+        self.strips.resize_with(chunks, Strip::default);
+        self.rows_in_order = 0;
+    }
+
+    /// Whether the chunks have spread so far that putting them in order pays.
+    pub(super) fn is_spread(&mut self) -> bool {
+        let rows: usize = self.strips.iter().map(|strip| strip.rows).sum();
+        if self.rows_in_order == 0 {
+            self.rows_in_order = rows;
+        }
+        rows > self.rows_in_order + self.rows_in_order / 3 + self.strips.len()
+    }
+}
+
+/// Moves and deforms the particles of a chunk; `time_step` 0 leaves them as they are. Then adds them to the chunk's nodes.
+pub(super) fn advance(
+    particles: &mut [Particle],
+    law: &Law,
+    field: &Field,
+    strip: &mut Strip,
+    pass: &Pass,
+) -> Sums {
+    let per_cell = 1.0 / pass.cell;
+    let mut sums = Sums::default();
+    let (mut least, mut most, mut widest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
+    for particle in particles.iter_mut().filter(|particle| particle.mass > 0.0) {
+        if pass.time_step > 0.0 {
+            let work = step(particle, law, field, pass);
+            sums.work.total += work.total;
+            sums.work.plastic += work.plastic;
+            sums.work.viscous += work.viscous;
+            sums.work.failure += work.failure;
+        }
+        let [radius, depth] = particle.position;
+        let kinetic = particle.kinetic_energy(pass.cell);
+        // A comparison with what is no number fails, so this finds those too.
+        if !(kinetic + particle.pressure + depth + radius).is_finite() {
+            sums.broken = true;
+            particle.mass = 0.0;
+            continue;
+        }
+        let eroded = law
+            .erosion_strain
+            .is_some_and(|most| particle.plastic_strain >= most);
+        let limits = &pass.limits;
+        if radius > limits.radius || depth < limits.back || depth > limits.front || eroded {
+            sums.lost.0 += 1;
+            sums.lost.1 += particle.mass * particle.velocity[1];
+            sums.lost.2 += kinetic;
+            particle.mass = 0.0;
+            continue;
+        }
+        least = least.min(depth);
+        most = most.max(depth);
+        widest = widest.max(radius);
+        let [v_r, v_z] = particle.velocity;
+        sums.mass += particle.mass;
+        sums.momentum += particle.mass * v_z;
+        sums.kinetic += kinetic;
+        sums.speed_squared = sums.speed_squared.max(v_r * v_r + v_z * v_z);
+        sums.wave_squared = sums.wave_squared.max(law.wave_speed_squared(particle));
+    }
+    if least > most {
+        strip.open(0, 0, 0);
+        return sums;
+    }
+    let row = |depth: f64| (depth * per_cell - 0.5).floor() as isize;
+    let columns = (widest * per_cell - 0.5).floor() as isize + 4;
+    strip.open(
+        row(least),
+        (row(most) + 3 - row(least)) as usize,
+        columns as usize,
+    );
+    for particle in particles.iter().filter(|particle| particle.mass > 0.0) {
+        scatter(particle, per_cell, law.axisymmetric, strip);
+    }
+    sums
+}
+
+#[inline(always)]
+fn step(particle: &mut Particle, law: &Law, field: &Field, pass: &Pass) -> Work {
+    gather(particle, 1.0 / pass.cell, field);
+    let radius = particle.position[0];
+    let hoop_rate = if law.axisymmetric {
+        particle.velocity[0] / radius
+    } else {
+        0.0
+    };
+    for k in 0..2 {
+        particle.position[k] += pass.time_step * particle.velocity[k];
+    }
+    particle.position[0] = particle.position[0].abs();
+    law.deform(particle, hoop_rate, pass.time_step, pass.cell)
+}

@@ -1,0 +1,111 @@
+//! Surfaces of bodies, read off the nodes: a surface is where a body fills half of a node's cell.
+
+use super::{
+    body::Body,
+    field::{Field, VOLUME, full_volume},
+};
+
+/// Part of the cell at a node of the axis that bodies fill; the axis and the column beside it count together.
+fn axis_filling(fields: &[&Field], row: isize, cell: f64) -> f64 {
+    let volume: f64 = fields
+        .iter()
+        .map(|field| field.node(row, 1)[VOLUME] + field.node(row, 2)[VOLUME])
+        .sum();
+    let full = 2.0 * std::f64::consts::PI * cell.powi(3) * (full_volume(1) + full_volume(2));
+    volume / full
+}
+
+/// Range of rows of all fields together.
+fn rows(fields: &[&Field]) -> std::ops::Range<isize> {
+    let first = fields.iter().map(|field| field.first_row).min();
+    let end = fields.iter().map(|f| f.first_row + f.rows as isize).max();
+    first.unwrap_or(0)..end.unwrap_or(0)
+}
+
+/// Where the filling of the axis passes one half on the way from `full` to `empty`, both rows beside each other.
+fn crossing(full: (isize, f64), empty: (isize, f64), cell: f64) -> f64 {
+    let part = (full.1 - 0.5) / (full.1 - empty.1);
+    (full.0 as f64 + part * (empty.0 - full.0) as f64) * cell
+}
+
+/// Depth of the crater floor on the axis [m]: the first surface that one meets from behind the target's deepest material on the
+/// axis; `None` when there is no material on the axis.
+pub(super) fn floor(targets: &[Body], cell: f64) -> Option<f64> {
+    let fields: Vec<&Field> = targets.iter().map(|body| &body.field).collect();
+    let mut below: Option<(isize, f64)> = None;
+    for row in rows(&fields).rev() {
+        let here = (row, axis_filling(&fields, row, cell));
+        match below {
+            Some(full) if here.1 < 0.5 => return Some(crossing(full, here, cell)),
+            Some(_) => below = Some(here),
+            None => below = (here.1 >= 0.5).then_some(here),
+        }
+    }
+    // Material up to the last row: the window of nodes ends where the weights of particles do.
+    below.map(|(row, _)| row as f64 * cell)
+}
+
+/// Tail and tip of a body on the axis [m].
+pub(super) fn ends(body: &Body, cell: f64) -> Option<(f64, f64)> {
+    let fields = [&body.field];
+    let full = |row: &isize| axis_filling(&fields, *row, cell) >= 0.5;
+    let tail = rows(&fields).find(full)?;
+    let tip = rows(&fields).rev().find(full)?;
+    let at = |row: isize| (row, axis_filling(&fields, row, cell));
+    Some((
+        crossing(at(tail), at(tail - 1), cell),
+        crossing(at(tip), at(tip + 1), cell),
+    ))
+}
+
+/// Axial velocity at the node of the axis that is nearest to a depth [m/s].
+pub(super) fn axis_velocity(body: &Body, depth: f64, cell: f64) -> f64 {
+    let row = (depth / cell).round() as isize;
+    body.field
+        .index(row, 1)
+        .map_or(0.0, |index| body.field.velocity[index][1])
+}
+
+/// Profile of the crater: radius and depth of the floor at every column of nodes, where material is left [m].
+pub(super) fn profile(targets: &[Body], cell: f64) -> Vec<[f64; 2]> {
+    let fields: Vec<&Field> = targets.iter().map(|body| &body.field).collect();
+    let columns = fields.iter().map(|field| field.columns).max().unwrap_or(0);
+    let ring = 2.0 * std::f64::consts::PI * cell.powi(3);
+    let mut profile: Vec<[f64; 2]> = floor(targets, cell)
+        .map(|depth| [0.0, depth])
+        .into_iter()
+        .collect();
+    for column in 2..columns {
+        let filling = |row: isize| -> f64 {
+            let volume: f64 = fields
+                .iter()
+                .map(|field| field.node(row, column)[VOLUME])
+                .sum();
+            volume / (ring * full_volume(column))
+        };
+        let mut below: Option<(isize, f64)> = None;
+        for row in rows(&fields).rev() {
+            let here = (row, filling(row));
+            match below {
+                Some(full) if here.1 < 0.5 => {
+                    profile.push([(column - 1) as f64 * cell, crossing(full, here, cell)]);
+                    break;
+                }
+                Some(_) => below = Some(here),
+                None => below = (here.1 >= 0.5).then_some(here),
+            }
+        }
+    }
+    profile
+}
+
+/// Largest radius of a body [m]: that of its outermost particle and half of what the particle is wide.
+pub(super) fn largest_radius(body: &Body) -> f64 {
+    let edge = |particle: &super::Particle| {
+        let radius = particle.position[0];
+        let section = particle.volume / (2.0 * std::f64::consts::PI * radius);
+        radius + 0.5 * section.sqrt()
+    };
+    let present = body.particles.iter().filter(|particle| particle.mass > 0.0);
+    present.map(edge).fold(0.0, f64::max)
+}

@@ -1,0 +1,82 @@
+//! Nodes of one body: masses, momenta and forces come in from particles, velocities go back.
+
+/// What particles add to a node: mass [kg], momentum radial and axial [kg m/s], volume [m3], force radial and axial [N].
+pub(super) type Node = [f64; 6];
+
+pub(super) const MASS: usize = 0;
+pub(super) const MOMENTUM: usize = 1;
+pub(super) const VOLUME: usize = 3;
+pub(super) const FORCE: usize = 4;
+
+/// Rows of nodes that particles of one chunk reach. Column 0 is the mirror image of column 2 in the axis, which is column 1.
+#[derive(Debug, Default)]
+pub(super) struct Strip {
+    pub(super) first_row: isize,
+    pub(super) rows: usize,
+    pub(super) columns: usize,
+    pub(super) nodes: Vec<Node>,
+}
+
+impl Strip {
+    /// Clears the strip for a range of rows.
+    pub(super) fn open(&mut self, first_row: isize, rows: usize, columns: usize) {
+        self.first_row = first_row;
+        self.rows = rows;
+        self.columns = columns;
+        self.nodes.clear();
+        self.nodes.resize(rows * columns, [0.0; 6]);
+    }
+
+    /// Nodes of a row, if the strip has it.
+    pub(super) fn row(&self, row: isize) -> Option<&[Node]> {
+        let index = usize::try_from(row - self.first_row).ok()?;
+        (index < self.rows).then(|| &self.nodes[index * self.columns..(index + 1) * self.columns])
+    }
+}
+
+/// Nodes of a body after the particles of all its chunks have been added up.
+#[derive(Debug, Default)]
+pub(super) struct Field {
+    pub(super) first_row: isize,
+    pub(super) rows: usize,
+    pub(super) columns: usize,
+    pub(super) nodes: Vec<Node>,
+    pub(super) velocity: Vec<[f64; 2]>,
+}
+
+impl Field {
+    /// Makes the window as large as the strips.
+    pub(super) fn cover(&mut self, strips: &[Strip]) {
+        let first = strips.iter().map(|strip| strip.first_row).min();
+        let last = strips.iter().map(|s| s.first_row + s.rows as isize).max();
+        let (first, last) = (first.unwrap_or(0), last.unwrap_or(0));
+        self.first_row = first;
+        self.rows = (last - first) as usize;
+        self.columns = strips.iter().map(|s| s.columns).max().unwrap_or(0);
+        self.nodes.resize(self.rows * self.columns, [0.0; 6]);
+        self.velocity.resize(self.rows * self.columns, [0.0; 2]);
+    }
+
+    /// Index of a node: its column is counted with the mirrored one, its row from the struck face.
+    pub(super) fn index(&self, row: isize, column: usize) -> Option<usize> {
+        let row = usize::try_from(row - self.first_row).ok()?;
+        (row < self.rows && column < self.columns).then(|| row * self.columns + column)
+    }
+
+    /// The node, or an empty one outside the window.
+    pub(super) fn node(&self, row: isize, column: usize) -> Node {
+        self.index(row, column)
+            .map_or([0.0; 6], |index| self.nodes[index])
+    }
+}
+
+/// Volume of the cell around a node of a column that is full of material, over `2π h³`: the integral of its kernel. Columns are
+/// counted with the mirrored one: column 1 is the axis.
+pub(super) fn full_volume(column: usize) -> f64 {
+    match column {
+        0 => 0.0,
+        1 => 13.0 / 64.0,
+        2 => 1.0 + 1.0 / 192.0,
+        _ => (column - 1) as f64,
+    }
+}

@@ -1,0 +1,47 @@
+//! Quadratic B-splines: how a particle and the nodes around it see each other.
+
+/// The nodes that a particle reaches along one direction, with their weights.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stencil {
+    /// Index of the first of three nodes.
+    pub(super) first: isize,
+    /// Weights of the three.
+    pub(super) weights: [f64; 3],
+    /// From the particle to the first node, in cells.
+    pub(super) offset: f64,
+}
+
+impl Stencil {
+    /// Stencil of a particle at a place counted in cells.
+    #[inline(always)]
+    pub(super) fn at(place: f64) -> Self {
+        let first = (place - 0.5).floor();
+        let from_first = place - first;
+        let (a, b, c) = (1.5 - from_first, from_first - 1.0, from_first - 0.5);
+        Self {
+            first: first as isize,
+            weights: [0.5 * a * a, 0.75 - b * b, 0.5 * c * c],
+            offset: -from_first,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_weights_reproduce_constant_and_linear_fields_and_the_second_moment_is_a_quarter() {
+        for place in [-0.9, 0.0, 0.25, 0.5, 0.99, 7.5, 123.456] {
+            let stencil = Stencil::at(place);
+            let moment = |power: i32| -> f64 {
+                let distances = (0..3).map(|n| stencil.offset + n as f64);
+                let weighted = distances.zip(stencil.weights);
+                weighted.map(|(x, weight)| weight * x.powi(power)).sum()
+            };
+            assert!((moment(0) - 1.0).abs() < 1e-14);
+            assert!(moment(1).abs() < 1e-13);
+            assert!((moment(2) - 0.25).abs() < 1e-13);
+        }
+    }
+}

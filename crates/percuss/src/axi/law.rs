@@ -1,0 +1,242 @@
+//! What a body is made of, and how its particles answer to a velocity gradient.
+
+use super::particle::{Particle, equivalent};
+use crate::{
+    case::ArtificialViscosity,
+    fdm::{StateEquation, plastic_return},
+    material::{FlowState, PreparedStrength},
+};
+
+/// Pressure against volume and energy.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Pressure {
+    /// `p = K (ρ/ρ₀ − 1)`.
+    Linear,
+    /// Mie–Grüneisen about the linear Hugoniot.
+    MieGruneisen(StateEquation),
+}
+
+/// The constants of a body.
+#[derive(Debug)]
+pub(super) struct Law {
+    pub(super) density: f64,
+    pub(super) shear_modulus: f64,
+    pub(super) bulk_modulus: f64,
+    pub(super) pressure: Pressure,
+    pub(super) strength: Box<dyn PreparedStrength>,
+    pub(super) rate_effects: bool,
+    /// Temperature rise per plastic work per mass [K kg/J]; 0 without heating.
+    pub(super) heating: f64,
+    pub(super) viscosity: ArtificialViscosity,
+    /// Tension beyond which a particle spalls [Pa].
+    pub(super) spall_strength: Option<f64>,
+    /// Equivalent plastic strain at which a particle fails.
+    pub(super) failure_strain: Option<f64>,
+    /// Equivalent plastic strain at which a particle leaves the body.
+    pub(super) erosion_strain: Option<f64>,
+    /// Off only in plane strain, which some exact checks need.
+    pub(super) axisymmetric: bool,
+}
+
+/// What a step did in a particle [J].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Work {
+    pub(super) total: f64,
+    pub(super) plastic: f64,
+    pub(super) viscous: f64,
+    pub(super) failure: f64,
+}
+
+impl Law {
+    /// Slow flow stress of a particle [Pa].
+    pub(super) fn slow_flow_stress(&self, particle: &Particle) -> f64 {
+        self.strength.flow_stress(&flow_state(particle)).stress
+    }
+
+    /// Square of the speed of longitudinal waves [m2/s2].
+    #[inline(always)]
+    pub(super) fn wave_speed_squared(&self, particle: &Particle) -> f64 {
+        let shear = 4.0 / 3.0 * self.shear_modulus;
+        let volume = particle.volume / particle.mass;
+        match &self.pressure {
+            // dp/dρ is K/ρ₀ at any density.
+            Pressure::Linear => self.bulk_modulus / self.density + shear * volume,
+            Pressure::MieGruneisen(state) => {
+                state.sound_speed_squared(volume, particle.pressure) + shear * volume
+            }
+        }
+    }
+
+    /// Brings a particle, whose velocity gradient is new, to the end of a step.
+    #[inline(always)]
+    pub(super) fn deform(
+        &self,
+        particle: &mut Particle,
+        hoop_rate: f64,
+        time_step: f64,
+        cell: f64,
+    ) -> Work {
+        let [rr, rz, zr, zz] = particle.gradient;
+        let expansion = rr + zz + hoop_rate;
+        let before = particle.deviator;
+        let pressure_before = particle.pressure;
+        let volume_before = particle.volume;
+        // (1 + x/2)/(1 − x/2) is the exponential to third order and reversible.
+        let half = 0.5 * time_step * expansion;
+        particle.volume *= (1.0 + half) / (1.0 - half);
+        let third = expansion / 3.0;
+        let rate = [rr - third, zz - third, 0.5 * (rz + zr)];
+        let mut trial = turned(before, 0.5 * (rz - zr) * time_step);
+        let stiffness = 2.0 * self.shear_modulus * time_step;
+        for k in 0..3 {
+            trial[k] += stiffness * rate[k];
+        }
+        let size = equivalent(&trial);
+        let mean_volume = 0.5 * (volume_before + particle.volume);
+        let mut work = Work::default();
+        particle.plastic_step = 0.0;
+        let flow_before = particle.flow_stress;
+        if size > particle.flow_stress {
+            self.flow(particle, &mut trial, size, time_step);
+            let mean = 0.5 * (flow_before.min(equivalent(&trial)) + equivalent(&trial));
+            work.plastic = mean * particle.plastic_step * mean_volume;
+        }
+        particle.deviator = trial;
+        let shear_power = {
+            let mean: [f64; 3] = std::array::from_fn(|k| 0.5 * (before[k] + trial[k]));
+            mean[0] * (rate[0] + rate[0] + rate[1])
+                + mean[1] * (rate[1] + rate[1] + rate[0])
+                + 2.0 * mean[2] * rate[2]
+        };
+        let shear_work = mean_volume * time_step * shear_power;
+        let approach = -cell * expansion;
+        particle.viscous_pressure = if approach > 0.0 {
+            let sound = self.wave_speed_squared(particle).sqrt();
+            particle.mass / particle.volume
+                * approach
+                * (self.viscosity.quadratic * approach + self.viscosity.linear * sound)
+        } else {
+            0.0
+        };
+        let change = particle.volume - volume_before;
+        work.viscous = -particle.viscous_pressure * change;
+        let volume_work =
+            self.compress(particle, pressure_before, change, shear_work + work.viscous);
+        particle.temperature += self.heating * (work.plastic + work.viscous) / particle.mass;
+        work.total = shear_work + volume_work + work.viscous;
+        if particle.plastic_step > 0.0 || self.strength.depends_on_pressure() {
+            particle.flow_stress = self.slow_flow_stress(particle) * (1.0 - particle.damage);
+        }
+        self.fail(particle, &mut work);
+        work
+    }
+
+    /// New pressure and energy; gives the work of the pressure [J].
+    #[inline(always)]
+    fn compress(&self, particle: &mut Particle, before: f64, change: f64, other_work: f64) -> f64 {
+        match &self.pressure {
+            Pressure::Linear => {
+                let density = particle.mass / particle.volume;
+                particle.pressure =
+                    whole(particle, self.bulk_modulus * (density / self.density - 1.0));
+                let work = -0.5 * (before + particle.pressure) * change;
+                particle.energy += (work + other_work) / particle.mass;
+                work
+            }
+            Pressure::MieGruneisen(state) => {
+                // The pressure is linear in the energy, so the energy that takes half the new pressure's work is explicit.
+                let (cold, slope) = state.coefficients(particle.volume / particle.mass);
+                let specific = change / particle.mass;
+                let known =
+                    particle.energy + other_work / particle.mass - 0.5 * (before + cold) * specific;
+                particle.energy = known / (1.0 + 0.5 * slope * specific);
+                particle.pressure = whole(particle, cold + slope * particle.energy);
+                -0.5 * (before + particle.pressure) * change
+            }
+        }
+    }
+
+    /// Returns a trial deviator to the yield surface, radially.
+    #[inline]
+    fn flow(&self, particle: &mut Particle, trial: &mut [f64; 3], size: f64, time_step: f64) {
+        let found = plastic_return(
+            &*self.strength,
+            &flow_state(particle),
+            particle.flow_stress,
+            size,
+            3.0 * self.shear_modulus,
+            self.rate_effects.then_some(time_step),
+        );
+        let scale = found.stress / size;
+        for entry in trial.iter_mut() {
+            *entry *= scale;
+        }
+        particle.plastic_step = found.increment;
+        particle.plastic_strain += found.increment;
+    }
+
+    /// Failure in shear and in tension: what a failed particle gives up counts as failure work.
+    #[inline(always)]
+    fn fail(&self, particle: &mut Particle, work: &mut Work) {
+        let sheared = self
+            .failure_strain
+            .is_some_and(|most| particle.plastic_strain >= most);
+        let torn = self
+            .spall_strength
+            .is_some_and(|most| particle.pressure < 0.0 && particle.largest_tension() > most);
+        if particle.damage > 0.0 || !(sheared || torn) {
+            return;
+        }
+        let shear = equivalent(&particle.deviator);
+        let stretch = particle.pressure.min(0.0);
+        let per_volume = shear * shear / (6.0 * self.shear_modulus)
+            + stretch * stretch / (2.0 * self.bulk_modulus);
+        work.failure += per_volume * particle.volume;
+        particle.damage = 1.0;
+        particle.flow_stress = 0.0;
+        particle.deviator = [0.0; 3];
+        particle.pressure = particle.pressure.max(0.0);
+    }
+}
+
+/// A pressure that the particle can bear: no tension when it has failed.
+#[inline(always)]
+fn whole(particle: &Particle, pressure: f64) -> f64 {
+    if particle.damage > 0.0 {
+        pressure.max(0.0)
+    } else {
+        pressure
+    }
+}
+
+impl Particle {
+    /// Largest principal stress [Pa].
+    fn largest_tension(&self) -> f64 {
+        let [rr, zz, rz] = self.deviator;
+        let in_plane = 0.5 * (rr + zz) + (0.25 * (rr - zz) * (rr - zz) + rz * rz).sqrt();
+        in_plane.max(self.hoop_deviator()) - self.pressure
+    }
+}
+
+fn flow_state(particle: &Particle) -> FlowState {
+    FlowState {
+        plastic_strain: particle.plastic_strain,
+        strain_rate: 0.0,
+        temperature: particle.temperature,
+        pressure: particle.pressure,
+    }
+}
+
+/// A deviator `[rr, zz, rz]` turned by an angle, with the rotation of the midpoint rule, which is exact in its invariants.
+#[inline(always)]
+fn turned([rr, zz, rz]: [f64; 3], angle: f64) -> [f64; 3] {
+    let half = 0.5 * angle;
+    let scale = 1.0 / (1.0 + half * half);
+    let (cosine, sine) = ((1.0 - half * half) * scale, 2.0 * half * scale);
+    let (cc, ss, cs) = (cosine * cosine, sine * sine, cosine * sine);
+    [
+        cc * rr + ss * zz + 2.0 * cs * rz,
+        ss * rr + cc * zz - 2.0 * cs * rz,
+        (cc - ss) * rz + cs * (zz - rr),
+    ]
+}

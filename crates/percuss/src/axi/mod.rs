@@ -1,0 +1,78 @@
+//! Model `axi`: axisymmetric continuum mechanics by the material point method, the reference of the one-dimensional models.
+
+mod axial;
+mod body;
+mod books;
+mod boundary;
+mod contact;
+mod crater;
+mod field;
+mod kernel;
+mod law;
+mod options;
+mod particle;
+mod results;
+mod run;
+mod setup;
+mod solver;
+mod transfer;
+mod warnings;
+mod watch;
+
+pub use options::{AxiOptions, ContactKind, Edge, Eos};
+pub use particle::Particle;
+
+use crate::{
+    Error, Scenario,
+    guard::Guard,
+    model::{Control, Model},
+    outcome::RunResult,
+    regime::TargetKind,
+};
+
+/// Axisymmetric material point method.
+#[derive(Debug, Clone, Copy)]
+pub struct Axi;
+
+impl Model for Axi {
+    fn name(&self) -> &'static str {
+        "axi"
+    }
+
+    fn summary(&self) -> &'static str {
+        "axisymmetric reference: large deformation by the material point method"
+    }
+
+    fn guard(&self) -> &'static Guard {
+        const {
+            &Guard {
+                targets: &[
+                    TargetKind::SemiInfinite,
+                    TargetKind::ThickPlate,
+                    TargetKind::Plate,
+                    TargetKind::ThinPlate,
+                    TargetKind::Layered,
+                    TargetKind::RigidWall,
+                ],
+                start_temperature: true,
+                notes: &[
+                    "normal impact of a body of revolution",
+                    "minutes rather than seconds: it runs only when asked for by name",
+                ],
+                ..Guard::OPEN
+            }
+        }
+    }
+
+    fn is_slow(&self) -> bool {
+        true
+    }
+
+    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+        run::not_applicable(scenario)
+    }
+
+    fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
+        run::Run::new(scenario).run(control)
+    }
+}

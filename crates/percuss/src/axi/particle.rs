@@ -1,0 +1,67 @@
+//! A material point: a ring of material about the axis.
+
+use serde::{Deserialize, Serialize};
+
+/// A material point. Vectors are radial and axial, the axis along the shot; stresses are positive in tension, pressures in
+/// compression.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Particle {
+    /// Radius and depth [m].
+    pub position: [f64; 2],
+    /// Velocity [m/s].
+    pub velocity: [f64; 2],
+    /// Velocity gradient `[∂v_r/∂r, ∂v_r/∂z, ∂v_z/∂r, ∂v_z/∂z]` [1/s].
+    pub gradient: [f64; 4],
+    /// Stress deviator `[rr, zz, rz]` [Pa]; that of the hoop makes the trace vanish.
+    pub deviator: [f64; 3],
+    /// Pressure, artificial viscosity left out [Pa].
+    pub pressure: f64,
+    /// Artificial viscosity [Pa].
+    pub viscous_pressure: f64,
+    /// Mass of the whole ring [kg]; 0 once it has left the body.
+    pub mass: f64,
+    /// Volume of the whole ring [m3].
+    pub volume: f64,
+    /// Equivalent plastic strain.
+    pub plastic_strain: f64,
+    /// Increment of it in the last step.
+    pub plastic_step: f64,
+    /// Slow flow stress [Pa].
+    pub flow_stress: f64,
+    /// Temperature [K].
+    pub temperature: f64,
+    /// Internal energy per mass, 0 at rest [J/kg].
+    pub energy: f64,
+    /// Damage: 0 sound, 1 without strength in shear and tension.
+    pub damage: f64,
+}
+
+impl Particle {
+    /// Deviatoric hoop stress [Pa].
+    #[inline(always)]
+    pub(super) fn hoop_deviator(&self) -> f64 {
+        -self.deviator[0] - self.deviator[1]
+    }
+
+    /// Equivalent stress of von Mises [Pa].
+    #[inline(always)]
+    pub fn equivalent_stress(&self) -> f64 {
+        equivalent(&self.deviator)
+    }
+
+    /// Kinetic energy, that of the velocity gradient within the particle's kernel included [J].
+    #[inline(always)]
+    pub(super) fn kinetic_energy(&self, cell: f64) -> f64 {
+        let [r, z] = self.velocity;
+        let affine: f64 = self.gradient.iter().map(|entry| entry * entry).sum();
+        0.5 * self.mass * (r * r + z * z + 0.25 * cell * cell * affine)
+    }
+}
+
+/// Equivalent stress of von Mises of a deviator `[rr, zz, rz]` [Pa].
+#[inline(always)]
+pub(super) fn equivalent(deviator: &[f64; 3]) -> f64 {
+    let [rr, zz, rz] = *deviator;
+    // 3/2 s:s with the hoop stress −rr − zz.
+    (3.0 * (rr * rr + zz * zz + rr * zz + rz * rz)).sqrt()
+}

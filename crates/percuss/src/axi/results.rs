@@ -1,0 +1,137 @@
+//! From the state at the end of a run to its result.
+
+use super::{crater, particle::Particle, run::Run, setup::extent};
+use crate::{
+    history::Recorder,
+    outcome::{Detail, Numerics, RunResult, Termination},
+    scenario::TargetBody,
+};
+
+pub(super) fn sum_up(
+    run: &Run<'_>,
+    termination: Termination,
+    recorder: Option<Recorder>,
+) -> RunResult {
+    let (scenario, solver, watch) = (run.scenario, &run.solver, &run.watch);
+    let outcome = watch.outcome(termination, solver, scenario.impact_speed);
+    let mut result = RunResult::new("axi", "material-point", outcome, termination);
+    let solid = matches!(scenario.target, TargetBody::Layers { .. });
+    let rod = &solver.bodies[0];
+    let sums = &solver.sums[0];
+    if solid {
+        let depth = watch
+            .at_rest
+            .map_or(watch.largest_depth, |(_, depth)| depth.max(0.0));
+        result.depth_of_penetration = Some(depth);
+        result.largest_depth = Some(watch.largest_depth);
+        result.permanent_depth = Some(watch.depth.max(0.0));
+    }
+    result.residual_velocity = Some(if sums.mass > 0.0 {
+        sums.momentum / sums.mass
+    } else {
+        0.0
+    });
+    result.projectile_final_length = crater::ends(rod, solver.cell).map(|(tail, tip)| tip - tail);
+    result.projectile_final_diameter = (sums.mass > 0.0).then(|| 2.0 * crater::largest_radius(rod));
+    result.projectile_final_mass = Some(sums.mass);
+    result.time_to_rest = watch.at_rest.map(|(time, _)| time);
+    result.peak_force = Some(watch.peak_force);
+    result.end_time = Some(solver.time);
+    result.details = details(run);
+    let most = |target: bool, value: fn(&Particle) -> f64| {
+        let bodies = solver
+            .bodies
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| (*index > 0) == target);
+        bodies
+            .flat_map(|(_, body)| &body.particles)
+            .map(value)
+            .fold(0.0, f64::max)
+    };
+    let particles = |target: bool| {
+        let bodies = solver
+            .bodies
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| (*index > 0) == target);
+        let lost = solver.books.lost[usize::from(target)];
+        let present =
+            |body: &super::body::Body| body.particles.iter().filter(|p| p.mass > 0.0).count();
+        lost + bodies.map(|(_, body)| present(body)).sum::<usize>()
+    };
+    result.numerics = Some(Numerics {
+        steps: solver.step,
+        first_time_step: watch.first_time_step,
+        smallest_time_step: watch.smallest_time_step,
+        elements: (particles(false), particles(true)),
+        eroded_elements: (solver.books.lost[0], solver.books.lost[1]),
+        largest_plastic_strain: (
+            most(false, |p| p.plastic_strain),
+            most(true, |p| p.plastic_strain),
+        ),
+        largest_temperature: (
+            most(false, |p| p.temperature),
+            most(true, |p| p.temperature),
+        ),
+        energy: solver.energy(),
+        momentum: solver.momentum(),
+        energy_residual: watch.energy_residual,
+        momentum_residual: watch.momentum_residual,
+    });
+    result.history = recorder.map(|recorder| {
+        recorder.finish(
+            super::axial::sample(solver, watch),
+            super::axial::profile(solver),
+        )
+    });
+    result.warnings = super::warnings::warnings(run, &result);
+    result
+}
+
+fn details(run: &Run<'_>) -> Vec<Detail> {
+    let solver = &run.solver;
+    let mut details = vec![Detail {
+        name: "cell size",
+        unit: "mm",
+        value: solver.cell * 1e3,
+    }];
+    let Some(extent) = extent(run.scenario) else {
+        return details;
+    };
+    let crater = crater::profile(&solver.bodies[1..], solver.cell);
+    let mouth = crater
+        .iter()
+        .filter(|[_, depth]| *depth > 0.0)
+        .map(|[radius, _]| *radius);
+    let volume: f64 = crater
+        .windows(2)
+        .map(|pair| {
+            let depth = 0.5 * (pair[0][1] + pair[1][1]).max(0.0);
+            std::f64::consts::PI * (pair[1][0].powi(2) - pair[0][0].powi(2)) * depth
+        })
+        .sum();
+    details.extend([
+        Detail {
+            name: "modelled target radius",
+            unit: "mm",
+            value: extent.radius * 1e3,
+        },
+        Detail {
+            name: "modelled target depth",
+            unit: "mm",
+            value: extent.layers.iter().sum::<f64>() * 1e3,
+        },
+        Detail {
+            name: "crater diameter at the original face",
+            unit: "mm",
+            value: 2e3 * mouth.fold(0.0, f64::max),
+        },
+        Detail {
+            name: "crater volume below the original face",
+            unit: "mm3",
+            value: volume * 1e9,
+        },
+    ]);
+    details
+}

@@ -1,0 +1,173 @@
+//! Runs a case to its end.
+
+use super::{
+    axial,
+    options::Eos,
+    results::sum_up,
+    setup::{build, extent},
+    solver::Solver,
+    watch::Watch,
+};
+use crate::{
+    Error, Scenario,
+    error::NumericalError,
+    history::Recorder,
+    model::{Control, Progress},
+    outcome::{RunResult, Termination},
+    scenario::TargetBody,
+};
+
+/// Steps between two looks at the books and reports of progress.
+const AUDIT_INTERVAL: u64 = 10;
+/// Largest part of the initial energy that may stay without an account.
+pub const ENERGY_TOLERANCE: f64 = 1e-2;
+/// Largest part of the initial momentum that may stay without an account.
+pub const MOMENTUM_TOLERANCE: f64 = 1e-9;
+
+/// A case in progress.
+#[derive(Debug)]
+pub(super) struct Run<'a> {
+    pub(super) scenario: &'a Scenario,
+    pub(super) solver: Solver,
+    pub(super) watch: Watch,
+}
+
+/// Why a case that the guard lets pass gets no number, if it does not.
+pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
+    let TargetBody::Layers { layers, .. } = &scenario.target else {
+        return None;
+    };
+    if scenario.options.axi.equation_of_state != Some(Eos::MieGruneisen) {
+        return None;
+    }
+    let materials = layers
+        .iter()
+        .map(|layer| (&layer.material, &layer.material_id));
+    let rod = (
+        &scenario.projectile.material,
+        &scenario.projectile.material_id,
+    );
+    let mut missing = materials
+        .chain([rod])
+        .filter(|(m, _)| m.equation_of_state.is_none());
+    missing.next().map(|(_, id)| {
+        format!(
+            "`axi.equation_of_state = \"mie-gruneisen\"` needs an equation of state, and the material `{id}` has none"
+        )
+    })
+}
+
+impl<'a> Run<'a> {
+    pub(super) fn new(scenario: &'a Scenario) -> Self {
+        Self {
+            scenario,
+            solver: build(scenario),
+            watch: Watch::default(),
+        }
+    }
+
+    pub(super) fn run(mut self, control: &mut Control<'_>) -> Result<RunResult, Error> {
+        let options = &self.scenario.options.axi;
+        let end_time = options
+            .end_time
+            .map_or_else(|| self.longest(), |time| time.si());
+        let max_steps = options.max_steps.unwrap_or(20_000_000);
+        let thickness = self.scenario.target_thickness();
+        let mut recorder = control.record.then(Recorder::new);
+        let termination = loop {
+            if self.scenario.impact_speed == 0.0 {
+                break Termination::NothingMoves;
+            }
+            if !self.solver.advance() {
+                return Err(self
+                    .broken("a particle's state is no number", "reduce `axi.courant`")
+                    .into());
+            }
+            self.watch.follow(&self.solver, thickness);
+            if let Some(recorder) = &mut recorder {
+                if recorder.wants_sample(self.solver.step) {
+                    recorder.sample(axial::sample(&self.solver, &self.watch));
+                }
+                if recorder.wants_profile(self.solver.step) {
+                    recorder.profile(axial::profile(&self.solver));
+                }
+            }
+            if self.solver.step.is_multiple_of(AUDIT_INTERVAL) {
+                self.audit()?;
+                control.report(self.progress(end_time))?;
+            }
+            if let Some(termination) = self.watch.end(&self.solver, self.scenario) {
+                break termination;
+            }
+            if self.solver.time >= end_time {
+                break Termination::EndTime;
+            }
+            if self.solver.step >= max_steps {
+                break Termination::StepLimit;
+            }
+        };
+        self.audit()?;
+        Ok(sum_up(&self, termination, recorder))
+    }
+
+    /// Whether the books balance.
+    fn audit(&self) -> Result<(), Error> {
+        if self.watch.energy_residual > ENERGY_TOLERANCE {
+            let what = format!(
+                "{:.2} % of the energy is without an account",
+                100.0 * self.watch.energy_residual
+            );
+            return Err(self.broken(&what, "reduce `axi.courant`").into());
+        }
+        if self.watch.momentum_residual > MOMENTUM_TOLERANCE {
+            let what = format!(
+                "a part {:.1e} of the momentum is without an account",
+                self.watch.momentum_residual
+            );
+            return Err(self
+                .broken(
+                    &what,
+                    "please report the case: momentum is kept to rounding",
+                )
+                .into());
+        }
+        Ok(())
+    }
+
+    fn broken(&self, what: &str, remedy: &str) -> NumericalError {
+        NumericalError {
+            what: what.to_owned(),
+            step: self.solver.step,
+            time_us: self.solver.time * 1e6,
+            element: None,
+            remedy: remedy.to_owned(),
+        }
+    }
+
+    /// Time at which a run without an `end_time` gives up: many times what waves and the shot itself take.
+    fn longest(&self) -> f64 {
+        let rod = &self.scenario.projectile;
+        let speed = self.scenario.impact_speed.max(1.0);
+        let path =
+            rod.length + extent(self.scenario).map_or(0.0, |extent| extent.layers.iter().sum());
+        20.0 * (2.0 * path / rod.material.bar_wave_speed() + 2.0 * path / speed)
+    }
+
+    fn progress(&self, end_time: f64) -> Progress {
+        let projectile = &self.solver.sums[0];
+        let speed = if projectile.mass > 0.0 {
+            projectile.momentum / projectile.mass
+        } else {
+            0.0
+        };
+        let slowed = 1.0 - speed / self.scenario.impact_speed;
+        Progress {
+            step: self.solver.step,
+            time: self.solver.time,
+            fraction: (self.solver.time / end_time)
+                .max(0.95 * slowed)
+                .clamp(0.0, 1.0),
+            depth: self.watch.largest_depth,
+        }
+    }
+}

@@ -1,0 +1,351 @@
+//! From a case to bodies of particles.
+
+use std::f64::consts::PI;
+
+use super::{
+    body::{Body, Limits},
+    boundary::{Support, Supports},
+    contact::Contact,
+    law::{Law, Pressure},
+    options::{ContactKind, Edge, Eos},
+    particle::Particle,
+    solver::{Books, Pending, Solver},
+};
+use crate::{
+    Scenario,
+    case::{BackFace, Nose},
+    fdm::StateEquation,
+    material::Material,
+    scenario::{Plate, Rod, TargetBody},
+};
+
+/// Radii of the projectile that a target is modelled out to, and below the depth that the shot is expected to reach.
+const MARGIN: f64 = 10.0;
+
+/// Part of a target that is modelled.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Extent {
+    /// Radius [m].
+    pub(super) radius: f64,
+    /// Thickness of each layer that is modelled [m].
+    pub(super) layers: Vec<f64>,
+    /// Whether the last layer goes on behind what is modelled.
+    pub(super) cut: bool,
+}
+
+/// Side of a cell [m].
+pub(super) fn cell(scenario: &Scenario) -> f64 {
+    0.5 * scenario.projectile.diameter / f64::from(scenario.options.axi.cells_per_radius())
+}
+
+/// Part of the target that is modelled; `None` for a rigid wall.
+pub(super) fn extent(scenario: &Scenario) -> Option<Extent> {
+    let TargetBody::Layers { layers, .. } = &scenario.target else {
+        return None;
+    };
+    let options = &scenario.options.axi;
+    let reach = MARGIN * 0.5 * scenario.projectile.diameter;
+    let needed = options.target_depth.map_or_else(
+        || reach + expected_depth(scenario, layers),
+        |depth| depth.si(),
+    );
+    let total = scenario.target_thickness();
+    // A little more than needed is modelled whole: the back face is then the case's own.
+    let slack = if options.target_depth.is_some() {
+        1.0
+    } else {
+        1.5
+    };
+    let cut = total.is_none_or(|total| total > slack * needed);
+    let mut left = if cut { needed } else { f64::INFINITY };
+    let mut modelled = Vec::new();
+    for plate in layers {
+        let thickness = plate.thickness.unwrap_or(f64::INFINITY).min(left);
+        left -= thickness;
+        if thickness > 0.0 {
+            modelled.push(thickness);
+        }
+    }
+    Some(Extent {
+        radius: options.target_radius.map_or(reach, |radius| radius.si()),
+        layers: modelled,
+        cut,
+    })
+}
+
+/// Depth for sizing only: the energy of the shot against three times the target's flow stress over the rod's area, and no more
+/// than a jet of no strength would reach.
+fn expected_depth(scenario: &Scenario, layers: &[Plate]) -> f64 {
+    let rod = &scenario.projectile;
+    let target = &layers[layers.len() - 1].material;
+    let density = rod.material.density.si();
+    let jet = 1.2 * rod.length * (density / target.density.si()).sqrt();
+    let kinetic = 0.5 * density * scenario.impact_speed.powi(2) * rod.length;
+    match target.flow_stress(0.2) {
+        Some(stress) => jet.min(kinetic / (3.0 * stress)),
+        None => jet,
+    }
+}
+
+fn law(material: &Material, scenario: &Scenario) -> Law {
+    let options = &scenario.options.axi;
+    let heated = options.adiabatic_heating.unwrap_or(true);
+    let fraction = if heated {
+        options.heat_fraction.unwrap_or(0.9)
+    } else {
+        0.0
+    };
+    let state = match options.equation_of_state.unwrap_or_default() {
+        Eos::Linear => None,
+        Eos::MieGruneisen => StateEquation::of(material),
+    };
+    let bulk_modulus = material.bulk_modulus();
+    let spall = options.spall.unwrap_or(options.spall_strength.is_some());
+    Law {
+        density: material.density.si(),
+        shear_modulus: material.shear_modulus(),
+        bulk_modulus,
+        pressure: state.map_or(Pressure::Linear, Pressure::MieGruneisen),
+        strength: material.strength.law().prepare(material, 1.0),
+        rate_effects: options.rate_effects.unwrap_or(true),
+        heating: material
+            .specific_heat
+            .map_or(0.0, |heat| fraction / heat.si()),
+        viscosity: options.artificial_viscosity(),
+        spall_strength: spall
+            .then(|| options.spall_strength.or(material.spall_strength))
+            .flatten()
+            .map(|strength| strength.si()),
+        failure_strain: options.failure_strain,
+        erosion_strain: options.erosion_strain,
+        axisymmetric: true,
+    }
+}
+
+/// Fills a body of revolution with particles.
+///
+/// Particles stand in rings of equal width and in layers of equal height that fit the body; a ring that the surface cuts has
+/// the part of its mass that lies inside.
+pub(super) fn fill(
+    law: &Law,
+    radius: f64,
+    (from, to): (f64, f64),
+    spacing: f64,
+    velocity: f64,
+    temperature: f64,
+    inside: impl Fn(f64, f64) -> f64,
+) -> Vec<Particle> {
+    let count = |length: f64| ((length / spacing).round() as usize).max(1);
+    let (rings, layers) = (count(radius), count(to - from));
+    let (width, height) = (radius / rings as f64, (to - from) / layers as f64);
+    let mut particles = Vec::with_capacity(rings * layers);
+    for layer in 0..layers {
+        let depth = from + (layer as f64 + 0.5) * height;
+        for ring in 0..rings {
+            let at = (ring as f64 + 0.5) * width;
+            let part = inside_part(at, depth, width, height, &inside);
+            if part <= 0.0 {
+                continue;
+            }
+            let volume = part * 2.0 * PI * at * width * height;
+            let mut particle = Particle {
+                position: [at, depth],
+                velocity: [0.0, velocity],
+                mass: law.density * volume,
+                volume,
+                temperature,
+                ..Particle::default()
+            };
+            particle.flow_stress = law.slow_flow_stress(&particle);
+            particles.push(particle);
+        }
+    }
+    particles
+}
+
+/// Part of a ring's section whose surface radius, at a depth, is beyond it.
+fn inside_part(
+    at: f64,
+    depth: f64,
+    width: f64,
+    height: f64,
+    surface: &impl Fn(f64, f64) -> f64,
+) -> f64 {
+    const SAMPLES: u32 = 16;
+    let sum: f64 = (0..SAMPLES)
+        .map(|sample| {
+            let offset = (f64::from(sample) + 0.5) / f64::from(SAMPLES) - 0.5;
+            let edge = surface(depth + offset * height, at);
+            ((edge - (at - 0.5 * width)) / width).clamp(0.0, 1.0)
+        })
+        .sum();
+    sum / f64::from(SAMPLES)
+}
+
+fn projectile(rod: &Rod, law: &Law, spacing: f64, speed: f64) -> Vec<Particle> {
+    let radius = 0.5 * rod.diameter;
+    let temperature = rod
+        .temperature
+        .unwrap_or(rod.material.room_temperature.si());
+    let span = (-rod.length, 0.0);
+    fill(
+        law,
+        radius,
+        span,
+        spacing,
+        speed,
+        temperature,
+        |depth, _| nose_radius(rod.nose, rod.diameter, -depth),
+    )
+}
+
+/// Radius of a projectile at a distance behind its tip [m].
+fn nose_radius(nose: Nose, diameter: f64, behind: f64) -> f64 {
+    let radius = 0.5 * diameter;
+    let length = nose.length(diameter);
+    if behind >= length {
+        return radius;
+    }
+    if behind <= 0.0 {
+        return 0.0;
+    }
+    match nose {
+        Nose::Flat => radius,
+        Nose::Hemisphere => (radius * radius - (radius - behind).powi(2)).sqrt(),
+        Nose::Cone { .. } => radius * behind / length,
+        Nose::Ogive { crh } => {
+            let arc = crh * diameter;
+            let along = length - behind;
+            (arc * arc - along * along).sqrt() - (arc - radius)
+        }
+    }
+}
+
+/// Builds the bodies of a case.
+pub(super) fn build(scenario: &Scenario) -> Solver {
+    let options = &scenario.options.axi;
+    let cell = cell(scenario);
+    let spacing = cell / f64::from(options.particles_per_side());
+    let rod = &scenario.projectile;
+    let rod_law = law(&rod.material, scenario);
+    let particles = projectile(rod, &rod_law, spacing, scenario.impact_speed);
+    let mut bodies = vec![Body::new(rod_law, particles)];
+    let mut supports = vec![Supports {
+        wall: scenario.target == TargetBody::RigidWall,
+        ..Supports::NONE
+    }];
+    let reach = MARGIN * rod.diameter / 2.0;
+    let mut limits = Limits {
+        radius: reach,
+        back: -2.0 * rod.length - reach,
+        front: reach,
+    };
+    if let (
+        Some(extent),
+        TargetBody::Layers {
+            layers, back_face, ..
+        },
+    ) = (extent(scenario), &scenario.target)
+    {
+        let total: f64 = extent.layers.iter().sum();
+        limits.radius = extent.radius + reach;
+        limits.front = total + 2.0 * rod.length + reach;
+        let mut from = 0.0;
+        for (plate, thickness) in layers.iter().zip(&extent.layers) {
+            let law = law(&plate.material, scenario);
+            let to = from + thickness;
+            let temperature = plate.material.room_temperature.si();
+            let whole = |_: f64, _: f64| f64::INFINITY;
+            let particles = fill(
+                &law,
+                extent.radius,
+                (from, to),
+                spacing,
+                0.0,
+                temperature,
+                whole,
+            );
+            bodies.push(Body::new(law, particles));
+            let row = |depth: f64| (depth / cell).round() as isize;
+            let last = supports.len() == extent.layers.len();
+            let held = if extent.cut {
+                BackFace::NonReflecting
+            } else {
+                *back_face
+            };
+            supports.push(Supports {
+                back: (
+                    row(to),
+                    if last {
+                        back_support(held, &plate.material, total)
+                    } else {
+                        Support::Free
+                    },
+                ),
+                edge: (
+                    row(extent.radius) as usize + 1,
+                    edge_support(options.edge.unwrap_or_default(), &plate.material),
+                ),
+                ..Supports::NONE
+            });
+            from = to;
+        }
+    }
+    let mut solver = Solver {
+        bodies,
+        supports,
+        contact: match options.contact.unwrap_or_default() {
+            ContactKind::Sticking => Contact::Sticking,
+            ContactKind::Frictional => Contact::Frictional(options.friction.unwrap_or(0.0)),
+        },
+        cell,
+        courant: options.courant.unwrap_or(0.5),
+        limits,
+        step: 0,
+        time: 0.0,
+        time_step: 0.0,
+        sums: Vec::new(),
+        books: Books::default(),
+        pending: Pending::default(),
+    };
+    solver.start();
+    solver
+}
+
+/// Impedance per area of longitudinal and of shear waves [kg/(m2 s)].
+fn impedance(material: &Material) -> [f64; 2] {
+    let density = material.density.si();
+    let shear = material.shear_modulus();
+    let longitudinal = material.bulk_modulus() + 4.0 / 3.0 * shear;
+    [(longitudinal * density).sqrt(), (shear * density).sqrt()]
+}
+
+/// Support of a back face at a depth.
+///
+/// Below a point force on a half-space the axial stress is `3F/(2πz²)` and the displacement `F(1 + ν)(3 − 2ν)/(2πEz)`
+/// \[johnson1985\]: what was cut off has the stiffness of their ratio.
+fn back_support(back_face: BackFace, material: &Material, depth: f64) -> Support {
+    match back_face {
+        BackFace::Free => Support::Free,
+        BackFace::Fixed => Support::Smooth,
+        BackFace::NonReflecting => {
+            let ratio = material.poissons_ratio;
+            let modulus = material.youngs_modulus.si();
+            Support::NonReflecting {
+                impedance: impedance(material),
+                stiffness: 3.0 * modulus / ((1.0 + ratio) * (3.0 - 2.0 * ratio) * depth),
+            }
+        }
+    }
+}
+
+fn edge_support(edge: Edge, material: &Material) -> Support {
+    match edge {
+        Edge::Free => Support::Free,
+        Edge::Fixed => Support::Smooth,
+        Edge::NonReflecting => Support::NonReflecting {
+            impedance: impedance(material),
+            stiffness: 0.0,
+        },
+    }
+}

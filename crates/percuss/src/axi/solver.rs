@@ -1,0 +1,324 @@
+//! One time step: particles in parallel, their sums on the nodes, motion of the nodes, contact.
+
+use rayon::prelude::*;
+
+use super::{
+    body::{Body, CHUNK, Limits, Pass, Sums, advance},
+    boundary::Supports,
+    contact::{Contact, free_velocity, meet},
+    field::{FORCE, Field, MASS, MOMENTUM, Node, Strip},
+};
+
+/// Bodies in motion. The first one is the projectile.
+#[derive(Debug)]
+pub(super) struct Solver {
+    pub(super) bodies: Vec<Body>,
+    pub(super) supports: Vec<Supports>,
+    pub(super) contact: Contact,
+    pub(super) cell: f64,
+    pub(super) courant: f64,
+    pub(super) limits: Limits,
+    pub(super) step: u64,
+    pub(super) time: f64,
+    /// Step that the next advance of particles takes [s]; 0 before the first.
+    pub(super) time_step: f64,
+    /// Sums over the particles of each body after the last step.
+    pub(super) sums: Vec<Sums>,
+    /// Books as of the particles' last step.
+    pub(super) books: Books,
+    /// What the nodes did since, which the particles have yet to take over.
+    pub(super) pending: Pending,
+}
+
+/// What has passed since the start.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub(super) struct Books {
+    pub(super) initial_energy: f64,
+    pub(super) initial_momentum: f64,
+    /// Work done in the projectile and in the target [J]: all, plastic, viscous, failure. Velocities stand half a step behind
+    /// positions, so half of the last step's work belongs to the time of the velocities.
+    pub(super) work: [[f64; 4]; 2],
+    /// The other half.
+    pub(super) half_work: [[f64; 4]; 2],
+    pub(super) transfer: f64,
+    pub(super) contact: f64,
+    pub(super) boundary: f64,
+    pub(super) lost_energy: f64,
+    pub(super) support_impulse: f64,
+    pub(super) lost_momentum: f64,
+    /// Particles that left, of the projectile and of the target.
+    pub(super) lost: [usize; 2],
+}
+
+/// What a motion of the nodes adds to the books.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub(super) struct Pending {
+    pub(super) transfer: f64,
+    pub(super) contact: f64,
+    pub(super) boundary: f64,
+    pub(super) support_impulse: f64,
+    /// Kinetic energy of the nodes [J].
+    pub(super) nodal: f64,
+    /// Axial force of the projectile on what is in front of it [N].
+    pub(super) contact_force: f64,
+}
+
+/// Sums over a row of nodes.
+#[derive(Debug, Clone, Copy, Default)]
+struct RowSums {
+    /// Kinetic energy as it came from the particles, after a closed wall, and after forces and supports [J].
+    kinetic: [f64; 3],
+    /// Work on the supports: their impulses times the mean velocities of the whole step [J].
+    boundary: f64,
+    /// Momentum given to wall and supports [N s].
+    impulse: f64,
+    /// Part of it that the wall took.
+    wall: f64,
+}
+
+impl Solver {
+    /// Makes the nodes ready from particles as they are.
+    pub(super) fn start(&mut self) {
+        for body in &mut self.bodies {
+            body.put_in_order(self.cell);
+        }
+        self.time_step = 0.0;
+        self.pass();
+        let (energy, momentum) = self.motion();
+        self.books.initial_energy = energy;
+        self.books.initial_momentum = momentum;
+        self.move_nodes();
+    }
+
+    /// Kinetic energy [J] and axial momentum [N s] of all particles.
+    pub(super) fn motion(&self) -> (f64, f64) {
+        let sum = |value: fn(&Sums) -> f64| self.sums.iter().map(value).sum();
+        (sum(|s| s.kinetic), sum(|s| s.momentum))
+    }
+
+    /// Advances by one step; false when a number ceased to be one.
+    pub(super) fn advance(&mut self) -> bool {
+        for body in &mut self.bodies {
+            if body.is_spread() {
+                body.put_in_order(self.cell);
+            }
+        }
+        let pending = self.pending;
+        self.pass();
+        self.step += 1;
+        self.time += self.time_step;
+        let books = &mut self.books;
+        books.transfer += pending.transfer + pending.nodal;
+        books.contact += pending.contact;
+        books.boundary += pending.boundary;
+        books.support_impulse += pending.support_impulse;
+        for role in 0..2 {
+            for k in 0..4 {
+                books.work[role][k] += std::mem::take(&mut books.half_work[role][k]);
+            }
+        }
+        for (index, sums) in self.sums.iter().enumerate() {
+            let role = index.min(1);
+            let work = [
+                sums.work.total,
+                sums.work.plastic,
+                sums.work.viscous,
+                sums.work.failure,
+            ];
+            for (k, work) in work.into_iter().enumerate() {
+                books.work[role][k] += 0.5 * work;
+                books.half_work[role][k] += 0.5 * work;
+            }
+            books.lost[role] += sums.lost.0;
+            books.lost_momentum += sums.lost.1;
+            books.lost_energy += sums.lost.2;
+            books.transfer -= sums.kinetic + sums.lost.2;
+        }
+        if self.sums.iter().any(|sums| sums.broken) {
+            return false;
+        }
+        self.move_nodes();
+        true
+    }
+
+    /// Moves all particles by the current step and adds them up on the nodes.
+    fn pass(&mut self) {
+        let pass = Pass {
+            time_step: self.time_step,
+            cell: self.cell,
+            limits: self.limits,
+        };
+        let mut tasks = Vec::new();
+        for (index, body) in self.bodies.iter_mut().enumerate() {
+            let chunks = body.particles.chunks_mut(CHUNK).zip(&mut body.strips);
+            tasks
+                .extend(chunks.map(|(chunk, strip)| (index, chunk, strip, &body.law, &body.field)));
+        }
+        let sums: Vec<(usize, Sums)> = tasks
+            .into_par_iter()
+            .map(|(index, chunk, strip, law, field)| {
+                (index, advance(chunk, law, field, strip, &pass))
+            })
+            .collect();
+        self.sums = vec![Sums::default(); self.bodies.len()];
+        for (index, sum) in &sums {
+            self.sums[*index].add(sum);
+        }
+        for body in &mut self.bodies {
+            body.field.cover(&body.strips);
+            let Field {
+                first_row,
+                columns,
+                nodes,
+                ..
+            } = &mut body.field;
+            let (first_row, columns) = (*first_row, *columns);
+            let strips = &body.strips;
+            nodes
+                .par_chunks_mut(columns.max(1))
+                .enumerate()
+                .with_min_len(8)
+                .for_each(|(index, row)| add_up(strips, first_row + index as isize, row));
+        }
+    }
+
+    /// Chooses the step that comes next and moves the nodes by it.
+    fn move_nodes(&mut self) {
+        let most = |value: fn(&Sums) -> f64| self.sums.iter().map(value).fold(0.0, f64::max).sqrt();
+        let (wave, speed) = (most(|s| s.wave_squared), most(|s| s.speed_squared));
+        self.time_step = self.courant * self.cell / (wave + speed);
+        let (time_step, cell) = (self.time_step, self.cell);
+        let mut total = RowSums::default();
+        for (body, supports) in self.bodies.iter_mut().zip(&self.supports) {
+            let columns = body.field.columns;
+            let mut velocity = std::mem::take(&mut body.field.velocity);
+            let field = &body.field;
+            let rows: Vec<RowSums> = velocity
+                .par_chunks_mut(columns.max(1))
+                .enumerate()
+                .with_min_len(8)
+                .map(|(index, row)| {
+                    let at = field.first_row + index as isize;
+                    move_row(field, supports, at, row, cell, time_step)
+                })
+                .collect();
+            body.field.velocity = velocity;
+            for row in rows {
+                for (sum, added) in total.kinetic.iter_mut().zip(row.kinetic) {
+                    *sum += added;
+                }
+                total.boundary += row.boundary;
+                total.impulse += row.impulse;
+                total.wall += row.wall;
+            }
+        }
+        let (particles, _) = self.motion();
+        let [came, walled, held] = total.kinetic;
+        let mut pending = Pending {
+            transfer: particles - came,
+            contact: came - walled,
+            boundary: total.boundary,
+            support_impulse: total.impulse,
+            nodal: held,
+            contact_force: total.wall,
+        };
+        for second in 1..self.bodies.len() {
+            let (before, after) = self.bodies.split_at_mut(second);
+            for (first, body) in before.iter_mut().enumerate() {
+                let touch = meet(self.contact, &mut body.field, &mut after[0].field, cell);
+                pending.contact += touch.loss;
+                pending.nodal -= touch.fall;
+                if first == 0 {
+                    pending.contact_force += touch.impulse;
+                }
+            }
+        }
+        pending.contact_force /= time_step;
+        self.pending = pending;
+        for (body, supports) in self.bodies.iter().zip(&mut self.supports) {
+            supports.follow(&body.field, time_step);
+        }
+    }
+}
+
+/// Adds up a row of nodes over all strips, in their order, and folds the image in the axis onto its original.
+fn add_up(strips: &[Strip], row: isize, nodes: &mut [Node]) {
+    nodes.fill([0.0; 6]);
+    for source in strips.iter().filter_map(|strip| strip.row(row)) {
+        for (node, added) in nodes.iter_mut().zip(source) {
+            for (entry, value) in node.iter_mut().zip(added) {
+                *entry += value;
+            }
+        }
+    }
+    if nodes.len() > 2 {
+        let image = nodes[0];
+        for (k, value) in image.into_iter().enumerate() {
+            let sign = if k == MOMENTUM || k == FORCE {
+                -1.0
+            } else {
+                1.0
+            };
+            nodes[2][k] += sign * value;
+        }
+        nodes[0] = [0.0; 6];
+        for k in [MOMENTUM, FORCE] {
+            nodes[1][k] = 0.0;
+        }
+    }
+}
+
+fn move_row(
+    field: &Field,
+    supports: &Supports,
+    row: isize,
+    velocity: &mut [[f64; 2]],
+    cell: f64,
+    time_step: f64,
+) -> RowSums {
+    let mut sums = RowSums::default();
+    let energy = |mass: f64, v: [f64; 2]| 0.5 * mass * (v[0] * v[0] + v[1] * v[1]);
+    for column in 1..velocity.len() {
+        let raw = field.node(row, column);
+        velocity[column] = [0.0; 2];
+        if raw[MASS] > 0.0 {
+            sums.kinetic[0] += energy(
+                raw[MASS],
+                [raw[MOMENTUM] / raw[MASS], raw[MOMENTUM + 1] / raw[MASS]],
+            );
+        }
+        let node = supports.folded(field, row, column, time_step);
+        let pushed_raw = raw[MOMENTUM + 1] + time_step * raw[FORCE + 1];
+        let Some(node) = node else {
+            // Behind a closed wall stands the mirror image of what is in front of it.
+            let original = supports.folded(field, -row, column, time_step);
+            if let Some(node) = original.filter(|node| node[MASS] > 0.0) {
+                let [radial, axial] = free_velocity(&node, time_step);
+                velocity[column] = [radial, -axial];
+            }
+            let impulse = pushed_raw - raw[MASS] * velocity[column][1];
+            sums.impulse += impulse;
+            sums.wall += impulse;
+            continue;
+        };
+        let mass = node[MASS];
+        if mass <= 0.0 {
+            continue;
+        }
+        let before = [node[MOMENTUM] / mass, node[MOMENTUM + 1] / mass];
+        let pushed = free_velocity(&node, time_step);
+        let held = supports.held(&node, pushed, (row, column), cell, time_step);
+        sums.kinetic[1] += energy(mass, before);
+        sums.kinetic[2] += energy(mass, held);
+        for k in 0..2 {
+            sums.boundary += 0.5 * mass * (pushed[k] - held[k]) * (before[k] + held[k]);
+        }
+        sums.impulse += pushed_raw - raw[MASS] * held[1];
+        sums.wall += pushed_raw - raw[MASS] * pushed[1];
+        velocity[column] = held;
+    }
+    if velocity.len() > 2 {
+        velocity[0] = [-velocity[2][0], velocity[2][1]];
+    }
+    sums
+}
