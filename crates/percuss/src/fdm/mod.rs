@@ -1,6 +1,5 @@
 //! Model `fdm`: one-dimensional finite differences on a staggered grid, stresses in cells and velocities at nodes.
 
-mod flow;
 mod grid;
 mod options;
 pub mod planar;
