@@ -3,8 +3,8 @@
 use super::particle::{Particle, equivalent};
 use crate::{
     case::ArtificialViscosity,
-    fdm::{StateEquation, plastic_return},
-    material::{FlowState, PreparedStrength},
+    fdm::StateEquation,
+    material::{FlowState, PreparedStrength, Trial, YieldPoint},
 };
 
 /// Pressure against volume and energy.
@@ -48,9 +48,9 @@ pub(super) struct Work {
 }
 
 impl Law {
-    /// Slow flow stress of a particle [Pa].
-    pub(super) fn slow_flow_stress(&self, particle: &Particle) -> f64 {
-        self.strength.flow_stress(&flow_state(particle)).stress
+    /// Where a particle stands that does not flow.
+    pub(super) fn slow_yield_point(&self, particle: &Particle) -> YieldPoint {
+        YieldPoint::slow(&*self.strength, &flow_state(particle))
     }
 
     /// Square of the speed of longitudinal waves [m2/s2].
@@ -94,12 +94,13 @@ impl Law {
         let size = equivalent(&trial);
         let mean_volume = 0.5 * (volume_before + particle.volume);
         let mut work = Work::default();
-        particle.plastic_step = 0.0;
-        let flow_before = particle.flow_stress;
-        if size > particle.flow_stress {
-            self.flow(particle, &mut trial, size, time_step);
-            let mean = 0.5 * (flow_before.min(equivalent(&trial)) + equivalent(&trial));
-            work.plastic = mean * particle.plastic_step * mean_volume;
+        if particle.damage > 0.0 {
+            trial = [0.0; 3];
+        } else if !particle.yield_point.holds(size) {
+            let before = particle.yield_point.stress();
+            let increment = self.flow(particle, &mut trial, size, time_step);
+            let after = size - 3.0 * self.shear_modulus * increment;
+            work.plastic = 0.5 * (before.min(after) + after) * increment * mean_volume;
         }
         particle.deviator = trial;
         let shear_power = {
@@ -124,8 +125,8 @@ impl Law {
             self.compress(particle, pressure_before, change, shear_work + work.viscous);
         particle.temperature += self.heating * (work.plastic + work.viscous) / particle.mass;
         work.total = shear_work + volume_work + work.viscous;
-        if particle.plastic_step > 0.0 || self.strength.depends_on_pressure() {
-            particle.flow_stress = self.slow_flow_stress(particle) * (1.0 - particle.damage);
+        if self.strength.depends_on_pressure() {
+            particle.yield_point.forget();
         }
         self.fail(particle, &mut work);
         work
@@ -156,23 +157,31 @@ impl Law {
         }
     }
 
-    /// Returns a trial deviator to the yield surface, radially.
+    /// Returns a trial deviator to the yield surface, radially; gives the increment of plastic strain.
     #[inline]
-    fn flow(&self, particle: &mut Particle, trial: &mut [f64; 3], size: f64, time_step: f64) {
-        let found = plastic_return(
-            &*self.strength,
-            &flow_state(particle),
-            particle.flow_stress,
-            size,
-            3.0 * self.shear_modulus,
-            self.rate_effects.then_some(time_step),
-        );
-        let scale = found.stress / size;
-        for entry in trial.iter_mut() {
+    fn flow(
+        &self,
+        particle: &mut Particle,
+        deviator: &mut [f64; 3],
+        size: f64,
+        time_step: f64,
+    ) -> f64 {
+        let state = flow_state(particle);
+        let trial = Trial {
+            stress: size,
+            modulus: 3.0 * self.shear_modulus,
+            pressure_fall: 0.0,
+            elapsed: self.rate_effects.then_some(time_step),
+        };
+        let increment = particle
+            .yield_point
+            .plastic_increment(&*self.strength, &state, &trial);
+        let scale = 1.0 - trial.modulus * increment / size;
+        for entry in deviator.iter_mut() {
             *entry *= scale;
         }
-        particle.plastic_step = found.increment;
-        particle.plastic_strain += found.increment;
+        particle.plastic_strain += increment;
+        increment
     }
 
     /// Failure in shear and in tension: what a failed particle gives up counts as failure work.
@@ -193,7 +202,6 @@ impl Law {
             + stretch * stretch / (2.0 * self.bulk_modulus);
         work.failure += per_volume * particle.volume;
         particle.damage = 1.0;
-        particle.flow_stress = 0.0;
         particle.deviator = [0.0; 3];
         particle.pressure = particle.pressure.max(0.0);
     }

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::material::YieldPoint;
+
 /// A material point. Vectors are radial and axial, the axis along the shot; stresses are positive in tension, pressures in
 /// compression.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -24,10 +26,8 @@ pub struct Particle {
     pub volume: f64,
     /// Equivalent plastic strain.
     pub plastic_strain: f64,
-    /// Increment of it in the last step.
-    pub plastic_step: f64,
-    /// Slow flow stress [Pa].
-    pub flow_stress: f64,
+    /// Where the particle last stood on its yield surface.
+    pub(super) yield_point: YieldPoint,
     /// Temperature [K].
     pub temperature: f64,
     /// Internal energy per mass, 0 at rest [J/kg].

@@ -156,7 +156,7 @@ pub(super) fn fill(
                 temperature,
                 ..Particle::default()
             };
-            particle.flow_stress = law.slow_flow_stress(&particle);
+            particle.yield_point = law.slow_yield_point(&particle);
             particles.push(particle);
         }
     }

@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 
 use super::{
-    element::static_flow_stress,
     part::{Part, Role, constraint_factor},
     solver::LARGEST_STRAIN_STEP,
     state::{Books, Element, End, Node, Segment, State},
 };
 use crate::{
     case::{BackFace, ErosionClosure, Kinematics},
+    material::{FlowState, YieldPoint},
     scenario::{Plate, Scenario, TargetBody},
 };
 
@@ -156,6 +156,15 @@ fn assemble(parts: Vec<Part>, lengths: &[f64], end: End) -> State {
             let from_end = (count - i) as f64;
             state.nodes[first_node + i].position = start + length - size * from_end;
         }
+        let yield_point = YieldPoint::slow(
+            &*part.strength,
+            &FlowState {
+                plastic_strain: 0.0,
+                strain_rate: 0.0,
+                temperature: part.start_temperature,
+                pressure: 0.0,
+            },
+        );
         for e in first_element..first_element + count {
             let node = e + p;
             let half_mass = 0.5 * part.density * part.area * size;
@@ -165,15 +174,12 @@ fn assemble(parts: Vec<Part>, lengths: &[f64], end: End) -> State {
                 node.friction += half_friction;
             }
             let (back, front) = (state.nodes[node].position, state.nodes[node + 1].position);
-            let (flow_stress, flow_slope) =
-                static_flow_stress(part, 0.0, part.start_temperature, 0.0);
             state.elements[e] = Element {
                 rest_length: front - back,
                 length: front - back,
                 initial_position: 0.5 * (front + back),
                 temperature: part.start_temperature,
-                flow_stress,
-                flow_slope,
+                yield_point,
                 ..Element::default()
             };
             state.stable_step = state.stable_step.min((front - back) / part.wave_speed);

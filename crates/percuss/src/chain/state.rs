@@ -7,7 +7,10 @@ use super::{
     part::{Part, Role},
     tate::Tip,
 };
-use crate::ledger::{EnergyLedger, MomentumLedger};
+use crate::{
+    ledger::{EnergyLedger, MomentumLedger},
+    material::YieldPoint,
+};
 
 /// What holds the last node of the chain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,10 +70,7 @@ pub(super) struct Element {
     /// Largest plastic strain rate so far [1/s].
     pub(super) largest_rate: f64,
     pub(super) temperature: f64,
-    /// Flow stress at the current plastic strain, without rate effect.
-    pub(super) flow_stress: f64,
-    /// Its slope with plastic strain.
-    pub(super) flow_slope: f64,
+    pub(super) yield_point: YieldPoint,
     /// Initial position of its middle.
     pub(super) initial_position: f64,
     pub(super) eroded: bool,

@@ -1,6 +1,5 @@
 //! Model `fdm`: one-dimensional finite differences on a staggered grid, stresses in cells and velocities at nodes.
 
-mod flow;
 mod grid;
 mod options;
 pub mod planar;
@@ -8,7 +7,6 @@ mod rod;
 mod viscosity;
 mod warnings;
 
-pub(crate) use flow::plastic_return;
 pub use options::{FdmOptions, Geometry};
 pub use planar::StateEquation;
 pub use rod::Rod;

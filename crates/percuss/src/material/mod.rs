@@ -9,6 +9,7 @@ mod strength;
 mod tensile;
 #[cfg(test)]
 mod tests;
+mod yield_point;
 
 use std::collections::BTreeMap;
 
@@ -23,6 +24,7 @@ pub use library::{Library, MaterialEntry};
 pub use references::{Reference, references};
 pub use strength::*;
 pub use tensile::tensile_strength;
+pub(crate) use yield_point::{Trial, YieldPoint};
 
 /// One parameter set of a material, as a file holds it.
 ///

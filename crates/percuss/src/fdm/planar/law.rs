@@ -4,11 +4,10 @@ use super::state::StateEquation;
 use crate::{
     case::ArtificialViscosity,
     fdm::{
-        flow::plastic_return,
         grid::{Law, Motion, Stored, View},
         viscosity,
     },
-    material::{FlowState, PreparedStrength},
+    material::{FlowState, PreparedStrength, Trial, YieldPoint},
 };
 
 /// A planar body.
@@ -41,7 +40,8 @@ pub(super) struct PlanarCell {
     /// Axial deviator, compression positive [Pa].
     pub(super) deviator: f64,
     plastic_strain: f64,
-    flow_stress: f64,
+    /// Slow flow stress of the current state.
+    yield_point: YieldPoint,
     temperature: f64,
     strain_rate: f64,
     wave_speed: f64,
@@ -70,10 +70,10 @@ impl PlanarLaw {
         }
     }
 
-    fn slow_flow_stress(&self, cell: &PlanarCell) -> f64 {
+    fn yield_point(&self, cell: &PlanarCell) -> YieldPoint {
         match &self.strength {
-            Some(strength) => strength.flow_stress(&self.flow_state(cell)).stress,
-            None => 0.0,
+            Some(strength) => YieldPoint::slow(&**strength, &self.flow_state(cell)),
+            None => YieldPoint::default(),
         }
     }
 
@@ -88,25 +88,30 @@ impl PlanarLaw {
         };
         let trial = cell.deviator + 4.0 / 3.0 * self.shear_modulus * (cell.length / length).ln();
         let equivalent = 1.5 * trial.abs();
-        if equivalent <= cell.flow_stress {
+        if cell.yield_point.holds(equivalent) {
             return Sheared {
                 deviator: trial,
                 increment: 0.0,
                 stress: equivalent,
             };
         }
-        let found = plastic_return(
+        // The middle of a step and its end start from the same state: the cell's own point stays.
+        let mut point = cell.yield_point;
+        let increment = point.plastic_increment(
             &**strength,
             &self.flow_state(cell),
-            cell.flow_stress,
-            equivalent,
-            3.0 * self.shear_modulus,
-            self.rate_effects.then_some(elapsed),
+            &Trial {
+                stress: equivalent,
+                modulus: 3.0 * self.shear_modulus,
+                pressure_fall: 0.0,
+                elapsed: self.rate_effects.then_some(elapsed),
+            },
         );
+        let stress = equivalent - 3.0 * self.shear_modulus * increment;
         Sheared {
-            deviator: (found.stress / 1.5).copysign(trial),
-            increment: found.increment,
-            stress: found.stress,
+            deviator: (stress / 1.5).copysign(trial),
+            increment,
+            stress,
         }
     }
 
@@ -139,7 +144,7 @@ impl Law for PlanarLaw {
             pressure,
             deviator: 0.0,
             plastic_strain: 0.0,
-            flow_stress: 0.0,
+            yield_point: YieldPoint::default(),
             temperature: self.start_temperature,
             strain_rate: 0.0,
             wave_speed: self.wave_speed(volume, pressure),
@@ -148,7 +153,7 @@ impl Law for PlanarLaw {
             time_step: 0.0,
             middle: [pressure, 0.0, 0.0],
         };
-        cell.flow_stress = self.slow_flow_stress(&cell);
+        cell.yield_point = self.yield_point(&cell);
         cell
     }
 
@@ -186,7 +191,7 @@ impl Law for PlanarLaw {
         let sheared = self.shear(cell, length, cell.time_step);
         let mean_volume = 0.5 * (cell.volume + volume);
         // Where flow begins within the step, the work starts at the yield stress, not at the stress before it.
-        let mean_stress = 0.5 * (sheared.stress + cell.flow_stress.min(sheared.stress));
+        let mean_stress = 0.5 * (sheared.stress + cell.yield_point.stress().min(sheared.stress));
         let plastic = mean_stress * sheared.increment * mean_volume;
         cell.plastic_work += cell.mass * plastic;
         cell.viscous_work += cell.mass * viscous * work;
@@ -204,7 +209,7 @@ impl Law for PlanarLaw {
         cell.length = length;
         cell.pressure = self.state.pressure(volume, cell.energy);
         cell.wave_speed = self.wave_speed(volume, cell.pressure);
-        cell.flow_stress = self.slow_flow_stress(cell);
+        cell.yield_point = self.yield_point(cell);
         true
     }
 

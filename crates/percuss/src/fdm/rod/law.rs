@@ -5,11 +5,10 @@ use std::f64::consts::PI;
 use crate::{
     case::ArtificialViscosity,
     fdm::{
-        flow::plastic_return,
         grid::{Law, Motion, Stored, View},
         viscosity,
     },
-    material::{FlowState, PreparedStrength},
+    material::{FlowState, PreparedStrength, Trial, YieldPoint},
 };
 
 /// A rod or a column of target.
@@ -46,8 +45,7 @@ pub(super) struct RodCell {
     plastic_step: f64,
     strain_rate: f64,
     temperature: f64,
-    /// Slow flow stress at the current plastic strain.
-    flow_stress: f64,
+    yield_point: YieldPoint,
     plastic_work: f64,
     viscous_work: f64,
 }
@@ -87,30 +85,32 @@ impl RodLaw {
     }
 
     fn flow(&self, cell: &mut RodCell, trial: f64, elapsed: f64) {
-        let elapsed = self.rate_effects.then_some(elapsed);
         let start = FlowState {
             pressure: trial / 3.0,
             ..self.flow_state(cell)
         };
-        let found = plastic_return(
+        let increment = cell.yield_point.plastic_increment(
             &*self.strength,
             &start,
-            cell.flow_stress,
-            trial.abs(),
-            self.modulus,
-            elapsed,
+            &Trial {
+                stress: trial.abs(),
+                modulus: self.modulus,
+                pressure_fall: self.modulus.copysign(trial) / 3.0,
+                elapsed: self.rate_effects.then_some(elapsed),
+            },
         );
-        cell.plastic_step = found.increment.copysign(trial);
-        cell.stress = found.stress.copysign(trial);
+        if increment == 0.0 {
+            return;
+        }
+        cell.plastic_step = increment.copysign(trial);
+        cell.stress = trial - self.modulus * cell.plastic_step;
         cell.axial_plastic += cell.plastic_step;
-        cell.plastic_strain += found.increment;
+        cell.plastic_strain += increment;
         let mean = 0.5 * (cell.stress_before + cell.stress).abs();
-        cell.temperature += self.heating * mean * found.increment;
-        cell.flow_stress = if self.strength.depends_on_strain_only() {
-            found.stress
-        } else {
-            self.strength.flow_stress(&self.flow_state(cell)).stress
-        };
+        cell.temperature += self.heating * mean * increment;
+        if elapsed > 0.0 {
+            cell.strain_rate = cell.strain_rate.max(increment / elapsed);
+        }
     }
 }
 
@@ -134,11 +134,11 @@ impl Law for RodLaw {
             plastic_step: 0.0,
             strain_rate: 0.0,
             temperature: self.start_temperature,
-            flow_stress: 0.0,
+            yield_point: YieldPoint::default(),
             plastic_work: 0.0,
             viscous_work: 0.0,
         };
-        cell.flow_stress = self.strength.flow_stress(&self.flow_state(&cell)).stress;
+        cell.yield_point = YieldPoint::slow(&*self.strength, &self.flow_state(&cell));
         cell
     }
 
@@ -155,12 +155,8 @@ impl Law for RodLaw {
         cell.stress_before = cell.stress;
         cell.stress = trial;
         cell.plastic_step = 0.0;
-        if trial.abs() > cell.flow_stress {
+        if !cell.yield_point.holds(trial.abs()) {
             self.flow(cell, trial, motion.since_load);
-            if motion.since_load > 0.0 {
-                let rate = cell.plastic_step.abs() / motion.since_load;
-                cell.strain_rate = cell.strain_rate.max(rate);
-            }
         }
         cell.plastic_work +=
             0.5 * cell.volume * cell.stress_before * (plastic_before + cell.plastic_step);

@@ -65,10 +65,22 @@ struct Prepared {
 /// Plastic strain below which the slope of `ε_pⁿ` is taken at this strain: the slope of the law is infinite at zero.
 const SMALLEST_STRAIN: f64 = 1e-9;
 
+/// `x^p` of a number that is not negative, for exponents of the order of 1: there it is exact to a few units in the last place,
+/// and cheaper than `powf`.
+fn power(x: f64, exponent: f64) -> f64 {
+    if x == 0.0 {
+        0.0
+    } else if exponent == 1.0 {
+        x
+    } else {
+        (exponent * x.ln()).exp()
+    }
+}
+
 impl PreparedStrength for Prepared {
     fn flow_stress(&self, state: &FlowState) -> FlowStress {
         let strain = state.plastic_strain.max(SMALLEST_STRAIN);
-        let hardened = self.b * strain.powf(self.n);
+        let hardened = self.b * power(strain, self.n);
         let ratio = state.strain_rate / self.reference_rate;
         let (rate_factor, rate_slope) = match self.rate_form {
             RateForm::Logarithmic if ratio > 1.0 => {
@@ -76,7 +88,7 @@ impl PreparedStrength for Prepared {
             }
             RateForm::Logarithmic => (1.0, 0.0),
             RateForm::Power => {
-                let factor = (1.0 + ratio).powf(self.c);
+                let factor = power(1.0 + ratio, self.c);
                 (
                     factor,
                     self.c * factor / (self.reference_rate * (1.0 + ratio)),
@@ -85,7 +97,7 @@ impl PreparedStrength for Prepared {
         };
         let homologous =
             ((state.temperature - self.room_temperature) / self.melting_range).clamp(0.0, 1.0);
-        let thermal = 1.0 - homologous.powf(self.m);
+        let thermal = 1.0 - power(homologous, self.m);
         FlowStress {
             stress: (self.a + hardened) * rate_factor * thermal,
             strain_slope: self.n * hardened / strain * rate_factor * thermal,

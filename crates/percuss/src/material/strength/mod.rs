@@ -36,7 +36,7 @@ pub struct FlowState {
 }
 
 /// Flow stress with its slopes, for an implicit return to the yield surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct FlowStress {
     /// Flow stress [Pa].
     pub stress: f64,
