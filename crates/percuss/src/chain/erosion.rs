@@ -26,8 +26,12 @@ impl State {
         let half_friction = 0.5 * part.friction_per_length * self.elements[e].rest_length;
         self.books.eroded_energy += self.elastic_energy(e, part);
         let left = e + segment.part;
+        let leaving = self.leave_tip(s, left, half_mass);
         for i in [left, left + 1] {
-            let velocity = self.nodes[i].velocity;
+            let velocity = match leaving {
+                Some((tip, velocity)) if tip == i => velocity,
+                _ => self.nodes[i].velocity,
+            };
             self.books.eroded_energy += 0.5 * half_mass * velocity * velocity;
             self.books.eroded_momentum += half_mass * velocity;
             self.nodes[i].mass -= half_mass;

@@ -5,7 +5,8 @@
 //! the speed `w` relative to the tip, one half goes with what leaves, which is Bernoulli's `½ ρ w²`, and the other half pushes on
 //! the tip. The same holds of the target, whose elements are held in place ahead of the tip by what is around the column.
 //! Arriving mass by mass, the momentum would make the tip's velocity jump, and `⟨w²⟩ > ⟨w⟩²` pushes the lighter side: a mass of
-//! target that moves with the tip, as the flow around any nose has it, keeps it steady.
+//! target that moves with the tip, as the flow around any nose has it, keeps it steady, and what leaves the tip takes the mean of
+//! its velocities before and after the arrival.
 
 use super::{part::Role, state::State};
 
@@ -56,6 +57,48 @@ impl State {
         self.tip
             .filter(|tip| tip.node == node)
             .map_or(0.0, |tip| tip.mass)
+    }
+
+    /// Node at the tip of the element that follows node `left`, and the velocity [m/s] with which its mass [kg] leaves there, once
+    /// what that changes has been given to the rest of the tip.
+    ///
+    /// As much mass is about to arrive with the velocity of the element's other end. What leaves between the two takes the mean
+    /// of the tip's velocities before and after: with the one before, `w` would be the largest of its cycle, and `½ ρ w²` too
+    /// large by a part of first order in the element's length.
+    pub(super) fn leave_tip(&mut self, s: usize, left: usize, mass: f64) -> Option<(usize, f64)> {
+        let tip = self.tip?;
+        let segment = self.segments[s];
+        if segment.elements().len() < 2 {
+            // Nothing is left to arrive.
+            return None;
+        }
+        let (node, other, partner) =
+            if left + 1 == segment.last_node && self.closed.get(s) == Some(&true) {
+                (left + 1, left, self.segments[s + 1].first_node)
+            } else if left == segment.first_node && s > 0 && self.closed[s - 1] {
+                (left, left + 1, self.segments[s - 1].last_node)
+            } else {
+                return None;
+            };
+        if tip.node != node && tip.node != partner {
+            return None;
+        }
+        let pair = [node, partner].map(|i| (self.nodes[i].mass, self.nodes[i].velocity));
+        let tip_mass = pair[0].0 + pair[1].0;
+        let before = (pair[0].0 * pair[0].1 + pair[1].0 * pair[1].1) / tip_mass;
+        // Of `M (u' − u) = m (v − (u + u')/2)`.
+        let share = mass / tip_mass;
+        let jump = share * (self.nodes[other].velocity - before) / (1.0 + 0.5 * share);
+        let leaving = before + 0.5 * jump;
+        let rest = tip_mass - mass;
+        let after = (tip_mass * before - mass * leaving) / rest;
+        self.nodes[node].velocity = after;
+        self.nodes[partner].velocity = after;
+        let kinetic = |mass: f64, velocity: f64| 0.5 * mass * velocity * velocity;
+        self.books.contact_loss += pair.iter().map(|&(m, v)| kinetic(m, v)).sum::<f64>()
+            - kinetic(rest, after)
+            - kinetic(mass, leaving);
+        Some((node, leaving))
     }
 
     /// Hands the tip's mass over the contact when the node that carries it goes with the eroded element between `left` and the
