@@ -3,7 +3,7 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
-    case::{BackFace, Case, Experiment, Layer, ModelOptions, Nose, Thickness, Uncertainty},
+    case::{BackFace, Case, Experiment, Layer, ModelOptions, Nose, Scheme, Thickness, Uncertainty},
     check::{Check, limits},
     material::{Library, Material, MaterialEntry},
     outcome::BandQuantity,
@@ -159,7 +159,7 @@ impl Scenario {
         let projectile = resolve_rod(&case, library, check);
         let target = resolve_target(&case, library, check);
         let options = case.model_options();
-        Some(Self {
+        let mut scenario = Self {
             name: name.to_owned(),
             title: case.title,
             sources: case.sources,
@@ -172,7 +172,22 @@ impl Scenario {
                 .iter()
                 .filter_map(Measurement::resolve)
                 .collect(),
-        })
+        };
+        let chain = &mut scenario.options.chain;
+        if chain.target_elements.is_none() && chain.scheme == Scheme::Conservative {
+            scenario.options.chain.target_elements = scenario.thin_target_elements();
+        }
+        Some(scenario)
+    }
+
+    /// Elements through a target so thin that the default number would make them far shorter than the projectile's: a fourth of
+    /// that length is short enough. The shortest element sets the time step of all.
+    fn thin_target_elements(&self) -> Option<u32> {
+        const ENOUGH: f64 = 24.0;
+        let shortest =
+            0.25 * self.projectile.length / self.options.chain.projectile_elements() as f64;
+        let elements = (self.target_thickness()? / shortest).ceil().max(ENOUGH);
+        (elements < self.options.chain.target_elements() as f64).then_some(elements as u32)
     }
 }
 

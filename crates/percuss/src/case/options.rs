@@ -21,7 +21,8 @@ pub struct ChainOptions {
     pub scheme: Scheme,
     /// Elements along the projectile; 40 when not given.
     pub projectile_elements: Option<u32>,
-    /// Elements through the target, shared among its layers by thickness; 80 when not given.
+    /// Elements through the target, shared among its layers by thickness; 80 when not given, and fewer in a target thinner than
+    /// half the projectile's length, a fourth as long as the projectile's but at least 24; always 80 in scheme `published`.
     pub target_elements: Option<u32>,
     /// Factor on the target's flow stress for the lateral constraint; 2.7 \[woodward1982\] when not given.
     pub constraint_factor: Option<ConstraintFactor>,
