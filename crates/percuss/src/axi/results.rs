@@ -99,11 +99,12 @@ fn details(run: &Run<'_>) -> Vec<Detail> {
     let Some(extent) = extent(run.scenario) else {
         return details;
     };
-    let crater = crater::profile(&solver.bodies[1..], solver.cell);
-    let mouth = crater
-        .iter()
-        .filter(|[_, depth]| *depth > 0.0)
-        .map(|[radius, _]| *radius);
+    let mut crater = crater::profile(&solver.bodies[1..], solver.cell);
+    // Beyond the rim the face moves a little too: the crater ends where its floor has come up to a hundredth of its depth.
+    let rim = 0.01 * crater.first().map_or(0.0, |[_, depth]| *depth);
+    let end = crater.iter().position(|[_, depth]| *depth <= rim);
+    crater.truncate(end.unwrap_or(crater.len()));
+    let mouth = crater.iter().map(|[radius, _]| *radius);
     let volume: f64 = crater
         .windows(2)
         .map(|pair| {

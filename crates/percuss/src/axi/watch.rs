@@ -3,7 +3,7 @@
 use super::{crater, solver::Solver};
 use crate::{
     outcome::{Outcome, Termination},
-    scenario::{Scenario, TargetBody},
+    scenario::Scenario,
 };
 
 /// Part of the impact speed below which a projectile counts as stopped.
@@ -36,6 +36,7 @@ pub(super) struct Watch {
 impl Watch {
     /// Keeps up extremes and the state of the projectile after a step.
     pub(super) fn follow(&mut self, solver: &Solver, thickness: Option<f64>) {
+        let before = self.depth;
         if solver.bodies.len() > 1 {
             match crater::floor(&solver.bodies[1..], solver.cell) {
                 Some(depth) => self.depth = depth,
@@ -50,7 +51,9 @@ impl Watch {
             self.smallest_time_step = solver.time_step;
         }
         self.smallest_time_step = self.smallest_time_step.min(solver.time_step);
-        if self.at_rest.is_none() && solver.sums[0].momentum <= 0.0 {
+        // Debris of an eroding rod flies back while the rod goes on: its floor must have stopped too.
+        let stopped = self.depth <= before;
+        if self.at_rest.is_none() && stopped && solver.sums[0].momentum <= 0.0 {
             self.at_rest = Some((solver.time, self.depth));
         }
         self.energy_residual = self.energy_residual.max(solver.energy().residual().abs());
@@ -82,13 +85,13 @@ impl Watch {
         if self.perforated {
             return (slowing <= FREE_FRACTION).then_some(Termination::LeftTarget);
         }
-        let turned = self.at_rest.is_some() && !deepening && flow <= QUIET_FRACTION;
-        let parted = matches!(scenario.target, TargetBody::RigidWall) || speed < 0.0;
-        if turned && speed.abs() <= REST_FRACTION * scenario.impact_speed {
-            return Some(Termination::Quiescent);
-        }
-        // What still rings in a body that flies back changes neither depth nor length.
-        (turned && parted && slowing <= REST_FRACTION).then_some(Termination::Parted)
+        // What still rings changes neither depth nor length.
+        let over = self.at_rest.is_some() && !deepening && flow <= QUIET_FRACTION;
+        over.then_some(if speed < -REST_FRACTION * scenario.impact_speed {
+            Termination::Parted
+        } else {
+            Termination::Quiescent
+        })
     }
 
     /// How a run ended that was ended for a reason.
