@@ -28,6 +28,7 @@ mod error;
 pub mod fdm;
 pub mod guard;
 pub mod history;
+pub mod judge;
 pub mod ledger;
 pub mod material;
 pub mod model;

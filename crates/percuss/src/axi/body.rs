@@ -47,6 +47,8 @@ pub(super) struct Sums {
     pub(super) kinetic: f64,
     /// Work of the step [J].
     pub(super) work: Work,
+    /// Power of the stresses on the particles' own velocity gradients [W].
+    pub(super) power: f64,
     /// What left the body in the step: particles, their axial momentum and kinetic energy.
     pub(super) lost: (usize, f64, f64),
     /// Largest square of a wave speed and of a particle's speed [m2/s2].
@@ -61,6 +63,7 @@ impl Sums {
         self.mass += other.mass;
         self.momentum += other.momentum;
         self.kinetic += other.kinetic;
+        self.power += other.power;
         self.work.total += other.work.total;
         self.work.plastic += other.work.plastic;
         self.work.viscous += other.work.viscous;
@@ -154,6 +157,7 @@ pub(super) fn advance(
         sums.mass += particle.mass;
         sums.momentum += particle.mass * v_z;
         sums.kinetic += kinetic;
+        sums.power += particle.stress_power(law.axisymmetric);
         sums.speed_squared = sums.speed_squared.max(v_r * v_r + v_z * v_z);
         sums.wave_squared = sums.wave_squared.max(law.wave_speed_squared(particle));
     }

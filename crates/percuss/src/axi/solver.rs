@@ -68,6 +68,8 @@ pub(super) struct Pending {
 struct RowSums {
     /// Kinetic energy as it came from the particles, after a closed wall, and after forces and supports [J].
     kinetic: [f64; 3],
+    /// Power of the nodal forces on the velocities that came from the particles [W].
+    power: f64,
     /// Work on the supports: their impulses times the mean velocities of the whole step [J].
     boundary: f64,
     /// Momentum given to wall and supports [N s].
@@ -208,14 +210,19 @@ impl Solver {
                     *sum += added;
                 }
                 total.boundary += row.boundary;
+                total.power += row.power;
                 total.impulse += row.impulse;
                 total.wall += row.wall;
             }
         }
         let (particles, _) = self.motion();
         let [came, walled, held] = total.kinetic;
+        // Nodal forces act half a step on velocities that the way from particles to nodes has smoothed: with the particles' own
+        // gradients they would have done the work of the stresses.
+        let power: f64 = self.sums.iter().map(|sums| sums.power).sum();
+        let smoothed = 0.5 * time_step * (power + total.power);
         let mut pending = Pending {
-            transfer: particles - came,
+            transfer: particles - came - smoothed,
             contact: came - walled,
             boundary: total.boundary,
             support_impulse: total.impulse,
@@ -309,6 +316,7 @@ fn move_row(
         let pushed = free_velocity(&node, time_step);
         let held = supports.held(&node, pushed, (row, column), cell, time_step);
         sums.kinetic[1] += energy(mass, before);
+        sums.power += node[FORCE] * before[0] + node[FORCE + 1] * before[1];
         sums.kinetic[2] += energy(mass, held);
         for k in 0..2 {
             sums.boundary += 0.5 * mass * (pushed[k] - held[k]) * (before[k] + held[k]);
