@@ -1,0 +1,124 @@
+//! What is judged: every quick model that gives depths, and every closure of the chain's target.
+
+use crate::{
+    Error, Scenario,
+    case::{ChainOptions, Scheme},
+    model::{self, Control, Model},
+    outcome::BandQuantity,
+};
+
+/// A model, with one choice of the options that decide its depth.
+#[derive(Clone, Copy)]
+pub struct Contender {
+    /// Its name: that of the model, and of the closure where it is not the default one.
+    pub name: &'static str,
+    /// The model.
+    pub model: &'static dyn Model,
+    /// The closure, for the chain.
+    closure: Option<Closure>,
+}
+
+/// Options of the chain that close its target.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Closure {
+    scheme: Scheme,
+    border_shear: Option<f64>,
+}
+
+/// Closures of the chain's target, the default one first.
+const CLOSURES: &[(&str, Closure)] = &[
+    (
+        "chain",
+        Closure {
+            scheme: Scheme::Conservative,
+            border_shear: None,
+        },
+    ),
+    (
+        "chain, no border shear",
+        Closure {
+            scheme: Scheme::Conservative,
+            border_shear: Some(0.0),
+        },
+    ),
+];
+
+impl Closure {
+    /// Whether a case has this closure, and the constants that it was judged with.
+    fn is_of(&self, options: &ChainOptions) -> bool {
+        let own = self.options();
+        options.scheme == own.scheme
+            && options.border_shear() == own.border_shear()
+            && options.constraint_factor() == own.constraint_factor()
+            && options.erosion_closure() == own.erosion_closure()
+    }
+
+    fn options(&self) -> ChainOptions {
+        ChainOptions {
+            scheme: self.scheme,
+            border_shear: self.border_shear,
+            ..ChainOptions::default()
+        }
+    }
+}
+
+/// All contenders.
+pub fn contenders() -> Vec<Contender> {
+    let mut contenders = Vec::new();
+    for model in model::quick() {
+        let depth = model
+            .guard()
+            .predicts
+            .contains(&BandQuantity::DepthOfPenetration);
+        if model.name() == "chain" {
+            contenders.extend(CLOSURES.iter().map(|(name, closure)| Contender {
+                name,
+                model,
+                closure: Some(*closure),
+            }));
+        } else if depth {
+            contenders.push(Contender {
+                name: model.name(),
+                model,
+                closure: None,
+            });
+        }
+    }
+    contenders
+}
+
+impl Contender {
+    /// The contender that a model is, with the options of a case; `None` with options that were not judged.
+    pub fn of(model: &dyn Model, scenario: &Scenario) -> Option<Self> {
+        contenders().into_iter().find(|contender| {
+            contender.model.name() == model.name()
+                && contender
+                    .closure
+                    .is_none_or(|closure| closure.is_of(&scenario.options.chain))
+        })
+    }
+
+    /// Depth of penetration [m]; `None` where the model does not apply.
+    ///
+    /// # Errors
+    /// Those of the model but that it does not apply.
+    pub fn depth(&self, scenario: &Scenario) -> Result<Option<f64>, Error> {
+        let mut scenario = scenario.clone();
+        if let Some(closure) = self.closure {
+            scenario.options.chain = closure.options();
+        }
+        match model::run(self.model, &scenario, &mut Control::default()) {
+            Ok(result) => Ok(result.depth_of_penetration),
+            Err(Error::NotApplicable { .. }) => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+}
+
+impl std::fmt::Debug for Contender {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Contender")
+            .field("name", &self.name)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,75 @@
+//! Depths of all contenders beside those of the reference.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::{contender::contenders, design::Shot, reference::Reference};
+use crate::{
+    Error,
+    regime::{ProjectileRegime, Regime},
+};
+
+/// What one contender says of one shot. A row of the stored judgement.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Verdict {
+    /// Name of the contender.
+    pub contender: String,
+    /// Id of the projectile's material.
+    pub projectile: String,
+    /// Id of the target's material.
+    pub target: String,
+    /// Length of the projectile over its diameter.
+    pub length_to_diameter: f64,
+    /// Impact speed [m/s].
+    pub impact_velocity_m_s: f64,
+    /// What the projectile does in this shot.
+    pub regime: ProjectileRegime,
+    /// Depth by the contender [mm].
+    pub depth_of_penetration_mm: f64,
+    /// Depth by the reference [mm].
+    pub reference_depth_mm: f64,
+}
+
+impl Verdict {
+    /// Relative error: positive where the contender goes deeper than the reference.
+    pub fn error(&self) -> f64 {
+        self.depth_of_penetration_mm / self.reference_depth_mm - 1.0
+    }
+}
+
+/// The reference of a shot on the finest mesh that there is.
+pub fn finest<'a>(references: &'a [Reference], shot: &Shot) -> Option<&'a Reference> {
+    let own = references.iter().filter(|reference| reference.is_of(shot));
+    own.max_by_key(|reference| reference.cells_per_radius)
+}
+
+/// Runs every contender on every shot that has a reference. A contender that fails on a shot is left out there.
+///
+/// # Errors
+/// [`Error::Input`] when a shot's materials are not in the library.
+pub fn judge(shots: &[Shot], references: &[Reference]) -> Result<Vec<Verdict>, Error> {
+    let contenders = contenders();
+    let judged: Result<Vec<Vec<Verdict>>, Error> = shots
+        .par_iter()
+        .filter_map(|shot| Some((shot, finest(references, shot)?)))
+        .map(|(shot, reference)| {
+            let scenario = shot.scenario()?;
+            let regime = Regime::of(&scenario).projectile;
+            let depths = contenders.iter().filter_map(|contender| {
+                let depth = contender.depth(&scenario).ok().flatten()?;
+                Some(Verdict {
+                    contender: contender.name.to_owned(),
+                    projectile: shot.projectile.clone(),
+                    target: shot.target.clone(),
+                    length_to_diameter: shot.length_to_diameter,
+                    impact_velocity_m_s: shot.speed,
+                    regime,
+                    depth_of_penetration_mm: depth * 1e3,
+                    reference_depth_mm: reference.depth_of_penetration_mm,
+                })
+            });
+            Ok(depths.collect())
+        })
+        .collect();
+    Ok(judged?.into_iter().flatten().collect())
+}
