@@ -44,8 +44,8 @@ impl Element {
             self.flow(part, trial, time_step, step_before);
         }
         self.axial_force = match part.kinematics {
-            Kinematics::Logarithmic => self.stress * part.area * self.rest_length / length,
-            Kinematics::SmallStrain => self.stress * part.area,
+            Kinematics::Logarithmic => self.stress * self.rest_area * self.rest_length / length,
+            Kinematics::SmallStrain => self.stress * self.rest_area,
         };
         0.5 * self.stress_before * (step_before + self.plastic_step)
     }
@@ -154,8 +154,8 @@ impl Element {
     /// Current cross-sectional area [m2].
     pub(super) fn area(&self, part: &Part) -> f64 {
         match part.kinematics {
-            Kinematics::Logarithmic => part.area * self.rest_length / self.length,
-            Kinematics::SmallStrain => part.area,
+            Kinematics::Logarithmic => self.rest_area * self.rest_length / self.length,
+            Kinematics::SmallStrain => self.rest_area,
         }
     }
 }

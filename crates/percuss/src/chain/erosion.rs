@@ -22,15 +22,15 @@ impl State {
     fn remove_element(&mut self, s: usize, e: usize) {
         let segment = self.segments[s];
         let part = &self.parts[segment.part];
-        let half_mass = 0.5 * part.density * part.area * self.elements[e].rest_length;
+        let masses = self.elements[e].end_masses;
         let half_friction = 0.5 * part.friction_per_length * self.elements[e].rest_length;
         self.books.eroded_energy += self.elastic_energy(e, part);
         let left = e + segment.part;
-        for i in [left, left + 1] {
+        for (i, mass) in [left, left + 1].into_iter().zip(masses) {
             let velocity = self.nodes[i].velocity;
-            self.books.eroded_energy += 0.5 * half_mass * velocity * velocity;
-            self.books.eroded_momentum += half_mass * velocity;
-            self.nodes[i].mass -= half_mass;
+            self.books.eroded_energy += 0.5 * mass * velocity * velocity;
+            self.books.eroded_momentum += mass * velocity;
+            self.nodes[i].mass -= mass;
             self.nodes[i].friction = (self.nodes[i].friction - half_friction).max(0.0);
         }
         self.elements[e].eroded = true;

@@ -181,16 +181,20 @@ impl State {
                 self.books.support_impulse += self.nodes[i].force * kick;
                 self.back_force = self.nodes[i].force;
             }
-            End::Dashpot(impedance) => {
+            End::Open {
+                impedance,
+                stiffness,
+            } => {
                 let inertia = self.nodes[i].mass / kick;
                 let before = self.nodes[i].velocity;
-                let after = ((inertia - 0.5 * impedance) * before + self.nodes[i].force)
+                let spring = stiffness * (self.nodes[i].position - self.back_position);
+                let after = ((inertia - 0.5 * impedance) * before + self.nodes[i].force - spring)
                     / (inertia + 0.5 * impedance);
                 let mean = 0.5 * (before + after);
                 self.nodes[i].velocity = after;
-                self.back_force = impedance * mean;
-                self.books.support_impulse += impedance * mean * kick;
-                self.books.boundary_work += impedance * mean * mean * kick;
+                self.back_force = impedance * mean + spring;
+                self.books.support_impulse += self.back_force * kick;
+                self.books.boundary_work += self.back_force * mean * kick;
             }
         }
     }
@@ -226,7 +230,8 @@ impl State {
                 if length <= 0.0 {
                     return Err(inverted(self.step, self.time, segment.elements().start + i));
                 }
-                plastic_work += element.rest_length * element.deform(part, length, time_step);
+                let volume = element.rest_area * element.rest_length;
+                plastic_work += volume * element.deform(part, length, time_step);
                 let approach = pair[0].velocity - pair[1].velocity;
                 let mut limit = element.stable_step(part);
                 if viscous {
@@ -239,7 +244,7 @@ impl State {
                 }
                 stable_step = stable_step.min(limit);
             }
-            self.books.plastic[part.role as usize] += part.area * plastic_work;
+            self.books.plastic[part.role as usize] += plastic_work;
         }
         self.stable_step = stable_step;
         Ok(())

@@ -14,8 +14,14 @@ use crate::ledger::{EnergyLedger, MomentumLedger};
 pub(super) enum End {
     Free,
     Fixed,
-    /// Viscous boundary that takes up a wave without reflecting it \[lysmer1969\]; its impedance [N s/m].
-    Dashpot(f64),
+    /// Boundary that takes up a wave without reflecting it: a dashpot \[lysmer1969\], and behind a cone a spring beside it
+    /// \[wolf1994\].
+    Open {
+        /// [N s/m].
+        impedance: f64,
+        /// Stiffness of the endless cone beyond the last node [N/m]; 0 behind a column.
+        stiffness: f64,
+    },
 }
 
 /// A run of nodes joined by elements of one part.
@@ -52,6 +58,10 @@ pub(super) struct Node {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Element {
     pub(super) rest_length: f64,
+    /// Area at rest [m2].
+    pub(super) rest_area: f64,
+    /// What it gives to the masses of its two nodes [kg].
+    pub(super) end_masses: [f64; 2],
     pub(super) length: f64,
     pub(super) strain: f64,
     pub(super) stress: f64,
@@ -157,7 +167,7 @@ impl State {
     /// A non-reflecting end has no static stiffness: the column that it holds drifts as a whole, and that drift is no crater.
     pub(super) fn depth(&self) -> f64 {
         match (self.face_segment(), self.tip_segment(), self.end) {
-            (Some(face), _, End::Dashpot(_)) => {
+            (Some(face), _, End::Open { stiffness: 0.0, .. }) => {
                 let back = self.nodes[self.nodes.len() - 1].position - self.back_position;
                 self.nodes[self.segments[face].first_node].position - back
             }
@@ -181,7 +191,7 @@ impl State {
 
     /// Elastic energy of an element between two steps: the form that central differences conserve.
     pub(super) fn elastic_energy(&self, element: usize, part: &Part) -> f64 {
-        let volume = part.area * self.elements[element].rest_length;
+        let volume = self.elements[element].rest_area * self.elements[element].rest_length;
         volume * self.elements[element].stress_before * self.elements[element].stress
             / (2.0 * part.modulus)
     }
