@@ -136,7 +136,10 @@ impl Element {
 
     /// Whether an update to the same length would change nothing.
     pub(super) fn is_settled(&self) -> bool {
-        self.plastic_step == 0.0 && self.viscous_force == 0.0 && self.stress == self.stress_before
+        self.plastic_step == 0.0
+            && self.viscous_force == 0.0
+            && self.stress == self.stress_before
+            && self.advance_step == 0.0
     }
 
     /// Largest stable time step of the undamped element [s]: the time a wave takes through it.

@@ -1,6 +1,9 @@
 //! Erosion: elements that leave the chain, with everything that leaves with them.
 
-use super::state::{End, Segment, State};
+use super::{
+    part::Role,
+    state::{End, Segment, State},
+};
 
 impl State {
     /// Takes out the elements whose strain has passed the limit, booking what leaves with them.
@@ -8,14 +11,25 @@ impl State {
         let mut s = 0;
         while s < self.segments.len() {
             let segment = self.segments[s];
+            let lasts = !self.may_erode(self.parts[segment.part].role);
             let found = segment
                 .elements()
-                .find(|&e| self.elements[e].strain.abs() >= limit);
+                .find(|&e| !lasts && self.elements[e].strain.abs() >= limit);
             match found {
                 // The segment at `s` is another one afterwards: look again.
                 Some(e) => self.remove_element(s, e),
                 None => s += 1,
             }
+        }
+    }
+
+    /// Whether elements of a body can erode now: at the mouth of a cone that is penetrated the target is pushed aside and the cone
+    /// ahead stays whole, and the projectile is turned back only where it can penetrate.
+    fn may_erode(&self, role: Role) -> bool {
+        match (&self.penetration, role) {
+            (None, _) => true,
+            (Some(_), Role::Target) => false,
+            (Some(penetration), Role::Projectile) => self.can_penetrate(penetration),
         }
     }
 

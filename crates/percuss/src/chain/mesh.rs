@@ -78,6 +78,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     let mut parts = vec![projectile];
     let mut lengths = vec![rod.length];
     let mut cone = None;
+    let mut struck_material = None;
     let mut end = End::Free;
     match &scenario.target {
         TargetBody::Layers {
@@ -89,6 +90,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
                 ErosionClosure::Strain => PI * column_diameter * column_diameter / 4.0,
                 ErosionClosure::Tate => parts[0].area,
             };
+            struck_material = layers.first().map(|plate| &plate.material);
             cone = cone_and_grading(layers, scenario, parts[0].area);
             let grading = cone.map(|(_, grading)| grading);
             for (plate, elements) in layers.iter().zip(layer_elements(layers, scenario, grading)) {
@@ -139,6 +141,11 @@ pub(super) fn build(scenario: &Scenario) -> State {
     if options.erosion_closure() == ErosionClosure::Tate {
         state.add_tip(rod.diameter);
     }
+    if options.target_closure() == TargetClosure::PenetrableCone
+        && let Some(material) = struck_material
+    {
+        state.let_penetrate(material);
+    }
     for node in &mut state.nodes[..=rod_elements] {
         node.velocity = scenario.impact_speed;
     }
@@ -169,6 +176,8 @@ fn assemble(
         end,
         tip_friction: 0.0,
         tip: None,
+        penetration: None,
+        drag: 0.0,
         back_position: 0.0,
         nodes: vec![Node::default(); nodes],
         elements: vec![Element::default(); elements],

@@ -8,6 +8,7 @@ mod erosion;
 mod friction;
 mod mesh;
 mod part;
+mod penetration;
 mod published;
 mod results;
 mod snapshot;

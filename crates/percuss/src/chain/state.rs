@@ -5,6 +5,7 @@
 
 use super::{
     part::{Part, Role},
+    penetration::Penetration,
     tate::Tip,
 };
 use crate::ledger::{EnergyLedger, MomentumLedger};
@@ -84,6 +85,9 @@ pub(super) struct Element {
     /// Initial position of its middle.
     pub(super) initial_position: f64,
     pub(super) eroded: bool,
+    /// Length of target that the tip has gone through [m], and its part in the last step.
+    pub(super) advance: f64,
+    pub(super) advance_step: f64,
 }
 
 /// Work and impulse that have gone where the state itself does not show them.
@@ -115,6 +119,10 @@ pub(super) struct State {
     pub(super) tip_friction: f64,
     /// What moves with the tip under the erosion closure of Tate.
     pub(super) tip: Option<Tip>,
+    /// What the tip has to overcome to penetrate a cone.
+    pub(super) penetration: Option<Penetration>,
+    /// Force of the target that is turned aside on the tip [N].
+    pub(super) drag: f64,
     /// Initial position of the last node [m].
     pub(super) back_position: f64,
 
