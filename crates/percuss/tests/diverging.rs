@@ -52,15 +52,13 @@ fn exact() -> (f64, f64, f64) {
 
 fn samples(result: &RunResult, from: f64, to: f64) -> impl Iterator<Item = &Sample> {
     let samples = &result.history.as_ref().unwrap().samples;
-    samples
-        .iter()
-        .filter(move |s| (from..to).contains(&s.time))
+    samples.iter().filter(move |s| (from..to).contains(&s.time))
 }
 
 /// In a cone `(z₀ + z) u` obeys the wave equation, so its mouth is a dashpot and a spring side by side; with the dashpot of the rod
 /// the face moves as `x = (Z_r V/k)(1 − exp(−kt/(Z_r + Z_c)))`.
 #[test]
-fn an_elastic_cone_relaxes_exponentially_and_the_error_is_of_second_order() {
+fn an_elastic_cone_relaxes_exponentially_and_the_error_falls_with_the_mesh() {
     let (stiffness, relaxation, rod) = exact();
     let errors: Vec<f64> = [(200, 50), (400, 100), (800, 200)]
         .map(|mesh| {
@@ -138,7 +136,7 @@ fn an_independent_program_gives_the_same_depths() {
 fn depths_converge() {
     for (closure, velocity, tolerance) in [
         ("cone", 230.0, 0.04),
-        ("penetrable-cone", 230.0, 0.03),
+        ("penetrable-cone", 230.0, 0.04),
         ("penetrable-cone", 600.0, 0.01),
         ("penetrable-cone", 1500.0, 0.05),
     ] {
@@ -244,7 +242,7 @@ fn a_rigid_rod_stops_where_steady_penetration_stops_it() {
             exact * 1e3,
             excess / RADIUS
         );
-        assert!(excess > 0.0 && excess < 5.5 * RADIUS);
+        assert!(excess > 0.0 && excess < 1.7 * RADIUS);
     }
 }
 
@@ -274,20 +272,24 @@ fn an_eroding_rod_digs_at_the_speed_of_steady_flow() {
             speed / rods_of_tate.penetration_speed(tail) - 1.0
         });
         println!("{strengths:?} MPa, {velocity} m/s: U is off by {errors:?}");
-        assert!(errors.iter().all(|error| error.abs() < 0.32));
+        assert!(errors.iter().all(|error| error.abs() < 0.055));
     }
 }
 
-/// Where the target can resist, the tip hardly penetrates, and the two cones are near each other.
+/// Where the target can resist, the tip does not penetrate, and the two cones are one.
 #[test]
-fn below_the_threshold_a_penetrable_cone_is_nearly_the_plain_one() {
+fn below_the_threshold_a_penetrable_cone_is_the_plain_one() {
     let never = "erosion_strain = \"never\"";
     for velocity in [100.0, 230.0, 400.0] {
         let [plain, penetrable] = ["cone", "penetrable-cone"].map(|closure| {
-            depth_mm(velocity, (40, 100), &format!("target_closure = \"{closure}\"\n{never}"))
+            depth_mm(
+                velocity,
+                (40, 100),
+                &format!("target_closure = \"{closure}\"\n{never}"),
+            )
         });
         println!("{velocity} m/s: {plain:.4} mm, penetrable {penetrable:.4} mm");
-        assert!((penetrable / plain - 1.0).abs() < 0.3);
+        assert!((penetrable / plain - 1.0).abs() < 1e-3);
     }
 }
 
@@ -299,7 +301,11 @@ fn keys_of_a_column_are_refused() {
         ("erosion_closure = \"tate\"", "erosion_closure"),
         ("scheme = \"published\"", "target_closure"),
     ] {
-        let text = paper(230.0, (4, 8), &format!("target_closure = \"cone\"\n{options}"));
+        let text = paper(
+            230.0,
+            (4, 8),
+            &format!("target_closure = \"cone\"\n{options}"),
+        );
         let error = case::load_str("test", &text).unwrap_err().to_string();
         assert!(error.contains(key), "{error}");
     }

@@ -302,7 +302,10 @@ impl ChainOptions {
             if given {
                 check.fail(
                     key,
-                    format!("`{key}` belongs to a column: the target closure `{}` has none", closure.name()),
+                    format!(
+                        "`{key}` belongs to a column: the target closure `{}` has none",
+                        closure.name()
+                    ),
                     "remove the key, or use target_closure = \"column\"",
                 );
             }

@@ -44,11 +44,7 @@ fn layer_elements(plates: &[Plate], scenario: &Scenario, grading: Option<Grading
 }
 
 /// The cone that stands for a target, and the sizes of its elements: at the mouth that of the projectile's.
-fn cone_and_grading(
-    layers: &[Plate],
-    scenario: &Scenario,
-    mouth: f64,
-) -> Option<(Cone, Grading)> {
+fn cone_and_grading(layers: &[Plate], scenario: &Scenario, mouth: f64) -> Option<(Cone, Grading)> {
     let options = &scenario.options.chain;
     if options.target_closure() == TargetClosure::Column {
         return None;
@@ -162,12 +158,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
 }
 
 /// Lines the parts up, the first one ending and the second one starting at 0.
-fn assemble(
-    parts: Vec<Part>,
-    lengths: &[f64],
-    end: End,
-    cone: Option<(Cone, Grading)>,
-) -> State {
+fn assemble(parts: Vec<Part>, lengths: &[f64], end: End, cone: Option<(Cone, Grading)>) -> State {
     let elements: usize = parts.iter().map(|part| part.elements).sum();
     let nodes = elements + parts.len();
     let mut state = State {

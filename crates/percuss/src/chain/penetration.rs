@@ -1,10 +1,10 @@
 //! Target closure `penetrable-cone`: the tip goes through the target where the cone would push back harder than the target can.
 //!
-//! A target resists steady penetration with the pressure `p = p_s + ½ρ_t w²` on the stream tube of the projectile: p_s expands a
-//! cavity, and `½ρ_t w²` turns what comes at the tip with the speed w aside, as in the equation of Alekseevskii and Tate. What the
+//! A target resists slow penetration with the pressure p_s that expands a cavity in it, on the stream tube of the projectile. What the
 //! projectile has spread beyond its stream tube flows outwards and presses with its own flow stress. No more than the sum of both
 //! gets through the first element of the cone: where it would, the tip advances through the element, which keeps its length of
-//! undisturbed target ahead of it.
+//! undisturbed target ahead of it. What the tip meets with the speed w is turned aside and pushes back on it with `½ρ_t w²`, as in
+//! the equation of Alekseevskii and Tate.
 
 use super::{
     part::Part,
@@ -26,9 +26,11 @@ pub(super) struct Penetration {
     area: f64,
     /// Density of the target [kg/m3].
     density: f64,
+    /// Mass that the tip has still to take up until the flow around it is steady [kg].
+    missing_mass: f64,
 }
 
-/// Largest force that the first element of the cone can take at this time.
+/// Largest force [N] that the first element of the cone can take at this time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limit {
     /// The element.
@@ -40,19 +42,16 @@ pub(super) struct Limit {
 impl State {
     /// Lets the tip penetrate a target of a material; one that never yields cannot be penetrated.
     pub(super) fn let_penetrate(&mut self, material: &Material) {
-        let (Some(resistance), Some(face)) =
-            (cavity_expansion_pressure(material), self.face_segment())
-        else {
+        let Some(resistance) = cavity_expansion_pressure(material) else {
             return;
         };
         let (area, density) = (self.parts[0].area, material.density.si());
         let radius = (area / std::f64::consts::PI).sqrt();
-        self.nodes[self.segments[face].first_node].mass +=
-            ADDED_MASS * density * radius.powi(3);
         self.penetration = Some(Penetration {
             resistance,
             area,
             density,
+            missing_mass: ADDED_MASS * density * radius.powi(3),
         });
     }
 
@@ -74,17 +73,38 @@ impl State {
         })
     }
 
-    /// Pushes back on the tip with the inertia of the target that it turned aside in the last step.
-    pub(super) fn turn_target_aside(&mut self) {
+    /// Lets the target that the tip went through in the last step push back on it.
+    ///
+    /// What it meets first piles up on it and moves with it from then on, until that is the added mass of the flow; the rest is
+    /// turned aside.
+    pub(super) fn meet_target(&mut self) {
         self.drag = 0.0;
-        let (Some(penetration), Some(face)) = (self.penetration, self.face_segment()) else {
+        let (Some(mut penetration), Some(face)) = (self.penetration, self.face_segment()) else {
             return;
         };
         let mouth = self.segments[face];
-        let speed = self.elements[mouth.elements().start].advance_step / self.time_step;
-        if speed > 0.0 {
-            self.drag = 0.5 * penetration.density * penetration.area * speed * speed;
-            self.nodes[mouth.first_node].force -= self.drag;
+        let advance = self.elements[mouth.elements().start].advance_step;
+        if advance <= 0.0 {
+            return;
+        }
+        let met = penetration.density * penetration.area * advance;
+        let i = mouth.first_node;
+        if penetration.missing_mass > 0.0 {
+            let mass = met.min(penetration.missing_mass);
+            penetration.missing_mass -= mass;
+            let node = self.nodes[i];
+            // It is taken up at rest, as by a plastic impact.
+            let jump = -node.velocity * mass / (node.mass + mass);
+            self.book_jump(i, jump, -self.time_step);
+            let after = node.velocity + jump;
+            self.books.contact_loss -= 0.5 * mass * after * after;
+            self.nodes[i].mass += mass;
+            self.nodes[i].velocity = after;
+            self.nodes[i].velocity_before = after;
+            self.penetration = Some(penetration);
+        } else {
+            self.drag = 0.5 * met * advance / (self.time_step * self.time_step);
+            self.nodes[i].force -= self.drag;
         }
     }
 

@@ -73,7 +73,7 @@ impl State {
             (control.courant * self.stable_step).min(control.longest_step),
         );
         self.collect_forces();
-        self.turn_target_aside();
+        self.meet_target();
         // Velocities live half a step behind positions: the kick spans the two half steps around the current time.
         self.kick(0.5 * (previous + time_step), control.is_viscous());
         self.close_gaps(time_step);
