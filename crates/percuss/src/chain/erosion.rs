@@ -5,16 +5,20 @@ use super::{
     state::{End, Segment, State},
 };
 
+/// Times the erosion strain that an element bears in a projectile that spreads on a floor that stands: as good as for ever, and soon
+/// enough for a time step that its length sets.
+const SPREADING_ENDURANCE: f64 = 2.0;
+
 impl State {
     /// Takes out the elements whose strain has passed the limit, booking what leaves with them.
     pub(super) fn erode(&mut self, limit: f64) {
         let mut s = 0;
         while s < self.segments.len() {
             let segment = self.segments[s];
-            let lasts = !self.may_erode(self.parts[segment.part].role);
+            let limit = limit * self.endurance(self.parts[segment.part].role);
             let found = segment
                 .elements()
-                .find(|&e| !lasts && self.elements[e].strain.abs() >= limit);
+                .find(|&e| self.elements[e].strain.abs() >= limit);
             match found {
                 // The segment at `s` is another one afterwards: look again.
                 Some(e) => self.remove_element(s, e),
@@ -23,13 +27,14 @@ impl State {
         }
     }
 
-    /// Whether elements of a body can erode now: at the mouth of a cone that is penetrated the target is pushed aside and the cone
-    /// ahead stays whole, and the projectile is turned back only where it can penetrate.
-    fn may_erode(&self, role: Role) -> bool {
+    /// Factor on the strain at which elements of a body erode: at the mouth of a cone that can be penetrated the target is pushed
+    /// aside and the cone ahead stays whole, and a projectile that cannot penetrate it spreads before it is turned back.
+    fn endurance(&self, role: Role) -> f64 {
         match (&self.penetration, role) {
-            (None, _) => true,
-            (Some(_), Role::Target) => false,
-            (Some(penetration), Role::Projectile) => self.can_penetrate(penetration),
+            (None, _) => 1.0,
+            (Some(_), Role::Target) => f64::INFINITY,
+            (Some(penetration), Role::Projectile) if self.can_penetrate(penetration) => 1.0,
+            (Some(_), Role::Projectile) => SPREADING_ENDURANCE,
         }
     }
 

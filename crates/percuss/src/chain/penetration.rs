@@ -59,18 +59,36 @@ impl State {
     pub(super) fn penetration_limit(&self) -> Option<Limit> {
         let penetration = self.penetration?;
         let mouth = self.segments[self.face_segment()?];
-        let spread = self
-            .tip_segment()
-            .filter(|&tip| self.closed[tip] && !self.segments[tip].elements().is_empty())
-            .map_or(0.0, |tip| {
-                let last = &self.elements[self.segments[tip].elements().end - 1];
-                let beyond = last.area(&self.parts[self.segments[tip].part]) - penetration.area;
-                beyond.max(0.0) * last.stress.clamp(0.0, penetration.resistance)
-            });
+        let spread = self.spread_load(&penetration);
         Some(Limit {
             element: mouth.elements().start,
             force: penetration.area * penetration.resistance + spread,
         })
+    }
+
+    /// Load of what the projectile has spread beyond its stream tube [N].
+    ///
+    /// It presses with the flow stress of the tip. What a tip that upsets brings to rest on the axis, `½ρ_p w²`, is part of the
+    /// same force and not spread; once the projectile erodes, that part arrives element by element and comes on top of it.
+    fn spread_load(&self, penetration: &Penetration) -> f64 {
+        let Some(tip) = self.tip_segment().filter(|&tip| self.closed[tip]) else {
+            return 0.0;
+        };
+        let segment = self.segments[tip];
+        let part = &self.parts[segment.part];
+        let Some(last) = segment.elements().next_back() else {
+            return 0.0;
+        };
+        let last = &self.elements[last];
+        let beyond = last.area(part) - penetration.area;
+        let spread = beyond.max(0.0) * last.stress.clamp(0.0, penetration.resistance);
+        let closing = self.nodes[0].velocity - self.nodes[segment.last_node].velocity;
+        let on_axis = 0.5 * part.density * penetration.area * closing.max(0.0).powi(2);
+        if self.elements[..part.elements].iter().any(|e| e.eroded) {
+            spread
+        } else {
+            (spread - on_axis).max(0.0)
+        }
     }
 
     /// Lets the target that the tip went through in the last step push back on it.
