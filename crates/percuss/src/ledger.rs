@@ -22,10 +22,11 @@ pub struct EnergyLedger {
     /// Work against artificial viscosity and damping.
     pub viscous: f64,
     /// Lost when free ends meet: contact conserves momentum, not energy; it vanishes with the element mass.
+    /// And what a penetrating tip lost to the target that it took up.
     pub contact: f64,
-    /// Energy that left through a non-reflecting back face.
+    /// Energy that left through a non-reflecting back face, or is stored in what stands behind it.
     pub boundary: f64,
-    /// Energy that eroded elements carried away.
+    /// Energy that eroded elements and target that was turned aside carried away.
     pub eroded: f64,
     /// Lost between particles and grid: motion finer than the grid; it vanishes with the cell size.
     pub transfer: f64,
@@ -77,7 +78,7 @@ pub struct MomentumLedger {
     pub support: f64,
     /// Impulse taken by border shear, or by a constant-pressure target.
     pub border_shear: f64,
-    /// Momentum that eroded elements carried away.
+    /// Momentum that eroded elements and target that was turned aside carried away.
     pub eroded: f64,
 }
 

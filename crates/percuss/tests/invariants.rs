@@ -59,7 +59,21 @@ fn options() -> impl Strategy<Value = String> {
         proptest::sample::select(vec!["chain", "joined", "joined-pushed"]).prop_map(|interface| {
             format!("scheme = \"published\"\n[chain.published]\ninterface = \"{interface}\"")
         });
-    prop_oneof![4 => conservative, 1 => published, 1 => Just(String::new())]
+    let cones = (
+        proptest::sample::select(vec!["diverging", "diverging-penetrable"]),
+        0.3..4.0_f64,
+        0.0..2.0_f64,
+        any::<bool>(),
+    )
+        .prop_map(|(closure, erosion, viscosity, small)| {
+            format!(
+                "target_closure = \"{closure}\"\nerosion_strain = {erosion}\nkinematics = \"{}\"\n\
+                 artificial_viscosity = {{ linear = {}, quadratic = {viscosity} }}",
+                if small { "small-strain" } else { "logarithmic" },
+                0.1 * viscosity
+            )
+        });
+    prop_oneof![4 => conservative, 2 => cones, 1 => published, 1 => Just(String::new())]
 }
 
 prop_compose! {
@@ -79,7 +93,8 @@ prop_compose! {
         );
         // A wall or a pressure has no column: the options of one would be refused.
         let solid = !target.starts_with("rigid_wall") && !target.starts_with("constant_pressure");
-        let column = ["target_elements", "border_shear", "constraint_factor"];
+        let column = ["target_elements", "border_shear", "constraint_factor", "target_closure"];
+        let text = if target.starts_with("layers") { text.replace("diverging-penetrable", "diverging") } else { text };
         text.lines()
             .filter(|line| solid || !column.iter().any(|key| line.starts_with(key)))
             .map(|line| format!("{line}\n"))

@@ -24,6 +24,8 @@ pub struct ChainOptions {
     /// Elements through the target, shared among its layers by thickness; 80 when not given, and fewer in a target thinner than
     /// half the projectile's length, a fourth as long as the projectile's but at least 24; always 80 in scheme `published`.
     pub target_elements: Option<u32>,
+    /// What stands for the target; `column` when not given; scheme `conservative` only.
+    pub target_closure: Option<TargetClosure>,
     /// Factor on the target's flow stress for the lateral constraint; 2.7 \[woodward1982\] when not given.
     pub constraint_factor: Option<ConstraintFactor>,
     /// Border-shear coefficient C in `Fy = C π d h σ_f` \[paper, eq. 24\]; 0.577 when not given.
@@ -86,6 +88,30 @@ pub enum Kinematics {
     SmallStrain,
 }
 
+/// What stands for the target.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum TargetClosure {
+    /// The column in line with the projectile, with a constraint factor and border shear.
+    #[default]
+    Column,
+    /// A truncated cone that is as stiff as a half-space under the projectile, with neither.
+    Diverging,
+    /// The same cone, into which the tip penetrates where the load would exceed the resistance to steady penetration.
+    DivergingPenetrable,
+}
+
+impl TargetClosure {
+    /// Name as the file has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Column => "column",
+            Self::Diverging => "diverging",
+            Self::DivergingPenetrable => "diverging-penetrable",
+        }
+    }
+}
+
 /// How what erodes leaves the tip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -133,6 +159,11 @@ impl ChainOptions {
             .unwrap_or(ConstraintFactor::Value(2.7))
     }
 
+    /// What stands for the target.
+    pub fn target_closure(&self) -> TargetClosure {
+        self.target_closure.unwrap_or_default()
+    }
+
     /// How what erodes leaves the tip.
     pub fn erosion_closure(&self) -> ErosionClosure {
         self.erosion_closure.unwrap_or_default()
@@ -154,6 +185,7 @@ impl ChainOptions {
     pub(super) fn check(&self, check: &mut Check<'_>, target: &Target) {
         let target_is_solid = target.is_solid();
         self.check_target(check, target_is_solid);
+        self.check_closure(check, target);
         for (key, elements) in [
             ("projectile_elements", self.projectile_elements),
             ("target_elements", self.target_elements),
@@ -217,6 +249,7 @@ impl ChainOptions {
     fn check_target(&self, check: &mut Check<'_>, target_is_solid: bool) {
         let column_only = [
             ("target_elements", self.target_elements.is_some()),
+            ("target_closure", self.target_closure.is_some()),
             ("constraint_factor", self.constraint_factor.is_some()),
             ("border_shear", self.border_shear.is_some()),
             ("erosion_closure", self.erosion_closure.is_some()),
@@ -255,6 +288,48 @@ impl ChainOptions {
         }
     }
 
+    /// Reports keys that a cone has no use for.
+    fn check_closure(&self, check: &mut Check<'_>, target: &Target) {
+        let closure = self.target_closure();
+        if closure == TargetClosure::Column {
+            return;
+        }
+        let tate = self.erosion_closure() == ErosionClosure::Tate;
+        for (key, given) in [
+            ("constraint_factor", self.constraint_factor.is_some()),
+            ("border_shear", self.border_shear.is_some()),
+            ("erosion_closure", tate),
+        ] {
+            if given {
+                check.fail(
+                    key,
+                    format!(
+                        "`{key}` belongs to a column: the target closure `{}` has none",
+                        closure.name()
+                    ),
+                    "remove the key, or use target_closure = \"column\"",
+                );
+            }
+        }
+        if target.column_diameter.is_some() {
+            check.fail(
+                "target_closure",
+                format!(
+                    "the target closure `{}` starts with the projectile's area: `target.column_diameter` has no effect",
+                    closure.name()
+                ),
+                "remove `target.column_diameter`, or use target_closure = \"column\"",
+            );
+        }
+        if closure == TargetClosure::DivergingPenetrable && target.layers.len() > 1 {
+            check.fail(
+                "target_closure",
+                "the target closure `diverging-penetrable` has one resistance: it takes a target of one material",
+                "use target_closure = \"cone\" or \"column\"",
+            );
+        }
+    }
+
     /// Reports keys that the selected scheme would ignore.
     fn check_scheme(&self, check: &mut Check<'_>) {
         let conservative_only = [
@@ -262,6 +337,7 @@ impl ChainOptions {
             ("courant", self.courant.is_some()),
             ("erosion_strain", self.erosion_strain.is_some()),
             ("erosion_closure", self.erosion_closure.is_some()),
+            ("target_closure", self.target_closure.is_some()),
             ("artificial_viscosity", self.artificial_viscosity.is_some()),
             ("damping_ratio", self.damping_ratio.is_some()),
             ("rate_effects", self.rate_effects.is_some()),

@@ -27,8 +27,8 @@ impl Element {
             self.flow(part, trial, time_step);
         }
         self.axial_force = match part.kinematics {
-            Kinematics::Logarithmic => self.stress * part.area * self.rest_length / length,
-            Kinematics::SmallStrain => self.stress * part.area,
+            Kinematics::Logarithmic => self.stress * self.rest_area * self.rest_length / length,
+            Kinematics::SmallStrain => self.stress * self.rest_area,
         };
         0.5 * self.stress_before * (step_before + self.plastic_step)
     }
@@ -64,7 +64,10 @@ impl Element {
 
     /// Whether an update to the same length would change nothing.
     pub(super) fn is_settled(&self) -> bool {
-        self.plastic_step == 0.0 && self.viscous_force == 0.0 && self.stress == self.stress_before
+        self.plastic_step == 0.0
+            && self.viscous_force == 0.0
+            && self.stress == self.stress_before
+            && self.advance_step == 0.0
     }
 
     /// Largest stable time step of the undamped element [s]: the time a wave takes through it.
@@ -82,8 +85,8 @@ impl Element {
     /// Current cross-sectional area [m2].
     pub(super) fn area(&self, part: &Part) -> f64 {
         match part.kinematics {
-            Kinematics::Logarithmic => part.area * self.rest_length / self.length,
-            Kinematics::SmallStrain => part.area,
+            Kinematics::Logarithmic => self.rest_area * self.rest_length / self.length,
+            Kinematics::SmallStrain => self.rest_area,
         }
     }
 }

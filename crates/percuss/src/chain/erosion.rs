@@ -1,6 +1,13 @@
 //! Erosion: elements that leave the chain, with everything that leaves with them.
 
-use super::state::{End, Segment, State};
+use super::{
+    part::Role,
+    state::{End, Segment, State},
+};
+
+/// Times the erosion strain that an element bears in a projectile that spreads on a floor that stands: as good as for ever, and soon
+/// enough for a time step that its length sets.
+const SPREADING_ENDURANCE: f64 = 2.0;
 
 impl State {
     /// Takes out the elements whose strain has passed the limit, booking what leaves with them.
@@ -8,6 +15,7 @@ impl State {
         let mut s = 0;
         while s < self.segments.len() {
             let segment = self.segments[s];
+            let limit = limit * self.endurance(self.parts[segment.part].role);
             let found = segment
                 .elements()
                 .find(|&e| self.elements[e].strain.abs() >= limit);
@@ -19,22 +27,34 @@ impl State {
         }
     }
 
+    /// Factor on the strain at which elements of a body erode: at the mouth of a cone that can be penetrated the target is pushed
+    /// aside and the cone ahead stays whole, and a projectile that cannot penetrate it spreads before it is turned back.
+    fn endurance(&self, role: Role) -> f64 {
+        match (&self.penetration, role) {
+            (None, _) => 1.0,
+            (Some(_), Role::Target) => f64::INFINITY,
+            (Some(penetration), Role::Projectile) if self.can_penetrate(penetration) => 1.0,
+            (Some(_), Role::Projectile) => SPREADING_ENDURANCE,
+        }
+    }
+
     fn remove_element(&mut self, s: usize, e: usize) {
         let segment = self.segments[s];
         let part = &self.parts[segment.part];
-        let half_mass = 0.5 * part.density * part.area * self.elements[e].rest_length;
+        let masses = self.elements[e].end_masses;
         let half_friction = 0.5 * part.friction_per_length * self.elements[e].rest_length;
         self.books.eroded_energy += self.elastic_energy(e, part);
         let left = e + segment.part;
-        let leaving = self.leave_tip(s, left, half_mass);
-        for i in [left, left + 1] {
+        // The closure of Tate has a column: both halves are alike.
+        let leaving = self.leave_tip(s, left, masses[0]);
+        for (i, mass) in [left, left + 1].into_iter().zip(masses) {
             let velocity = match leaving {
                 Some((tip, velocity)) if tip == i => velocity,
                 _ => self.nodes[i].velocity,
             };
-            self.books.eroded_energy += 0.5 * half_mass * velocity * velocity;
-            self.books.eroded_momentum += half_mass * velocity;
-            self.nodes[i].mass -= half_mass;
+            self.books.eroded_energy += 0.5 * mass * velocity * velocity;
+            self.books.eroded_momentum += mass * velocity;
+            self.nodes[i].mass -= mass;
             self.nodes[i].friction = (self.nodes[i].friction - half_friction).max(0.0);
         }
         self.elements[e].eroded = true;

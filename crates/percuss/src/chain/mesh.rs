@@ -3,12 +3,13 @@
 use std::f64::consts::PI;
 
 use super::{
+    cone::{Cone, Grading},
     part::{Part, Role, constraint_factor},
     solver::LARGEST_STRAIN_STEP,
     state::{Books, Element, End, Node, Segment, State},
 };
 use crate::{
-    case::{BackFace, ErosionClosure, Kinematics},
+    case::{BackFace, ErosionClosure, Kinematics, TargetClosure},
     material::{FlowState, YieldPoint},
     scenario::{Plate, Scenario, TargetBody},
 };
@@ -24,17 +25,35 @@ pub(crate) fn modelled_thickness(plate: &Plate, scenario: &Scenario) -> f64 {
         .unwrap_or(SEMI_INFINITE_LENGTHS * scenario.projectile.length)
 }
 
-/// Elements of each layer: shared by thickness, at least one each.
-fn layer_elements(plates: &[Plate], scenario: &Scenario) -> Vec<usize> {
+/// Elements of each layer: as the grading shares them, at least one each.
+fn layer_elements(plates: &[Plate], scenario: &Scenario, grading: Option<Grading>) -> Vec<usize> {
     let total: f64 = plates.iter().map(|p| modelled_thickness(p, scenario)).sum();
     let elements = scenario.options.chain.target_elements() as f64;
+    let mut start = 0.0;
     plates
         .iter()
         .map(|plate| {
-            let share = elements * modelled_thickness(plate, scenario) / total;
+            let thickness = modelled_thickness(plate, scenario);
+            let share = grading.map_or(elements * thickness / total, |grading| {
+                grading.elements_to(start + thickness) - grading.elements_to(start)
+            });
+            start += thickness;
             (share.round() as usize).max(1)
         })
         .collect()
+}
+
+/// The cone that stands for a target, and the sizes of its elements: at the mouth that of the projectile's.
+fn cone_and_grading(layers: &[Plate], scenario: &Scenario, mouth: f64) -> Option<(Cone, Grading)> {
+    let options = &scenario.options.chain;
+    if options.target_closure() == TargetClosure::Column {
+        return None;
+    }
+    let cone = Cone::under_disc(mouth, layers.first()?.material.poissons_ratio);
+    let thickness = layers.iter().map(|p| modelled_thickness(p, scenario)).sum();
+    let first = scenario.projectile.length / options.projectile_elements() as f64;
+    let grading = Grading::new(first, thickness, options.target_elements());
+    Some((cone, grading))
 }
 
 pub(super) fn build(scenario: &Scenario) -> State {
@@ -54,6 +73,8 @@ pub(super) fn build(scenario: &Scenario) -> State {
     }
     let mut parts = vec![projectile];
     let mut lengths = vec![rod.length];
+    let mut cone = None;
+    let mut struck_material = None;
     let mut end = End::Free;
     match &scenario.target {
         TargetBody::Layers {
@@ -65,15 +86,21 @@ pub(super) fn build(scenario: &Scenario) -> State {
                 ErosionClosure::Strain => PI * column_diameter * column_diameter / 4.0,
                 ErosionClosure::Tate => parts[0].area,
             };
-            for (plate, elements) in layers.iter().zip(layer_elements(layers, scenario)) {
+            struck_material = layers.first().map(|plate| &plate.material);
+            cone = cone_and_grading(layers, scenario, parts[0].area);
+            let grading = cone.map(|(_, grading)| grading);
+            for (plate, elements) in layers.iter().zip(layer_elements(layers, scenario, grading)) {
                 let material = &plate.material;
-                let factor = constraint_factor(options.constraint_factor(), material);
+                let factor = match cone {
+                    Some(_) => 1.0,
+                    None => constraint_factor(options.constraint_factor(), material),
+                };
                 let mut part = Part::new(Role::Target, material, area, elements, factor, options);
                 let flow_stress = material.strength.law().flow_stress_at_unit_strain(material);
                 part.friction_per_length =
                     options.border_shear() * PI * column_diameter * flow_stress.unwrap_or(0.0);
-                if options.erosion_closure() == ErosionClosure::Tate {
-                    // What holds the target ahead of the tip stands in the place of border shear.
+                if options.erosion_closure() == ErosionClosure::Tate || cone.is_some() {
+                    // What holds the target ahead of the tip stands in the place of border shear; a cone widens instead.
                     part.friction_per_length = 0.0;
                 }
                 parts.push(part);
@@ -82,7 +109,15 @@ pub(super) fn build(scenario: &Scenario) -> State {
             end = match (back_face, layers.last()) {
                 (BackFace::Fixed, _) => End::Fixed,
                 (BackFace::NonReflecting, Some(last)) => {
-                    End::Dashpot(last.material.bar_impedance() * area)
+                    let thickness = lengths[1..].iter().sum();
+                    let behind = |cone: Cone| cone.area_at(thickness);
+                    End::Open {
+                        impedance: last.material.bar_impedance()
+                            * cone.map_or(area, |(cone, _)| behind(cone)),
+                        stiffness: cone.map_or(0.0, |(cone, _)| {
+                            last.material.youngs_modulus.si() * cone.stiffness_beyond(thickness)
+                        }),
+                    }
                 }
                 (BackFace::Free, _) | (_, None) => End::Free,
             };
@@ -94,13 +129,18 @@ pub(super) fn build(scenario: &Scenario) -> State {
         }
         TargetBody::ConstantPressure(_) => {}
     }
-    let mut state = assemble(parts, &lengths, end);
+    let mut state = assemble(parts, &lengths, end, cone);
     if let TargetBody::ConstantPressure(pressure) = scenario.target {
         state.tip_friction = pressure * state.parts[0].area;
         state.nodes[rod_elements].friction = state.tip_friction;
     }
     if options.erosion_closure() == ErosionClosure::Tate {
         state.add_tip(rod.diameter);
+    }
+    if options.target_closure() == TargetClosure::DivergingPenetrable
+        && let Some(material) = struck_material
+    {
+        state.let_penetrate(material);
     }
     for node in &mut state.nodes[..=rod_elements] {
         node.velocity = scenario.impact_speed;
@@ -118,7 +158,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
 }
 
 /// Lines the parts up, the first one ending and the second one starting at 0.
-fn assemble(parts: Vec<Part>, lengths: &[f64], end: End) -> State {
+fn assemble(parts: Vec<Part>, lengths: &[f64], end: End, cone: Option<(Cone, Grading)>) -> State {
     let elements: usize = parts.iter().map(|part| part.elements).sum();
     let nodes = elements + parts.len();
     let mut state = State {
@@ -127,6 +167,8 @@ fn assemble(parts: Vec<Part>, lengths: &[f64], end: End) -> State {
         end,
         tip_friction: 0.0,
         tip: None,
+        penetration: None,
+        drag: 0.0,
         back_position: 0.0,
         nodes: vec![Node::default(); nodes],
         elements: vec![Element::default(); elements],
@@ -151,10 +193,15 @@ fn assemble(parts: Vec<Part>, lengths: &[f64], end: End) -> State {
             last_node: first_node + count,
         });
         let size = length / count.max(1) as f64;
+        let widens = cone.filter(|_| part.role == Role::Target);
+        let graded = widens.map(|(_, grading)| grading.nodes(start, start + length, count));
         for i in 0..=count {
             // The last node stands exactly where the next part's first one does.
             let from_end = (count - i) as f64;
-            state.nodes[first_node + i].position = start + length - size * from_end;
+            state.nodes[first_node + i].position = match &graded {
+                Some(depths) => depths[i],
+                None => start + length - size * from_end,
+            };
         }
         let yield_point = YieldPoint::slow(
             &*part.strength,
@@ -167,15 +214,23 @@ fn assemble(parts: Vec<Part>, lengths: &[f64], end: End) -> State {
         );
         for e in first_element..first_element + count {
             let node = e + p;
-            let half_mass = 0.5 * part.density * part.area * size;
+            let (back, front) = (state.nodes[node].position, state.nodes[node + 1].position);
+            let (rest_area, end_masses) = match widens {
+                Some((cone, _)) => (
+                    cone.area_between(back, front),
+                    cone.volumes_between(back, front).map(|v| part.density * v),
+                ),
+                None => (part.area, [0.5 * part.density * part.area * size; 2]),
+            };
             let half_friction = 0.5 * part.friction_per_length * size;
-            for node in &mut state.nodes[node..=node + 1] {
-                node.mass += half_mass;
+            for (node, mass) in state.nodes[node..=node + 1].iter_mut().zip(end_masses) {
+                node.mass += mass;
                 node.friction += half_friction;
             }
-            let (back, front) = (state.nodes[node].position, state.nodes[node + 1].position);
             state.elements[e] = Element {
                 rest_length: front - back,
+                rest_area,
+                end_masses,
                 length: front - back,
                 initial_position: 0.5 * (front + back),
                 temperature: part.start_temperature,
@@ -189,7 +244,7 @@ fn assemble(parts: Vec<Part>, lengths: &[f64], end: End) -> State {
     }
     state.back_position = state.nodes[nodes - 1].position;
     // The boundary's own impedance stands for everything behind it, border shear included.
-    if let (End::Dashpot(_), Some(last)) = (end, state.nodes.last_mut()) {
+    if let (End::Open { .. }, Some(last)) = (end, state.nodes.last_mut()) {
         last.friction = 0.0;
     }
     state

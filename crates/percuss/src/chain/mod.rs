@@ -1,5 +1,6 @@
 //! Model `chain`: the 1-D discrete element model, point masses joined by normal springs.
 
+mod cone;
 mod conservative;
 mod contact;
 mod element;
@@ -7,6 +8,7 @@ mod erosion;
 mod friction;
 mod mesh;
 mod part;
+mod penetration;
 mod published;
 mod results;
 mod snapshot;

@@ -137,7 +137,7 @@ impl Results<'_> {
                         remains.permanent_depth += if element.eroded {
                             rest
                         } else {
-                            rest - unloaded
+                            rest - unloaded + element.advance
                         };
                     }
                 }

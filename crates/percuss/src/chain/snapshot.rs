@@ -1,5 +1,7 @@
 //! What histories keep of a state.
 
+use std::f64::consts::PI;
+
 use super::{part::Role, state::State};
 use crate::history::{ElementState, Profile, Sample};
 
@@ -62,7 +64,7 @@ impl State {
                     stress: self.elements[e].stress,
                     strain: self.elements[e].strain,
                     plastic_strain: self.elements[e].plastic_strain,
-                    diameter: part.diameter_at(self.elements[e].strain),
+                    diameter: 2.0 * (self.elements[e].area(part) / PI).sqrt(),
                     temperature: self.elements[e].temperature,
                 });
             }

@@ -73,6 +73,7 @@ impl State {
             (control.courant * self.stable_step).min(control.longest_step),
         );
         self.collect_forces();
+        self.meet_target();
         // Velocities live half a step behind positions: the kick spans the two half steps around the current time.
         self.kick(0.5 * (previous + time_step), control.is_viscous());
         self.close_gaps(time_step);
@@ -133,6 +134,7 @@ impl State {
         if viscous {
             self.book_viscous_work(kick);
         }
+        self.book_target_turned_aside(kick);
     }
 
     fn book_viscous_work(&mut self, kick: f64) {
@@ -181,16 +183,20 @@ impl State {
                 self.books.support_impulse += self.nodes[i].force * kick;
                 self.back_force = self.nodes[i].force;
             }
-            End::Dashpot(impedance) => {
+            End::Open {
+                impedance,
+                stiffness,
+            } => {
                 let inertia = self.nodes[i].mass / kick;
                 let before = self.nodes[i].velocity;
-                let after = ((inertia - 0.5 * impedance) * before + self.nodes[i].force)
+                let spring = stiffness * (self.nodes[i].position - self.back_position);
+                let after = ((inertia - 0.5 * impedance) * before + self.nodes[i].force - spring)
                     / (inertia + 0.5 * impedance);
                 let mean = 0.5 * (before + after);
                 self.nodes[i].velocity = after;
-                self.back_force = impedance * mean;
-                self.books.support_impulse += impedance * mean * kick;
-                self.books.boundary_work += impedance * mean * mean * kick;
+                self.back_force = impedance * mean + spring;
+                self.books.support_impulse += self.back_force * kick;
+                self.books.boundary_work += self.back_force * mean * kick;
             }
         }
     }
@@ -207,12 +213,14 @@ impl State {
     fn drift(&mut self, control: &StepControl, time_step: f64) -> Result<(), NumericalError> {
         let viscous = control.is_viscous();
         let mut stable_step = f64::INFINITY;
+        let limit = self.penetration_limit();
         for segment in &self.segments {
             let part = &self.parts[segment.part];
             let nodes = &mut self.nodes[segment.first_node..=segment.last_node];
             for node in nodes.iter_mut() {
                 node.position += node.velocity * time_step;
             }
+            let first_element = segment.elements().start;
             let elements = &mut self.elements[segment.elements()];
             let mut plastic_work = 0.0;
             for (i, (pair, element)) in nodes.windows(2).zip(elements).enumerate() {
@@ -222,12 +230,18 @@ impl State {
                     stable_step = stable_step.min(element.stable_step(part));
                     continue;
                 }
-                let length = pair[1].position - pair[0].position;
-                if length <= 0.0 {
-                    return Err(inverted(self.step, self.time, segment.elements().start + i));
+                let distance = pair[1].position - pair[0].position;
+                if let Some(limit) = limit.filter(|limit| limit.element == first_element + i) {
+                    plastic_work += element.penetrate(part, distance, time_step, limit);
                 }
-                plastic_work += element.rest_length * element.deform(part, length, time_step);
-                let approach = pair[0].velocity - pair[1].velocity;
+                let length = distance + element.advance;
+                if length <= 0.0 {
+                    return Err(inverted(self.step, self.time, first_element + i));
+                }
+                let volume = element.rest_area * element.rest_length;
+                plastic_work += volume * element.deform(part, length, time_step);
+                let approach =
+                    pair[0].velocity - pair[1].velocity - element.advance_step / time_step;
                 let mut limit = element.stable_step(part);
                 if viscous {
                     limit *= control.damp(element, part, approach);
@@ -239,7 +253,7 @@ impl State {
                 }
                 stable_step = stable_step.min(limit);
             }
-            self.books.plastic[part.role as usize] += part.area * plastic_work;
+            self.books.plastic[part.role as usize] += plastic_work;
         }
         self.stable_step = stable_step;
         Ok(())

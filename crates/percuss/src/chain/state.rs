@@ -5,6 +5,7 @@
 
 use super::{
     part::{Part, Role},
+    penetration::Penetration,
     tate::Tip,
 };
 use crate::{
@@ -17,8 +18,14 @@ use crate::{
 pub(super) enum End {
     Free,
     Fixed,
-    /// Viscous boundary that takes up a wave without reflecting it \[lysmer1969\]; its impedance [N s/m].
-    Dashpot(f64),
+    /// Boundary that takes up a wave without reflecting it: a dashpot \[lysmer1969\], and behind a cone a spring beside it
+    /// \[wolf1994\].
+    Open {
+        /// [N s/m].
+        impedance: f64,
+        /// Stiffness of the endless cone beyond the last node [N/m]; 0 behind a column.
+        stiffness: f64,
+    },
 }
 
 /// A run of nodes joined by elements of one part.
@@ -55,6 +62,10 @@ pub(super) struct Node {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Element {
     pub(super) rest_length: f64,
+    /// Area at rest [m2].
+    pub(super) rest_area: f64,
+    /// What it gives to the masses of its two nodes [kg].
+    pub(super) end_masses: [f64; 2],
     pub(super) length: f64,
     pub(super) strain: f64,
     pub(super) stress: f64,
@@ -74,6 +85,9 @@ pub(super) struct Element {
     /// Initial position of its middle.
     pub(super) initial_position: f64,
     pub(super) eroded: bool,
+    /// Length of target that the tip has gone through [m], and its part in the last step.
+    pub(super) advance: f64,
+    pub(super) advance_step: f64,
 }
 
 /// Work and impulse that have gone where the state itself does not show them.
@@ -105,6 +119,10 @@ pub(super) struct State {
     pub(super) tip_friction: f64,
     /// What moves with the tip under the erosion closure of Tate.
     pub(super) tip: Option<Tip>,
+    /// What the tip has to overcome to penetrate a cone.
+    pub(super) penetration: Option<Penetration>,
+    /// Force of the target that is turned aside on the tip [N].
+    pub(super) drag: f64,
     /// Initial position of the last node [m].
     pub(super) back_position: f64,
 
@@ -157,7 +175,7 @@ impl State {
     /// A non-reflecting end has no static stiffness: the column that it holds drifts as a whole, and that drift is no crater.
     pub(super) fn depth(&self) -> f64 {
         match (self.face_segment(), self.tip_segment(), self.end) {
-            (Some(face), _, End::Dashpot(_)) => {
+            (Some(face), _, End::Open { stiffness: 0.0, .. }) => {
                 let back = self.nodes[self.nodes.len() - 1].position - self.back_position;
                 self.nodes[self.segments[face].first_node].position - back
             }
@@ -181,7 +199,7 @@ impl State {
 
     /// Elastic energy of an element between two steps: the form that central differences conserve.
     pub(super) fn elastic_energy(&self, element: usize, part: &Part) -> f64 {
-        let volume = part.area * self.elements[element].rest_length;
+        let volume = self.elements[element].rest_area * self.elements[element].rest_length;
         volume * self.elements[element].stress_before * self.elements[element].stress
             / (2.0 * part.modulus)
     }

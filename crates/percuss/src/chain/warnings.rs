@@ -1,13 +1,15 @@
 //! What a user should know before relying on a result of the conservative scheme.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::mesh;
 use crate::{
-    case::{BackFace, ErosionClosure},
-    material::{Material, Strength},
+    case::{BackFace, ErosionClosure, TargetClosure},
+    material::{Material, Strength, cavity_expansion_pressure},
     outcome::{Outcome, RunResult},
     regime::THICK,
-    scenario::{Scenario, TargetBody},
-    units::{StrainRate, Temperature, significant},
+    scenario::{Plate, Scenario, TargetBody},
+    units::{StrainRate, Temperature, Velocity, significant},
 };
 
 /// Warnings of a run, the weightiest first.
@@ -96,6 +98,8 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
              factor, on the rod's area"
                 .to_owned(),
         );
+    } else if scenario.options.chain.target_closure() != TargetClosure::Column {
+        warn_of_cone(scenario, layers, depth, warnings);
     } else if scenario.options.chain.border_shear() > 0.0 {
         warnings.push(format!(
             "the depth rests on the target closure (constraint factor and border shear C = {}): `chain.border_shear = 0.0` \
@@ -116,6 +120,56 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
             "the depth is close to the {} mm that stand for a semi-infinite target: give a thickness",
             significant(thickness * 1e3, 3)
         ));
+    }
+}
+
+/// Plastic strain at which a strength is judged: reached early in any impact that yields.
+const STRENGTH_STRAIN: f64 = 0.1;
+/// Factor on either side of the threshold of penetration within which the cones are at their weakest.
+const THRESHOLD_EDGE: f64 = 1.4;
+/// Part of the compliance of the cone that may lie behind a plate's back face.
+const COMPLIANCE_BEHIND: f64 = 0.25;
+
+/// A cone knows nothing of a crater that is deep against its mouth, nor of a back face that comes near.
+fn warn_of_cone(scenario: &Scenario, layers: &[Plate], depth: f64, warnings: &mut Vec<String>) {
+    let Some(struck) = layers.first().map(|plate| &plate.material) else {
+        return;
+    };
+    let closure = scenario.options.chain.target_closure();
+    let rod = &scenario.projectile;
+    let radius = 0.5 * rod.diameter;
+    if closure == TargetClosure::Diverging && depth > radius {
+        warnings.push(format!(
+            "the depth is more than a radius of the projectile: the crater floor has left the mouth of the cone, which resists more \
+             and more; compare with `chain.target_closure` = \"{}\"",
+            TargetClosure::DivergingPenetrable.name()
+        ));
+    }
+    if closure == TargetClosure::DivergingPenetrable
+        && let (Some(resistance), Some(strength)) = (
+            cavity_expansion_pressure(struck),
+            rod.material.flow_stress(STRENGTH_STRAIN),
+        )
+        && resistance > strength
+    {
+        let threshold = (2.0 * (resistance - strength) / rod.material.density.si()).sqrt();
+        let ratio = scenario.impact_speed / threshold;
+        if (1.0 / THRESHOLD_EDGE..THRESHOLD_EDGE).contains(&ratio) {
+            warnings.push(format!(
+                "the impact is near the threshold of penetration ({}), where the projectile begins to be turned back: the depth is \
+                 too small from there on until penetration is steady",
+                Velocity::new((threshold).round())
+            ));
+        }
+    }
+    let thickness: Option<f64> = layers.iter().map(|plate| plate.thickness).sum();
+    let apex = FRAC_PI_2 * (1.0 - struck.poissons_ratio * struck.poissons_ratio) * radius;
+    if let Some(thickness) = thickness
+        && apex > COMPLIANCE_BEHIND * (apex + thickness - depth)
+    {
+        warnings.push(
+            "the back face is near: a cone does not bulge, bend or plug, and keeps its length as the crater deepens".to_owned(),
+        );
     }
 }
 
