@@ -120,7 +120,7 @@ fn depth_mm(velocity: f64, elements: (u32, u32), options: &str) -> f64 {
 /// 0.196 mm at 230 m/s, 1.94 mm at 600 m/s without erosion.
 #[test]
 fn an_independent_program_gives_the_same_depths() {
-    let never = "target_closure = \"cone\"\nerosion_strain = \"never\"";
+    let never = "target_closure = \"diverging\"\nerosion_strain = \"never\"";
     for (velocity, elements, other_mm) in [
         (230.0, (20, 50), 0.1928),
         (230.0, (40, 100), 0.1963),
@@ -304,12 +304,12 @@ fn keys_of_a_column_are_refused() {
         let text = paper(
             230.0,
             (4, 8),
-            &format!("target_closure = \"cone\"\n{options}"),
+            &format!("target_closure = \"diverging\"\n{options}"),
         );
         let error = case::load_str("test", &text).unwrap_err().to_string();
         assert!(error.contains(key), "{error}");
     }
-    let text = paper(230.0, (4, 8), "target_closure = \"cone\"")
+    let text = paper(230.0, (4, 8), "target_closure = \"diverging\"")
         .replace("25 mm\" }", "25 mm\", column_diameter = \"5 mm\" }");
     let error = case::load_str("test", &text).unwrap_err().to_string();
     assert!(error.contains("column_diameter"), "{error}");

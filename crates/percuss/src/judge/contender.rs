@@ -2,7 +2,7 @@
 
 use crate::{
     Error, Scenario,
-    case::{ChainOptions, Scheme},
+    case::{ChainOptions, TargetClosure},
     model::{self, Control, Model},
     outcome::BandQuantity,
 };
@@ -21,41 +21,49 @@ pub struct Contender {
 /// Options of the chain that close its target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Closure {
-    scheme: Scheme,
+    target: TargetClosure,
     border_shear: Option<f64>,
 }
 
-/// Closures of the chain's target, the default one first.
+/// Closures of the chain's target.
 const CLOSURES: &[(&str, Closure)] = &[
+    ("chain: column", Closure::of(TargetClosure::Column)),
     (
-        "chain",
+        "chain: column, no border shear",
         Closure {
-            scheme: Scheme::Conservative,
-            border_shear: None,
-        },
-    ),
-    (
-        "chain, no border shear",
-        Closure {
-            scheme: Scheme::Conservative,
+            target: TargetClosure::Column,
             border_shear: Some(0.0),
         },
+    ),
+    ("chain: diverging", Closure::of(TargetClosure::Diverging)),
+    (
+        "chain: diverging-penetrable",
+        Closure::of(TargetClosure::DivergingPenetrable),
     ),
 ];
 
 impl Closure {
+    const fn of(target: TargetClosure) -> Self {
+        Self {
+            target,
+            border_shear: None,
+        }
+    }
+
     /// Whether a case has this closure, and the constants that it was judged with.
     fn is_of(&self, options: &ChainOptions) -> bool {
         let own = self.options();
+        let column = options.border_shear() == own.border_shear()
+            && options.constraint_factor() == own.constraint_factor();
         options.scheme == own.scheme
-            && options.border_shear() == own.border_shear()
-            && options.constraint_factor() == own.constraint_factor()
+            && options.target_closure() == own.target_closure()
             && options.erosion_closure() == own.erosion_closure()
+            && (self.target != TargetClosure::Column || column)
     }
 
     fn options(&self) -> ChainOptions {
         ChainOptions {
-            scheme: self.scheme,
+            target_closure: Some(self.target),
             border_shear: self.border_shear,
             ..ChainOptions::default()
         }
