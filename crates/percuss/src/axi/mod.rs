@@ -15,6 +15,8 @@ mod results;
 mod run;
 mod setup;
 mod solver;
+#[cfg(test)]
+mod tests;
 mod transfer;
 mod warnings;
 mod watch;

@@ -100,6 +100,15 @@ impl Solver {
 
     /// Advances by one step; false when a number ceased to be one.
     pub(super) fn advance(&mut self) -> bool {
+        if !self.take_over() {
+            return false;
+        }
+        self.move_nodes();
+        true
+    }
+
+    /// Lets the particles take over what the nodes did, and adds them up on the nodes; false when a number ceased to be one.
+    pub(super) fn take_over(&mut self) -> bool {
         for body in &mut self.bodies {
             if body.is_spread() {
                 body.put_in_order(self.cell);
@@ -136,11 +145,7 @@ impl Solver {
             books.lost_energy += sums.lost.2;
             books.transfer -= sums.kinetic + sums.lost.2;
         }
-        if self.sums.iter().any(|sums| sums.broken) {
-            return false;
-        }
-        self.move_nodes();
-        true
+        !self.sums.iter().any(|sums| sums.broken)
     }
 
     /// Moves all particles by the current step and adds them up on the nodes.
@@ -185,7 +190,7 @@ impl Solver {
     }
 
     /// Chooses the step that comes next and moves the nodes by it.
-    fn move_nodes(&mut self) {
+    pub(super) fn move_nodes(&mut self) {
         let most = |value: fn(&Sums) -> f64| self.sums.iter().map(value).fold(0.0, f64::max).sqrt();
         let (wave, speed) = (most(|s| s.wave_squared), most(|s| s.speed_squared));
         self.time_step = self.courant * self.cell / (wave + speed);
