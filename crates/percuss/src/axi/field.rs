@@ -41,7 +41,8 @@ pub(super) struct Field {
     pub(super) rows: usize,
     pub(super) columns: usize,
     pub(super) nodes: Vec<Node>,
-    pub(super) velocity: Vec<[f64; 2]>,
+    /// Velocity of every node after the step, and before it, as it came from the particles [m/s].
+    pub(super) velocity: Vec<[f64; 4]>,
 }
 
 impl Field {
@@ -54,7 +55,7 @@ impl Field {
         self.rows = (last - first) as usize;
         self.columns = strips.iter().map(|s| s.columns).max().unwrap_or(0);
         self.nodes.resize(self.rows * self.columns, [0.0; 6]);
-        self.velocity.resize(self.rows * self.columns, [0.0; 2]);
+        self.velocity.resize(self.rows * self.columns, [0.0; 4]);
     }
 
     /// Index of a node: its column is counted with the mirrored one, its row from the struck face.
