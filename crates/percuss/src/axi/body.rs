@@ -180,15 +180,15 @@ pub(super) fn advance(
 
 #[inline(always)]
 fn step(particle: &mut Particle, law: &Law, field: &Field, pass: &Pass) -> Work {
-    let flow = gather(particle, 1.0 / pass.cell, field);
+    gather(particle, 1.0 / pass.cell, field);
     let radius = particle.position[0];
     let hoop_rate = if law.axisymmetric {
-        flow[0] / radius
+        particle.velocity[0] / radius
     } else {
         0.0
     };
     for k in 0..2 {
-        particle.position[k] += pass.time_step * flow[k];
+        particle.position[k] += pass.time_step * particle.velocity[k];
     }
     particle.position[0] = particle.position[0].abs();
     law.deform(particle, hoop_rate, pass.time_step, pass.cell)

@@ -39,7 +39,7 @@ pub(super) fn meet(contact: Contact, first: &mut Field, second: &mut Field, cell
             if mass_a <= 0.0 || mass_b <= 0.0 {
                 continue;
             }
-            let (v_a, v_b) = (first.velocity_after(a), second.velocity_after(b));
+            let (v_a, v_b) = (first.velocity[a], second.velocity[b]);
             let reduced = mass_a * mass_b / (mass_a + mass_b);
             let closing = [v_a[0] - v_b[0], v_a[1] - v_b[1]];
             let impulse = match contact {
@@ -98,18 +98,11 @@ pub(super) fn meet(contact: Contact, first: &mut Field, second: &mut Field, cell
 }
 
 impl Field {
-    /// Velocity of a node after the step [m/s].
-    fn velocity_after(&self, index: usize) -> [f64; 2] {
-        let [r, z, ..] = self.velocity[index];
-        [r, z]
-    }
-
     /// Sets the velocity of a node and of its image in the axis.
     pub(super) fn set_velocity(&mut self, index: usize, column: usize, velocity: [f64; 2]) {
-        let [r, z] = velocity;
-        [self.velocity[index][0], self.velocity[index][1]] = [r, z];
+        self.velocity[index] = velocity;
         if column == 2 {
-            [self.velocity[index - 2][0], self.velocity[index - 2][1]] = [-r, z];
+            self.velocity[index - 2] = [-velocity[0], velocity[1]];
         }
     }
 }

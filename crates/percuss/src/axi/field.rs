@@ -41,8 +41,7 @@ pub(super) struct Field {
     pub(super) rows: usize,
     pub(super) columns: usize,
     pub(super) nodes: Vec<Node>,
-    /// Velocity of every node after the step, and before it, as it came from the particles [m/s].
-    pub(super) velocity: Vec<[f64; 4]>,
+    pub(super) velocity: Vec<[f64; 2]>,
 }
 
 impl Field {
@@ -55,7 +54,7 @@ impl Field {
         self.rows = (last - first) as usize;
         self.columns = strips.iter().map(|s| s.columns).max().unwrap_or(0);
         self.nodes.resize(self.rows * self.columns, [0.0; 6]);
-        self.velocity.resize(self.rows * self.columns, [0.0; 4]);
+        self.velocity.resize(self.rows * self.columns, [0.0; 2]);
     }
 
     /// Index of a node: its column is counted with the mirrored one, its row from the struck face.

@@ -284,7 +284,7 @@ fn move_row(
     field: &Field,
     supports: &Supports,
     row: isize,
-    velocity: &mut [[f64; 4]],
+    velocity: &mut [[f64; 2]],
     cell: f64,
     time_step: f64,
 ) -> RowSums {
@@ -292,11 +292,12 @@ fn move_row(
     let energy = |mass: f64, v: [f64; 2]| 0.5 * mass * (v[0] * v[0] + v[1] * v[1]);
     for column in 1..velocity.len() {
         let raw = field.node(row, column);
-        velocity[column] = [0.0; 4];
+        velocity[column] = [0.0; 2];
         if raw[MASS] > 0.0 {
-            let came = [raw[MOMENTUM] / raw[MASS], raw[MOMENTUM + 1] / raw[MASS]];
-            [velocity[column][2], velocity[column][3]] = came;
-            sums.kinetic[0] += energy(raw[MASS], came);
+            sums.kinetic[0] += energy(
+                raw[MASS],
+                [raw[MOMENTUM] / raw[MASS], raw[MOMENTUM + 1] / raw[MASS]],
+            );
         }
         let node = supports.folded(field, row, column, time_step);
         let pushed_raw = raw[MOMENTUM + 1] + time_step * raw[FORCE + 1];
@@ -305,7 +306,7 @@ fn move_row(
             let original = supports.folded(field, -row, column, time_step);
             if let Some(node) = original.filter(|node| node[MASS] > 0.0) {
                 let [radial, axial] = free_velocity(&node, time_step);
-                [velocity[column][0], velocity[column][1]] = [radial, -axial];
+                velocity[column] = [radial, -axial];
             }
             let impulse = pushed_raw - raw[MASS] * velocity[column][1];
             sums.impulse += impulse;
@@ -327,11 +328,10 @@ fn move_row(
         }
         sums.impulse += pushed_raw - raw[MASS] * held[1];
         sums.wall += pushed_raw - raw[MASS] * pushed[1];
-        [velocity[column][0], velocity[column][1]] = held;
+        velocity[column] = held;
     }
     if velocity.len() > 2 {
-        let [r, z, r_before, z_before] = velocity[2];
-        velocity[0] = [-r, z, -r_before, z_before];
+        velocity[0] = [-velocity[2][0], velocity[2][1]];
     }
     sums
 }

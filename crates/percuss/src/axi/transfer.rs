@@ -6,9 +6,6 @@ use super::{
     particle::Particle,
 };
 
-/// Part of a particle's velocity beside that of its nodes that outlives a step.
-const KEPT: f64 = 0.95;
-
 /// Adds a particle's mass, momentum and forces to the nodes around it.
 ///
 /// The gradient of a kernel is its weight times `(4/h²)(x_node − x_particle)`, which the transfer back uses too: so the power of
@@ -56,51 +53,43 @@ pub(super) fn scatter(particle: &Particle, per_cell: f64, axisymmetric: bool, st
     }
 }
 
-/// Takes the velocity of the flow at a particle, which it gives back, and its gradient from the nodes around it; the particle's own
-/// velocity changes by what the nodes' velocities changed, and keeps [`KEPT`] of what they did not carry.
+/// Takes the velocity at a particle and its gradient from the nodes around it.
 #[inline(always)]
-pub(super) fn gather(particle: &mut Particle, per_cell: f64, field: &Field) -> [f64; 2] {
+pub(super) fn gather(particle: &mut Particle, per_cell: f64, field: &Field) {
     let radial = Stencil::at(particle.position[0] * per_cell);
     let axial = Stencil::at(particle.position[1] * per_cell);
     let first =
         (axial.first - field.first_row) as usize * field.columns + (radial.first + 1) as usize;
-    let mut velocity = [0.0; 4];
+    let mut velocity = [0.0; 2];
     let mut along_r = [0.0; 2];
     let mut along_z = [0.0; 2];
     for row in 0..3 {
         let at = first + row * field.columns;
         let nodes = &field.velocity[at..at + 3];
-        let mut sum = [0.0; 4];
+        let mut sum = [0.0; 2];
         let mut moment = [0.0; 2];
         for (column, node) in nodes.iter().enumerate() {
             let weight = radial.weights[column];
             let arm = weight * (radial.offset + column as f64);
-            for k in 0..4 {
-                sum[k] += weight * node[k];
-            }
             for k in 0..2 {
+                sum[k] += weight * node[k];
                 moment[k] += arm * node[k];
             }
         }
         let weight = axial.weights[row];
         let arm = weight * (axial.offset + row as f64);
-        for k in 0..4 {
-            velocity[k] += weight * sum[k];
-        }
         for k in 0..2 {
+            velocity[k] += weight * sum[k];
             along_r[k] += weight * moment[k];
             along_z[k] += arm * sum[k];
         }
     }
     let scale = 4.0 * per_cell;
-    for k in 0..2 {
-        particle.velocity[k] = velocity[k] + KEPT * (particle.velocity[k] - velocity[2 + k]);
-    }
+    particle.velocity = velocity;
     particle.gradient = [
         scale * along_r[0],
         scale * along_z[0],
         scale * along_r[1],
         scale * along_z[1],
     ];
-    [velocity[0], velocity[1]]
 }
