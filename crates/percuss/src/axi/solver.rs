@@ -298,7 +298,9 @@ fn move_row(
             // Behind a closed wall stands the mirror image of what is in front of it.
             let original = supports.folded(field, -row, column, time_step);
             if let Some(node) = original.filter(|node| node[MASS] > 0.0) {
-                let [radial, axial] = free_velocity(&node, time_step);
+                let pushed = free_velocity(&node, time_step);
+                let place = (-row, column);
+                let [radial, axial] = supports.held(&node, pushed, place, cell, time_step);
                 velocity[column] = [radial, -axial];
             }
             let impulse = pushed_raw - raw[MASS] * velocity[column][1];
