@@ -73,6 +73,9 @@ pub(super) fn load(
             node[MOMENTUM] *= kept;
             node[MOMENTUM + 1] *= kept;
         }
+        for particle in &mut solver.bodies[0].particles {
+            particle.velocity = particle.velocity.map(|speed| kept * speed);
+        }
         solver.move_nodes();
     }
     let after = &solver.bodies[0].particles;
