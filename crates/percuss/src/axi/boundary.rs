@@ -53,7 +53,17 @@ impl Supports {
         }
     }
 
-    /// A node and the mirror image that a closed wall adds to it; `None` behind a closed wall.
+    /// Row of the plane in which the body is mirrored, if there is one: that of the wall or of a smooth back face.
+    pub(super) fn mirror(&self) -> Option<isize> {
+        match self.back {
+            _ if self.wall => Some(0),
+            (row, Support::Smooth) => Some(row),
+            _ => None,
+        }
+    }
+
+    /// A node and the mirror image that a plane without motion across it adds to it; `None` behind the plane. A wall holds only
+    /// what presses.
     pub(super) fn folded(
         &self,
         field: &Field,
@@ -62,20 +72,24 @@ impl Supports {
         time_step: f64,
     ) -> Option<Node> {
         let mut node = field.node(row, column);
-        if !self.wall || !(-1..=1).contains(&row) {
+        let Some(plane) = self.mirror() else {
+            return Some(node);
+        };
+        let behind = row.saturating_sub(plane);
+        if !(-1..=1).contains(&behind) {
             return Some(node);
         }
-        let touching = field.node(0, column);
-        let closed = touching[MOMENTUM + 1] + time_step * touching[FORCE + 1] > 0.0;
-        match row {
-            _ if !closed => {}
+        let touching = field.node(plane, column);
+        let presses = touching[MOMENTUM + 1] + time_step * touching[FORCE + 1] > 0.0;
+        match behind {
+            _ if self.wall && !presses => {}
             1 => return None,
             0 => {
                 node[MOMENTUM + 1] = 0.0;
                 node[FORCE + 1] = 0.0;
             }
             _ => {
-                let mut image = field.node(1, column);
+                let mut image = field.node(plane + 1, column);
                 image[MOMENTUM + 1] *= -1.0;
                 image[FORCE + 1] *= -1.0;
                 for (entry, added) in node.iter_mut().zip(image) {

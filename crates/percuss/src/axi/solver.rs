@@ -302,10 +302,13 @@ fn move_row(
         let node = supports.folded(field, row, column, time_step);
         let pushed_raw = raw[MOMENTUM + 1] + time_step * raw[FORCE + 1];
         let Some(node) = node else {
-            // Behind a closed wall stands the mirror image of what is in front of it.
-            let original = supports.folded(field, -row, column, time_step);
+            // Behind a plane without motion across it stands the mirror image of what is in front of it.
+            let image = 2 * supports.mirror().unwrap_or(row) - row;
+            let original = supports.folded(field, image, column, time_step);
             if let Some(node) = original.filter(|node| node[MASS] > 0.0) {
-                let [radial, axial] = free_velocity(&node, time_step);
+                let pushed = free_velocity(&node, time_step);
+                let place = (image, column);
+                let [radial, axial] = supports.held(&node, pushed, place, cell, time_step);
                 velocity[column] = [radial, -axial];
             }
             let impulse = pushed_raw - raw[MASS] * velocity[column][1];
@@ -332,6 +335,12 @@ fn move_row(
     }
     if velocity.len() > 2 {
         velocity[0] = [-velocity[2][0], velocity[2][1]];
+    }
+    if !supports.wall {
+        // What a smooth back face takes is the support's, not a contact's.
+        sums.boundary += sums.kinetic[0] - sums.kinetic[1];
+        sums.kinetic[1] = sums.kinetic[0];
+        sums.wall = 0.0;
     }
     sums
 }

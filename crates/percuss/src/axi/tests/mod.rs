@@ -1,5 +1,8 @@
 //! Exact checks of the model, a small file a problem. Bodies are filled by hand, so that shapes and initial motions are free.
 
+mod contact;
+mod load;
+mod pressurised;
 mod rigid_motion;
 mod shell_collapse;
 mod wave_speed;

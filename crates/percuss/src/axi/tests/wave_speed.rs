@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Solid, body, rectangle, supported};
+use super::{Solid, Solver, body, rectangle, supported};
 use crate::axi::boundary::{Support, Supports};
 
 const LENGTH: f64 = 0.1;
@@ -30,7 +30,7 @@ fn measured_speed(radius: f64, cell: f64, supports: Supports, courant: f64) -> f
     let bar = body(copper().law(), sections, &motion);
     let mut solver = supported(vec![bar], vec![supports], cell);
     solver.courant = courant;
-    let amplitude = |solver: &super::Solver| -> f64 {
+    let amplitude = |solver: &Solver| -> f64 {
         let particles = solver.bodies[0].particles.iter();
         particles
             .map(|p| p.mass * p.velocity[1] * (number * p.position[1]).cos())
@@ -93,4 +93,63 @@ fn the_speed_of_waves_converges_to_second_order_in_the_time_step() {
     let order = ((speeds[0] - speeds[1]) / (speeds[1] - speeds[2])).log2();
     println!("time step: {speeds:?}, order {order}");
     assert!((1.7..2.6).contains(&order));
+}
+
+/// Error of the time that a wave of four lengths of a slab takes to fall to rest, its front end held; with cells in the slab.
+fn held_error(cells: f64, supports: Supports) -> f64 {
+    let solid = copper();
+    let modulus = solid.bulk_modulus + 4.0 / 3.0 * solid.shear_modulus;
+    let number = 0.5 * PI / LENGTH;
+    // Towards the held face at depth 0, which a wall takes for pressing on it.
+    let motion = |[_, depth]: [f64; 2]| {
+        let phase = number * depth;
+        (
+            [0.0, -SPEED * phase.sin()],
+            [0.0, 0.0, 0.0, -SPEED * number * phase.cos()],
+        )
+    };
+    let cell = LENGTH / cells;
+    let sections = rectangle((0.0, 2.0 * cell), (-LENGTH, 0.0), 0.5 * cell);
+    let slab = body(copper().law(), sections, &motion);
+    let mut solver = supported(vec![slab], vec![supports], cell);
+    let amplitude = |solver: &Solver| -> f64 {
+        let particles = solver.bodies[0].particles.iter();
+        particles
+            .map(|p| -p.mass * p.velocity[1] * (number * p.position[1]).sin())
+            .sum()
+    };
+    let mut before = (0.0, amplitude(&solver));
+    loop {
+        let half = 0.5 * solver.time_step;
+        assert!(solver.advance());
+        let now = (solver.time - half, amplitude(&solver));
+        if now.1 <= 0.0 {
+            let time = before.0 + (now.0 - before.0) * before.1 / (before.1 - now.1);
+            assert!(solver.momentum().residual().abs() < 1e-12);
+            return time / LENGTH * (modulus / solid.density).sqrt() - 1.0;
+        }
+        before = now;
+    }
+}
+
+#[test]
+fn a_wall_and_a_fixed_back_face_hold_to_second_order_in_the_cell() {
+    let smooth = Supports {
+        edge: (0, Support::Smooth),
+        ..Supports::NONE
+    };
+    let wall = Supports {
+        wall: true,
+        ..smooth.clone()
+    };
+    let fixed = Supports {
+        back: (0, Support::Smooth),
+        ..smooth
+    };
+    for supports in [wall, fixed] {
+        let [coarse, fine] = [10.0, 20.0].map(|cells| held_error(cells, supports.clone()));
+        println!("held: {:+.3} %, {:+.3} %", 100.0 * coarse, 100.0 * fine);
+        assert!(fine.abs() < 1e-3);
+        assert!((coarse / fine).log2() > 1.7);
+    }
 }
