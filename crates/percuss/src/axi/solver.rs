@@ -280,6 +280,7 @@ fn add_up(strips: &[Strip], row: isize, nodes: &mut [Node]) {
     }
 }
 
+/// Moves a row of nodes by a step: their velocities after forces and supports, and what that adds to the books.
 fn move_row(
     field: &Field,
     supports: &Supports,
@@ -290,9 +291,9 @@ fn move_row(
 ) -> RowSums {
     let mut sums = RowSums::default();
     let energy = |mass: f64, v: [f64; 2]| 0.5 * mass * (v[0] * v[0] + v[1] * v[1]);
-    for column in 1..velocity.len() {
+    for (column, velocity) in velocity.iter_mut().enumerate().skip(1) {
         let raw = field.node(row, column);
-        velocity[column] = [0.0; 2];
+        *velocity = [0.0; 2];
         if raw[MASS] > 0.0 {
             sums.kinetic[0] += energy(
                 raw[MASS],
@@ -309,9 +310,9 @@ fn move_row(
                 let pushed = free_velocity(&node, time_step);
                 let place = (image, column);
                 let [radial, axial] = supports.held(&node, pushed, place, cell, time_step);
-                velocity[column] = [radial, -axial];
+                *velocity = [radial, -axial];
             }
-            let impulse = pushed_raw - raw[MASS] * velocity[column][1];
+            let impulse = pushed_raw - raw[MASS] * velocity[1];
             sums.impulse += impulse;
             sums.wall += impulse;
             continue;
@@ -331,7 +332,7 @@ fn move_row(
         }
         sums.impulse += pushed_raw - raw[MASS] * held[1];
         sums.wall += pushed_raw - raw[MASS] * pushed[1];
-        velocity[column] = held;
+        *velocity = held;
     }
     if velocity.len() > 2 {
         velocity[0] = [-velocity[2][0], velocity[2][1]];
