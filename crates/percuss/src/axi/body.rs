@@ -47,8 +47,6 @@ pub(super) struct Sums {
     pub(super) kinetic: f64,
     /// Work of the step [J].
     pub(super) work: Work,
-    /// Power of the stresses on the particles' own velocity gradients [W].
-    pub(super) power: f64,
     /// What left the body in the step: particles, their axial momentum and kinetic energy.
     pub(super) lost: (usize, f64, f64),
     /// Largest square of a wave speed and of a particle's speed [m2/s2].
@@ -63,7 +61,8 @@ impl Sums {
         self.mass += other.mass;
         self.momentum += other.momentum;
         self.kinetic += other.kinetic;
-        self.power += other.power;
+        self.work.power_at_start += other.work.power_at_start;
+        self.work.power_at_end += other.work.power_at_end;
         self.work.total += other.work.total;
         self.work.plastic += other.work.plastic;
         self.work.viscous += other.work.viscous;
@@ -130,6 +129,8 @@ pub(super) fn advance(
             sums.work.plastic += work.plastic;
             sums.work.viscous += work.viscous;
             sums.work.failure += work.failure;
+            sums.work.power_at_start += work.power_at_start;
+            sums.work.power_at_end += work.power_at_end;
         }
         let [radius, depth] = particle.position;
         let kinetic = particle.kinetic_energy(pass.cell);
@@ -157,7 +158,6 @@ pub(super) fn advance(
         sums.mass += particle.mass;
         sums.momentum += particle.mass * v_z;
         sums.kinetic += kinetic;
-        sums.power += particle.stress_power(law.axisymmetric);
         sums.speed_squared = sums.speed_squared.max(v_r * v_r + v_z * v_z);
         sums.wave_squared = sums.wave_squared.max(law.wave_speed_squared(particle));
     }

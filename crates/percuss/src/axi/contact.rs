@@ -21,6 +21,8 @@ pub(super) struct Touch {
     pub(super) loss: f64,
     /// Fall of the nodes' kinetic energy [J].
     pub(super) fall: f64,
+    /// Change of the power of the nodal forces [W].
+    pub(super) power: f64,
     /// Axial impulse from the first body on the second [N s].
     pub(super) impulse: f64,
 }
@@ -88,6 +90,10 @@ pub(super) fn meet(contact: Contact, first: &mut Field, second: &mut Field, cell
                 touch.loss += 0.5
                     * (mass_a * (v_a[k] - new_a[k]) * (old_a[k] + new_a[k])
                         + mass_b * (v_b[k] - new_b[k]) * (old_b[k] + new_b[k]));
+            }
+            for k in 0..2 {
+                touch.power += first.nodes[a][FORCE + k] * (new_a[k] - v_a[k])
+                    + second.nodes[b][FORCE + k] * (new_b[k] - v_b[k]);
             }
             touch.impulse += impulse[1];
             first.set_velocity(a, column, new_a);

@@ -45,6 +45,9 @@ pub(super) struct Work {
     pub(super) plastic: f64,
     pub(super) viscous: f64,
     pub(super) failure: f64,
+    /// Power of the stress at the start and at the end of the step, both on the strain rate of the step [W].
+    pub(super) power_at_start: f64,
+    pub(super) power_at_end: f64,
 }
 
 impl Law {
@@ -103,13 +106,11 @@ impl Law {
             work.plastic = 0.5 * (before.min(after) + after) * increment * mean_volume;
         }
         particle.deviator = trial;
-        let shear_power = {
-            let mean: [f64; 3] = std::array::from_fn(|k| 0.5 * (before[k] + trial[k]));
-            mean[0] * (rate[0] + rate[0] + rate[1])
-                + mean[1] * (rate[1] + rate[1] + rate[0])
-                + 2.0 * mean[2] * rate[2]
-        };
-        let shear_work = mean_volume * time_step * shear_power;
+        work.power_at_start = volume_before
+            * (shear_power(&before, &rate)
+                - (pressure_before + particle.viscous_pressure) * expansion);
+        let mean = std::array::from_fn(|k| 0.5 * (before[k] + trial[k]));
+        let shear_work = mean_volume * time_step * shear_power(&mean, &rate);
         let approach = -cell * expansion;
         particle.viscous_pressure = if approach > 0.0 {
             let sound = self.wave_speed_squared(particle).sqrt();
@@ -129,6 +130,9 @@ impl Law {
             particle.yield_point.forget();
         }
         self.fail(particle, &mut work);
+        let pressure = particle.pressure + particle.viscous_pressure;
+        work.power_at_end =
+            particle.volume * (shear_power(&particle.deviator, &rate) - pressure * expansion);
         work
     }
 
@@ -253,6 +257,14 @@ fn midpoint([rr, rz, zr, zz]: [f64; 4], hoop_rate: f64, time_step: f64) -> ([f64
         ],
         hoop_rate / (1.0 + half * hoop_rate),
     )
+}
+
+/// Power per volume of a deviator on a deviatoric rate, both `[rr, zz, rz]` [W/m3].
+#[inline(always)]
+fn shear_power(deviator: &[f64; 3], rate: &[f64; 3]) -> f64 {
+    deviator[0] * (2.0 * rate[0] + rate[1])
+        + deviator[1] * (2.0 * rate[1] + rate[0])
+        + 2.0 * deviator[2] * rate[2]
 }
 
 /// A deviator `[rr, zz, rz]` turned by an angle, with the rotation of the midpoint rule, which is exact in its invariants.

@@ -49,22 +49,6 @@ impl Particle {
         equivalent(&self.deviator)
     }
 
-    /// Power of the stress on the velocity gradient [W].
-    #[inline(always)]
-    pub(super) fn stress_power(&self, axisymmetric: bool) -> f64 {
-        let [rr, rz, zr, zz] = self.gradient;
-        let hoop = if axisymmetric {
-            self.velocity[0] / self.position[0]
-        } else {
-            0.0
-        };
-        let pressure = self.pressure + self.viscous_pressure;
-        let [s_rr, s_zz, s_rz] = self.deviator;
-        self.volume
-            * (s_rr * rr + s_zz * zz + s_rz * (rz + zr) + self.hoop_deviator() * hoop
-                - pressure * (rr + zz + hoop))
-    }
-
     /// Kinetic energy, that of the velocity gradient within the particle's kernel included [J].
     #[inline(always)]
     pub(super) fn kinetic_energy(&self, cell: f64) -> f64 {

@@ -68,7 +68,7 @@ pub(super) struct Pending {
 struct RowSums {
     /// Kinetic energy as it came from the particles, after a closed wall, and after forces and supports [J].
     kinetic: [f64; 3],
-    /// Power of the nodal forces on the velocities that came from the particles [W].
+    /// Power of the nodal forces on the velocities that came from the particles and on those after the step, together [W].
     power: f64,
     /// Work on the supports: their impulses times the mean velocities of the whole step [J].
     boundary: f64,
@@ -119,7 +119,8 @@ impl Solver {
         self.step += 1;
         self.time += self.time_step;
         let books = &mut self.books;
-        books.transfer += pending.transfer + pending.nodal;
+        let stresses: f64 = self.sums.iter().map(|sums| sums.work.power_at_start).sum();
+        books.transfer += pending.transfer + pending.nodal - 0.5 * self.time_step * stresses;
         books.contact += pending.contact;
         books.boundary += pending.boundary;
         books.support_impulse += pending.support_impulse;
@@ -222,12 +223,8 @@ impl Solver {
         }
         let (particles, _) = self.motion();
         let [came, walled, held] = total.kinetic;
-        // Nodal forces act half a step on velocities that the way from particles to nodes has smoothed: with the particles' own
-        // gradients they would have done the work of the stresses.
-        let power: f64 = self.sums.iter().map(|sums| sums.power).sum();
-        let smoothed = 0.5 * time_step * (power + total.power);
         let mut pending = Pending {
-            transfer: particles - came - smoothed,
+            transfer: particles - came,
             contact: came - walled,
             boundary: total.boundary,
             support_impulse: total.impulse,
@@ -240,12 +237,17 @@ impl Solver {
                 let touch = meet(self.contact, &mut body.field, &mut after[0].field, cell);
                 pending.contact += touch.loss;
                 pending.nodal -= touch.fall;
+                total.power += touch.power;
                 if first == 0 {
                     pending.contact_force += touch.impulse;
                 }
             }
         }
         pending.contact_force /= time_step;
+        // Nodal forces work on velocities that the way from particles to nodes has smoothed; on the particles' own strain rates,
+        // before and after, the stresses would have done half the work each. The second half is known after the next step.
+        let stresses: f64 = self.sums.iter().map(|sums| sums.work.power_at_end).sum();
+        pending.transfer -= 0.5 * time_step * (total.power + stresses);
         self.pending = pending;
         for (body, supports) in self.bodies.iter().zip(&mut self.supports) {
             supports.follow(&body.field, time_step);
@@ -325,7 +327,9 @@ fn move_row(
         let pushed = free_velocity(&node, time_step);
         let held = supports.held(&node, pushed, (row, column), cell, time_step);
         sums.kinetic[1] += energy(mass, before);
-        sums.power += node[FORCE] * before[0] + node[FORCE + 1] * before[1];
+        for k in 0..2 {
+            sums.power += node[FORCE + k] * (before[k] + held[k]);
+        }
         sums.kinetic[2] += energy(mass, held);
         for k in 0..2 {
             sums.boundary += 0.5 * mass * (pushed[k] - held[k]) * (before[k] + held[k]);
