@@ -33,6 +33,7 @@ fn main() {
     let mut control = Control {
         record: false,
         progress: Some(&mut progress),
+        ..Control::default()
     };
     let result = model::run(&percuss::axi::Axi, &scenario, &mut control).unwrap();
     let wall = start.elapsed().as_secs_f64();

@@ -99,6 +99,29 @@ pub(super) fn profile(targets: &[Body], cell: f64) -> Vec<[f64; 2]> {
     profile
 }
 
+/// Outer surface of a body from its tail to its tip: radius and depth [m].
+pub(super) fn outline(body: &Body, cell: f64) -> Vec<[f64; 2]> {
+    let Some((tail, tip)) = ends(body, cell) else {
+        return Vec::new();
+    };
+    let field = &body.field;
+    let ring = 2.0 * std::f64::consts::PI * cell.powi(3);
+    let edge = |row: isize| {
+        let filling =
+            |column: usize| field.node(row, column)[VOLUME] / (ring * full_volume(column));
+        let column = (2..field.columns)
+            .rev()
+            .find(|column| filling(*column) >= 0.5)?;
+        let (inner, outer) = (filling(column), filling(column + 1));
+        let part = (inner - 0.5) / (inner - outer);
+        Some([((column - 1) as f64 + part) * cell, row as f64 * cell])
+    };
+    let mut outline = vec![[0.0, tail]];
+    outline.extend(rows(&[field]).filter_map(edge));
+    outline.push([0.0, tip]);
+    outline
+}
+
 /// Largest radius of a body [m]: that of its outermost particle and half of what the particle is wide.
 pub(super) fn largest_radius(body: &Body) -> f64 {
     let edge = |particle: &super::Particle| {

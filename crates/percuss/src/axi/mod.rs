@@ -4,6 +4,7 @@ mod axial;
 mod body;
 mod books;
 mod boundary;
+mod checkpoint;
 mod contact;
 mod crater;
 mod field;
@@ -65,6 +66,10 @@ impl Model for Axi {
     }
 
     fn is_slow(&self) -> bool {
+        true
+    }
+
+    fn has_fields(&self) -> bool {
         true
     }
 

@@ -5,6 +5,7 @@ use crate::{
     history::Recorder,
     outcome::{Detail, Numerics, RunResult, Termination},
     scenario::TargetBody,
+    shapes::Shapes,
 };
 
 pub(super) fn sum_up(
@@ -37,7 +38,16 @@ pub(super) fn sum_up(
     result.time_to_rest = watch.at_rest.map(|(time, _)| time);
     result.peak_force = Some(watch.peak_force);
     result.end_time = Some(solver.time);
-    result.details = details(run);
+    let shapes = Shapes {
+        crater: if solid {
+            crater::profile(&solver.bodies[1..], solver.cell)
+        } else {
+            Vec::new()
+        },
+        projectile: crater::outline(rod, solver.cell),
+    };
+    result.details = details(run, &shapes.crater);
+    result.shapes = Some(shapes);
     let most = |target: bool, value: fn(&Particle) -> f64| {
         let bodies = solver
             .bodies
@@ -89,7 +99,7 @@ pub(super) fn sum_up(
     result
 }
 
-fn details(run: &Run<'_>) -> Vec<Detail> {
+fn details(run: &Run<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
     let solver = &run.solver;
     let mut details = vec![Detail {
         name: "cell size",
@@ -99,7 +109,6 @@ fn details(run: &Run<'_>) -> Vec<Detail> {
     let Some(extent) = extent(run.scenario) else {
         return details;
     };
-    let crater = crater::profile(&solver.bodies[1..], solver.cell);
     let mouth = crater
         .iter()
         .filter(|[_, depth]| *depth > 0.0)
