@@ -7,8 +7,10 @@ use crate::{Scenario, axi::Particle};
 /// Material points at one moment.
 #[derive(Debug, Clone)]
 pub struct Frame<'a> {
-    /// Number of the frame; frames stand at its multiples of the interval, the last one at the end of the run.
+    /// Number of the frame: its time in whole intervals. The last frame may repeat the number of the one before, at the same time.
     pub number: u64,
+    /// Whether this is the end of the run.
+    pub last: bool,
     /// Time step.
     pub step: u64,
     /// Time [s].
@@ -68,9 +70,13 @@ impl FrameClock {
         Some(number)
     }
 
-    /// The number of the last frame, at the end of the run [s], unless one has just been due.
-    pub(crate) fn last(&self, time: f64) -> Option<u64> {
-        (self.shown != time).then_some(self.next)
+    /// The number of the last frame, at the end of the run [s].
+    pub(crate) fn last(&self, time: f64) -> u64 {
+        if self.shown == time {
+            self.next - 1
+        } else {
+            self.next
+        }
     }
 }
 
@@ -89,7 +95,7 @@ mod tests {
             .map(|time| clock.tick(time))
             .to_vec();
         assert_eq!(due, [Some(0), None, Some(1), None, Some(4), None, Some(5)]);
-        assert_eq!(clock.last(5.5), Some(6));
-        assert_eq!(clock.last(5.0), None);
+        assert_eq!(clock.last(5.5), 6);
+        assert_eq!(clock.last(5.0), 5);
     }
 }

@@ -151,6 +151,9 @@ fn frames_come_at_even_intervals_and_hold_the_whole_mass() {
             .sum();
         assert!((rod / scenario.projectile.mass - 1.0).abs() < 1e-12);
         assert!(mass > rod && frame.bodies.len() == 2);
+        if frame.last && numbers.last() == Some(&frame.number) {
+            return ControlFlow::Continue(());
+        }
         times.push(frame.time);
         numbers.push(frame.number);
         ControlFlow::Continue(())

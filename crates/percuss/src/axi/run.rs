@@ -122,27 +122,27 @@ impl<'a> Run<'a> {
             }
         };
         self.audit()?;
-        if let Some(number) = keeping.clock.last(self.solver.time) {
-            self.frame(number, control)?;
-        }
+        let last = keeping.clock.last(self.solver.time);
+        self.frame((last, true), control)?;
         Ok(sum_up(&self, termination, keeping.recorder))
     }
 
     /// Gives the fields to the caller when it is time to.
     fn show(&self, clock: &mut FrameClock, control: &mut Control<'_>) -> Result<(), Error> {
         match clock.tick(self.solver.time) {
-            Some(number) => self.frame(number, control),
+            Some(number) => self.frame((number, false), control),
             None => Ok(()),
         }
     }
 
-    fn frame(&self, number: u64, control: &mut Control<'_>) -> Result<(), Error> {
+    fn frame(&self, (number, last): (u64, bool), control: &mut Control<'_>) -> Result<(), Error> {
         let Some(callback) = &mut control.frames else {
             return Ok(());
         };
         let solver = &self.solver;
         let frame = Frame {
             number,
+            last,
             step: solver.step,
             time: solver.time,
             cell: solver.cell,
