@@ -3,7 +3,11 @@
 use percuss::{Scenario, outcome::RunResult, scenario::TargetBody};
 
 use crate::{
-    Figure, ReportError, axial_figures, error::history_of, shape_figure::shape_figure, time_figures,
+    Figure, ReportError,
+    axial_figures::{self, Along},
+    error::history_of,
+    shape_figure::shape_figure,
+    time_figures,
 };
 
 /// Draws all figures that a result has data for.
@@ -29,8 +33,12 @@ pub fn run_figures(scenario: &Scenario, result: &RunResult) -> Result<Vec<Figure
         figures.extend(time_figures::force(history, &caption));
         figures.extend(time_figures::energy(history, &caption));
     }
-    figures.extend(axial_figures::strain(history, &caption));
-    figures.extend(axial_figures::stress(history, &caption));
+    let along = match result.shapes {
+        Some(_) => Along::Space,
+        None => Along::Initial,
+    };
+    figures.extend(axial_figures::strain(history, along, &caption));
+    figures.extend(axial_figures::stress(history, along, &caption));
     match &result.shapes {
         Some(shapes) => figures.push(shape_figure(scenario, shapes)),
         None => figures.extend(axial_figures::shape(history, &caption)),

@@ -39,7 +39,8 @@ pub fn write_shapes(folder: &Path, result: &RunResult) -> Result<Vec<PathBuf>, R
 pub(crate) fn shape_figure(scenario: &Scenario, shapes: &Shapes) -> Figure {
     let rod = &scenario.projectile;
     let widest = shapes.projectile.iter().map(|point| point[0]);
-    let around = 4.0 * widest.fold(0.5 * rod.diameter, f64::max);
+    let around = if shapes.crater.is_empty() { 1.5 } else { 2.5 }
+        * widest.fold(0.5 * rod.diameter, f64::max);
     let crater: Vec<_> = shapes
         .crater
         .iter()

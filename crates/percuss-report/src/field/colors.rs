@@ -5,6 +5,8 @@ use crate::palette;
 
 /// Bands of colour: their edges are contours, and an animation of few colours is small.
 pub(crate) const LEVELS: usize = 24;
+/// Part of the range up to which bodies show themselves.
+const BARE: f64 = 0.01;
 const EDGE: [u8; 3] = [0x30, 0x30, 0x38];
 const WALL: [u8; 3] = [0x9a, 0x9a, 0x9a];
 const PAPER: [u8; 3] = [0xff; 3];
@@ -48,16 +50,12 @@ impl Colors {
         }
     }
 
-    /// Colour of a band; `None` for the one that shows the bodies themselves.
-    pub(crate) fn band(&self, level: usize) -> Option<[u8; 3]> {
+    /// Colour of a band.
+    pub(crate) fn band(&self, level: usize) -> [u8; 3] {
         let part = (level as f64 + 0.5) / LEVELS as f64;
         match self.quantity {
-            FieldQuantity::Pressure => Some(parsed(&palette::diverging(2.0 * part - 1.0))),
-            FieldQuantity::Density => Some(palette::sequential(part)),
-            _ if level == 0 => None,
-            _ => Some(palette::sequential(
-                (level - 1) as f64 / (LEVELS - 2) as f64,
-            )),
+            FieldQuantity::Pressure => parsed(&palette::diverging(2.0 * part - 1.0)),
+            _ => palette::sequential(level as f64 / (LEVELS - 1) as f64),
         }
     }
 
@@ -65,7 +63,7 @@ impl Colors {
     pub(crate) fn all(&self) -> Vec<[u8; 3]> {
         let mut all = vec![EDGE, WALL, PAPER];
         all.extend((0..4).map(palette::body));
-        all.extend((0..LEVELS).filter_map(|level| self.band(level)));
+        all.extend((0..LEVELS).map(|level| self.band(level)));
         all
     }
 }
@@ -74,8 +72,10 @@ impl Paint for Colors {
     fn color(&self, body: u8, value: f32) -> [u8; 3] {
         let (_, _, unit) = self.quantity.source();
         let part = (f64::from(value) / unit - self.range.0) / (self.range.1 - self.range.0);
-        let level = ((part * LEVELS as f64) as usize).min(LEVELS - 1);
-        self.band(level).unwrap_or_else(|| palette::body(body))
+        if self.quantity.starts_at_zero() && part < BARE {
+            return palette::body(body);
+        }
+        self.band(((part * LEVELS as f64) as usize).min(LEVELS - 1))
     }
 
     fn nothing(&self, depth: f64) -> [u8; 3] {

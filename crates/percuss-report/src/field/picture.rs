@@ -9,7 +9,7 @@ use kuva::{
         render_utils::generate_ticks,
     },
 };
-use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
+use resvg::tiny_skia::{self, Pixmap, PremultipliedColorU8};
 
 use super::{
     colors::{Colors, LEVELS},
@@ -30,7 +30,7 @@ const BAR_PLACE: (f64, f64) = (20.0, 18.0);
 /// Space above the colour bar for the time [px].
 const TIME: f64 = 46.0;
 /// Height of the part that shows the bodies [px].
-const HEIGHTS: (f64, f64) = (320.0, 900.0);
+const HEIGHTS: (f64, f64) = (320.0, 760.0);
 
 /// What all pictures of a series have in common.
 pub(crate) struct Canvas {
@@ -95,7 +95,11 @@ impl Canvas {
 
     /// The canvas without bodies.
     pub(crate) fn base(&self, scale: f32) -> Result<Pixmap, ReportError> {
-        self.figure.pixels(scale)
+        let mut pixels = self.figure.pixels(scale)?;
+        // The last row may have no more than a part of a pixel of the drawing.
+        pixels.fill(tiny_skia::Color::WHITE);
+        draw_over(&mut pixels, &self.figure.svg, scale)?;
+        Ok(pixels)
     }
 
     /// Time and depth above the colour bar.
@@ -168,26 +172,15 @@ fn add_bar(scene: &mut Scene, layout: &ComputedLayout, colors: &Colors) {
     let step = height / LEVELS as f64;
     for level in 0..LEVELS {
         let y = top + height - step * (level + 1) as f64;
-        // The band of the bodies themselves has the colours of the first two.
-        let halves = match colors.band(level) {
-            Some(color) => [color; 2],
-            None => [0, 1].map(crate::palette::body),
-        };
-        for (half, [r, g, b]) in halves.into_iter().enumerate() {
-            let width = 0.5 * BAR_PLACE.1;
-            scene.add(Primitive::Path(Box::new(PathData {
-                d: format!(
-                    "M{:.2} {y:.2}h{width}v{:.2}h-{width}z",
-                    left + width * half as f64,
-                    step + 0.3
-                ),
-                fill: Some(Color::from(&*format!("#{r:02x}{g:02x}{b:02x}"))),
-                stroke: Color::None,
-                stroke_width: 0.0,
-                opacity: None,
-                stroke_dasharray: None,
-            })));
-        }
+        let [r, g, b] = colors.band(level);
+        scene.add(Primitive::Path(Box::new(PathData {
+            d: format!("M{left} {y:.2}h{0}v{1:.2}h-{0}z", BAR_PLACE.1, step + 0.3),
+            fill: Some(Color::from(&*format!("#{r:02x}{g:02x}{b:02x}"))),
+            stroke: Color::None,
+            stroke_width: 0.0,
+            opacity: None,
+            stroke_dasharray: None,
+        })));
     }
     scene.add(Primitive::Rect {
         x: left,

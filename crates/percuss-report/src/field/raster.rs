@@ -4,9 +4,10 @@ use super::vtp::Points;
 
 /// Pixels along an edge of one pixel of the finished picture, which is their mean.
 const FINER: usize = 2;
-/// Reach of a particle's body and of its value, in sizes of the particle: bodies close, values are smooth.
-const COVERED: f32 = 0.85;
-const BLENDED: f32 = 1.4;
+/// Reach of a particle, in sizes of the particle, within which it closes gaps to its neighbours in stretched material. What that
+/// adds at a surface is taken away again, all but the half size that belongs to the particle.
+const REACH: f32 = 1.6;
+const OWN: f32 = 0.5;
 /// Index where there is no body.
 pub(crate) const NOTHING: u8 = u8::MAX;
 
@@ -50,12 +51,13 @@ pub(crate) fn draw(
     let down = rows as f32 / (view.depth.1 - view.depth.0) as f32;
     let place = |index: usize| {
         let [radius, depth] = points.places[index];
-        let (x, y) = (radius * across, (depth - view.depth.0 as f32) * down);
-        (x, y, points.sizes[index] * down)
+        (radius * across, (depth - view.depth.0 as f32) * down)
     };
+    let size = middle(&points.sizes) * down;
+    let reach = (REACH * size).max(1.5);
     let mut body = vec![NOTHING; columns * rows];
     let mut nearest = vec![f32::INFINITY; columns * rows];
-    let near = |(x, y, reach): (f32, f32, f32), act: &mut dyn FnMut(usize, f32)| {
+    let near = |(x, y): (f32, f32), act: &mut dyn FnMut(usize, f32)| {
         let range = |middle: f32, most: usize| {
             let from = (middle - reach).floor().max(0.0) as usize;
             from..((middle + reach).ceil().max(0.0) as usize).min(most)
@@ -72,21 +74,20 @@ pub(crate) fn draw(
         }
     };
     for (index, own) in points.bodies.iter().enumerate() {
-        let (x, y, size) = place(index);
-        near((x, y, (COVERED * size).max(0.8)), &mut |at, square| {
+        near(place(index), &mut |at, square| {
             if square < nearest[at] {
                 nearest[at] = square;
                 body[at] = *own;
             }
         });
     }
+    shrink(&mut body, columns, reach - OWN * size);
     let mut sums = vec![(0.0_f32, 0.0_f32); columns * rows];
     for (index, own) in points.bodies.iter().enumerate() {
-        let (x, y, size) = place(index);
         let value = points.values[index];
-        near((x, y, (BLENDED * size).max(1.5)), &mut |at, square| {
+        near(place(index), &mut |at, square| {
             if body[at] == *own {
-                let weight = (1.0 - square) * (1.0 - square);
+                let weight = (1.0 - square).powi(4);
                 sums[at].0 += weight;
                 sums[at].1 += weight * value;
             }
@@ -137,5 +138,119 @@ pub(crate) fn draw(
         width,
         height,
         pixels,
+    }
+}
+
+/// The middle one of all values.
+fn middle(values: &[f32]) -> f32 {
+    let mut values = values.to_vec();
+    let half = values.len() / 2;
+    if values.is_empty() {
+        return 0.0;
+    }
+    *values.select_nth_unstable_by(half, f32::total_cmp).1
+}
+
+/// Takes away what is nearer than a distance to a place where there is nothing.
+fn shrink(body: &mut [u8], columns: usize, distance: f32) {
+    let rows = body.len() / columns.max(1);
+    // Distance along the row first; the mirror image beyond the axis, and what is beyond the other edges, is no gap.
+    let far = (distance.ceil() as usize + 1) as f32;
+    let mut along = vec![far; body.len()];
+    for row in 0..rows {
+        let row = row * columns;
+        let mut last = far;
+        for column in 0..columns {
+            last = if body[row + column] == NOTHING {
+                0.0
+            } else {
+                (last + 1.0).min(far)
+            };
+            along[row + column] = last;
+        }
+        last = far;
+        for column in (0..columns).rev() {
+            last = if body[row + column] == NOTHING {
+                0.0
+            } else {
+                (last + 1.0).min(far)
+            };
+            along[row + column] = along[row + column].min(last);
+        }
+    }
+    let square = distance * distance;
+    let most = distance as usize;
+    for row in 0..rows {
+        for column in 0..columns {
+            let at = row * columns + column;
+            if body[at] == NOTHING {
+                continue;
+            }
+            let near = |other: usize| {
+                let off = row.abs_diff(other) as f32;
+                let aside = along[other * columns + column];
+                off * off + aside * aside <= square
+            };
+            if (row.saturating_sub(most)..(row + most + 1).min(rows)).any(near) {
+                body[at] = NOTHING;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Plain;
+
+    impl Paint for Plain {
+        fn color(&self, body: u8, value: f32) -> [u8; 3] {
+            [200, body, value as u8]
+        }
+        fn nothing(&self, _: f64) -> [u8; 3] {
+            [255; 3]
+        }
+        fn edge(&self) -> [u8; 3] {
+            [0; 3]
+        }
+    }
+
+    /// A rod of 20 by 40 particles on a target, stretched across by a factor.
+    fn picture(stretch: f32) -> Raster {
+        let mut points = Points::default();
+        for (body, range) in [(0_u8, -40..0), (1, 0..20)] {
+            for depth in range {
+                let radii = if body == 0 { 20 } else { 60 };
+                for radius in 0..radii {
+                    let radius = (radius as f32 + 0.5) * if body == 0 { stretch } else { 1.0 };
+                    points.places.push([radius, depth as f32 + 0.5]);
+                    points.bodies.push(body);
+                    points.sizes.push(1.0);
+                    points.values.push(7.0);
+                }
+            }
+        }
+        let view = View {
+            radius: 50.0,
+            depth: (-50.0, 50.0),
+        };
+        draw(&points, view, (200, 200), &Plain)
+    }
+
+    #[test]
+    fn bodies_have_their_size_without_gaps_even_where_they_are_stretched() {
+        for stretch in [1.0, 2.0] {
+            let picture = picture(stretch);
+            let count = |color: [u8; 3]| picture.pixels.iter().filter(|c| **c == color).count();
+            // Four pixels a unit of area; edges take a part of the perimeter.
+            let rod = 4.0 * 40.0 * 40.0 * stretch;
+            let share = count([200, 0, 7]) as f32 / rod;
+            assert!((0.93..=1.0).contains(&share), "{stretch}: {share}");
+            let across = |column: usize| picture.pixels[60 * 200 + column];
+            assert_eq!(across(99), across(100));
+            assert_eq!(across(100), [200, 0, 7]);
+            assert_eq!(across(2), [255; 3]);
+        }
     }
 }

@@ -106,6 +106,12 @@ fn details(run: &Run<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
         unit: "mm",
         value: solver.cell * 1e3,
     }];
+    let present = solver.bodies.iter().flat_map(|body| &body.particles);
+    details.push(Detail {
+        name: "particles",
+        unit: "",
+        value: present.filter(|particle| particle.mass > 0.0).count() as f64,
+    });
     let Some(extent) = extent(run.scenario) else {
         return details;
     };

@@ -217,12 +217,17 @@ impl<'a> Run<'a> {
         } else {
             0.0
         };
-        let slowed = 1.0 - speed / self.scenario.impact_speed;
+        let slowed = (1.0 - speed / self.scenario.impact_speed).min(1.0);
+        // A plate slows its projectile but a little: there the way through it counts.
+        let passed = self.scenario.target_thickness().map_or(0.0, |thickness| {
+            let way = thickness + self.scenario.projectile.length;
+            (self.solver.time * self.scenario.impact_speed / (2.0 * way)).min(1.0)
+        });
         Progress {
             step: self.solver.step,
             time: self.solver.time,
             fraction: (self.solver.time / end_time)
-                .max(0.95 * slowed)
+                .max(0.95 * slowed.max(passed))
                 .clamp(0.0, 1.0),
             depth: self.watch.largest_depth,
         }
