@@ -71,7 +71,7 @@ pub(crate) fn shape_figure(scenario: &Scenario, shapes: &Shapes) -> Figure {
     }
     let edge = [[-around, 0.0], [around, 0.0]].map(|[x, z]| (x * 1e3, -z * 1e3));
     chart = chart.series(
-        Series::new("original face", edge)
+        Series::new(if solid { "original face" } else { "wall" }, edge)
             .style(Style::Dashed)
             .color(palette::MARK),
     );

@@ -6,7 +6,7 @@ use super::vtp::Points;
 const FINER: usize = 2;
 /// Reach of a particle, in sizes of the particle, within which it closes gaps to its neighbours in stretched material. What that
 /// adds at a surface is taken away again, all but the half size that belongs to the particle.
-const REACH: f32 = 1.6;
+const REACH: f32 = 2.4;
 const OWN: f32 = 0.5;
 /// Index where there is no body.
 pub(crate) const NOTHING: u8 = u8::MAX;
@@ -55,8 +55,6 @@ pub(crate) fn draw(
     };
     let size = middle(&points.sizes) * down;
     let reach = (REACH * size).max(1.5);
-    let mut body = vec![NOTHING; columns * rows];
-    let mut nearest = vec![f32::INFINITY; columns * rows];
     let near = |(x, y): (f32, f32), act: &mut dyn FnMut(usize, f32)| {
         let range = |middle: f32, most: usize| {
             let from = (middle - reach).floor().max(0.0) as usize;
@@ -73,15 +71,29 @@ pub(crate) fn draw(
             }
         }
     };
-    for (index, own) in points.bodies.iter().enumerate() {
-        near(place(index), &mut |at, square| {
+    // Each body by itself, so that what closes gaps in one leaves those between two.
+    let mut body = vec![NOTHING; columns * rows];
+    let mut nearest = vec![f32::INFINITY; columns * rows];
+    for this in 0..=points.bodies.iter().copied().max().unwrap_or(0) {
+        let mut own = vec![f32::INFINITY; columns * rows];
+        for (index, _) in points
+            .bodies
+            .iter()
+            .enumerate()
+            .filter(|(_, body)| **body == this)
+        {
+            near(place(index), &mut |at, square| {
+                own[at] = own[at].min(square)
+            });
+        }
+        shrink(&mut own, columns, reach - OWN * size);
+        for (at, square) in own.into_iter().enumerate() {
             if square < nearest[at] {
                 nearest[at] = square;
-                body[at] = *own;
+                body[at] = this;
             }
-        });
+        }
     }
-    shrink(&mut body, columns, reach - OWN * size);
     let mut sums = vec![(0.0_f32, 0.0_f32); columns * rows];
     for (index, own) in points.bodies.iter().enumerate() {
         let value = points.values[index];
@@ -151,17 +163,17 @@ fn middle(values: &[f32]) -> f32 {
     *values.select_nth_unstable_by(half, f32::total_cmp).1
 }
 
-/// Takes away what is nearer than a distance to a place where there is nothing.
-fn shrink(body: &mut [u8], columns: usize, distance: f32) {
-    let rows = body.len() / columns.max(1);
+/// Takes away what is nearer than a distance to a place where there is nothing, which is infinite.
+fn shrink(own: &mut [f32], columns: usize, distance: f32) {
+    let rows = own.len() / columns.max(1);
     // Distance along the row first; the mirror image beyond the axis, and what is beyond the other edges, is no gap.
     let far = (distance.ceil() as usize + 1) as f32;
-    let mut along = vec![far; body.len()];
+    let mut along = vec![far; own.len()];
     for row in 0..rows {
         let row = row * columns;
         let mut last = far;
         for column in 0..columns {
-            last = if body[row + column] == NOTHING {
+            last = if own[row + column].is_infinite() {
                 0.0
             } else {
                 (last + 1.0).min(far)
@@ -170,7 +182,7 @@ fn shrink(body: &mut [u8], columns: usize, distance: f32) {
         }
         last = far;
         for column in (0..columns).rev() {
-            last = if body[row + column] == NOTHING {
+            last = if own[row + column].is_infinite() {
                 0.0
             } else {
                 (last + 1.0).min(far)
@@ -183,7 +195,7 @@ fn shrink(body: &mut [u8], columns: usize, distance: f32) {
     for row in 0..rows {
         for column in 0..columns {
             let at = row * columns + column;
-            if body[at] == NOTHING {
+            if own[at].is_infinite() {
                 continue;
             }
             let near = |other: usize| {
@@ -192,7 +204,7 @@ fn shrink(body: &mut [u8], columns: usize, distance: f32) {
                 off * off + aside * aside <= square
             };
             if (row.saturating_sub(most)..(row + most + 1).min(rows)).any(near) {
-                body[at] = NOTHING;
+                own[at] = f32::INFINITY;
             }
         }
     }

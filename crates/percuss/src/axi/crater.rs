@@ -130,18 +130,16 @@ pub(super) fn outline(body: &Body, cell: f64) -> Vec<[f64; 2]> {
         let part = (inner - 0.5) / (inner - outer);
         Some([((column - 1) as f64 + part) * cell, row as f64 * cell])
     };
-    let end = |from_tail| -> Vec<[f64; 2]> {
+    let sides: Vec<[f64; 2]> = rows(&[field]).filter_map(side).collect();
+    let end = |from_tail, beside: Option<&[f64; 2]>| -> Vec<[f64; 2]> {
+        let most = beside.map_or(0.0, |point| point[0]);
         let faces = (2..field.columns).map_while(|column| face(column, from_tail));
-        faces.collect()
+        faces.take_while(|point| point[0] < most).collect()
     };
-    let (back, front) = (end(true), end(false));
-    let last = |face: &[[f64; 2]], axis: f64| face.last().map_or(axis, |point| point[1]);
-    let (from, to) = (last(&back, tail), last(&front, tip));
-    let between = |point: &[f64; 2]| point[1] > from && point[1] < to;
     let mut outline = vec![[0.0, tail]];
-    outline.extend(&back);
-    outline.extend(rows(&[field]).filter_map(side).filter(between));
-    outline.extend(front.iter().rev());
+    outline.extend(end(true, sides.first()));
+    outline.extend(&sides);
+    outline.extend(end(false, sides.last()).iter().rev());
     outline.push([0.0, tip]);
     outline
 }
