@@ -8,6 +8,9 @@ use crate::{
     shapes::Shapes,
 };
 
+/// Part of a cell by which a surface must lie below the original face to be a crater.
+const NOTICEABLE: f64 = 0.1;
+
 pub(super) fn sum_up(
     run: &Run<'_>,
     termination: Termination,
@@ -115,17 +118,7 @@ fn details(run: &Run<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
     let Some(extent) = extent(run.scenario) else {
         return details;
     };
-    let mouth = crater
-        .iter()
-        .filter(|[_, depth]| *depth > 0.0)
-        .map(|[radius, _]| *radius);
-    let volume: f64 = crater
-        .windows(2)
-        .map(|pair| {
-            let depth = 0.5 * (pair[0][1] + pair[1][1]).max(0.0);
-            std::f64::consts::PI * (pair[1][0].powi(2) - pair[0][0].powi(2)) * depth
-        })
-        .sum();
+    let (mouth, volume) = mouth(crater, NOTICEABLE * solver.cell);
     details.extend([
         Detail {
             name: "modelled target radius",
@@ -140,7 +133,7 @@ fn details(run: &Run<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
         Detail {
             name: "crater diameter at the original face",
             unit: "mm",
-            value: 2e3 * mouth.fold(0.0, f64::max),
+            value: 2e3 * mouth,
         },
         Detail {
             name: "crater volume below the original face",
@@ -149,4 +142,50 @@ fn details(run: &Run<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
         },
     ]);
     details
+}
+
+/// Radius of a crater at the original face [m] and its volume below that face [m3]: from the axis outwards to where the surface is
+/// no more than `least` below the face. Beyond, a loaded face sinks elastically, which is no crater.
+fn mouth(crater: &[[f64; 2]], least: f64) -> (f64, f64) {
+    let (mut radius, mut volume) = (0.0, 0.0);
+    for pair in crater.windows(2) {
+        let [[from, above], [to, below]] = [pair[0], pair[1]];
+        if above <= least {
+            break;
+        }
+        let part = if below > least {
+            1.0
+        } else {
+            (above - least) / (above - below)
+        };
+        radius = from + part * (to - from);
+        let depth = above + 0.5 * part * (below - above);
+        volume += std::f64::consts::PI * (radius * radius - from * from) * depth;
+    }
+    (radius, volume)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::mouth;
+
+    #[test]
+    fn a_crater_ends_where_its_surface_comes_back_to_the_face() {
+        // A cone of depth 2 and radius 4 in a face that has sunk by 0.001 far around, behind a lip.
+        let crater: Vec<[f64; 2]> = (0..=400)
+            .map(|i| {
+                let radius = f64::from(i) * 0.05;
+                let depth = match radius {
+                    ..4.5 => 2.0 - 0.5 * radius,
+                    _ => 0.001,
+                };
+                [radius, depth]
+            })
+            .collect();
+        let (radius, volume) = mouth(&crater, 0.01);
+        assert!((radius - 3.98).abs() < 1e-9, "{radius}");
+        let cone = std::f64::consts::PI * 16.0 * 2.0 / 3.0;
+        assert!((volume / cone - 1.0).abs() < 2e-3, "{volume}");
+        assert_eq!(mouth(&[[0.0, 0.001], [1.0, 0.001]], 0.01), (0.0, 0.0));
+    }
 }
