@@ -220,8 +220,13 @@ fn view(scenario: &Scenario, span: &Span) -> View {
         };
     }
     let shown = (span.depth + 5.0 * radius).max(6.0 * radius);
+    // Where a plate ends there is something to be seen of what is behind it.
+    let end = match scenario.target_thickness() {
+        Some(_) => f64::from(span.target) + radius,
+        None => f64::from(span.target),
+    };
     View {
         radius: (f64::from(widest) + radius).max(6.0 * radius),
-        depth: (back, f64::from(span.target).min(shown).max(front + radius)),
+        depth: (back, end.min(shown).max(front + radius)),
     }
 }
