@@ -30,8 +30,9 @@ const BUILT_IN: &str = "builtin";
 const LONG_ABOUT: &str = "\
 Compute every published shot with every model that applies to it, and say how
 far off each is: bias, root mean square, median and worst of the relative
-errors, by model, material record, source, target, projectile and regime. A model
-that takes minutes a shot, which `axi` is, runs only when it is asked for by name.
+errors, by model, material record, source, target, projectile and regime.
+A model that may take minutes, which `axi` is, runs only when it is asked for by
+name.
 
 The program brings Taylor tests, ballistic limits of plates and a few single
 shots, each with the place where it was read. Suspect and repeated rows are

@@ -218,7 +218,7 @@ mod tests {
 
     impl Paint for Plain {
         fn color(&self, body: u8, value: f32) -> [u8; 3] {
-            [200, body, value as u8]
+            [200, body, value.round() as u8]
         }
         fn nothing(&self, _: f64) -> [u8; 3] {
             [255; 3]

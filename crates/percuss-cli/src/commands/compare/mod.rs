@@ -25,8 +25,8 @@ const LONG_ABOUT: &str = "\
 Run every model on a case and set their results side by side: which regime the
 shot is in, which model to rely on and why, what each of them says, how far that
 is from the case's experiments, and why a model says nothing where it does not
-apply. One model that fails does not stop the others. A model that takes minutes,
-which `axi` is, runs only when it is asked for by name.
+apply. One model that fails does not stop the others. A model that may take
+minutes, which `axi` is, runs only when it is asked for by name.
 
 With --velocity the case is run at other speeds than its own:
   --velocity 200..1500:27         27 speeds from 200 to 1500, ends included
