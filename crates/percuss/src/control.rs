@@ -26,6 +26,9 @@ pub trait Checkpoints {
     fn keep(&mut self, bytes: &[u8]) -> ControlFlow<()>;
 }
 
+/// What gets the fields of a run.
+pub type OnFrame<'a> = &'a mut dyn FnMut(&Frame<'_>) -> ControlFlow<()>;
+
 /// What a caller wants of a run: histories, progress, a way to stop it.
 #[derive(Default)]
 pub struct Control<'a> {
@@ -35,7 +38,7 @@ pub struct Control<'a> {
     pub progress: Option<&'a mut dyn FnMut(Progress) -> ControlFlow<()>>,
     /// Gets the fields of a model that [has some](crate::model::Model::has_fields), at even intervals of time from the start to the
     /// end; [`ControlFlow::Break`] ends the run with [`Error::Cancelled`].
-    pub frames: Option<&'a mut dyn FnMut(&Frame<'_>) -> ControlFlow<()>>,
+    pub frames: Option<OnFrame<'a>>,
     /// Gets checkpoints of a model that [has fields](crate::model::Model::has_fields).
     pub checkpoints: Option<&'a mut dyn Checkpoints>,
     /// A checkpoint of the same case to go on from; other models than those with fields ignore it.

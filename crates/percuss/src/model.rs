@@ -16,7 +16,7 @@ use crate::{
     regime::Regime,
 };
 
-pub use crate::control::{Checkpoints, Control, Progress};
+pub use crate::control::{Checkpoints, Control, OnFrame, Progress};
 
 /// A way to compute what becomes of a shot.
 pub trait Model: Sync {
