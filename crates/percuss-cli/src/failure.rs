@@ -31,6 +31,8 @@ pub enum Failure {
     NoResult(Vec<String>),
     /// Standard output could not be written.
     Output(io::Error),
+    /// The user stopped a run, which left a checkpoint [us].
+    Stopped { time_us: f64 },
     /// The command line asks for something that does not exist.
     Usage { message: String, help: String },
 }
@@ -73,6 +75,8 @@ impl Failure {
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
             Self::Usage { .. } | Self::NoResult(_) => 2,
+            // What shells report of a program that Ctrl-C ended.
+            Self::Stopped { .. } => 130,
             Self::Library(Error::Numerical(_) | Error::Cancelled { .. }) | Self::Report(_) => 3,
             Self::Library(Error::Read { .. }) | Self::Write { .. } | Self::Output(_) => 4,
             Self::Library(_) => 2,
@@ -126,6 +130,9 @@ impl Failure {
                 let message = format!("cannot read `{}`: {reason}", path.display());
                 diagnostic::message(&message, help)
             }
+            Self::Library(error @ Error::Checkpoint { remedy, .. }) => {
+                diagnostic::message(&error.to_string(), remedy)
+            }
             Self::Library(error) => diagnostic::message(&error.to_string(), ""),
             Self::Report(error) => diagnostic::message(&error.to_string(), ""),
             Self::Write { path, reason, help } => {
@@ -141,6 +148,14 @@ impl Failure {
                     format!("  {}\n", terminal::wrap(reason, terminal::width() - 2, 4))
                 };
                 message + &reasons.iter().map(reason).collect::<String>()
+            }
+            Self::Stopped { time_us } => {
+                let message =
+                    format!("the run was stopped at {time_us:.1} us and left a checkpoint");
+                diagnostic::message(
+                    &message,
+                    "the same command with `--resume` goes on from there",
+                )
             }
             Self::Usage { message, help } => diagnostic::message(message, help),
         };

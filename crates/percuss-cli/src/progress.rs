@@ -13,6 +13,8 @@ pub struct Progress {
     bar: ProgressBar,
     start: Instant,
     wanted: bool,
+    /// Part that was done when it was first asked: a run that goes on from a checkpoint begins late.
+    first: Option<f64>,
     furthest: f64,
 }
 
@@ -26,6 +28,7 @@ impl Progress {
             bar,
             start: Instant::now(),
             wanted,
+            first: None,
             furthest: 0.0,
         }
     }
@@ -33,14 +36,17 @@ impl Progress {
     /// Says how far it has come: part done, 0 to 1, and a few words.
     pub fn update(&mut self, fraction: f64, words: &str) {
         let elapsed = self.start.elapsed();
+        let first = *self.first.get_or_insert(fraction.clamp(0.0, 1.0));
         if !self.wanted || elapsed < PATIENCE {
             return;
         }
         // An estimate that falls back would only puzzle.
         self.furthest = self.furthest.max(fraction.clamp(0.0, 1.0));
         self.bar.set_position((self.furthest * STEPS as f64) as u64);
-        self.bar
-            .set_message(format!("{words}{}", time_left(elapsed, self.furthest)));
+        self.bar.set_message(format!(
+            "{words}{}",
+            time_left(elapsed, first, self.furthest)
+        ));
         if self.bar.is_hidden() {
             self.bar
                 .set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
@@ -53,11 +59,11 @@ impl Progress {
     }
 }
 
-fn time_left(elapsed: Duration, fraction: f64) -> String {
-    if fraction < 0.01 {
+fn time_left(elapsed: Duration, first: f64, fraction: f64) -> String {
+    if fraction - first < 0.01 {
         return String::new();
     }
-    let seconds = elapsed.as_secs_f64() * (1.0 - fraction) / fraction;
+    let seconds = elapsed.as_secs_f64() * (1.0 - fraction) / (fraction - first);
     match seconds {
         ..90.0 => format!(", about {} s left", seconds.ceil()),
         ..5400.0 => format!(", about {:.0} min left", seconds / 60.0),

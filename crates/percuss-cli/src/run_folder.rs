@@ -72,6 +72,8 @@ impl RunFolder {
         progress.update(0.0, "writing histories");
         self.written
             .extend(percuss_report::write_histories(&self.path, result)?);
+        self.written
+            .extend(percuss_report::write_shapes(&self.path, result)?);
         let figures = percuss_report::run_figures(scenario, result)?;
         let count = figures.len() as f64;
         for (i, figure) in figures.iter().enumerate() {

@@ -35,7 +35,7 @@ pub fn text(validation: &Validation, files: &[String], in_detail: bool) -> Strin
         }
     }
     if !in_detail {
-        let hint = "`--model NAME` breaks a model down by source, target and more; `--out DIR` writes all of it with figures.";
+        let hint = "`--model NAME` breaks a model down by source, target and more; `--out DIR` writes all of it with figures. `axi` takes minutes and runs when it is named.";
         text += &format!("\n{}\n", wrap(hint, width(), 0));
     }
     text

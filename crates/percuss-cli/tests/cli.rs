@@ -330,7 +330,7 @@ fn models_as_json_hold_their_whole_guard() {
     assert_eq!(list[0]["name"], "chain");
     assert_eq!(list[0]["guard"]["noses"], serde_json::json!(["flat"]));
     assert_eq!(
-        list[2]["options"],
+        list[3]["options"],
         serde_json::json!(["projectile_strength", "target_resistance"])
     );
     let keys =

@@ -18,13 +18,34 @@ const STRAIN_COLORS: [[&str; 2]; 4] = [
 /// Cells of the x–t diagram along the axis and along time.
 const CELLS: [usize; 2] = [300, 220];
 
-pub(crate) fn strain(history: &History, caption: &str) -> Option<Figure> {
+/// Where the values along the axis stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Along {
+    /// At the initial positions of elements that keep their material.
+    Initial,
+    /// At places in space that material passes through, which has no axial strain of its own then.
+    Space,
+}
+
+impl Along {
+    fn axis(self) -> Axis {
+        Axis::new(match self {
+            Self::Initial => "initial position [mm], struck face at 0",
+            Self::Space => "position [mm], original face at 0",
+        })
+    }
+}
+
+pub(crate) fn strain(history: &History, along: Along, caption: &str) -> Option<Figure> {
     let (first, last) = (history.profiles.first()?, history.profiles.last()?);
     let mut chart = LineChart::new(
         "strain-profile",
         "Strain along the axis at the end",
-        Axis::new("initial position [mm], struck face at 0"),
-        Axis::new("strain, compression positive"),
+        along.axis(),
+        Axis::new(match along {
+            Along::Initial => "strain, compression positive",
+            Along::Space => "equivalent plastic strain",
+        }),
     )
     .caption(format!("{caption}; at {} µs", significant(last.time * 1e6)));
     for part in parts(first) {
@@ -42,6 +63,10 @@ pub(crate) fn strain(history: &History, caption: &str) -> Option<Figure> {
             )
         };
         let [plastic, total] = STRAIN_COLORS[part % STRAIN_COLORS.len()];
+        if along == Along::Space {
+            chart = chart.series(Series::new(name, points(|e| e.plastic_strain)).color(plastic));
+            continue;
+        }
         chart = chart
             .series(
                 Series::new(format!("{name}, plastic"), points(|e| e.plastic_strain))
@@ -56,20 +81,20 @@ pub(crate) fn strain(history: &History, caption: &str) -> Option<Figure> {
     Some(chart.mark(Mark::vertical("", 0.0)).draw())
 }
 
-pub(crate) fn stress(history: &History, caption: &str) -> Option<Figure> {
+pub(crate) fn stress(history: &History, along: Along, caption: &str) -> Option<Figure> {
     let grid = StressGrid::resample(&history.profiles, CELLS)?;
     let note = if grid.rows.iter().flatten().any(|stress| stress.is_nan()) {
-        "; grey: eroded"
+        match along {
+            Along::Initial => "; grey: eroded",
+            Along::Space => "; grey: no material",
+        }
     } else {
         ""
     };
     let mega = |row: Vec<f64>| row.into_iter().map(|stress| stress * 1e-6).collect();
     let map = HeatMap::new(
         ["stress-xt", "Axial stress over position and time"],
-        [
-            Axis::new("initial position [mm], struck face at 0"),
-            Axis::new("time [µs]"),
-        ],
+        [along.axis(), Axis::new("time [µs]")],
         [
             (grid.positions.0 * 1e3, grid.positions.1 * 1e3),
             (grid.times.0 * 1e6, grid.times.1 * 1e6),

@@ -13,6 +13,7 @@ pub struct Axis {
     range: Option<(f64, f64)>,
     tight: bool,
     pub(crate) names: Vec<String>,
+    pub(crate) downward: bool,
 }
 
 impl Axis {
@@ -24,6 +25,7 @@ impl Axis {
             range: None,
             tight: false,
             names: Vec::new(),
+            downward: false,
         }
     }
 
@@ -36,6 +38,12 @@ impl Axis {
     /// Ends the axis where the data end.
     pub fn tight(mut self) -> Self {
         self.tight = true;
+        self
+    }
+
+    /// Counts downwards: a value stands at its negative.
+    pub(crate) fn downward(mut self) -> Self {
+        self.downward = true;
         self
     }
 

@@ -25,6 +25,14 @@ pub enum ReportError {
         #[source]
         source: io::Error,
     },
+    /// A file that belongs to a series of fields could not be read.
+    #[error("cannot read `{}`: {reason}", .path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why, in words.
+        reason: String,
+    },
     /// A figure could not be turned into pixels.
     #[error("cannot draw figure `{name}`: {reason}")]
     Figure {

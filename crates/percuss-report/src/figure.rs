@@ -44,29 +44,54 @@ impl Figure {
     /// # Errors
     /// [`ReportError::Figure`].
     pub fn png(&self) -> Result<Vec<u8>, ReportError> {
-        let failure = |reason: String| ReportError::Figure {
-            name: self.name.clone(),
-            reason,
-        };
-        let options = Options {
-            fontdb: fonts(),
-            font_family: "DejaVu Sans".to_owned(),
-            ..Options::default()
-        };
-        let tree =
-            Tree::from_str(&self.svg, &options).map_err(|error| failure(error.to_string()))?;
+        self.pixels(PNG_SCALE)?
+            .encode_png()
+            .map_err(|error| failure(&self.name, error.to_string()))
+    }
+
+    /// The figure at a number of pixels per SVG user unit.
+    pub(crate) fn pixels(&self, scale: f32) -> Result<Pixmap, ReportError> {
+        let tree = tree(&self.name, &self.svg)?;
         let size = tree
             .size()
             .to_int_size()
-            .scale_by(PNG_SCALE)
-            .ok_or_else(|| failure("it has no area".to_owned()))?;
+            .scale_by(scale)
+            .ok_or_else(|| failure(&self.name, "it has no area".to_owned()))?;
         let mut pixels = Pixmap::new(size.width(), size.height())
-            .ok_or_else(|| failure("it is too large".to_owned()))?;
-        let transform = Transform::from_scale(PNG_SCALE, PNG_SCALE);
-        resvg::render(&tree, transform, &mut pixels.as_mut());
-        pixels
-            .encode_png()
-            .map_err(|error| failure(error.to_string()))
+            .ok_or_else(|| failure(&self.name, "it is too large".to_owned()))?;
+        resvg::render(
+            &tree,
+            Transform::from_scale(scale, scale),
+            &mut pixels.as_mut(),
+        );
+        Ok(pixels)
+    }
+}
+
+/// Draws an SVG over what is there.
+pub(crate) fn draw_over(pixels: &mut Pixmap, svg: &str, scale: f32) -> Result<(), ReportError> {
+    let tree = tree("overlay", svg)?;
+    resvg::render(
+        &tree,
+        Transform::from_scale(scale, scale),
+        &mut pixels.as_mut(),
+    );
+    Ok(())
+}
+
+fn tree(name: &str, svg: &str) -> Result<Tree, ReportError> {
+    let options = Options {
+        fontdb: fonts(),
+        font_family: "DejaVu Sans".to_owned(),
+        ..Options::default()
+    };
+    Tree::from_str(svg, &options).map_err(|error| failure(name, error.to_string()))
+}
+
+fn failure(name: &str, reason: String) -> ReportError {
+    ReportError::Figure {
+        name: name.to_owned(),
+        reason,
     }
 }
 

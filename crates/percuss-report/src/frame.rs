@@ -98,6 +98,10 @@ impl Frame<'_> {
         if let Some((low, high)) = self.y.fixed_range(self.y_extent) {
             layout = layout.with_y_axis_min(low).with_y_axis_max(high);
         }
+        if self.y.downward {
+            let negated = |value: f64| tick_label(-value);
+            layout = layout.with_y_tick_format(TickFormat::Custom(Arc::new(negated)));
+        }
         if !self.y.names.is_empty() {
             layout = layout.with_y_categories(self.y.names.clone());
         }

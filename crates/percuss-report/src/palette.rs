@@ -50,3 +50,33 @@ pub fn series(index: usize) -> &'static str {
 pub fn diverging(value: f64) -> String {
     ColorMap::RedBlue.map(0.5 - 0.5 * value.clamp(-1.0, 1.0))
 }
+
+/// Sequential colours from light to dark, of the same steps in lightness.
+const SEQUENTIAL: [[u8; 3]; 6] = [
+    [0xff, 0xe2, 0x8a],
+    [0xfd, 0xae, 0x3d],
+    [0xf1, 0x68, 0x2f],
+    [0xc7, 0x3a, 0x5b],
+    [0x7f, 0x25, 0x79],
+    [0x35, 0x12, 0x5f],
+];
+
+/// Sequential colour of a value between 0 (light yellow) and 1 (dark purple).
+pub(crate) fn sequential(value: f64) -> [u8; 3] {
+    let place = value.clamp(0.0, 1.0) * (SEQUENTIAL.len() - 1) as f64;
+    let below = (place as usize).min(SEQUENTIAL.len() - 2);
+    let part = place - below as f64;
+    std::array::from_fn(|k| {
+        let [low, high] = [SEQUENTIAL[below][k], SEQUENTIAL[below + 1][k]].map(f64::from);
+        (low + part * (high - low)).round() as u8
+    })
+}
+
+/// Colours of bodies in which nothing is to be seen: the projectile, then the layers of a target in turn.
+pub(crate) fn body(index: u8) -> [u8; 3] {
+    const LAYERS: [[u8; 3]; 3] = [[0xe4, 0xe0, 0xd6], [0xd4, 0xde, 0xd4], [0xde, 0xd6, 0xe2]];
+    match index.checked_sub(1) {
+        None => [0xa9, 0xbf, 0xd6],
+        Some(layer) => LAYERS[usize::from(layer) % LAYERS.len()],
+    }
+}

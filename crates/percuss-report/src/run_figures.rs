@@ -2,13 +2,19 @@
 
 use percuss::{Scenario, outcome::RunResult, scenario::TargetBody};
 
-use crate::{Figure, ReportError, axial_figures, error::history_of, time_figures};
+use crate::{
+    Figure, ReportError,
+    axial_figures::{self, Along},
+    error::history_of,
+    shape_figure::shape_figure,
+    time_figures,
+};
 
 /// Draws all figures that a result has data for.
 ///
 /// Against time: `depth-time` (a target that can be penetrated), `length-time` (a rigid wall, or a projectile that
 /// erodes), `velocity-time`, `force-time` and `energy-time`. Along the axis: `strain-profile`, `stress-xt` and
-/// `rod-shape`. A run in which nothing moves has but `strain-profile` and `rod-shape`.
+/// `rod-shape`, or `final-shape` of a model that knows crater and projectile in two dimensions. A run in which nothing moves has but `strain-profile` and `rod-shape`.
 ///
 /// # Errors
 /// [`ReportError::NoHistory`] when the run kept no history.
@@ -27,9 +33,16 @@ pub fn run_figures(scenario: &Scenario, result: &RunResult) -> Result<Vec<Figure
         figures.extend(time_figures::force(history, &caption));
         figures.extend(time_figures::energy(history, &caption));
     }
-    figures.extend(axial_figures::strain(history, &caption));
-    figures.extend(axial_figures::stress(history, &caption));
-    figures.extend(axial_figures::shape(history, &caption));
+    let along = match result.shapes {
+        Some(_) => Along::Space,
+        None => Along::Initial,
+    };
+    figures.extend(axial_figures::strain(history, along, &caption));
+    figures.extend(axial_figures::stress(history, along, &caption));
+    match &result.shapes {
+        Some(shapes) => figures.push(shape_figure(scenario, shapes)),
+        None => figures.extend(axial_figures::shape(history, &caption)),
+    }
     Ok(figures)
 }
 

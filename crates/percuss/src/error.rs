@@ -38,6 +38,14 @@ pub enum Error {
         /// Time reached [us].
         time_us: f64,
     },
+    /// A checkpoint cannot be used.
+    #[error("cannot go on from the checkpoint: {reason}")]
+    Checkpoint {
+        /// Why, in words.
+        reason: String,
+        /// What to do.
+        remedy: String,
+    },
     /// A file could not be read.
     #[error("cannot read `{}`: {reason}", .path.display())]
     Read {

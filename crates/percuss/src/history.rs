@@ -1,9 +1,11 @@
 //! Time histories of a run, thinned as it grows so that memory stays flat.
 
+use serde::{Deserialize, Serialize};
+
 use crate::ledger::{EnergyLedger, MomentumLedger};
 
 /// One moment of a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     /// Time [s].
     pub time: f64,
@@ -34,7 +36,7 @@ pub struct Sample {
 }
 
 /// State of one element at one moment.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ElementState {
     /// Part: 0 is the projectile, 1 the first layer of the target.
     pub part: usize,
@@ -57,7 +59,7 @@ pub struct ElementState {
 }
 
 /// State along the axis at one moment.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Profile {
     /// Time [s].
     pub time: f64,
@@ -66,7 +68,7 @@ pub struct Profile {
 }
 
 /// Histories of a run.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct History {
     /// Scalars against time.
     pub samples: Vec<Sample>,
@@ -80,7 +82,7 @@ const MOST_SAMPLES: usize = 1600;
 const MOST_PROFILES: usize = 400;
 
 /// Collects histories of a run of unknown length: when it is full, it drops every other entry and doubles its stride.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct Recorder {
     history: History,
     sample_stride: u64,

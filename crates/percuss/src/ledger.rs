@@ -1,7 +1,7 @@
 //! Energy and momentum books: every joule and every newton-second of a run has a line.
 
 /// Where the energy of a run is [J].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct EnergyLedger {
     /// Kinetic energy at the start.
     pub initial: f64,
@@ -66,7 +66,7 @@ impl EnergyLedger {
 }
 
 /// Where the momentum of a run is [N s], along the direction of the shot.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct MomentumLedger {
     /// Momentum at the start.
     pub initial: f64,

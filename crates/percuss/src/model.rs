@@ -1,7 +1,5 @@
 //! Models: what every one of them offers, and the list of all.
 
-use std::ops::ControlFlow;
-
 use crate::{
     Error, Scenario,
     analytic::{
@@ -18,6 +16,8 @@ use crate::{
     regime::Regime,
 };
 
+pub use crate::control::{Checkpoints, Control, OnFrame, Progress};
+
 /// A way to compute what becomes of a shot.
 pub trait Model: Sync {
     /// Name on the command line and in results.
@@ -31,6 +31,11 @@ pub trait Model: Sync {
 
     /// Whether a run takes minutes: comparisons and validations then run it only when it is asked for by name.
     fn is_slow(&self) -> bool {
+        false
+    }
+
+    /// Whether it computes fields in two dimensions, which [`Control::frames`] gets, and can go on from a checkpoint.
+    fn has_fields(&self) -> bool {
         false
     }
 
@@ -147,57 +152,5 @@ fn applicability_in(
             Some(reason) => Err(reason),
             None => Ok(warnings),
         },
-    }
-}
-
-/// How far a run has come.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Progress {
-    /// Time step.
-    pub step: u64,
-    /// Time [s].
-    pub time: f64,
-    /// Estimated part done, 0 to 1: of a shot that ends by itself nobody knows the end beforehand.
-    pub fraction: f64,
-    /// Depth reached [m].
-    pub depth: f64,
-}
-
-/// What a caller wants of a run: histories, progress, a way to stop it.
-#[derive(Default)]
-pub struct Control<'a> {
-    /// Whether to keep time histories.
-    pub record: bool,
-    /// Called now and then; [`ControlFlow::Break`] ends the run with [`Error::Cancelled`].
-    pub progress: Option<&'a mut dyn FnMut(Progress) -> ControlFlow<()>>,
-}
-
-impl Control<'_> {
-    /// A run that keeps its time histories.
-    pub fn recording() -> Self {
-        Self {
-            record: true,
-            progress: None,
-        }
-    }
-
-    pub(crate) fn report(&mut self, progress: Progress) -> Result<(), Error> {
-        if let Some(callback) = &mut self.progress
-            && callback(progress).is_break()
-        {
-            return Err(Error::Cancelled {
-                step: progress.step,
-                time_us: progress.time * 1e6,
-            });
-        }
-        Ok(())
-    }
-}
-
-impl std::fmt::Debug for Control<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Control")
-            .field("record", &self.record)
-            .finish_non_exhaustive()
     }
 }

@@ -5,6 +5,7 @@ use serde::Serialize;
 use crate::{
     history::History,
     ledger::{EnergyLedger, MomentumLedger},
+    shapes::Shapes,
 };
 
 /// How a shot ended.
@@ -137,6 +138,8 @@ pub struct RunResult {
     pub details: Vec<Detail>,
     /// Steps and books of a model that steps through time on a mesh.
     pub numerics: Option<Numerics>,
+    /// Crater and projectile at the end, from a model that has fields.
+    pub shapes: Option<Shapes>,
     /// What a user should know before relying on the numbers.
     pub warnings: Vec<String>,
     /// Time histories, when they were asked for.
@@ -274,6 +277,7 @@ impl RunResult {
             end_time: None,
             details: Vec::new(),
             numerics: None,
+            shapes: None,
             warnings: Vec::new(),
             history: None,
         }

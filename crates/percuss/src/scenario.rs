@@ -144,6 +144,8 @@ impl Scenario {
         refined.options.chain.projectile_elements = finer(self.options.chain.projectile_elements());
         refined.options.chain.target_elements = finer(self.options.chain.target_elements());
         let (projectile, target) = self.options.fdm.elements(self);
+        let cells = self.options.axi.cells_per_radius();
+        refined.options.axi.cells_per_radius = Some(cells.saturating_mul(factor));
         refined.options.fdm.projectile_elements = finer(projectile as usize);
         refined.options.fdm.target_elements = finer(target as usize);
         refined

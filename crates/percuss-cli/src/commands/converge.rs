@@ -79,6 +79,7 @@ impl Converge {
         let mut control = Control {
             record: false,
             progress: Some(&mut report),
+            ..Control::default()
         };
         let study = converge::study(model, &scenario, self.levels, &mut control);
         progress.finish();

@@ -31,6 +31,8 @@ const LONG_ABOUT: &str = "\
 Compute every published shot with every model that applies to it, and say how
 far off each is: bias, root mean square, median and worst of the relative
 errors, by model, material record, source, target, projectile and regime.
+A model that may take minutes, which `axi` is, runs only when it is asked for by
+name.
 
 The program brings Taylor tests, ballistic limits of plates and a few single
 shots, each with the place where it was read. Suspect and repeated rows are
@@ -58,7 +60,7 @@ Exit codes: 0 ok, 2 bad input, 4 a file could not be read or written";
 #[derive(Debug, Args)]
 #[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
 pub struct Validate {
-    /// Model to validate; all of them when not given
+    /// Model to validate; all that answer at once when not given
     #[arg(long, value_name = "NAME")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: Vec<String>,

@@ -132,6 +132,7 @@ fn run(scenario: &Scenario, record: bool) -> Result<RunResult, Error> {
     let mut control = Control {
         record,
         progress: None,
+        ..Control::default()
     };
     model::run(model::model("chain")?, scenario, &mut control)
 }

@@ -39,7 +39,7 @@ pub(super) struct Limits {
 }
 
 /// Sums over a chunk after a step.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Sums {
     /// Mass [kg], axial momentum [N s] and kinetic energy [J].
     pub(super) mass: f64,

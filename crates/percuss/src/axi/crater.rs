@@ -99,6 +99,51 @@ pub(super) fn profile(targets: &[Body], cell: f64) -> Vec<[f64; 2]> {
     profile
 }
 
+/// Outer surface of a body from its tail to its tip: radius and depth [m]. Its end faces are where the columns of nodes begin and
+/// end, its side is where the rows between do.
+pub(super) fn outline(body: &Body, cell: f64) -> Vec<[f64; 2]> {
+    let Some((tail, tip)) = ends(body, cell) else {
+        return Vec::new();
+    };
+    let field = &body.field;
+    let ring = 2.0 * std::f64::consts::PI * cell.powi(3);
+    let filling =
+        |row: isize, column: usize| field.node(row, column)[VOLUME] / (ring * full_volume(column));
+    let at = |row: isize, column: usize| (row, filling(row, column));
+    // End face of a column: its first full row from one side, and the one before.
+    let face = |column: usize, from_tail: bool| {
+        let full = |row: &isize| filling(*row, column) >= 0.5;
+        let (row, before) = if from_tail {
+            let row = rows(&[field]).find(full)?;
+            (row, row - 1)
+        } else {
+            let row = rows(&[field]).rev().find(full)?;
+            (row, row + 1)
+        };
+        let depth = crossing(at(row, column), at(before, column), cell);
+        Some([(column - 1) as f64 * cell, depth])
+    };
+    let side = |row: isize| {
+        let mut columns = (2..field.columns).rev();
+        let column = columns.find(|column| filling(row, *column) >= 0.5)?;
+        let (inner, outer) = (filling(row, column), filling(row, column + 1));
+        let part = (inner - 0.5) / (inner - outer);
+        Some([((column - 1) as f64 + part) * cell, row as f64 * cell])
+    };
+    let sides: Vec<[f64; 2]> = rows(&[field]).filter_map(side).collect();
+    let end = |from_tail, beside: Option<&[f64; 2]>| -> Vec<[f64; 2]> {
+        let most = beside.map_or(0.0, |point| point[0]);
+        let faces = (2..field.columns).map_while(|column| face(column, from_tail));
+        faces.take_while(|point| point[0] < most).collect()
+    };
+    let mut outline = vec![[0.0, tail]];
+    outline.extend(end(true, sides.first()));
+    outline.extend(&sides);
+    outline.extend(end(false, sides.last()).iter().rev());
+    outline.push([0.0, tip]);
+    outline
+}
+
 /// Largest radius of a body [m]: that of its outermost particle and half of what the particle is wide.
 pub(super) fn largest_radius(body: &Body) -> f64 {
     let edge = |particle: &super::Particle| {

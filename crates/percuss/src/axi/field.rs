@@ -9,11 +9,13 @@ pub(super) const VOLUME: usize = 3;
 pub(super) const FORCE: usize = 4;
 
 /// Rows of nodes that particles of one chunk reach. Column 0 is the mirror image of column 2 in the axis, which is column 1.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Strip {
     pub(super) first_row: isize,
     pub(super) rows: usize,
     pub(super) columns: usize,
+    /// Every step fills them anew, so a checkpoint goes without.
+    #[serde(skip)]
     pub(super) nodes: Vec<Node>,
 }
 
@@ -35,7 +37,7 @@ impl Strip {
 }
 
 /// Nodes of a body after the particles of all its chunks have been added up.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Field {
     pub(super) first_row: isize,
     pub(super) rows: usize,

@@ -39,7 +39,7 @@ pub(super) struct Law {
 }
 
 /// What a step did in a particle [J].
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(super) struct Work {
     pub(super) total: f64,
     pub(super) plastic: f64,

@@ -4,6 +4,7 @@ mod axial;
 mod body;
 mod books;
 mod boundary;
+mod checkpoint;
 mod contact;
 mod crater;
 mod field;
@@ -67,6 +68,10 @@ impl Model for Axi {
     }
 
     fn is_slow(&self) -> bool {
+        true
+    }
+
+    fn has_fields(&self) -> bool {
         true
     }
 

@@ -5,7 +5,11 @@ use crate::{
     history::Recorder,
     outcome::{Detail, Numerics, RunResult, Termination},
     scenario::TargetBody,
+    shapes::Shapes,
 };
+
+/// Part of a cell by which a surface must lie below the original face to be a crater.
+const NOTICEABLE: f64 = 0.1;
 
 pub(super) fn sum_up(
     run: &Run<'_>,
@@ -37,7 +41,16 @@ pub(super) fn sum_up(
     result.time_to_rest = watch.at_rest.map(|(time, _)| time);
     result.peak_force = Some(watch.peak_force);
     result.end_time = Some(solver.time);
-    result.details = details(run);
+    let shapes = Shapes {
+        crater: if solid {
+            crater::profile(&solver.bodies[1..], solver.cell)
+        } else {
+            Vec::new()
+        },
+        projectile: crater::outline(rod, solver.cell),
+    };
+    result.details = details(run, &shapes.crater);
+    result.shapes = Some(shapes);
     let most = |target: bool, value: fn(&Particle) -> f64| {
         let bodies = solver
             .bodies
@@ -89,29 +102,23 @@ pub(super) fn sum_up(
     result
 }
 
-fn details(run: &Run<'_>) -> Vec<Detail> {
+fn details(run: &Run<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
     let solver = &run.solver;
     let mut details = vec![Detail {
         name: "cell size",
         unit: "mm",
         value: solver.cell * 1e3,
     }];
+    let present = solver.bodies.iter().flat_map(|body| &body.particles);
+    details.push(Detail {
+        name: "particles",
+        unit: "",
+        value: present.filter(|particle| particle.mass > 0.0).count() as f64,
+    });
     let Some(extent) = extent(run.scenario) else {
         return details;
     };
-    let mut crater = crater::profile(&solver.bodies[1..], solver.cell);
-    // Beyond the rim the face moves a little too: the crater ends where its floor has come up to a hundredth of its depth.
-    let rim = 0.01 * crater.first().map_or(0.0, |[_, depth]| *depth);
-    let end = crater.iter().position(|[_, depth]| *depth <= rim);
-    crater.truncate(end.unwrap_or(crater.len()));
-    let mouth = crater.iter().map(|[radius, _]| *radius);
-    let volume: f64 = crater
-        .windows(2)
-        .map(|pair| {
-            let depth = 0.5 * (pair[0][1] + pair[1][1]).max(0.0);
-            std::f64::consts::PI * (pair[1][0].powi(2) - pair[0][0].powi(2)) * depth
-        })
-        .sum();
+    let (mouth, volume) = mouth(crater, NOTICEABLE * solver.cell);
     details.extend([
         Detail {
             name: "modelled target radius",
@@ -126,7 +133,7 @@ fn details(run: &Run<'_>) -> Vec<Detail> {
         Detail {
             name: "crater diameter at the original face",
             unit: "mm",
-            value: 2e3 * mouth.fold(0.0, f64::max),
+            value: 2e3 * mouth,
         },
         Detail {
             name: "crater volume below the original face",
@@ -135,4 +142,50 @@ fn details(run: &Run<'_>) -> Vec<Detail> {
         },
     ]);
     details
+}
+
+/// Radius of a crater at the original face [m] and its volume below that face [m3]: from the axis outwards to where the surface is
+/// no more than `least` below the face. Beyond, a loaded face sinks elastically, which is no crater.
+fn mouth(crater: &[[f64; 2]], least: f64) -> (f64, f64) {
+    let (mut radius, mut volume) = (0.0, 0.0);
+    for pair in crater.windows(2) {
+        let [[from, above], [to, below]] = [pair[0], pair[1]];
+        if above <= least {
+            break;
+        }
+        let part = if below > least {
+            1.0
+        } else {
+            (above - least) / (above - below)
+        };
+        radius = from + part * (to - from);
+        let depth = above + 0.5 * part * (below - above);
+        volume += std::f64::consts::PI * (radius * radius - from * from) * depth;
+    }
+    (radius, volume)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::mouth;
+
+    #[test]
+    fn a_crater_ends_where_its_surface_comes_back_to_the_face() {
+        // A cone of depth 2 and radius 4 in a face that has sunk by 0.001 far around, behind a lip.
+        let crater: Vec<[f64; 2]> = (0..=400)
+            .map(|i| {
+                let radius = f64::from(i) * 0.05;
+                let depth = match radius {
+                    ..4.5 => 2.0 - 0.5 * radius,
+                    _ => 0.001,
+                };
+                [radius, depth]
+            })
+            .collect();
+        let (radius, volume) = mouth(&crater, 0.01);
+        assert!((radius - 3.98).abs() < 1e-9, "{radius}");
+        let cone = std::f64::consts::PI * 16.0 * 2.0 / 3.0;
+        assert!((volume / cone - 1.0).abs() < 2e-3, "{volume}");
+        assert_eq!(mouth(&[[0.0, 0.001], [1.0, 0.001]], 0.01), (0.0, 0.0));
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::{
     axial,
+    checkpoint::Keeping,
     options::Eos,
     results::sum_up,
     setup::{build, extent},
@@ -10,7 +11,9 @@ use super::{
 };
 use crate::{
     Error, Scenario,
+    control::go_on,
     error::NumericalError,
+    frames::{Frame, FrameClock},
     history::Recorder,
     model::{Control, Progress},
     outcome::{RunResult, Termination},
@@ -73,7 +76,14 @@ impl<'a> Run<'a> {
             .map_or_else(|| self.longest(), |time| time.si());
         let max_steps = options.max_steps.unwrap_or(20_000_000);
         let thickness = self.scenario.target_thickness();
-        let mut recorder = control.record.then(Recorder::new);
+        let mut keeping = match control.resume {
+            Some(bytes) => self.restore(bytes)?,
+            None => Keeping {
+                clock: FrameClock::new(self.scenario),
+                recorder: control.record.then(Recorder::new),
+            },
+        };
+        self.show(&mut keeping.clock, control)?;
         let termination = loop {
             if self.scenario.impact_speed == 0.0 {
                 break Termination::NothingMoves;
@@ -84,7 +94,7 @@ impl<'a> Run<'a> {
                     .into());
             }
             self.watch.follow(&self.solver, thickness);
-            if let Some(recorder) = &mut recorder {
+            if let Some(recorder) = &mut keeping.recorder {
                 if recorder.wants_sample(self.solver.step) {
                     recorder.sample(axial::sample(&self.solver, &self.watch));
                 }
@@ -92,6 +102,7 @@ impl<'a> Run<'a> {
                     recorder.profile(axial::profile(&self.solver));
                 }
             }
+            self.show(&mut keeping.clock, control)?;
             if self.solver.step.is_multiple_of(AUDIT_INTERVAL) {
                 self.audit()?;
                 control.report(self.progress(end_time))?;
@@ -105,9 +116,55 @@ impl<'a> Run<'a> {
             if self.solver.step >= max_steps {
                 break Termination::StepLimit;
             }
+            // After everything that the step changes, so that a run that goes on from here misses none of it.
+            if self.solver.step.is_multiple_of(AUDIT_INTERVAL) {
+                self.leave_checkpoint(&mut keeping, control)?;
+            }
         };
         self.audit()?;
-        Ok(sum_up(&self, termination, recorder))
+        let last = keeping.clock.last(self.solver.time);
+        self.frame((last, true), control)?;
+        Ok(sum_up(&self, termination, keeping.recorder))
+    }
+
+    /// Gives the fields to the caller when it is time to.
+    fn show(&self, clock: &mut FrameClock, control: &mut Control<'_>) -> Result<(), Error> {
+        match clock.tick(self.solver.time) {
+            Some(number) => self.frame((number, false), control),
+            None => Ok(()),
+        }
+    }
+
+    fn frame(&self, (number, last): (u64, bool), control: &mut Control<'_>) -> Result<(), Error> {
+        let Some(callback) = &mut control.frames else {
+            return Ok(());
+        };
+        let solver = &self.solver;
+        let frame = Frame {
+            number,
+            last,
+            step: solver.step,
+            time: solver.time,
+            cell: solver.cell,
+            depth: self.watch.depth,
+            bodies: solver.bodies.iter().map(|body| &*body.particles).collect(),
+        };
+        go_on(callback(&frame), solver.step, solver.time)
+    }
+
+    fn leave_checkpoint(
+        &mut self,
+        keeping: &mut Keeping,
+        control: &mut Control<'_>,
+    ) -> Result<(), Error> {
+        let Some(checkpoints) = &mut control.checkpoints else {
+            return Ok(());
+        };
+        if !checkpoints.is_due() {
+            return Ok(());
+        }
+        let bytes = self.checkpoint(keeping)?;
+        go_on(checkpoints.keep(&bytes), self.solver.step, self.solver.time)
     }
 
     /// Whether the books balance.
@@ -160,12 +217,17 @@ impl<'a> Run<'a> {
         } else {
             0.0
         };
-        let slowed = 1.0 - speed / self.scenario.impact_speed;
+        let slowed = (1.0 - speed / self.scenario.impact_speed).min(1.0);
+        // A plate slows its projectile but a little: there the way through it counts.
+        let passed = self.scenario.target_thickness().map_or(0.0, |thickness| {
+            let way = thickness + self.scenario.projectile.length;
+            (self.solver.time * self.scenario.impact_speed / (2.0 * way)).min(1.0)
+        });
         Progress {
             step: self.solver.step,
             time: self.solver.time,
             fraction: (self.solver.time / end_time)
-                .max(0.95 * slowed)
+                .max(0.95 * slowed.max(passed))
                 .clamp(0.0, 1.0),
             depth: self.watch.largest_depth,
         }

@@ -1,10 +1,28 @@
 //! What to know before relying on a result.
 
 use super::{run::Run, setup::extent};
-use crate::outcome::RunResult;
+use crate::{Scenario, case::BackFace, outcome::RunResult, scenario::TargetBody};
 
 /// Part of the energy lost between particles and grid that deserves a word.
 const TRANSFER: f64 = 0.1;
+
+/// Diameters of the projectile below which a target bends or bulges.
+const PLATE: f64 = 3.0;
+
+/// Whether a target that is a plate to its projectile cannot move at its back.
+fn holds_a_plate(scenario: &Scenario) -> bool {
+    let thin = scenario
+        .target_thickness()
+        .is_some_and(|thickness| thickness < PLATE * scenario.projectile.diameter);
+    let held = matches!(
+        scenario.target,
+        TargetBody::Layers {
+            back_face: BackFace::Fixed,
+            ..
+        }
+    );
+    thin && held
+}
 
 pub(super) fn warnings(run: &Run<'_>, result: &RunResult) -> Vec<String> {
     let mut warnings = Vec::new();
@@ -25,6 +43,12 @@ pub(super) fn warnings(run: &Run<'_>, result: &RunResult) -> Vec<String> {
                 below / radius
             ));
         }
+    }
+    if holds_a_plate(run.scenario) {
+        warnings.push(
+            "the back face of the plate is held, which is what `target.back_face` is unless it is given: a plate that may bend, bulge or be perforated needs `back_face = \"free\""
+                .to_owned(),
+        );
     }
     if run.solver.books.lost != [0, 0] {
         warnings.push(format!(

@@ -82,7 +82,8 @@ impl Watch {
         self.window_dissipation = dissipation;
         self.window_depth = self.largest_depth;
         self.window_speed = speed;
-        if self.perforated {
+        // A plate that dishes carries the crater floor past its original back face and may throw the projectile back.
+        if self.perforated && speed > 0.0 {
             return (slowing <= FREE_FRACTION).then_some(Termination::LeftTarget);
         }
         // What still rings changes neither depth nor length.

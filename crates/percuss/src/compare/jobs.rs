@@ -95,6 +95,7 @@ fn run_one(
     let mut control = Control {
         record: false,
         progress: Some(&mut report),
+        ..Control::default()
     };
     let record = match model::run_in(model, scenario, regime, &mut control) {
         Ok(result) => ResultRecord::new(scenario, &result),

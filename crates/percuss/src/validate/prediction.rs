@@ -198,6 +198,7 @@ fn compute(kind: Kind, scenario: &Scenario, model: &dyn Model, stop: &AtomicBool
     let mut control = Control {
         record: false,
         progress: Some(&mut watch),
+        ..Control::default()
     };
     let failed = |outcome, reason| Answer::none(Standing::Failed, outcome, reason);
     let result = match model::run(model, scenario, &mut control) {

@@ -25,7 +25,8 @@ const LONG_ABOUT: &str = "\
 Run every model on a case and set their results side by side: which regime the
 shot is in, which model to rely on and why, what each of them says, how far that
 is from the case's experiments, and why a model says nothing where it does not
-apply. One model that fails does not stop the others.
+apply. One model that fails does not stop the others. A model that may take
+minutes, which `axi` is, runs only when it is asked for by name.
 
 With --velocity the case is run at other speeds than its own:
   --velocity 200..1500:27         27 speeds from 200 to 1500, ends included
@@ -60,7 +61,7 @@ pub struct Compare {
     // A negative speed is answered with the range that speeds have.
     #[arg(long, value_name = "SPEEDS", allow_hyphen_values = true)]
     velocity: Option<Speeds>,
-    /// Compare this model only; may be given several times
+    /// Compare this model only, or a slow one such as `axi`; may be given several times
     #[arg(long, value_name = "NAME")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: Vec<String>,
@@ -136,6 +137,21 @@ impl Compare {
         }
     }
 
+    /// Names the models that would apply and are too slow to run unasked.
+    fn left_out(&self, scenario: &Scenario) -> String {
+        let slow = MODELS.iter().filter(|model| model.is_slow());
+        let applying = slow.filter(|model| model::applicability(**model, scenario).is_ok());
+        let names: Vec<&str> = applying.map(|model| model.name()).collect();
+        if !self.model.is_empty() || names.is_empty() {
+            return String::new();
+        }
+        let line = format!(
+            "not run, since it may take minutes: {}; `--model NAME` runs it.",
+            names.join(", ")
+        );
+        format!("{}\n", terminal::wrap(&line, terminal::width(), 0))
+    }
+
     fn print(
         &self,
         scenario: &Scenario,
@@ -167,6 +183,7 @@ impl Compare {
             text += &shown::elsewhere(comparison);
             text += &warnings::text(comparison);
             text += &absent::text(comparison);
+            text += &self.left_out(scenario);
             text += &format!(
                 "{}\n",
                 terminal::wrap(

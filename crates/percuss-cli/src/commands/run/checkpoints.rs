@@ -1,0 +1,170 @@
+//! Checkpoints of a run in its folder: written now and then and when the user stops the run.
+
+use std::{
+    fs::{self, File},
+    io::{self, Write},
+    ops::ControlFlow,
+    path::{Path, PathBuf},
+    process,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::{Duration, Instant},
+};
+
+use percuss::model::Checkpoints;
+
+use crate::failure::Failure;
+
+/// Name of the file.
+const NAME: &str = "checkpoint.percuss";
+
+/// The file of a folder.
+pub fn file(folder: &Path) -> PathBuf {
+    folder.join(NAME)
+}
+
+/// Bytes of a folder's checkpoint, if it has one.
+pub fn load(folder: &Path) -> Result<Option<Vec<u8>>, Failure> {
+    let path = file(folder);
+    match fs::read(&path) {
+        Ok(bytes) => Ok(Some(bytes)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(Failure::Library(percuss::Error::Read {
+            path,
+            reason: error.to_string(),
+            source: Some(error),
+        })),
+    }
+}
+
+/// Removes the checkpoint of a run that has come to its end.
+pub fn remove(folder: &Path) {
+    // A checkpoint too many is no failure of the run.
+    let _ = fs::remove_file(file(folder));
+}
+
+/// Writes checkpoints to a folder.
+pub struct Keeper {
+    path: PathBuf,
+    interval: Duration,
+    last: Instant,
+    interrupted: Arc<AtomicBool>,
+    /// Why the last checkpoint could not be written.
+    pub failure: Option<Failure>,
+}
+
+impl Keeper {
+    /// From now on the first Ctrl-C, or request of the system to end, leaves a checkpoint; the second one ends the program at once.
+    pub fn new(folder: &Path, interval: Duration) -> Self {
+        let interrupted = Arc::new(AtomicBool::new(false));
+        let flag = Arc::clone(&interrupted);
+        // Without a handler Ctrl-C just ends the program, as it does everywhere else.
+        let _ = ctrlc::set_handler(move || {
+            if flag.swap(true, Ordering::Relaxed) {
+                process::exit(130);
+            }
+        });
+        Self {
+            path: file(folder),
+            interval,
+            last: Instant::now(),
+            interrupted,
+            failure: None,
+        }
+    }
+
+    /// Whether the user has stopped the run.
+    pub fn interrupted(&self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
+    }
+}
+
+impl Checkpoints for Keeper {
+    fn is_due(&mut self) -> bool {
+        self.interrupted() || self.last.elapsed() >= self.interval
+    }
+
+    fn keep(&mut self, bytes: &[u8]) -> ControlFlow<()> {
+        self.last = Instant::now();
+        if let Err(error) = replace(&self.path, bytes) {
+            self.failure = Some(Failure::write(&self.path)(error));
+            return ControlFlow::Break(());
+        }
+        if self.interrupted() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+}
+
+/// Replaces a file in such a way that the old or the new one is there whole, whatever happens.
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let temporary = path.with_extension("tmp");
+    let mut file = File::create(&temporary)?;
+    file.write_all(bytes)?;
+    file.sync_all()?;
+    fs::rename(&temporary, path)
+}
+
+/// An interval such as `60s`, `5 min` or `1h`.
+pub fn interval(text: &str) -> Result<Duration, String> {
+    let text = text.trim();
+    let end = text
+        .find(|c: char| !(c.is_ascii_digit() || c == '.'))
+        .unwrap_or(text.len());
+    let (number, unit) = text.split_at(end);
+    let factor = match unit.trim() {
+        "s" => 1.0,
+        "min" => 60.0,
+        "h" => 3600.0,
+        _ => return Err("give a time with its unit: s, min or h, for example 60s".to_owned()),
+    };
+    match number.parse::<f64>() {
+        Ok(number) if number > 0.0 && number * factor <= 1e7 => {
+            Ok(Duration::from_secs_f64(number * factor))
+        }
+        _ => Err("give a positive time, for example 60s or 5min".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intervals_carry_their_unit() {
+        assert_eq!(interval("60s"), Ok(Duration::from_secs(60)));
+        assert_eq!(interval(" 1.5 min "), Ok(Duration::from_secs(90)));
+        assert_eq!(interval("2h"), Ok(Duration::from_secs(7200)));
+        for bad in ["60", "", "s", "-1s", "0s", "1 day", "1..2s", "1e9h"] {
+            assert!(interval(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_checkpoint_replaces_the_one_before() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut keeper = Keeper {
+            path: file(folder.path()),
+            interval: Duration::ZERO,
+            last: Instant::now(),
+            interrupted: Arc::new(AtomicBool::new(false)),
+            failure: None,
+        };
+        assert!(load(folder.path()).unwrap().is_none());
+        assert!(keeper.is_due());
+        assert!(keeper.keep(b"one").is_continue());
+        assert!(keeper.keep(b"two").is_continue());
+        assert_eq!(load(folder.path()).unwrap().unwrap(), b"two");
+        keeper.interrupted.store(true, Ordering::Relaxed);
+        assert!(keeper.keep(b"three").is_break());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        remove(folder.path());
+        assert!(load(folder.path()).unwrap().is_none());
+        keeper.path = folder.path().join("none/such");
+        assert!(keeper.keep(b"four").is_break() && keeper.failure.is_some());
+    }
+}

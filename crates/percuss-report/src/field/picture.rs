@@ -1,0 +1,246 @@
+//! Pictures of a field: the bodies mirrored in the axis, with scales, colour bar and time.
+
+use kuva::{
+    plot::LinePlot,
+    render::{
+        color::Color,
+        layout::ComputedLayout,
+        render::{PathData, Primitive, Scene, TextAnchor},
+        render_utils::generate_ticks,
+    },
+};
+use resvg::tiny_skia::{self, Pixmap, PremultipliedColorU8};
+
+use super::{
+    colors::{Colors, LEVELS},
+    raster::{self, View},
+    vtp::Points,
+};
+use crate::{
+    Axis, Figure, ReportError,
+    figure::draw_over,
+    frame::{Frame, WIDTH, tick_label},
+    run_figures::significant,
+};
+
+/// Space at the right for the colour bar, its numbers and its label [px].
+const BAR_MARGIN: f64 = 124.0;
+/// Distance of the colour bar from the plot, and its width [px].
+const BAR_PLACE: (f64, f64) = (20.0, 18.0);
+/// Space above the colour bar for the time [px].
+const TIME: f64 = 46.0;
+/// Height of the part that shows the bodies [px].
+const HEIGHTS: (f64, f64) = (320.0, 760.0);
+
+/// What all pictures of a series have in common.
+pub(crate) struct Canvas {
+    figure: Figure,
+    colors: Colors,
+    view: View,
+    /// Left, top, width and height of the part that shows the bodies [px].
+    place: [f64; 4],
+}
+
+impl Canvas {
+    /// A canvas for a view, which is widened to the shape of the picture.
+    pub(crate) fn new(title: &str, caption: &str, colors: Colors, view: View) -> Self {
+        // What texts and tick labels leave is known only once they are set.
+        let first = draw(title, caption, colors, view, 600.0);
+        let [_, _, width, height] = first.place;
+        let span = view.depth.1 - view.depth.0;
+        let wanted = width * span / (2.0 * view.radius);
+        let tall = wanted.clamp(HEIGHTS.0, HEIGHTS.1);
+        let factor = wanted / tall;
+        let view = if factor > 1.0 {
+            View {
+                radius: view.radius * factor,
+                ..view
+            }
+        } else {
+            let more = 0.5 * span * (1.0 / factor - 1.0);
+            View {
+                depth: (view.depth.0 - more, view.depth.1 + more),
+                ..view
+            }
+        };
+        draw(title, caption, colors, view, 600.0 - height + tall)
+    }
+
+    /// The picture of a frame, at a number of pixels per SVG user unit; `base` is the canvas at that scale.
+    pub(crate) fn picture(
+        &self,
+        points: &Points,
+        base: &Pixmap,
+        scale: f32,
+    ) -> Result<Pixmap, ReportError> {
+        let mut pixels = base.clone();
+        // The border of the plot stays to be seen.
+        let [left, top, width, height] = self.place.map(|x| x * f64::from(scale));
+        let (left, top) = (left.round() as usize + 1, top.round() as usize + 1);
+        let size = (width.round() as usize - 2, height.round() as usize - 2);
+        let drawing = raster::draw(points, self.view, size, &self.colors);
+        let across = pixels.width() as usize;
+        let all = pixels.pixels_mut();
+        for (row, colors) in drawing.pixels.chunks_exact(drawing.width).enumerate() {
+            let start = (top + row) * across + left;
+            for (pixel, [r, g, b]) in all[start..start + drawing.width].iter_mut().zip(colors) {
+                if let Some(color) = PremultipliedColorU8::from_rgba(*r, *g, *b, u8::MAX) {
+                    *pixel = color;
+                }
+            }
+        }
+        draw_over(&mut pixels, &self.stamp(points), scale)?;
+        Ok(pixels)
+    }
+
+    /// The canvas without bodies.
+    pub(crate) fn base(&self, scale: f32) -> Result<Pixmap, ReportError> {
+        let mut pixels = self.figure.pixels(scale)?;
+        // The last row may have no more than a part of a pixel of the drawing.
+        pixels.fill(tiny_skia::Color::WHITE);
+        draw_over(&mut pixels, &self.figure.svg, scale)?;
+        Ok(pixels)
+    }
+
+    /// Time and depth above the colour bar.
+    fn stamp(&self, points: &Points) -> String {
+        let [left, top, width, height] = self.place;
+        let x = left + width + BAR_PLACE.0;
+        let total = top + height + 200.0;
+        let time = format!("{:.1} µs", points.time * 1e6);
+        let mut lines = format!(
+            r#"<text x="{x}" y="{}" font-size="16" font-weight="bold">{time}</text>"#,
+            top + 14.0
+        );
+        if !self.colors.wall {
+            let depth = format!(
+                "{} mm deep",
+                significant((points.depth * 1e5).round() / 1e2)
+            );
+            lines += &format!(
+                r#"<text x="{x}" y="{}" font-size="12">{depth}</text>"#,
+                top + 31.0
+            );
+        }
+        format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{total}" font-family="DejaVu Sans">{lines}</svg>"#
+        )
+    }
+}
+
+fn draw(title: &str, caption: &str, colors: Colors, view: View, height: f64) -> Canvas {
+    let (x, y) = (
+        (-view.radius * 1e3, view.radius * 1e3),
+        (-view.depth.1 * 1e3, -view.depth.0 * 1e3),
+    );
+    let frame = Frame {
+        name: "field",
+        title,
+        caption,
+        x: &Axis::new("distance from the axis [mm]").range(x.0, x.1),
+        y: &Axis::new("depth [mm]").range(y.0, y.1).downward(),
+        x_extent: x,
+        y_extent: y,
+        height,
+        right_margin: Some(BAR_MARGIN),
+        legend: Vec::new(),
+        marks: Vec::new(),
+    };
+    let mut place = [0.0; 4];
+    // Axes are drawn only for a plot, so there is one without content.
+    let figure = frame.draw(vec![LinePlot::new().into()], |scene, layout| {
+        place = [
+            layout.margin_left,
+            layout.margin_top,
+            layout.plot_width(),
+            layout.plot_height(),
+        ];
+        add_bar(scene, layout, &colors);
+    });
+    Canvas {
+        figure,
+        colors,
+        view,
+        place,
+    }
+}
+
+fn add_bar(scene: &mut Scene, layout: &ComputedLayout, colors: &Colors) {
+    let left = layout.margin_left + layout.plot_width() + BAR_PLACE.0;
+    let top = layout.margin_top + TIME;
+    let height = layout.plot_height() - TIME;
+    let step = height / LEVELS as f64;
+    for level in 0..LEVELS {
+        let y = top + height - step * (level + 1) as f64;
+        let [r, g, b] = colors.band(level);
+        scene.add(Primitive::Path(Box::new(PathData {
+            d: format!("M{left} {y:.2}h{0}v{1:.2}h-{0}z", BAR_PLACE.1, step + 0.3),
+            fill: Some(Color::from(&*format!("#{r:02x}{g:02x}{b:02x}"))),
+            stroke: Color::None,
+            stroke_width: 0.0,
+            opacity: None,
+            stroke_dasharray: None,
+        })));
+    }
+    scene.add(Primitive::Rect {
+        x: left,
+        y: top,
+        width: BAR_PLACE.1,
+        height,
+        fill: Color::None,
+        stroke: Some(Color::from("black")),
+        stroke_width: Some(1.0),
+        opacity: None,
+    });
+    let right = left + BAR_PLACE.1;
+    let (low, high) = colors.range;
+    for value in generate_ticks(low, high, 7) {
+        let part = (value - low) / (high - low);
+        if !(-1e-9..=1.0 + 1e-9).contains(&part) {
+            continue;
+        }
+        let y = top + height * (1.0 - part);
+        scene.add(Primitive::Line {
+            x1: right,
+            y1: y,
+            x2: right + 4.0,
+            y2: y,
+            stroke: Color::from("black"),
+            stroke_width: 1.0,
+            stroke_dasharray: None,
+        });
+        scene.add(text(
+            (right + 7.0, y + 4.0),
+            &tick_label(value),
+            12,
+            TextAnchor::Start,
+            None,
+        ));
+    }
+    scene.add(text(
+        (layout.width - 12.0, top + 0.5 * height),
+        colors.quantity.label(),
+        14,
+        TextAnchor::Middle,
+        Some(-90.0),
+    ));
+}
+
+fn text(
+    place: (f64, f64),
+    content: &str,
+    size: u32,
+    anchor: TextAnchor,
+    rotate: Option<f64>,
+) -> Primitive {
+    Primitive::Text {
+        x: place.0,
+        y: place.1,
+        content: content.to_owned(),
+        size,
+        anchor,
+        rotate,
+        bold: false,
+        color: None,
+    }
+}

@@ -1,0 +1,85 @@
+//! What the pictures of a field can show.
+
+/// A field over the material points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FieldQuantity {
+    /// Equivalent plastic strain.
+    #[default]
+    PlasticStrain,
+    /// Temperature.
+    Temperature,
+    /// Equivalent stress of von Mises.
+    VonMisesStress,
+    /// Pressure, compression positive.
+    Pressure,
+    /// Magnitude of the velocity.
+    Speed,
+    /// Density.
+    Density,
+    /// Damage.
+    Damage,
+}
+
+impl FieldQuantity {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::PlasticStrain,
+        Self::Temperature,
+        Self::VonMisesStress,
+        Self::Pressure,
+        Self::Speed,
+        Self::Density,
+        Self::Damage,
+    ];
+
+    /// Its name on a command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PlasticStrain => "plastic-strain",
+            Self::Temperature => "temperature",
+            Self::VonMisesStress => "von-mises-stress",
+            Self::Pressure => "pressure",
+            Self::Speed => "speed",
+            Self::Density => "density",
+            Self::Damage => "damage",
+        }
+    }
+
+    /// The one with this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|quantity| quantity.name() == name)
+    }
+
+    /// Its name in words, and its unit in square brackets.
+    pub(crate) fn label(self) -> &'static str {
+        match self {
+            Self::PlasticStrain => "equivalent plastic strain",
+            Self::Temperature => "temperature [K]",
+            Self::VonMisesStress => "von Mises stress [MPa]",
+            Self::Pressure => "pressure [MPa]",
+            Self::Speed => "speed [m/s]",
+            Self::Density => "density [kg/m³]",
+            Self::Damage => "damage",
+        }
+    }
+
+    /// The array of a VTK file that it comes from, how many components that has, and SI units in one of the label's.
+    pub(crate) fn source(self) -> (&'static str, usize, f64) {
+        match self {
+            Self::PlasticStrain => ("plastic_strain", 1, 1.0),
+            Self::Temperature => ("temperature", 1, 1.0),
+            Self::VonMisesStress => ("von_mises_stress", 1, 1e6),
+            Self::Pressure => ("pressure", 1, 1e6),
+            Self::Speed => ("velocity", 3, 1.0),
+            Self::Density => ("density", 1, 1.0),
+            Self::Damage => ("damage", 1, 1.0),
+        }
+    }
+
+    /// Whether colours start at zero: those of the others start at the smallest value.
+    pub(crate) fn starts_at_zero(self) -> bool {
+        !matches!(self, Self::Temperature | Self::Density | Self::Pressure)
+    }
+}

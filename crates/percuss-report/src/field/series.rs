@@ -1,0 +1,204 @@
+//! A series of fields on disk: one file a frame and the collection that ParaView opens, at any time of a run.
+
+use std::{
+    fmt::Write,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use percuss::frames::Frame;
+
+use super::vtp;
+use crate::{ReportError, replace_file::replace_file};
+
+/// Name of the collection.
+const COLLECTION: &str = "fields.pvd";
+/// Folder of the files.
+const FOLDER: &str = "fields";
+/// Frames kept lie between this number and half of it: a series that is full drops every other frame.
+const MOST_FRAMES: usize = 128;
+
+/// A series of fields that grows with a run, in a folder.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FieldSeries {
+    folder: PathBuf,
+    entries: Vec<Entry>,
+    stride: u64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Entry {
+    number: u64,
+    time: f64,
+}
+
+impl FieldSeries {
+    /// An empty series; files of an earlier one are removed.
+    ///
+    /// # Errors
+    /// [`ReportError::Write`].
+    pub fn create(folder: &Path) -> Result<Self, ReportError> {
+        Self::resume(folder, f64::NEG_INFINITY)
+    }
+
+    /// The series of a run that is taken up again at a time [s]: later frames are removed.
+    ///
+    /// # Errors
+    /// [`ReportError::Write`].
+    pub fn resume(folder: &Path, time: f64) -> Result<Self, ReportError> {
+        let text = fs::read_to_string(folder.join(COLLECTION)).unwrap_or_default();
+        let (entries, later): (Vec<Entry>, Vec<Entry>) = text
+            .lines()
+            .filter_map(Entry::read)
+            .partition(|entry| entry.time <= time);
+        let mut series = Self {
+            folder: folder.to_owned(),
+            stride: 1,
+            entries,
+        };
+        for entry in later {
+            series.remove(entry);
+        }
+        while series.entries.len() > 2
+            && series
+                .entries
+                .iter()
+                .all(|entry| entry.number.is_multiple_of(2 * series.stride))
+        {
+            series.stride *= 2;
+        }
+        series.collect()?;
+        Ok(series)
+    }
+
+    /// Adds a frame, unless the stride passes over it.
+    ///
+    /// # Errors
+    /// [`ReportError::Write`].
+    pub fn add(&mut self, frame: &Frame<'_>) -> Result<(), ReportError> {
+        let repeated = self.entries.last().map(|last| last.number) == Some(frame.number);
+        if repeated || !(frame.last || frame.number.is_multiple_of(self.stride)) {
+            return Ok(());
+        }
+        let entry = Entry {
+            number: frame.number,
+            time: frame.time,
+        };
+        let folder = self.folder.join(FOLDER);
+        replace_file(&folder, &entry.file(), &vtp::encode(frame))?;
+        self.entries.push(entry);
+        if self.entries.len() > MOST_FRAMES && !frame.last {
+            self.stride *= 2;
+            let stride = self.stride;
+            let (kept, dropped) = std::mem::take(&mut self.entries)
+                .into_iter()
+                .partition(|entry| entry.number.is_multiple_of(stride));
+            self.entries = kept;
+            for entry in dropped {
+                self.remove(entry);
+            }
+        }
+        self.collect()
+    }
+
+    /// The collection that ParaView opens.
+    pub fn collection(&self) -> PathBuf {
+        self.folder.join(COLLECTION)
+    }
+
+    /// Number of each frame and its file.
+    pub(crate) fn files(&self) -> Vec<(u64, PathBuf)> {
+        let folder = self.folder.join(FOLDER);
+        let entries = self.entries.iter();
+        entries
+            .map(|entry| (entry.number, folder.join(entry.file())))
+            .collect()
+    }
+
+    /// Frames in the series.
+    pub fn frames(&self) -> usize {
+        self.entries.len()
+    }
+
+    fn remove(&self, entry: Entry) {
+        // A file that is not there any more is as good as removed, and one too many does no harm: the collection has it not.
+        let _ = fs::remove_file(self.folder.join(FOLDER).join(entry.file()));
+    }
+
+    fn collect(&self) -> Result<(), ReportError> {
+        let mut text = String::from(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",
+        );
+        for entry in &self.entries {
+            // Writing to a string does not fail.
+            let _ = writeln!(
+                text,
+                r#"<DataSet timestep="{:e}" part="0" file="{FOLDER}/{}"/>"#,
+                entry.time,
+                entry.file()
+            );
+        }
+        text += "</Collection>\n</VTKFile>\n";
+        replace_file(&self.folder, COLLECTION, text.as_bytes()).map(|_| ())
+    }
+}
+
+impl Entry {
+    fn file(self) -> String {
+        format!("frame-{:05}.vtp", self.number)
+    }
+
+    /// From its line in the collection.
+    fn read(line: &str) -> Option<Self> {
+        let (_, rest) = line.split_once("timestep=\"")?;
+        let (time, rest) = rest.split_once('"')?;
+        let (_, number) = rest.split_once("frame-")?;
+        let (number, _) = number.split_once(".vtp")?;
+        Some(Self {
+            number: number.parse().ok()?,
+            time: time.parse().ok()?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn add(series: &mut FieldSeries, number: u64, last: bool) {
+        let frame = Frame {
+            number,
+            last,
+            step: number,
+            time: number as f64,
+            cell: 1.0,
+            depth: 0.0,
+            bodies: Vec::new(),
+        };
+        series.add(&frame).unwrap();
+    }
+
+    #[test]
+    fn a_long_series_thins_out_and_a_resumed_one_is_the_same() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut series = FieldSeries::create(folder.path()).unwrap();
+        for number in 0..1000 {
+            add(&mut series, number, false);
+        }
+        assert!((MOST_FRAMES / 2..=MOST_FRAMES).contains(&series.frames()));
+        assert!(series.files().iter().all(|(_, file)| file.exists()));
+        let mut resumed = FieldSeries::resume(folder.path(), 900.5).unwrap();
+        assert_eq!(resumed.stride, series.stride);
+        for number in 901..1000 {
+            add(&mut resumed, number, false);
+        }
+        assert_eq!(resumed, series);
+        add(&mut series, 1001, true);
+        add(&mut series, 1001, true);
+        assert_eq!(series.files().last().unwrap().0, 1001);
+        let files = fs::read_dir(folder.path().join(FOLDER)).unwrap().count();
+        assert_eq!(files, series.frames());
+        assert_eq!(FieldSeries::create(folder.path()).unwrap().frames(), 0);
+        assert_eq!(fs::read_dir(folder.path().join(FOLDER)).unwrap().count(), 0);
+    }
+}

@@ -1,0 +1,86 @@
+//! Crater and projectile at the end of a run in two dimensions: figure and tables.
+
+use std::path::{Path, PathBuf};
+
+use percuss::{Scenario, outcome::RunResult, shapes::Shapes};
+
+use crate::{
+    Axis, Figure, LineChart, ReportError, Series, Style,
+    column::{self, Column},
+    palette,
+    replace_file::replace_file,
+    run_figures::caption,
+};
+
+/// Writes `crater-profile.csv` and `projectile-shape.csv` to a folder, as far as a result has them: radius and depth of the
+/// target's surface from the axis outwards, and of the projectile's outer surface from tail to tip.
+///
+/// # Errors
+/// [`ReportError::Write`]; [`ReportError::Table`].
+pub fn write_shapes(folder: &Path, result: &RunResult) -> Result<Vec<PathBuf>, ReportError> {
+    let columns: Vec<Column<[f64; 2]>> = vec![
+        Column::float("radius_mm", |point: &[f64; 2]| point[0] * 1e3),
+        Column::float("depth_mm", |point: &[f64; 2]| point[1] * 1e3),
+    ];
+    let Some(shapes) = &result.shapes else {
+        return Ok(Vec::new());
+    };
+    [
+        ("crater-profile.csv", &shapes.crater),
+        ("projectile-shape.csv", &shapes.projectile),
+    ]
+    .into_iter()
+    .filter(|(_, points)| !points.is_empty())
+    .map(|(name, points)| replace_file(folder, name, &column::csv(name, &columns, points)?))
+    .collect()
+}
+
+/// Draws crater and projectile at the end, true to scale.
+pub(crate) fn shape_figure(scenario: &Scenario, shapes: &Shapes) -> Figure {
+    let rod = &scenario.projectile;
+    let widest = shapes.projectile.iter().map(|point| point[0]);
+    let around = if shapes.crater.is_empty() { 1.5 } else { 2.5 }
+        * widest.fold(0.5 * rod.diameter, f64::max);
+    let crater: Vec<_> = shapes
+        .crater
+        .iter()
+        .copied()
+        .take_while(|point| point[0] <= around)
+        .collect();
+    let solid = !crater.is_empty();
+    let mut chart = LineChart::new(
+        "final-shape",
+        if solid {
+            "Crater and projectile at the end"
+        } else {
+            "Projectile at the end"
+        },
+        Axis::new("distance from the axis [mm]"),
+        Axis::new("depth [mm]").downward(),
+    )
+    .caption(caption(scenario, Some(scenario.impact_speed)));
+    if solid {
+        let name = match scenario.target_thickness() {
+            Some(_) => "target, struck side",
+            None => "crater",
+        };
+        chart = chart.series(Series::new(name, mirrored(&crater)));
+    }
+    if !shapes.projectile.is_empty() {
+        chart = chart.series(Series::new("projectile", mirrored(&shapes.projectile)));
+    }
+    let edge = [[-around, 0.0], [around, 0.0]].map(|[x, z]| (x * 1e3, -z * 1e3));
+    chart = chart.series(
+        Series::new(if solid { "original face" } else { "wall" }, edge)
+            .style(Style::Dashed)
+            .color(palette::MARK),
+    );
+    chart.true_to_scale().draw()
+}
+
+/// Points of both halves in mm, from the left to the right and as one line.
+fn mirrored(points: &[[f64; 2]]) -> Vec<(f64, f64)> {
+    let left = points.iter().rev().map(|[r, z]| (-r * 1e3, -z * 1e3));
+    left.chain(points.iter().map(|[r, z]| (r * 1e3, -z * 1e3)))
+        .collect()
+}
