@@ -98,6 +98,9 @@ impl Frame<'_> {
         if let Some((low, high)) = self.y.fixed_range(self.y_extent) {
             layout = layout.with_y_axis_min(low).with_y_axis_max(high);
         }
+        if !self.x.names.is_empty() {
+            layout = layout.with_x_categories(self.x.names.clone());
+        }
         if !self.y.names.is_empty() {
             layout = layout.with_y_categories(self.y.names.clone());
         }

@@ -14,6 +14,7 @@ use crate::{
     error::nearest,
     fdm::Fdm,
     guard::{Guard, Verdict},
+    judge,
     outcome::RunResult,
     regime::Regime,
 };
@@ -125,6 +126,9 @@ pub(crate) fn run_in(
         return Err(refuse(reason));
     }
     result.warnings.splice(0..0, warnings);
+    if result.depth_of_penetration.is_some() {
+        result.expected_error = judge::expectation(model, scenario, regime);
+    }
     Ok(result)
 }
 
