@@ -15,7 +15,10 @@ use crate::page::Table;
 
 /// A relative error in per cent with its sign.
 pub(super) fn signed(error: f64) -> String {
-    format!("{:+.0}", 100.0 * error).replace('-', "\u{2212}")
+    match (100.0 * error).round() {
+        0.0 => "0".to_owned(),
+        percent => format!("{percent:+.0}").replace('-', "\u{2212}"),
+    }
 }
 
 const ERRORS: [&str; 6] = [

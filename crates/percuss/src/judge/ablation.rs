@@ -26,12 +26,12 @@ const VARIANTS: &[Variant] = &[
     },
     Variant {
         name: "column, small strain",
-        change: "balanced books, plastic unloading, converged mesh",
-        options: "[chain]\nkinematics = \"small-strain\"\n",
+        change: "balanced books and plastic unloading; elements erode at a strain of 0.9, before they turn inside out",
+        options: "[chain]\nkinematics = \"small-strain\"\nerosion_strain = 0.9\n",
     },
     Variant {
         name: "column",
-        change: "large strain: the rod thickens as it shortens",
+        change: "large strain: elements thicken as they shorten and erode at a strain of 2",
         options: "",
     },
     Variant {

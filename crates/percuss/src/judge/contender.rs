@@ -126,7 +126,7 @@ impl Contender {
 
     /// Whether it solves equations of motion along the axis, in place of a formula or a rod that moves as a whole.
     pub fn is_one_dimensional(&self) -> bool {
-        self.closure.is_some()
+        matches!(self.model.name(), "chain" | "fdm")
     }
 
     /// Depth of penetration [m]; `None` where the model does not apply.

@@ -54,10 +54,9 @@ pub struct Expectation {
 impl Expectation {
     /// The numbers in words: `−32 % (−86 … +14 %)`.
     pub fn in_words(&self) -> String {
-        let signed = |error: f64| {
-            // Not `-0`, which says that the sign is known.
-            let percent = (100.0 * error).round() + 0.0;
-            format!("{percent:+.0}").replace('-', "\u{2212}")
+        let signed = |error: f64| match (100.0 * error).round() {
+            0.0 => "0".to_owned(),
+            percent => format!("{percent:+.0}").replace('-', "\u{2212}"),
         };
         let [median, low, high] = [self.median, self.low, self.high].map(signed);
         format!("{median} % ({low} … {high} %)")

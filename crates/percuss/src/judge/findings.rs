@@ -25,7 +25,7 @@ pub fn findings(verdicts: &[Verdict]) -> Vec<String> {
     let all = |_: &Verdict| true;
     if let Some((closure, errors)) = best(verdicts, Contender::is_one_dimensional, shots, all) {
         sentences.push(format!(
-            "Of the one-dimensional closures, `{}` errs least: {}.",
+            "Of the one-dimensional models and closures, `{}` errs least: {}.",
             closure.name,
             words(&errors)
         ));
@@ -40,7 +40,7 @@ pub fn findings(verdicts: &[Verdict]) -> Vec<String> {
     }
     if let Some((formula, errors)) = best(verdicts, |c| !c.is_one_dimensional(), shots, all) {
         sentences.push(format!(
-            "Of the formulae that answer at least half of the shots, `{}` errs least: {}.",
+            "Of the others that answer at least half of the shots, `{}` errs least: {}.",
             formula.name,
             words(&errors)
         ));
@@ -103,10 +103,9 @@ fn best(
 }
 
 fn words(errors: &Errors) -> String {
-    let signed = |error: f64| {
-        format!("{:+.0} %", 100.0 * error + 0.0)
-            .replace('-', "\u{2212}")
-            .replace("\u{2212}0 ", "0 ")
+    let signed = |error: f64| match (100.0 * error).round() {
+        0.0 => "0 %".to_owned(),
+        percent => format!("{percent:+.0} %").replace('-', "\u{2212}"),
     };
     format!(
         "median error {}, {} to {} for eight of ten, median magnitude {:.0} %, {:.0} % of {} shots within 25 %",
