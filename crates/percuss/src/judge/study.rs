@@ -22,7 +22,7 @@ const BUILT_IN: &str = include_str!("../../data/judge/paper-case.csv");
 pub const SPEEDS: &[f64] = &[230.0, 600.0];
 
 /// Cells along the projectile's radius and radius of the target [mm]: one is varied at a time.
-pub const VARIANTS: &[(u32, f64)] = &[(4, 24.0), (8, 24.0), (12, 24.0), (8, 16.0), (8, 36.0)];
+pub const VARIANTS: &[(u32, f64)] = &[(4, 24.0), (8, 24.0), (16, 24.0), (8, 16.0), (8, 36.0)];
 
 /// Radius of the target on which meshes are compared [mm].
 pub const RADIUS: f64 = 24.0;
