@@ -118,9 +118,9 @@ fn medians(groups: &[Group], grouping: Grouping) -> String {
 }
 
 fn ablation(lines: &[Line]) -> String {
-    let mut head = vec!["paper's case".to_owned()];
+    let mut head = vec!["target".to_owned()];
     for speed in study::SPEEDS {
-        head.extend([format!("{speed} m/s [mm]"), "error [%]".to_owned()]);
+        head.extend([format!("{speed} m/s"), "error".to_owned()]);
     }
     let mut names: Vec<&str> = Vec::new();
     for line in lines {
@@ -139,7 +139,11 @@ fn ablation(lines: &[Line]) -> String {
         }
         row
     });
-    format!("\n{}", plain(head, rows, 1))
+    format!(
+        "\n{}\n{}",
+        bold("the paper's case one thing at a time: depths in mm, errors in %"),
+        plain(head, rows, 1)
+    )
 }
 
 /// A table whose columns after the first `words` hold numbers.

@@ -42,7 +42,7 @@ fn models_are_judged_by_a_reference() {
         "all shots, errors in %\n",
         "chain: diverging-penetrable",
         "median error in % by L/D\n",
-        "paper's case",
+        "the paper's case one thing at a time",
     ] {
         assert!(text.contains(part), "{part:?} is not in:\n{text}");
     }

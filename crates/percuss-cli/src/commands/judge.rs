@@ -21,9 +21,9 @@ Judge every model that gives depths by the axisymmetric reference, model `axi`:
 flat rods on thick targets, at speeds from 150 to 1500 m/s and L/D 1 to 10, of
 seven pairs of materials.
 
-The reference took hours and is stored in the program; the models are run anew,
-which takes seconds. The answer is the error of each model by speed, length,
-regime and materials, and a few sentences that say what it comes to.
+The reference is stored in the program, since it takes long; the models are run
+anew, which takes seconds. The answer is the error of each model by speed,
+length, regime and materials, and a few sentences that say what it comes to.
 
 With --out DIR the report is written as one HTML page and as Markdown with its
 figures, and the numbers as CSV and Parquet.
@@ -54,7 +54,7 @@ pub struct Judge {
     /// CSV file of the paper's case by the reference in place of the program's own
     #[arg(long, value_name = "FILE")]
     study: Option<PathBuf>,
-    /// Compute what these two files lack, which takes hours
+    /// Compute what these two files lack, which may take hours
     #[arg(long)]
     compute: bool,
     /// Cells along the projectile's radius, for --compute with --reference
@@ -235,8 +235,7 @@ impl Judge {
                         seconds / 3600.0 / cores as f64,
                         terminal::counted(cores, "core")
                     ),
-                    None => "which takes hours: more than 1 on 4 cells, and 8 times that on 8"
-                        .to_owned(),
+                    None => "which may take hours: 8 times as long for twice the cells".to_owned(),
                 }
             ));
             let watch = Watch::new(!self.quiet, total.unwrap_or(0.0));

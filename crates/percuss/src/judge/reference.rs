@@ -1,4 +1,4 @@
-//! Depths by the axisymmetric reference, stored as data: they take hours.
+//! Depths by the axisymmetric reference, stored as data: they take long.
 
 use std::{path::Path, sync::LazyLock};
 
