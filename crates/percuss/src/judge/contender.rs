@@ -153,3 +153,50 @@ impl std::fmt::Debug for Contender {
             .finish_non_exhaustive()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Contender;
+    use crate::{case, model};
+
+    #[test]
+    fn only_what_was_judged_is_a_contender() {
+        let shot = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '900 m/s' }\n\
+                    target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n";
+        for (name, options, expected) in [
+            ("chain", "", Some("chain: column")),
+            (
+                "chain",
+                "chain.projectile_elements = 80",
+                Some("chain: column"),
+            ),
+            (
+                "chain",
+                "chain.constraint_factor = 2.7",
+                Some("chain: column"),
+            ),
+            ("chain", "chain.constraint_factor = 2.5", None),
+            (
+                "chain",
+                "chain.border_shear = 0.0",
+                Some("chain: column, no border shear"),
+            ),
+            (
+                "chain",
+                "chain.target_closure = 'diverging'",
+                Some("chain: diverging"),
+            ),
+            ("chain", "chain.kinematics = 'small-strain'", None),
+            ("chain", "chain.scheme = 'published'", None),
+            ("chain", "chain.rate_effects = false", None),
+            ("tate", "", Some("tate")),
+            ("tate", "tate.target_resistance = '3 GPa'", None),
+            ("axi", "", None),
+            ("taylor", "", None),
+        ] {
+            let scenario = case::load_str("a", &format!("{options}\n{shot}")).unwrap();
+            let contender = Contender::of(model::model(name).unwrap(), &scenario);
+            assert_eq!(contender.map(|c| c.name), expected, "{name} {options}");
+        }
+    }
+}

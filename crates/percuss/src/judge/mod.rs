@@ -19,4 +19,5 @@ pub use expectation::{Expectation, expectation, quantile, verdicts};
 pub use findings::findings;
 pub use judgement::{SHARP, Verdict, judge, to_csv};
 pub use reference::Reference;
+pub use resume::Report;
 pub use statistics::{CLOSE, Errors, Group, Grouping, pair_name, statistics};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     design::Shot,
-    resume::{self, Job},
+    resume::{self, Job, Report},
 };
 use crate::{
     Error,
@@ -150,7 +150,7 @@ pub fn complete(
     file: &Path,
     shots: &[Shot],
     cells_per_radius: u32,
-    report: &(dyn Fn(usize, usize, Result<&Reference, String>) + Sync),
+    report: &Report<'_, Reference>,
 ) -> Result<Vec<Reference>, Error> {
     let jobs: Vec<OnMesh<'_>> = shots
         .iter()

@@ -27,7 +27,7 @@ pub(super) trait Job: Sync {
 }
 
 /// Hears of every job that is done: how many are, of how many, and the row or why there is none.
-pub(super) type Report<'a, Row> = dyn Fn(usize, usize, Result<&Row, String>) + Sync + 'a;
+pub type Report<'a, Row> = dyn Fn(usize, usize, Result<&Row, String>) + Sync + 'a;
 
 /// Rows of a file; none where there is no file.
 ///

@@ -122,7 +122,7 @@ impl Grouping {
                 .iter()
                 .map(|(projectile, target)| pair_name(projectile, target))
                 .collect(),
-            Self::Reference => [true, false].map(|sharp| sharp_name(sharp)).to_vec(),
+            Self::Reference => [true, false].map(sharp_name).to_vec(),
         }
     }
 

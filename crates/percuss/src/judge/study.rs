@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     estimate::{Estimate, extrapolate},
-    resume::{self, Job},
+    resume::{self, Job, Report},
 };
 use crate::{
     Error, Scenario,
@@ -135,10 +135,7 @@ impl Job for Variant {
 ///
 /// # Errors
 /// [`Error::Read`] when the file cannot be read or written.
-pub fn complete(
-    file: &Path,
-    report: &(dyn Fn(usize, usize, Result<&Study, String>) + Sync),
-) -> Result<Vec<Study>, Error> {
+pub fn complete(file: &Path, report: &Report<'_, Study>) -> Result<Vec<Study>, Error> {
     let mut jobs = Vec::new();
     for &speed in SPEEDS {
         jobs.extend(VARIANTS.iter().map(|&(cells_per_radius, radius)| Variant {
