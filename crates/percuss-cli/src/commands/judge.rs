@@ -231,8 +231,8 @@ impl Judge {
                 self.cells,
                 match total {
                     Some(seconds) => format!(
-                        "about {:.1} h on {}",
-                        seconds / 3600.0 / cores as f64,
+                        "about {} on {}",
+                        in_words(seconds / cores as f64),
                         terminal::counted(cores, "core")
                     ),
                     None => "which may take hours: 8 times as long for twice the cells".to_owned(),
@@ -286,7 +286,7 @@ impl Watch {
 
     fn hear(&self, done: usize, of: usize, work: f64, failure: Option<String>) {
         if let Some(reason) = failure {
-            diagnostic::print(&format!("warning: a shot has no reference: {reason}\n"));
+            diagnostic::print(&format!("warning: no reference: {reason}\n"));
         }
         if let Ok(mut state) = self.state.lock() {
             state.1 += work;
@@ -302,6 +302,13 @@ impl Watch {
         if let Ok((progress, _)) = self.state.into_inner() {
             progress.finish();
         }
+    }
+}
+
+fn in_words(seconds: f64) -> String {
+    match seconds {
+        ..5400.0 => format!("{:.0} min", (seconds / 60.0).ceil()),
+        _ => format!("{:.1} h", seconds / 3600.0),
     }
 }
 

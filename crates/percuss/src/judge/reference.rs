@@ -130,6 +130,14 @@ struct OnMesh<'a> {
 impl Job for OnMesh<'_> {
     type Row = Reference;
 
+    fn name(&self) -> String {
+        let shot = self.shot;
+        format!(
+            "{} on {}, L/D {}, {} m/s",
+            shot.projectile, shot.target, shot.length_to_diameter, shot.speed
+        )
+    }
+
     fn is_done_by(&self, row: &Reference) -> bool {
         row.is_of(self.shot) && row.cells_per_radius == self.cells_per_radius
     }

@@ -19,6 +19,9 @@ pub(super) trait Job: Sync {
     /// The row.
     type Row: Serialize + DeserializeOwned + Send;
 
+    /// What it is, in words.
+    fn name(&self) -> String;
+
     /// Whether a row is the answer.
     fn is_done_by(&self, row: &Self::Row) -> bool;
 
@@ -81,7 +84,9 @@ pub(super) fn complete<J: Job>(
                         .unwrap_or_else(|poisoned| poisoned.into_inner());
                     let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                     match computed {
-                        Err(error) => report(count, jobs.len(), Err(error.to_string())),
+                        Err(error) => {
+                            report(count, jobs.len(), Err(format!("{}: {error}", job.name())))
+                        }
                         Ok(row) => {
                             if let Err(error) = append(file, &row) {
                                 state.1 = Some(unreadable(file, &error));
@@ -137,6 +142,10 @@ mod tests {
 
     impl Job for Square<'_> {
         type Row = (i64, i64);
+
+        fn name(&self) -> String {
+            self.0.to_string()
+        }
 
         fn is_done_by(&self, row: &Self::Row) -> bool {
             row.0 == self.0

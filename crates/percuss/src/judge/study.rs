@@ -101,6 +101,13 @@ struct Variant {
 impl Job for Variant {
     type Row = Study;
 
+    fn name(&self) -> String {
+        format!(
+            "the paper's case at {} m/s on {} cells per radius",
+            self.speed, self.cells_per_radius
+        )
+    }
+
     fn is_done_by(&self, row: &Study) -> bool {
         row.impact_velocity_m_s == self.speed
             && row.cells_per_radius == self.cells_per_radius
