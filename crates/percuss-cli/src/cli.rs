@@ -4,7 +4,7 @@ use clap::{Parser, Subcommand};
 
 use crate::{
     commands::{
-        Compare, Completions, Converge, Man, Materials, Models, New, Reproduce, Run, Schema,
+        Compare, Completions, Converge, Judge, Man, Materials, Models, New, Reproduce, Run, Schema,
         Validate,
     },
     failure::Failure,
@@ -57,6 +57,7 @@ pub enum Command {
     Compare(Compare),
     Converge(Converge),
     Validate(Validate),
+    Judge(Judge),
     New(New),
     Models(Models),
     Materials(Materials),
@@ -73,6 +74,7 @@ impl Command {
             Self::Compare(command) => command.run(),
             Self::Converge(command) => command.run(),
             Self::Validate(command) => command.run(),
+            Self::Judge(command) => command.run(),
             Self::New(command) => command.run(),
             Self::Models(command) => command.run(),
             Self::Materials(command) => command.run(),

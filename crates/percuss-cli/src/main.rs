@@ -4,6 +4,7 @@ mod cli;
 mod commands;
 mod diagnostic;
 mod failure;
+mod judgement_table;
 mod material_card;
 mod progress;
 mod result_table;

@@ -61,6 +61,19 @@ fn outcome(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text:
         }
     };
     present("depth of penetration", record.depth_of_penetration_mm, "mm");
+    if let Some(expected) = &record.expected_error {
+        let words = format!(
+            "{} against the axisymmetric reference, over the {} most similar shots of the judgement",
+            expected.in_words(),
+            expected.shots
+        );
+        rows.add("its expected error", words);
+    }
+    let mut present = |label: &str, value: Option<f64>, unit: &str| {
+        if let Some(value) = value {
+            rows.add(label, number(value, unit));
+        }
+    };
     present("largest depth", record.largest_depth_mm, "mm");
     present("permanent depth", record.permanent_depth_mm, "mm");
     present("ballistic limit", record.ballistic_limit_m_s, "m/s");

@@ -760,6 +760,7 @@ fn help_fits_and_is_as_approved() {
         &[][..],
         &["run"],
         &["compare"],
+        &["judge"],
         &["new"],
         &["models"],
         &["materials"],

@@ -102,6 +102,9 @@ impl Frame<'_> {
             let negated = |value: f64| tick_label(-value);
             layout = layout.with_y_tick_format(TickFormat::Custom(Arc::new(negated)));
         }
+        if !self.x.names.is_empty() {
+            layout = layout.with_x_categories(self.x.names.clone());
+        }
         if !self.y.names.is_empty() {
             layout = layout.with_y_categories(self.y.names.clone());
         }

@@ -35,6 +35,9 @@ pub struct HeatMap {
     value_label: String,
     rows: Vec<Vec<f64>>,
     vertical_lines: Vec<f64>,
+    texts: Vec<Vec<String>>,
+    limit: Option<f64>,
+    height: f64,
 }
 
 impl HeatMap {
@@ -57,6 +60,9 @@ impl HeatMap {
             value_label: value_label.into(),
             rows,
             vertical_lines: Vec::new(),
+            texts: Vec::new(),
+            limit: None,
+            height: HEIGHT,
         }
     }
 
@@ -72,6 +78,24 @@ impl HeatMap {
         self
     }
 
+    /// Writes a text into each cell, in rows as the values are.
+    pub fn texts(mut self, texts: Vec<Vec<String>>) -> Self {
+        self.texts = texts;
+        self
+    }
+
+    /// Sets the value with the strongest colour, for maps to be compared; chosen from the values otherwise.
+    pub fn limit(mut self, limit: f64) -> Self {
+        self.limit = Some(limit);
+        self
+    }
+
+    /// Sets the height of the figure [px].
+    pub fn height(mut self, height: f64) -> Self {
+        self.height = height;
+        self
+    }
+
     /// Draws the heat map.
     pub fn draw(&self) -> Figure {
         let frame = Frame {
@@ -82,22 +106,23 @@ impl HeatMap {
             y: &self.y,
             x_extent: self.ranges[0],
             y_extent: self.ranges[1],
-            height: HEIGHT,
+            height: self.height,
             right_margin: Some(BAR_MARGIN),
             legend: Vec::new(),
             marks: Vec::new(),
         };
-        let limit = self.limit();
+        let limit = self.limit.unwrap_or_else(|| self.largest());
         // Axes are drawn only for a plot, so there is one without content.
         frame.draw(vec![LinePlot::new().into()], |scene, place| {
             self.add_cells(scene, place, limit);
+            self.add_texts(scene, place, limit);
             self.add_lines(scene, place);
             self.add_bar(scene, place, limit);
         })
     }
 
     /// Value with the strongest colour: all but one value in 200 lie within it, so that a spike does not bleach the rest.
-    fn limit(&self) -> f64 {
+    fn largest(&self) -> f64 {
         let mut sizes: Vec<f64> = self.rows.iter().flatten().map(|v| v.abs()).collect();
         sizes.retain(|size| size.is_finite());
         sizes.sort_by(f64::total_cmp);
@@ -152,6 +177,29 @@ impl HeatMap {
             }
         }
         scene.add(Primitive::GroupEnd);
+    }
+
+    /// Texts in the middle of their cells, white where the colour is dark.
+    fn add_texts(&self, scene: &mut Scene, place: &ComputedLayout, limit: f64) {
+        let bottom = place.height - place.margin_bottom;
+        let height = place.plot_height() / self.rows.len().max(1) as f64;
+        for (j, (texts, values)) in self.texts.iter().zip(&self.rows).enumerate() {
+            let width = place.plot_width() / values.len().max(1) as f64;
+            for (i, (content, value)) in texts.iter().zip(values).enumerate() {
+                let x = place.margin_left + (i as f64 + 0.5) * width;
+                let y = bottom - (j as f64 + 0.5) * height;
+                let dark = (value / limit).abs() > 0.7;
+                let color = dark.then(|| Color::from("white"));
+                let mut label = text((x, y + 5.0), content, (14, TextAnchor::Middle, None));
+                if let Primitive::Text {
+                    color: of_label, ..
+                } = &mut label
+                {
+                    *of_label = color;
+                }
+                scene.add(label);
+            }
+        }
     }
 
     /// Vertical lines, and the border that the cells have covered.

@@ -38,6 +38,8 @@ mod figure;
 mod frame;
 mod heat_map;
 mod history_files;
+pub mod judgement;
+mod page;
 pub mod palette;
 pub mod paper;
 mod replace_file;

@@ -141,3 +141,27 @@ fn a_heat_map_is_made_of_runs_of_one_colour() {
     }
     assert!(figure.svg.contains("stress [MPa]"));
 }
+
+#[test]
+fn the_cells_of_a_heat_map_hold_their_texts() {
+    let figure = HeatMap::new(
+        ["map", "Map"],
+        [Axis::new("x"), Axis::new("y")],
+        [(0.5, 2.5); 2],
+        "v [%]",
+        vec![vec![-90.0, 10.0], vec![f64::NAN, 200.0]],
+    )
+    .texts(vec![
+        vec!["low".to_owned(), "small".to_owned()],
+        vec!["none".to_owned(), "high".to_owned()],
+    ])
+    .limit(100.0)
+    .draw();
+    for text in ["low", "small", "none", "high"] {
+        assert!(figure.svg.contains(&format!(">{text}</text>")), "{text}");
+    }
+    assert!(
+        figure.svg.contains(">100</text>") && !figure.svg.contains(">200</text>"),
+        "the bar ends at the limit"
+    );
+}

@@ -12,6 +12,7 @@ use crate::{
     error::nearest,
     fdm::Fdm,
     guard::{Guard, Verdict},
+    judge,
     outcome::RunResult,
     regime::Regime,
 };
@@ -130,6 +131,9 @@ pub(crate) fn run_in(
         return Err(refuse(reason));
     }
     result.warnings.splice(0..0, warnings);
+    if result.depth_of_penetration.is_some() {
+        result.expected_error = judge::expectation(model, scenario, regime);
+    }
     Ok(result)
 }
 

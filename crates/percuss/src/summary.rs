@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::{
     Error,
+    judge::Expectation,
     outcome::{Band, Detail, Outcome, RunResult, Termination},
     scenario::Scenario,
 };
@@ -36,6 +37,8 @@ pub struct ResultRecord {
     pub impact_velocity_m_s: f64,
     /// Depth of the crater floor when the projectile's momentum is used up [mm].
     pub depth_of_penetration_mm: Option<f64>,
+    /// Error to expect of that depth against the axisymmetric reference, where shots like this one were judged.
+    pub expected_error: Option<Expectation>,
     /// Largest depth at any time, elastic deflection included [mm].
     pub largest_depth_mm: Option<f64>,
     /// Depth left once the load is gone [mm].
@@ -97,6 +100,7 @@ impl ResultRecord {
         Self {
             termination: Some(result.termination),
             depth_of_penetration_mm: mm(result.depth_of_penetration),
+            expected_error: result.expected_error.clone(),
             largest_depth_mm: mm(result.largest_depth),
             permanent_depth_mm: mm(result.permanent_depth),
             residual_velocity_m_s: result.residual_velocity,
@@ -153,6 +157,7 @@ impl ResultRecord {
             reason: None,
             impact_velocity_m_s: scenario.impact_speed,
             depth_of_penetration_mm: None,
+            expected_error: None,
             largest_depth_mm: None,
             permanent_depth_mm: None,
             residual_velocity_m_s: None,

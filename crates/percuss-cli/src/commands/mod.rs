@@ -3,6 +3,7 @@
 mod compare;
 mod completions;
 mod converge;
+mod judge;
 mod man;
 mod materials;
 mod models;
@@ -15,6 +16,7 @@ mod validate;
 pub use compare::Compare;
 pub use completions::Completions;
 pub use converge::Converge;
+pub use judge::Judge;
 pub use man::Man;
 pub use materials::Materials;
 pub use models::Models;

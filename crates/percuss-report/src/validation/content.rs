@@ -5,12 +5,8 @@ use percuss::{
     validate::{Grouping, Standing, Validation, statistics, without_shots},
 };
 
-use super::{
-    Origin,
-    document::{Block, Table},
-    figures::Drawn,
-    tables,
-};
+use super::{Origin, figures::Drawn, tables};
+use crate::page::{Block, Table};
 
 pub(super) fn page<'a>(
     validation: &Validation,

@@ -1,10 +1,7 @@
 //! The validation report: tables, figures and numbers of a [`Validation`], as HTML, Markdown, CSV and Parquet.
 
 mod content;
-mod document;
 mod figures;
-mod html;
-mod markdown;
 mod numbers;
 mod tables;
 
@@ -12,7 +9,11 @@ use std::path::{Path, PathBuf};
 
 use percuss::validate::Validation;
 
-use crate::{ReportError, replace_file::replace_file};
+use crate::{
+    ReportError,
+    page::{html, markdown},
+    replace_file::replace_file,
+};
 
 /// What a report says of itself: where its shots come from.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

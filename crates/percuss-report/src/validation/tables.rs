@@ -9,7 +9,7 @@ use percuss::{
     validate::{self, Errors, Group, Grouping, Prediction, SEPARATOR, Standing, Validation},
 };
 
-use super::document::Table;
+use crate::page::Table;
 
 /// A relative error in per cent.
 pub(super) fn percent(error: f64) -> String {

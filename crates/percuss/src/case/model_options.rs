@@ -64,6 +64,16 @@ macro_rules! case_with_model_options {
             )*
         }
 
+        impl ModelOptions {
+            /// Whether a model has its default options, as one without any always has.
+            pub fn are_default(&self, model: &str) -> bool {
+                match model {
+                    $(stringify!($name) => self.$name == Default::default(),)*
+                    _ => true,
+                }
+            }
+        }
+
         impl Case {
             /// A shot with the default options of every model.
             pub fn new(projectile: Projectile, target: Target) -> Self {

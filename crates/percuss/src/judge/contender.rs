@@ -1,5 +1,7 @@
 //! What is judged: every quick model that gives depths, and every closure of the chain's target.
 
+use std::sync::LazyLock;
+
 use crate::{
     Error, Scenario,
     case::{ChainOptions, TargetClosure},
@@ -55,9 +57,17 @@ impl Closure {
         let own = self.options();
         let column = options.border_shear() == own.border_shear()
             && options.constraint_factor() == own.constraint_factor();
+        // Mesh and end of a run may differ: a depth hardly depends on them.
         options.scheme == own.scheme
             && options.target_closure() == own.target_closure()
             && options.erosion_closure() == own.erosion_closure()
+            && options.kinematics() == own.kinematics()
+            && options.erosion_strain == own.erosion_strain
+            && options.rate_effects.unwrap_or(true)
+            && options.adiabatic_heating.unwrap_or(true)
+            && options.heat_fraction == own.heat_fraction
+            && options.artificial_viscosity == own.artificial_viscosity
+            && options.damping_ratio.unwrap_or(0.0) == 0.0
             && (self.target != TargetClosure::Column || column)
     }
 
@@ -71,7 +81,12 @@ impl Closure {
 }
 
 /// All contenders.
-pub fn contenders() -> Vec<Contender> {
+pub fn contenders() -> &'static [Contender] {
+    static CONTENDERS: LazyLock<Vec<Contender>> = LazyLock::new(list);
+    &CONTENDERS
+}
+
+fn list() -> Vec<Contender> {
     let mut contenders = Vec::new();
     for model in model::quick() {
         let depth = model
@@ -98,12 +113,20 @@ pub fn contenders() -> Vec<Contender> {
 impl Contender {
     /// The contender that a model is, with the options of a case; `None` with options that were not judged.
     pub fn of(model: &dyn Model, scenario: &Scenario) -> Option<Self> {
-        contenders().into_iter().find(|contender| {
-            contender.model.name() == model.name()
-                && contender
-                    .closure
-                    .is_none_or(|closure| closure.is_of(&scenario.options.chain))
-        })
+        let options = &scenario.options;
+        let judged = |contender: &Contender| match contender.closure {
+            Some(closure) => closure.is_of(&options.chain),
+            None => options.are_default(contender.name),
+        };
+        let mut own = contenders()
+            .iter()
+            .filter(|c| c.model.name() == model.name());
+        own.find(|contender| judged(contender)).copied()
+    }
+
+    /// Whether it solves equations of motion along the axis, in place of a formula or a rod that moves as a whole.
+    pub fn is_one_dimensional(&self) -> bool {
+        matches!(self.model.name(), "chain" | "fdm")
     }
 
     /// Depth of penetration [m]; `None` where the model does not apply.
@@ -128,5 +151,52 @@ impl std::fmt::Debug for Contender {
         f.debug_struct("Contender")
             .field("name", &self.name)
             .finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Contender;
+    use crate::{case, model};
+
+    #[test]
+    fn only_what_was_judged_is_a_contender() {
+        let shot = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '900 m/s' }\n\
+                    target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n";
+        for (name, options, expected) in [
+            ("chain", "", Some("chain: column")),
+            (
+                "chain",
+                "chain.projectile_elements = 80",
+                Some("chain: column"),
+            ),
+            (
+                "chain",
+                "chain.constraint_factor = 2.7",
+                Some("chain: column"),
+            ),
+            ("chain", "chain.constraint_factor = 2.5", None),
+            (
+                "chain",
+                "chain.border_shear = 0.0",
+                Some("chain: column, no border shear"),
+            ),
+            (
+                "chain",
+                "chain.target_closure = 'diverging'",
+                Some("chain: diverging"),
+            ),
+            ("chain", "chain.kinematics = 'small-strain'", None),
+            ("chain", "chain.scheme = 'published'", None),
+            ("chain", "chain.rate_effects = false", None),
+            ("tate", "", Some("tate")),
+            ("tate", "tate.target_resistance = '3 GPa'", None),
+            ("axi", "", None),
+            ("taylor", "", None),
+        ] {
+            let scenario = case::load_str("a", &format!("{options}\n{shot}")).unwrap();
+            let contender = Contender::of(model::model(name).unwrap(), &scenario);
+            assert_eq!(contender.map(|c| c.name), expected, "{name} {options}");
+        }
     }
 }

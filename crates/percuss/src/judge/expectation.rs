@@ -1,6 +1,6 @@
 //! The error to expect of a depth, from the shots of the design that are most like a case.
 
-use std::sync::LazyLock;
+use std::{collections::HashMap, sync::LazyLock};
 
 use serde::Serialize;
 
@@ -23,6 +23,16 @@ static VERDICTS: LazyLock<Vec<Verdict>> = LazyLock::new(|| {
         .expect("the built-in judgement is valid")
 });
 
+/// The stored judgement by contender and regime, for expectations that cost next to nothing.
+static INDEX: LazyLock<HashMap<(&str, ProjectileRegime), Vec<&Verdict>>> = LazyLock::new(|| {
+    let mut index: HashMap<_, Vec<&Verdict>> = HashMap::new();
+    for verdict in verdicts() {
+        let key = (verdict.contender.as_str(), verdict.regime);
+        index.entry(key).or_default().push(verdict);
+    }
+    index
+});
+
 /// Shots that an expectation rests on, at most.
 const NEAREST: usize = 12;
 /// Fewer shots of a regime say nothing.
@@ -39,6 +49,18 @@ pub struct Expectation {
     pub high: f64,
     /// How many shots that rests on.
     pub shots: usize,
+}
+
+impl Expectation {
+    /// The numbers in words: `−32 % (−86 … +14 %)`.
+    pub fn in_words(&self) -> String {
+        let signed = |error: f64| match (100.0 * error).round() {
+            0.0 => "0".to_owned(),
+            percent => format!("{percent:+.0}").replace('-', "\u{2212}"),
+        };
+        let [median, low, high] = [self.median, self.low, self.high].map(signed);
+        format!("{median} % ({low} … {high} %)")
+    }
 }
 
 /// The stored judgement.
@@ -68,22 +90,12 @@ pub fn expectation(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> O
         return None;
     }
     let contender = Contender::of(model, scenario)?;
-    among(
-        verdicts(),
-        contender.name,
-        regime.projectile,
-        scenario.impact_speed,
-        length,
-    )
+    let verdicts = INDEX.get(&(contender.name, regime.projectile))?;
+    among(verdicts, scenario.impact_speed, length)
 }
 
-fn among(
-    verdicts: &[Verdict],
-    contender: &str,
-    regime: ProjectileRegime,
-    speed: f64,
-    length_to_diameter: f64,
-) -> Option<Expectation> {
+/// The error to expect from verdicts of one contender and regime.
+fn among(verdicts: &[&Verdict], speed: f64, length_to_diameter: f64) -> Option<Expectation> {
     let distance = |verdict: &Verdict| {
         let speeds = (verdict.impact_velocity_m_s / speed).ln();
         let lengths = (verdict.length_to_diameter / length_to_diameter).ln();
@@ -91,7 +103,6 @@ fn among(
     };
     let mut near: Vec<(f64, f64)> = verdicts
         .iter()
-        .filter(|verdict| verdict.contender == contender && verdict.regime == regime)
         .map(|verdict| (distance(verdict), verdict.error()))
         .collect();
     if near.len() < FEWEST {
@@ -115,4 +126,40 @@ pub fn quantile(sorted: &[f64], part: f64) -> f64 {
     let below = place.floor() as usize;
     let above = (below + 1).min(sorted.len() - 1);
     sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn verdict(speed: f64, error: f64) -> Verdict {
+        Verdict {
+            contender: "made up".to_owned(),
+            projectile: "a".to_owned(),
+            target: "b".to_owned(),
+            length_to_diameter: 3.0,
+            impact_velocity_m_s: speed,
+            regime: ProjectileRegime::Deforming,
+            depth_of_penetration_mm: 1.0 + error,
+            reference_depth_mm: 1.0,
+            reference_uncertainty_mm: None,
+        }
+    }
+
+    #[test]
+    fn the_most_similar_shots_decide() {
+        let slow = (0..12).map(|i| verdict(150.0, -0.5 + 0.01 * f64::from(i)));
+        let fast = (0..12).map(|i| verdict(1500.0, 0.5 + 0.01 * f64::from(i)));
+        let all: Vec<Verdict> = slow.chain(fast).collect();
+        let all: Vec<&Verdict> = all.iter().collect();
+        let expected = among(&all, 200.0, 3.0).unwrap();
+        assert_eq!(expected.shots, 12);
+        assert!((expected.median + 0.445).abs() < 1e-12, "{expected:?}");
+        assert_eq!(
+            expected.in_words(),
+            "\u{2212}44 % (\u{2212}49 … \u{2212}40 %)"
+        );
+        assert!(among(&all, 1200.0, 3.0).unwrap().median > 0.5);
+        assert_eq!(among(&all[..FEWEST - 1], 200.0, 3.0), None);
+    }
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{contender::contenders, design::Shot, reference::Reference};
+use super::{contender::contenders, design::Shot, estimate::estimate, reference::Reference};
 use crate::{
     Error,
     regime::{ProjectileRegime, Regime},
@@ -26,21 +26,34 @@ pub struct Verdict {
     pub regime: ProjectileRegime,
     /// Depth by the contender [mm].
     pub depth_of_penetration_mm: f64,
-    /// Depth by the reference [mm].
+    /// Depth by the reference [mm], extrapolated in the cell size.
     pub reference_depth_mm: f64,
+    /// How far the reference may be off for its cells [mm]; unknown where it was computed on one mesh only.
+    pub reference_uncertainty_mm: Option<f64>,
 }
+
+/// Uncertainty over depth up to which a reference is called sharp: well below the errors that are judged by it.
+pub const SHARP: f64 = 0.1;
 
 impl Verdict {
     /// Relative error: positive where the contender goes deeper than the reference.
     pub fn error(&self) -> f64 {
         self.depth_of_penetration_mm / self.reference_depth_mm - 1.0
     }
-}
 
-/// The reference of a shot on the finest mesh that there is.
-pub fn finest<'a>(references: &'a [Reference], shot: &Shot) -> Option<&'a Reference> {
-    let own = references.iter().filter(|reference| reference.is_of(shot));
-    own.max_by_key(|reference| reference.cells_per_radius)
+    /// Whether the reference of this shot is known within [`SHARP`].
+    pub fn is_sharp(&self) -> bool {
+        self.reference_uncertainty_mm
+            .is_some_and(|uncertainty| uncertainty <= SHARP * self.reference_depth_mm)
+    }
+
+    /// Whether this is of a shot.
+    pub fn is_of(&self, shot: &Shot) -> bool {
+        self.projectile == shot.projectile
+            && self.target == shot.target
+            && self.length_to_diameter == shot.length_to_diameter
+            && self.impact_velocity_m_s == shot.speed
+    }
 }
 
 /// Runs every contender on every shot that has a reference. A contender that fails on a shot is left out there.
@@ -51,7 +64,7 @@ pub fn judge(shots: &[Shot], references: &[Reference]) -> Result<Vec<Verdict>, E
     let contenders = contenders();
     let judged: Result<Vec<Vec<Verdict>>, Error> = shots
         .par_iter()
-        .filter_map(|shot| Some((shot, finest(references, shot)?)))
+        .filter_map(|shot| Some((shot, estimate(references, shot)?)))
         .map(|(shot, reference)| {
             let scenario = shot.scenario()?;
             let regime = Regime::of(&scenario).projectile;
@@ -65,11 +78,26 @@ pub fn judge(shots: &[Shot], references: &[Reference]) -> Result<Vec<Verdict>, E
                     impact_velocity_m_s: shot.speed,
                     regime,
                     depth_of_penetration_mm: depth * 1e3,
-                    reference_depth_mm: reference.depth_of_penetration_mm,
+                    reference_depth_mm: reference.depth_mm,
+                    reference_uncertainty_mm: reference.uncertainty_mm,
                 })
             });
             Ok(depths.collect())
         })
         .collect();
     Ok(judged?.into_iter().flatten().collect())
+}
+
+/// The judgement as the CSV file that the library stores.
+///
+/// # Errors
+/// Those of the CSV writer.
+pub fn to_csv(verdicts: &[Verdict]) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for verdict in verdicts {
+        writer.serialize(verdict)?;
+    }
+    writer
+        .into_inner()
+        .map_err(|error| error.into_error().into())
 }

@@ -1,13 +1,23 @@
 //! Every depth model against the axisymmetric reference, over a design of experiments.
 
+pub mod ablation;
 mod contender;
 pub mod design;
+mod estimate;
 mod expectation;
+mod findings;
 mod judgement;
 pub mod reference;
+mod resume;
+mod statistics;
+pub mod study;
 
 pub use contender::{Contender, contenders};
 pub use design::{Shot, shots};
+pub use estimate::{Estimate, estimate};
 pub use expectation::{Expectation, expectation, quantile, verdicts};
-pub use judgement::{Verdict, finest, judge};
+pub use findings::findings;
+pub use judgement::{SHARP, Verdict, judge, to_csv};
 pub use reference::Reference;
+pub use resume::Report;
+pub use statistics::{CLOSE, Errors, Group, Grouping, pair_name, statistics};

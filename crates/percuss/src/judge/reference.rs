@@ -1,18 +1,13 @@
-//! Depths by the axisymmetric reference, stored as data: they take hours.
+//! Depths by the axisymmetric reference, stored as data: they take long.
 
-use std::{
-    fs::OpenOptions,
-    io::Write,
-    path::Path,
-    sync::{
-        Mutex,
-        atomic::{AtomicBool, AtomicUsize, Ordering},
-    },
-};
+use std::{path::Path, sync::LazyLock};
 
 use serde::{Deserialize, Serialize};
 
-use super::design::Shot;
+use super::{
+    design::Shot,
+    resume::{self, Job, Report},
+};
 use crate::{
     Error,
     axi::Axi,
@@ -82,6 +77,14 @@ pub fn read(text: impl std::io::Read) -> Result<Vec<Reference>, csv::Error> {
     csv::Reader::from_reader(text).deserialize().collect()
 }
 
+/// Reads reference depths from a file; none where there is no file.
+///
+/// # Errors
+/// [`Error::Read`].
+pub fn read_file(file: &Path) -> Result<Vec<Reference>, Error> {
+    resume::rows(file)
+}
+
 /// Computes a shot by the reference model.
 ///
 /// # Errors
@@ -118,6 +121,32 @@ fn words(outcome: Outcome) -> String {
     outcome.in_words().to_owned()
 }
 
+/// A shot on a mesh.
+struct OnMesh<'a> {
+    shot: &'a Shot,
+    cells_per_radius: u32,
+}
+
+impl Job for OnMesh<'_> {
+    type Row = Reference;
+
+    fn name(&self) -> String {
+        let shot = self.shot;
+        format!(
+            "{} on {}, L/D {}, {} m/s",
+            shot.projectile, shot.target, shot.length_to_diameter, shot.speed
+        )
+    }
+
+    fn is_done_by(&self, row: &Reference) -> bool {
+        row.is_of(self.shot) && row.cells_per_radius == self.cells_per_radius
+    }
+
+    fn compute(&self) -> Result<Reference, Error> {
+        compute(self.shot, self.cells_per_radius, &mut Control::default())
+    }
+}
+
 /// Computes all shots that a file does not have yet, several at once, and appends each to the file as it is done: a run that is
 /// broken off goes on where it was.
 ///
@@ -129,87 +158,28 @@ pub fn complete(
     file: &Path,
     shots: &[Shot],
     cells_per_radius: u32,
-    report: &(dyn Fn(usize, usize, Result<&Reference, String>) + Sync),
+    report: &Report<'_, Reference>,
 ) -> Result<Vec<Reference>, Error> {
-    let known = match std::fs::File::open(file) {
-        Ok(text) => read(text).map_err(|error| unreadable(file, &error))?,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Vec::new(),
-        Err(error) => return Err(unreadable(file, &error)),
-    };
-    let left: Vec<&Shot> = shots
+    let jobs: Vec<OnMesh<'_>> = shots
         .iter()
-        .filter(|shot| {
-            !known
-                .iter()
-                .any(|known| known.is_of(shot) && known.cells_per_radius == cells_per_radius)
+        .map(|shot| OnMesh {
+            shot,
+            cells_per_radius,
         })
         .collect();
-    let next = AtomicUsize::new(0);
-    let done = AtomicUsize::new(shots.len() - left.len());
-    let stop = AtomicBool::new(false);
-    let state = Mutex::new((known, None));
-    let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
-    std::thread::scope(|scope| {
-        for _ in 0..threads.min(left.len()) {
-            scope.spawn(|| {
-                while let Some(shot) = left.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    if stop.load(Ordering::Relaxed) {
-                        return;
-                    }
-                    // Shots side by side use the machine better than the threads of one: each gets a pool of one thread.
-                    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-                    let computed = match pool {
-                        Ok(pool) => pool
-                            .install(|| compute(shot, cells_per_radius, &mut Control::default())),
-                        Err(_) => compute(shot, cells_per_radius, &mut Control::default()),
-                    };
-                    let mut state = state
-                        .lock()
-                        .unwrap_or_else(|poisoned| poisoned.into_inner());
-                    let count = done.fetch_add(1, Ordering::Relaxed) + 1;
-                    match computed {
-                        Err(error) => report(count, shots.len(), Err(error.to_string())),
-                        Ok(reference) => {
-                            if let Err(error) = append(file, &reference) {
-                                state.1 = Some(unreadable(file, &error));
-                                stop.store(true, Ordering::Relaxed);
-                                return;
-                            }
-                            report(count, shots.len(), Ok(&reference));
-                            state.0.push(reference);
-                        }
-                    }
-                }
-            });
-        }
-    });
-    match state
-        .into_inner()
-        .unwrap_or_else(|poisoned| poisoned.into_inner())
-    {
-        (_, Some(error)) => Err(error),
-        (references, None) => Ok(references),
-    }
+    resume::complete(file, &jobs, report)
 }
 
-fn append(file: &Path, reference: &Reference) -> Result<(), std::io::Error> {
-    let empty = std::fs::metadata(file).map_or(true, |data| data.len() == 0);
-    let mut buffer = csv::WriterBuilder::new()
-        .has_headers(empty)
-        .from_writer(Vec::new());
-    buffer.serialize(reference).map_err(std::io::Error::other)?;
-    let row = buffer
-        .into_inner()
-        .map_err(|error| std::io::Error::other(error.to_string()))?;
-    let mut out = OpenOptions::new().create(true).append(true).open(file)?;
-    out.write_all(&row)?;
-    out.sync_data()
-}
+/// Particle-steps that a processor core does in a second, from which times are estimated.
+const PARTICLE_STEPS_PER_SECOND: f64 = 5e6;
 
-fn unreadable(file: &Path, error: &dyn std::fmt::Display) -> Error {
-    Error::Read {
-        path: file.to_path_buf(),
-        reason: error.to_string(),
-        source: None,
-    }
+/// Estimate of the time that a shot takes one processor core on a mesh [s], from its other meshes, those that come with the library
+/// among them: particles grow with the square of the cells along a length, and steps with their number. `None` without any.
+pub fn seconds(shot: &Shot, cells_per_radius: u32, known: &[Reference]) -> Option<f64> {
+    static BUILT_IN: LazyLock<Vec<Reference>> = LazyLock::new(built_in);
+    let mut own = known.iter().chain(&*BUILT_IN).filter(|row| row.is_of(shot));
+    let row = own.next()?;
+    let finer = f64::from(cells_per_radius) / f64::from(row.cells_per_radius);
+    let work = row.particles as f64 * row.steps as f64 * finer.powi(3);
+    Some(work / PARTICLE_STEPS_PER_SECOND)
 }

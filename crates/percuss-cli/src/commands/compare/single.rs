@@ -69,6 +69,16 @@ pub fn text(comparison: &Comparison) -> String {
         let cell = |record: &ResultRecord| range(record, comparison.quantities[0]);
         columns.push(column("range".to_owned(), true, &cell, String::new()));
     }
+    if records.iter().any(|record| record.expected_error.is_some()) {
+        let cell = |record: &ResultRecord| {
+            let expected = record.expected_error.as_ref();
+            expected.map_or_else(String::new, |expected| {
+                expected.in_words().replace(" %", "")
+            })
+        };
+        let heading = "expected error\nof the depth\n[%]".to_owned();
+        columns.push(column(heading, true, &cell, String::new()));
+    }
     columns.push(column(
         "outcome".to_owned(),
         false,

@@ -6,7 +6,10 @@ use super::{
     shown,
     single::{RECOMMENDED, heading, name, number, off_by},
 };
-use crate::table::{Column, blocks};
+use crate::{
+    table::{Column, blocks},
+    terminal::{width, wrap},
+};
 
 /// Tables of all relevant quantities, and how far they are from experiment.
 pub fn text(comparison: &Comparison) -> String {
@@ -26,7 +29,37 @@ pub fn text(comparison: &Comparison) -> String {
             _ => over_speed(comparison, quantity, &given),
         };
     }
-    text
+    text + &expected_errors(comparison)
+}
+
+/// Medians of the errors to expect of the depths, from the smallest to the largest over the speeds, a line for all models.
+fn expected_errors(comparison: &Comparison) -> String {
+    let percent = |error: f64| format!("{:+.0}", 100.0 * error + 0.0).replace('-', "\u{2212}");
+    let ranges: Vec<String> = comparison
+        .models()
+        .into_iter()
+        .filter_map(|model| {
+            let expected = comparison
+                .of_model(model)
+                .filter_map(|r| r.expected_error.as_ref());
+            let medians: Vec<f64> = expected.map(|expected| expected.median).collect();
+            let low = medians.iter().copied().reduce(f64::min)?;
+            let high = medians.iter().copied().reduce(f64::max)?;
+            let range = match percent(low) == percent(high) {
+                true => percent(low),
+                false => format!("{} to {}", percent(low), percent(high)),
+            };
+            Some(format!("{model} {range} %"))
+        })
+        .collect();
+    if ranges.is_empty() {
+        return String::new();
+    }
+    let words = format!(
+        "expected error of the depth against the axisymmetric reference, median at each speed: {}",
+        ranges.join(", ")
+    );
+    format!("{}\n\n", wrap(&words, width(), 2))
 }
 
 fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) -> String {

@@ -1,8 +1,8 @@
 //! A page as Markdown.
 
-use super::document::{Block, Table};
+use super::{Block, Table};
 
-pub(super) fn render(page: &[Block<'_>]) -> String {
+pub(crate) fn render(page: &[Block<'_>]) -> String {
     let parts: Vec<String> = page.iter().filter_map(block).collect();
     parts.join("\n\n") + "\n"
 }

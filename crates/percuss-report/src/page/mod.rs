@@ -1,9 +1,12 @@
 //! A page that can be written as HTML and as Markdown.
 
+pub(crate) mod html;
+pub(crate) mod markdown;
+
 use crate::Figure;
 
 /// A part of a page. Texts are plain: the writers escape them.
-pub(super) enum Block<'a> {
+pub(crate) enum Block<'a> {
     Title(String),
     Heading(String),
     Subheading(String),
@@ -19,14 +22,14 @@ pub(super) enum Block<'a> {
 
 /// A table.
 #[derive(Default)]
-pub(super) struct Table {
+pub(crate) struct Table {
     /// Headings; one that begins with `#` stands over numbers, which are set flush right.
-    pub(super) head: Vec<String>,
-    pub(super) rows: Vec<Vec<String>>,
+    pub(crate) head: Vec<String>,
+    pub(crate) rows: Vec<Vec<String>>,
 }
 
 impl Table {
-    pub(super) fn new(head: &[&str]) -> Self {
+    pub(crate) fn new(head: &[&str]) -> Self {
         Self {
             head: head.iter().map(|&name| name.to_owned()).collect(),
             rows: Vec::new(),
@@ -34,7 +37,7 @@ impl Table {
     }
 
     /// Headings with whether numbers stand below.
-    pub(super) fn columns(&self) -> impl Iterator<Item = (&str, bool)> {
+    pub(crate) fn columns(&self) -> impl Iterator<Item = (&str, bool)> {
         self.head.iter().map(|name| {
             name.strip_prefix('#')
                 .map_or((name.as_str(), false), |name| (name, true))

@@ -1,6 +1,6 @@
 //! A page as one self-contained HTML file.
 
-use super::document::{Block, Table};
+use super::{Block, Table};
 
 const STYLE: &str = "\
 :root{color-scheme:light dark;--ink:#1c2024;--soft:#5b6470;--line:#d8dce1;--stripe:#f5f6f8;--paper:#fff;--link:#0b5cad}\
@@ -20,7 +20,7 @@ figcaption{color:var(--soft);font-size:.86rem;margin-top:.3rem}\
 summary{cursor:pointer;color:var(--link)}\
 @media print{details>*{display:block}}";
 
-pub(super) fn render(page: &[Block<'_>]) -> String {
+pub(crate) fn render(page: &[Block<'_>]) -> String {
     let title = page.iter().find_map(|block| match block {
         Block::Title(title) => Some(escape(title)),
         _ => None,
@@ -36,7 +36,7 @@ pub(super) fn render(page: &[Block<'_>]) -> String {
 }
 
 /// Text as HTML shows it.
-pub(super) fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

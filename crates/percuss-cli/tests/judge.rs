@@ -1,0 +1,164 @@
+//! `percuss judge` on a small reference of its own.
+
+mod support;
+
+use std::{fs, path::Path};
+
+use serde_json::Value;
+use support::percuss;
+use tempfile::TempDir;
+
+/// Two shots on two meshes, made up, and one of no shot of the design.
+const REFERENCE: &str = "\
+projectile,target,length_to_diameter,impact_velocity_m_s,cells_per_radius,depth_of_penetration_mm,largest_depth_mm,projectile_final_length_mm,projectile_final_diameter_mm,outcome,energy_residual,transfer_loss,steps,particles
+copper-woodward,aluminium-2024-t351-woodward,1.0,600.0,4,1.8,1.9,3.0,8.0,rebounded,0.002,0.05,1000,6000
+copper-woodward,aluminium-2024-t351-woodward,1.0,600.0,8,1.9,1.9,3.0,8.0,rebounded,0.002,0.05,2000,24000
+4340-johnson-cook,6061-t6-lesuer,1.0,300.0,8,1.2,1.3,,,rebounded,0.002,0.05,2000,24000
+copper-woodward,aluminium-2024-t351-woodward,1.0,601.0,8,1.9,1.9,3.0,8.0,rebounded,0.002,0.05,2000,24000
+";
+
+fn folder() -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("own.csv"), REFERENCE).unwrap();
+    folder
+}
+
+fn ok(folder: &Path, arguments: &[&str]) -> String {
+    let said = percuss(
+        folder,
+        [&["judge", "--reference", "own.csv"], arguments].concat(),
+    );
+    assert_eq!((said.code, said.stderr.as_str()), (0, ""), "{arguments:?}");
+    said.stdout
+}
+
+#[test]
+fn models_are_judged_by_a_reference() {
+    let folder = folder();
+    let text = ok(folder.path(), &[]);
+    for part in [
+        "reference: own.csv (4 rows)\n",
+        "- 2 shots; on 1 of them the reference itself is known within 10 %.",
+        "all shots, errors in %\n",
+        "chain: diverging-penetrable",
+        "median error in % by L/D\n",
+        "the paper's case one thing at a time",
+    ] {
+        assert!(text.contains(part), "{part:?} is not in:\n{text}");
+    }
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
+    let by = ok(folder.path(), &["--by", "regime", "--by", "materials"]);
+    assert!(
+        by.contains("\ncopper-woodward on aluminium-2024-t351-woodward\n"),
+        "{by}"
+    );
+    let lines = ok(folder.path(), &["--quiet"]);
+    assert!(
+        lines.starts_with("contender=chain:column count=2 median="),
+        "{lines}"
+    );
+}
+
+#[test]
+fn json_holds_statistics_and_verdicts_of_the_extrapolated_reference() {
+    let folder = folder();
+    let json: Value = serde_json::from_str(&ok(folder.path(), &["--json"])).unwrap();
+    let verdicts = json["verdicts"].as_array().unwrap();
+    let of = |speed: f64| {
+        let own =
+            |v: &&Value| v["impact_velocity_m_s"] == speed && v["contender"] == "chain: column";
+        verdicts.iter().find(own).unwrap()
+    };
+    assert!((of(600.0)["reference_depth_mm"].as_f64().unwrap() - 2.0).abs() < 1e-12);
+    assert!((of(600.0)["reference_uncertainty_mm"].as_f64().unwrap() - 0.1).abs() < 1e-12);
+    assert_eq!(of(300.0)["reference_depth_mm"], 1.2);
+    assert!(of(300.0)["reference_uncertainty_mm"].is_null());
+    let all = &json["statistics"][0];
+    assert_eq!(
+        (&all["contender"], &all["grouping"], &all["count"]),
+        (&"chain: column".into(), &"all".into(), &2.into())
+    );
+    assert!(json["findings"].as_array().unwrap().len() > 3);
+    assert!(json["ablation"].as_array().unwrap().len() >= 14);
+}
+
+#[test]
+fn the_report_is_written_whole() {
+    let folder = folder();
+    ok(folder.path(), &["--out", "report"]);
+    let read = |name: &str| fs::read_to_string(folder.path().join("report").join(name)).unwrap();
+    let html = read("judgement.html");
+    for part in [
+        "<!doctype html>",
+        "<h2>In plain words</h2>",
+        "<h2>Every shot</h2>",
+        "4: 1.8, 8: 1.9",
+        "2 ± 0.1",
+        "percuss judge --reference own.csv --out report",
+    ] {
+        assert!(html.contains(part), "{part}");
+    }
+    assert!(
+        !html.contains("<script") && !html.contains("src="),
+        "not self-contained"
+    );
+    let markdown = read("judgement.md");
+    for name in markdown
+        .lines()
+        .filter_map(|line| line.strip_prefix("![")?.split(['(', ')']).rev().nth(1))
+    {
+        assert!(folder.path().join("report").join(name).is_file(), "{name}");
+    }
+    assert!(markdown.contains("error-chain-column.png"), "{markdown}");
+    let header = read("verdicts.csv").lines().next().unwrap().to_owned();
+    assert!(
+        header.starts_with("contender,projectile,target,"),
+        "{header}"
+    );
+    for name in ["verdicts.parquet", "statistics.parquet", "ablation.parquet"] {
+        let bytes = fs::read(folder.path().join("report").join(name)).unwrap();
+        assert!(bytes.starts_with(b"PAR1"), "{name}");
+    }
+}
+
+fn refused(arguments: &[&str], code: i32) -> String {
+    let folder = folder();
+    let only_header = REFERENCE.lines().next().unwrap().to_owned() + "\n";
+    fs::write(folder.path().join("empty.csv"), only_header).unwrap();
+    let wrong = REFERENCE.replace("600.0,8,1.9", "600.0,8,deep");
+    fs::write(folder.path().join("wrong.csv"), wrong).unwrap();
+    let said = percuss(folder.path(), [&["judge"], arguments].concat());
+    assert_eq!(
+        (said.code, said.stdout.as_str()),
+        (code, ""),
+        "{}",
+        said.stderr
+    );
+    said.stderr
+}
+
+#[test]
+fn wrong_arguments_and_files_are_refused() {
+    let empty = refused(&["--reference", "empty.csv"], 2);
+    assert!(
+        empty.contains("no reference to judge by in empty.csv") && empty.contains("--compute"),
+        "{empty}"
+    );
+    let none = refused(&["--reference", "none.csv"], 4);
+    assert!(
+        none.contains("cannot read `none.csv`: there is no such file"),
+        "{none}"
+    );
+    let wrong = refused(&["--reference", "wrong.csv"], 4);
+    assert!(
+        wrong.contains("wrong.csv") && wrong.contains("line: 3"),
+        "{wrong}"
+    );
+    let nowhere = refused(&["--compute"], 2);
+    assert!(nowhere.contains("--reference FILE"), "{nowhere}");
+    refused(&["--cells", "8"], 2);
+    refused(&["--by", "moon"], 2);
+}

@@ -1,0 +1,97 @@
+//! What the report says, in which order.
+
+use percuss::judge::{self, Grouping, study};
+
+use super::{Judgement, Origin, figures::Drawn, tables};
+use crate::page::Block;
+
+pub(super) fn page<'a>(
+    judgement: &Judgement,
+    origin: &Origin,
+    figures: &'a Drawn,
+) -> Vec<Block<'a>> {
+    let verdicts = &judgement.verdicts;
+    let mut page = vec![
+        Block::Title("Depth models against the axisymmetric reference".to_owned()),
+        Block::Text(format!(
+            "Every depth model of percuss {} on every shot of the design. Reference: {}. Written by: {}",
+            env!("CARGO_PKG_VERSION"),
+            origin.reference,
+            origin.command
+        )),
+        Block::Heading("In plain words".to_owned()),
+        Block::List(judge::findings(verdicts).iter().map(|line| line.replace('`', "")).collect()),
+        Block::Heading("How to read the numbers".to_owned()),
+        Block::List(
+            [
+                "An error is depth by the model over depth by the reference, less 1: positive where the model goes too deep.",
+                "The reference is model axi on two meshes, extrapolated at first order in the cell size; its uncertainty is the distance of the \
+                 extrapolation from the finer mesh.",
+                "Medians are over shots; a tenth of the errors lies below the lower end of a range and a tenth above the upper one.",
+                "The last column is the part of the shots with an error of at most 25 %, either way.",
+                "A model that does not apply to a shot is not counted there: numbers of models with different n are of different shots.",
+            ]
+            .map(str::to_owned)
+            .to_vec(),
+        ),
+        Block::Heading("All shots".to_owned()),
+        Block::Table(tables::groups(verdicts, Grouping::All)),
+    ];
+    page.extend(figures.maps.iter().map(Block::Figure));
+    page.push(Block::Heading("By what may decide".to_owned()));
+    for &grouping in Grouping::ALL {
+        let title = format!("By {}", grouping.in_words());
+        let table = || Block::Table(tables::groups(verdicts, grouping));
+        match grouping {
+            Grouping::All => {}
+            Grouping::Regime => page.extend([Block::Subheading(title), table()]),
+            _ => page.push(Block::Folded(title, vec![table()])),
+        }
+    }
+    page.extend(paper_case(judgement));
+    page.push(Block::Heading("Depth over speed".to_owned()));
+    page.extend(figures.depths.iter().map(Block::Figure));
+    page.push(Block::WebOnly(
+        figures.more_depths.iter().map(Block::Figure).collect(),
+    ));
+    page.push(Block::WebOnly(vec![
+        Block::Heading("Every shot".to_owned()),
+        Block::Table(tables::every_shot(judgement)),
+    ]));
+    page
+}
+
+fn paper_case<'a>(judgement: &Judgement) -> Vec<Block<'a>> {
+    let mut blocks = vec![
+        Block::Heading("The paper's case, one thing at a time".to_owned()),
+        Block::Text(
+            "A copper rod (12.74 mm by 4.8 mm) on 25 mm of 2024-T351, held at its back. Each line differs from the one before in what its \
+             second column says."
+                .to_owned(),
+        ),
+        Block::Table(tables::ablation(&judgement.ablation)),
+    ];
+    if !judgement.study.is_empty() {
+        let depths = study::SPEEDS.iter().filter_map(|&speed| {
+            let estimate = study::depth(&judgement.study, speed)?;
+            let uncertainty = estimate
+                .uncertainty_mm
+                .map_or_else(String::new, |mm| format!(" ± {mm:.2}"));
+            Some(format!(
+                "{:.2}{uncertainty} mm at {speed} m/s",
+                estimate.depth_mm
+            ))
+        });
+        let depths: Vec<String> = depths.collect();
+        blocks.extend([
+            Block::Subheading("The same case by the reference".to_owned()),
+            Block::Text(format!(
+                "Meshes at a target radius of {} mm, extrapolated: {}. The other rows vary the radius of the target.",
+                study::RADIUS,
+                depths.join(", ")
+            )),
+            Block::Table(tables::study(&judgement.study)),
+        ]);
+    }
+    blocks
+}

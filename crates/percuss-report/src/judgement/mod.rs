@@ -1,0 +1,95 @@
+//! The report of a judgement: every depth model against the axisymmetric reference, as HTML, Markdown, CSV and Parquet.
+
+mod content;
+mod figures;
+mod numbers;
+mod tables;
+
+use std::path::{Path, PathBuf};
+
+use percuss::{
+    Error,
+    judge::{
+        self, Reference, Shot, Verdict,
+        ablation::{self, Line},
+        study::Study,
+    },
+};
+
+use crate::{
+    ReportError,
+    page::{html, markdown},
+    replace_file::replace_file,
+};
+
+/// All that a report says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judgement {
+    /// The reference of every shot and mesh.
+    pub references: Vec<Reference>,
+    /// Every contender on every shot that has a reference.
+    pub verdicts: Vec<Verdict>,
+    /// The paper's case by the reference.
+    pub study: Vec<Study>,
+    /// The paper's case by one-dimensional variants.
+    pub ablation: Vec<Line>,
+}
+
+/// What a report says of itself.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Origin {
+    /// Where the reference comes from.
+    pub reference: String,
+    /// The command that made the report.
+    pub command: String,
+}
+
+impl Judgement {
+    /// Judges all contenders on shots by their references.
+    ///
+    /// # Errors
+    /// [`Error::Input`] when a shot's materials are not in the library.
+    pub fn new(
+        shots: &[Shot],
+        references: Vec<Reference>,
+        study: Vec<Study>,
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            verdicts: judge::judge(shots, &references)?,
+            ablation: ablation::ablation(&study)?,
+            references,
+            study,
+        })
+    }
+}
+
+/// Writes the report to a folder, which is made if it does not exist. Files of these names are replaced:
+///
+/// - `judgement.html`: the whole report in one file;
+/// - `judgement.md` with one PNG a figure: the same without the single shots and some of the figures;
+/// - `verdicts.csv`, `verdicts.parquet`: a row a contender and shot; the first is the file that the library stores;
+/// - `statistics.csv`, `statistics.parquet`: a row a contender and group;
+/// - `ablation.csv`, `ablation.parquet`: the paper's case by one-dimensional variants.
+///
+/// # Errors
+/// [`ReportError::Write`]; [`ReportError::Figure`]; [`ReportError::Table`].
+pub fn write(
+    folder: &Path,
+    judgement: &Judgement,
+    origin: &Origin,
+) -> Result<Vec<PathBuf>, ReportError> {
+    let figures = figures::Drawn::of(&judgement.verdicts);
+    let page = content::page(judgement, origin, &figures);
+    let mut written = vec![
+        replace_file(folder, "judgement.html", html::render(&page).as_bytes())?,
+        replace_file(folder, "judgement.md", markdown::render(&page).as_bytes())?,
+    ];
+    for figure in figures.in_markdown() {
+        let name = format!("{}.png", figure.name);
+        written.push(replace_file(folder, &name, &figure.png()?)?);
+    }
+    for (name, content) in numbers::files(judgement)? {
+        written.push(replace_file(folder, name, &content)?);
+    }
+    Ok(written)
+}

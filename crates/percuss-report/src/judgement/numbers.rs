@@ -1,0 +1,83 @@
+//! The numbers of a judgement as CSV and Parquet.
+
+use percuss::judge::{self, Group, Grouping, Verdict, ablation::Line};
+
+use super::Judgement;
+use crate::{
+    ReportError,
+    column::{self, Column},
+};
+
+/// Names and contents of the files.
+pub(super) fn files(judgement: &Judgement) -> Result<[(&'static str, Vec<u8>); 6], ReportError> {
+    let verdicts = judge::to_csv(&judgement.verdicts).map_err(|source| ReportError::Table {
+        table: "verdicts.csv".to_owned(),
+        source: source.into(),
+    })?;
+    let groups: Vec<Group> = Grouping::ALL
+        .iter()
+        .flat_map(|grouping| judge::statistics(&judgement.verdicts, *grouping))
+        .collect();
+    let [a, b, c, d, e] = [
+        "verdicts.parquet",
+        "statistics.csv",
+        "statistics.parquet",
+        "ablation.csv",
+        "ablation.parquet",
+    ];
+    let (of_verdict, of_group, of_line) = (verdict_columns(), group_columns(), line_columns());
+    Ok([
+        ("verdicts.csv", verdicts),
+        (a, column::parquet(a, &of_verdict, &judgement.verdicts)?),
+        (b, column::csv(b, &of_group, &groups)?),
+        (c, column::parquet(c, &of_group, &groups)?),
+        (d, column::csv(d, &of_line, &judgement.ablation)?),
+        (e, column::parquet(e, &of_line, &judgement.ablation)?),
+    ])
+}
+
+fn verdict_columns() -> Vec<Column<Verdict>> {
+    type Row = Verdict;
+    vec![
+        Column::text("contender", |v: &Row| v.contender.clone()),
+        Column::text("projectile", |v: &Row| v.projectile.clone()),
+        Column::text("target", |v: &Row| v.target.clone()),
+        Column::float("length_to_diameter", |v: &Row| v.length_to_diameter),
+        Column::float("impact_velocity_m_s", |v: &Row| v.impact_velocity_m_s),
+        Column::text("regime", |v: &Row| v.regime.in_words().to_owned()),
+        Column::float("depth_of_penetration_mm", |v: &Row| {
+            v.depth_of_penetration_mm
+        }),
+        Column::float("reference_depth_mm", |v: &Row| v.reference_depth_mm),
+        Column::optional("reference_uncertainty_mm", |v: &Row| {
+            v.reference_uncertainty_mm
+        }),
+        Column::float("relative_error", Row::error),
+    ]
+}
+
+fn group_columns() -> Vec<Column<Group>> {
+    vec![
+        Column::text("contender", |g: &Group| g.contender.to_owned()),
+        Column::text("grouping", |g: &Group| g.grouping.in_words().to_owned()),
+        Column::text("value", |g: &Group| g.value.clone()),
+        Column::integer("count", |g: &Group| g.errors.count as i64),
+        Column::float("median", |g: &Group| g.errors.median),
+        Column::float("low", |g: &Group| g.errors.low),
+        Column::float("high", |g: &Group| g.errors.high),
+        Column::float("median_absolute", |g: &Group| g.errors.median_absolute),
+        Column::float("within_25_percent", |g: &Group| g.errors.within_25_percent),
+    ]
+}
+
+fn line_columns() -> Vec<Column<Line>> {
+    vec![
+        Column::float("impact_velocity_m_s", |l: &Line| l.impact_velocity_m_s),
+        Column::text("variant", |l: &Line| l.variant.to_owned()),
+        Column::text("change", |l: &Line| l.change.to_owned()),
+        Column::float("depth_of_penetration_mm", |l: &Line| {
+            l.depth_of_penetration_mm
+        }),
+        Column::optional("error", |l: &Line| l.error),
+    ]
+}

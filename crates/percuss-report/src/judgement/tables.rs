@@ -1,0 +1,191 @@
+//! Tables of a judgement.
+
+use percuss::{
+    judge::{
+        self, Errors, Grouping, Verdict,
+        ablation::Line,
+        contenders, estimate, pair_name, shots,
+        study::{self, Study},
+    },
+    units::significant,
+};
+
+use super::Judgement;
+use crate::page::Table;
+
+/// A relative error in per cent with its sign.
+pub(super) fn signed(error: f64) -> String {
+    match (100.0 * error).round() {
+        0.0 => "0".to_owned(),
+        percent => format!("{percent:+.0}").replace('-', "\u{2212}"),
+    }
+}
+
+const ERRORS: [&str; 6] = [
+    "#n",
+    "#median [%]",
+    "#10 % below [%]",
+    "#10 % above [%]",
+    "#median magnitude [%]",
+    "#within 25 % [%]",
+];
+
+fn errors(errors: &Errors) -> Vec<String> {
+    vec![
+        errors.count.to_string(),
+        signed(errors.median),
+        signed(errors.low),
+        signed(errors.high),
+        format!("{:.0}", 100.0 * errors.median_absolute),
+        format!("{:.0}", 100.0 * errors.within_25_percent),
+    ]
+}
+
+/// One row a contender and group; the groups together, for the contenders to be compared.
+pub(super) fn groups(verdicts: &[Verdict], grouping: Grouping) -> Table {
+    let groups = judge::statistics(verdicts, grouping);
+    if grouping == Grouping::All {
+        let mut table = Table::new(&[&["contender"], ERRORS.as_slice()].concat());
+        for group in &groups {
+            let mut row = vec![group.contender.to_owned()];
+            row.extend(errors(&group.errors));
+            table.rows.push(row);
+        }
+        return table;
+    }
+    let head = [&[grouping.in_words(), "contender"], ERRORS.as_slice()].concat();
+    let mut table = Table::new(&head);
+    for value in grouping.values() {
+        let mut name = value.clone();
+        for group in groups.iter().filter(|group| group.value == value) {
+            let mut row = vec![std::mem::take(&mut name), group.contender.to_owned()];
+            row.extend(errors(&group.errors));
+            table.rows.push(row);
+        }
+    }
+    table
+}
+
+/// The paper's case by one-dimensional variants, a column of depth and error a speed.
+pub(super) fn ablation(lines: &[Line]) -> Table {
+    let mut table = Table::new(&["variant", "what is new"]);
+    for speed in study::SPEEDS {
+        table.head.push(format!("#depth at {speed} m/s [mm]"));
+        table.head.push("#error [%]".to_owned());
+    }
+    let mut names: Vec<(&str, &str)> = Vec::new();
+    for line in lines {
+        if !names.contains(&(line.variant, line.change)) {
+            names.push((line.variant, line.change));
+        }
+    }
+    for (name, change) in names {
+        let mut row = vec![name.to_owned(), change.to_owned()];
+        for &speed in study::SPEEDS {
+            let line = lines
+                .iter()
+                .find(|line| line.variant == name && line.impact_velocity_m_s == speed);
+            row.push(line.map_or_else(String::new, |line| {
+                significant(line.depth_of_penetration_mm, 3)
+            }));
+            row.push(
+                line.and_then(|line| line.error)
+                    .map_or_else(String::new, signed),
+            );
+        }
+        table.rows.push(row);
+    }
+    table
+}
+
+/// The paper's case by the reference, on its meshes and in its targets.
+pub(super) fn study(rows: &[Study]) -> Table {
+    let mut table = Table::new(&[
+        "#speed [m/s]",
+        "#cells per radius",
+        "#target radius [mm]",
+        "#depth [mm]",
+        "#particles",
+        "#energy residual [%]",
+    ]);
+    let mut rows: Vec<&Study> = rows.iter().collect();
+    rows.sort_by(|a, b| {
+        let place = |row: &Study| (row.impact_velocity_m_s, row.target_radius_mm);
+        let (a_place, b_place) = (place(a), place(b));
+        a_place
+            .0
+            .total_cmp(&b_place.0)
+            .then(a_place.1.total_cmp(&b_place.1))
+            .then(a.cells_per_radius.cmp(&b.cells_per_radius))
+    });
+    for row in rows {
+        table.rows.push(vec![
+            significant(row.impact_velocity_m_s, 4),
+            row.cells_per_radius.to_string(),
+            significant(row.target_radius_mm, 4),
+            significant(row.depth_of_penetration_mm, 4),
+            row.particles.to_string(),
+            format!("{:.2}", 100.0 * row.energy_residual),
+        ]);
+    }
+    table
+}
+
+/// Every shot: its reference on all meshes, extrapolated, and the depth of every contender with its error.
+pub(super) fn every_shot(judgement: &Judgement) -> Table {
+    let mut table = Table::new(&[
+        "materials",
+        "#L/D",
+        "#speed [m/s]",
+        "#on meshes [mm]",
+        "#reference [mm]",
+    ]);
+    let contenders = contenders();
+    table
+        .head
+        .extend(contenders.iter().map(|c| format!("#{} [mm] (%)", c.name)));
+    for shot in shots() {
+        let Some(reference) = estimate(&judgement.references, &shot) else {
+            continue;
+        };
+        let mut meshes: Vec<_> = judgement
+            .references
+            .iter()
+            .filter(|row| row.is_of(&shot))
+            .map(|row| (row.cells_per_radius, row.depth_of_penetration_mm))
+            .collect();
+        meshes.sort_by_key(|(cells, _)| *cells);
+        let meshes: Vec<String> = meshes
+            .iter()
+            .map(|(cells, depth)| format!("{cells}: {}", significant(*depth, 4)))
+            .collect();
+        let uncertainty = reference
+            .uncertainty_mm
+            .map_or_else(String::new, |mm| format!(" ± {}", significant(mm, 2)));
+        let mut row = vec![
+            pair_name(&shot.projectile, &shot.target),
+            shot.length_to_diameter.to_string(),
+            shot.speed.to_string(),
+            meshes.join(", "),
+            format!("{}{uncertainty}", significant(reference.depth_mm, 4)),
+        ];
+        let own: Vec<&Verdict> = judgement
+            .verdicts
+            .iter()
+            .filter(|verdict| verdict.is_of(&shot))
+            .collect();
+        row.extend(contenders.iter().map(|contender| {
+            own.iter()
+                .find(|verdict| verdict.contender == contender.name)
+                .map_or_else(
+                    || "\u{2013}".to_owned(),
+                    |verdict| {
+                        let depth = significant(verdict.depth_of_penetration_mm, 3);
+                        format!("{depth} ({})", signed(verdict.error()))
+                    },
+                )
+        }));
+        table.rows.push(row);
+    }
+    table
+}

@@ -1,0 +1,155 @@
+//! The paper's own case by the reference: on several meshes and in targets of several sizes, stored as data.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    estimate::{Estimate, extrapolate},
+    resume::{self, Job, Report},
+};
+use crate::{
+    Error, Scenario,
+    axi::Axi,
+    case,
+    model::{Control, Model},
+};
+
+/// The study that comes with the library.
+const BUILT_IN: &str = include_str!("../../data/judge/paper-case.csv");
+
+/// Impact speeds of the study [m/s]: that of the paper's table, and one at which the rod penetrates.
+pub const SPEEDS: &[f64] = &[230.0, 600.0];
+
+/// Cells along the projectile's radius and radius of the target [mm]: one is varied at a time.
+pub const VARIANTS: &[(u32, f64)] = &[(4, 24.0), (8, 24.0), (16, 24.0), (8, 16.0), (8, 36.0)];
+
+/// Radius of the target on which meshes are compared [mm].
+pub const RADIUS: f64 = 24.0;
+
+/// The paper's case on one mesh and in one target.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Study {
+    /// Impact speed [m/s].
+    pub impact_velocity_m_s: f64,
+    /// Cells along the projectile's radius.
+    pub cells_per_radius: u32,
+    /// Radius of the target that is modelled [mm].
+    pub target_radius_mm: f64,
+    /// Depth of penetration [mm].
+    pub depth_of_penetration_mm: f64,
+    /// Largest depth at any time [mm].
+    pub largest_depth_mm: f64,
+    /// Largest part of the energy without an account.
+    pub energy_residual: f64,
+    /// Part of the energy lost between particles and grid.
+    pub transfer_loss: f64,
+    /// Time steps.
+    pub steps: u64,
+    /// Particles.
+    pub particles: usize,
+}
+
+/// The paper's case at a speed [m/s], with options of a model, in TOML.
+///
+/// # Errors
+/// [`Error::Input`].
+pub fn scenario(speed: f64, options: &str) -> Result<Scenario, Error> {
+    let text = format!(
+        "[projectile]\nmaterial = \"copper-woodward\"\nlength = \"12.74 mm\"\ndiameter = \"4.8 mm\"\nvelocity = \"{speed} m/s\"\n\
+         [target]\nmaterial = \"aluminium-2024-t351-woodward\"\nthickness = \"25 mm\"\nback_face = \"fixed\"\n{options}"
+    );
+    case::load_str("the paper's case", &text)
+}
+
+/// The study that comes with the library.
+///
+/// # Panics
+/// Never: a test reads it.
+pub fn built_in() -> Vec<Study> {
+    csv::Reader::from_reader(BUILT_IN.as_bytes())
+        .deserialize()
+        .collect::<Result<_, _>>()
+        .expect("the built-in study is valid")
+}
+
+/// Reads a study from a file; none where there is no file.
+///
+/// # Errors
+/// [`Error::Read`].
+pub fn read_file(file: &Path) -> Result<Vec<Study>, Error> {
+    resume::rows(file)
+}
+
+/// Depth at a speed [m/s], extrapolated over the meshes in one target; `None` without any.
+pub fn depth(study: &[Study], speed: f64) -> Option<Estimate> {
+    let mut meshes: Vec<(u32, f64)> = study
+        .iter()
+        .filter(|row| row.impact_velocity_m_s == speed && row.target_radius_mm == RADIUS)
+        .map(|row| (row.cells_per_radius, row.depth_of_penetration_mm))
+        .collect();
+    meshes.sort_by_key(|(cells, _)| std::cmp::Reverse(*cells));
+    extrapolate(&meshes)
+}
+
+struct Variant {
+    speed: f64,
+    cells_per_radius: u32,
+    target_radius_mm: f64,
+}
+
+impl Job for Variant {
+    type Row = Study;
+
+    fn name(&self) -> String {
+        format!(
+            "the paper's case at {} m/s on {} cells per radius",
+            self.speed, self.cells_per_radius
+        )
+    }
+
+    fn is_done_by(&self, row: &Study) -> bool {
+        row.impact_velocity_m_s == self.speed
+            && row.cells_per_radius == self.cells_per_radius
+            && row.target_radius_mm == self.target_radius_mm
+    }
+
+    fn compute(&self) -> Result<Study, Error> {
+        let options = format!(
+            "[axi]\ncells_per_radius = {}\ntarget_radius = \"{} mm\"\n",
+            self.cells_per_radius, self.target_radius_mm
+        );
+        let scenario = scenario(self.speed, &options)?;
+        let result = Axi.run(&scenario, &mut Control::default())?;
+        let numerics = result.numerics();
+        let mm = |length: Option<f64>| length.unwrap_or(f64::NAN) * 1e3;
+        Ok(Study {
+            impact_velocity_m_s: self.speed,
+            cells_per_radius: self.cells_per_radius,
+            target_radius_mm: self.target_radius_mm,
+            depth_of_penetration_mm: mm(result.depth_of_penetration),
+            largest_depth_mm: mm(result.largest_depth),
+            energy_residual: numerics.energy_residual,
+            transfer_loss: numerics.energy.transfer / numerics.energy.initial,
+            steps: numerics.steps,
+            particles: numerics.elements.0 + numerics.elements.1,
+        })
+    }
+}
+
+/// Computes what of the study a file does not have yet, and appends it; `report` hears of it as in
+/// [`super::reference::complete`].
+///
+/// # Errors
+/// [`Error::Read`] when the file cannot be read or written.
+pub fn complete(file: &Path, report: &Report<'_, Study>) -> Result<Vec<Study>, Error> {
+    let mut jobs = Vec::new();
+    for &speed in SPEEDS {
+        jobs.extend(VARIANTS.iter().map(|&(cells_per_radius, radius)| Variant {
+            speed,
+            cells_per_radius,
+            target_radius_mm: radius,
+        }));
+    }
+    resume::complete(file, &jobs, report)
+}
