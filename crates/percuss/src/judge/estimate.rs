@@ -16,9 +16,9 @@ pub struct Estimate {
 /// Depth of a shot by its two finest meshes, extrapolated at first order in the cell size h \[richardson1911, roache1994\]:
 /// `d = d₁ + (d₁ − d₂)/(r − 1)` with `r = h₂/h₁`, the finest mesh having index 1.
 ///
-/// First order, since contact on a grid keeps bodies about 0.6 of a cell apart, which makes a projectile wider by as much: a rigid
-/// flat rod (L/D 3, 17600 kg/m³, 300 m/s, perfectly plastic target of 300 MPa) goes 6.56 and 7.52 mm deep on 4 and 8 cells per radius,
-/// 8.49 mm extrapolated, and 8.58 mm by \[forrestal1988\] with a flat nose.
+/// First order, since contact on a grid keeps bodies about 0.8 of a cell apart, which makes a projectile wider by as much: a rigid
+/// flat rod (L/D 3, 17600 kg/m³, 300 m/s, perfectly plastic target of 300 MPa) goes 5.96 and 7.14 mm deep on 4 and 8 cells per radius,
+/// 8.32 mm extrapolated, and 8.58 mm by \[forrestal1988\] with a flat nose.
 ///
 /// `None` when the shot has no reference, or one whose extrapolation is not positive: meshes that coarse say nothing of it.
 pub fn estimate(references: &[Reference], shot: &Shot) -> Option<Estimate> {
