@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use crate::{
     Error, Scenario,
-    case::{ChainOptions, TargetClosure},
+    case::{ArtificialViscosity, ChainOptions, ErosionStrain, TargetClosure},
     model::{self, Control, Model},
     outcome::BandQuantity,
 };
@@ -62,11 +62,11 @@ impl Closure {
             && options.target_closure() == own.target_closure()
             && options.erosion_closure() == own.erosion_closure()
             && options.kinematics() == own.kinematics()
-            && options.erosion_strain == own.erosion_strain
+            && options.erosion_strain.unwrap_or(ErosionStrain::At(2.0)) == ErosionStrain::At(2.0)
             && options.rate_effects.unwrap_or(true)
             && options.adiabatic_heating.unwrap_or(true)
-            && options.heat_fraction == own.heat_fraction
-            && options.artificial_viscosity == own.artificial_viscosity
+            && options.heat_fraction.unwrap_or(0.9) == 0.9
+            && options.artificial_viscosity.unwrap_or_default() == ArtificialViscosity::default()
             && options.damping_ratio.unwrap_or(0.0) == 0.0
             && (self.target != TargetClosure::Column || column)
     }
