@@ -75,8 +75,12 @@ pub fn expectation(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> O
         regime.target,
         TargetKind::SemiInfinite | TargetKind::ThickPlate
     );
-    if !thick || scenario.projectile.nose != Nose::Flat || scenario.projectile.temperature.is_some()
-    {
+    let rod = &scenario.projectile;
+    let room = rod.material.room_temperature.si();
+    let heated = rod
+        .temperature
+        .is_some_and(|temperature| temperature != room);
+    if !thick || rod.nose != Nose::Flat || heated {
         return None;
     }
     let length = scenario.projectile.length / scenario.projectile.diameter;
