@@ -1,6 +1,7 @@
 //! Exact checks of the model, a small file a problem. Bodies are filled by hand, so that shapes and initial motions are free.
 
 mod contact;
+mod failure;
 mod load;
 mod pressurised;
 mod rigid_motion;
@@ -74,7 +75,9 @@ impl Solid {
                 quadratic: 0.0,
             },
             spall_strength: None,
+            damage: None,
             failure_strain: None,
+            erode_failed: false,
             erosion_strain: None,
             axisymmetric: true,
         }
