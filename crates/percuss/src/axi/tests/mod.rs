@@ -3,6 +3,7 @@
 mod contact;
 mod failure;
 mod load;
+mod outgoing;
 mod pressurised;
 mod rigid_motion;
 mod shell_collapse;
@@ -159,6 +160,9 @@ fn spherical_shell(inner: f64, outer: f64, spacing: f64) -> Vec<([f64; 2], f64)>
     }
     sections
 }
+
+/// A smooth back face in front of everything: nothing moves along the axis.
+const ALL_ROWS: isize = isize::MIN;
 
 /// Bodies without supports, ready to move.
 fn solver(bodies: Vec<Body>, cell: f64) -> Solver {
