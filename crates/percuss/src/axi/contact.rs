@@ -67,9 +67,9 @@ pub(super) fn meet(
                     [0, 1].map(|k| reduced * (approach * normal[k] + grip * slide[k]))
                 }
             };
-            for k in 0..2 {
-                first.impulse[a][k] += impulse[k];
-                second.impulse[b][k] -= impulse[k];
+            for (k, part) in impulse.into_iter().enumerate() {
+                first.impulse[a][k] += part;
+                second.impulse[b][k] -= part;
             }
             passed += impulse[1];
         }
