@@ -107,8 +107,8 @@ struct Slide {
     passed: [f64; 2],
     /// Impulses along the contact times the slip that was left after them [J].
     heat: f64,
-    /// Ratio of axial to radial impulse at each node that no wave from an edge had reached yet.
-    ratios: Vec<f64>,
+    /// Ratio of axial to radial impulse, and slip that was left [m/s], at nodes that no wave from an edge had reached yet.
+    ratios: Vec<(f64, f64)>,
     solver: Solver,
 }
 
@@ -154,13 +154,14 @@ impl Slide {
                     let index = field.index(row, column);
                     index.map_or(0.0, |index| field.velocity[index][1])
                 };
-                self.heat += impulse[1] * (speed(a) - speed(b));
-                for k in 0..2 {
-                    self.passed[k] += impulse[k];
+                let slip = speed(a) - speed(b);
+                self.heat += impulse[1] * slip;
+                for (sum, part) in self.passed.iter_mut().zip(impulse) {
+                    *sum += part;
                 }
                 let inside = (1.6 * SIDE..2.4 * SIDE).contains(&(row as f64 * self.solver.cell));
                 if inside && impulse[0] > 0.0 {
-                    self.ratios.push(impulse[1] / impulse[0]);
+                    self.ratios.push((impulse[1] / impulse[0], slip));
                 }
             }
         }
@@ -184,15 +185,32 @@ fn friction_is_its_coefficient_times_the_pressure_and_heats() {
             slide.heat / energy.contact,
             energy.residual()
         );
-        let off = |ratio: &f64| (ratio - coefficient).abs();
-        let worst = slide.ratios.iter().map(off).fold(0.0, f64::max);
-        assert!(slide.ratios.len() > 200 && worst < 1e-6, "{worst:e}");
+        let inside = slide.ratios.iter();
+        let most = inside
+            .clone()
+            .map(|(ratio, _)| ratio.abs())
+            .fold(0.0, f64::max);
+        assert!(most < coefficient + 1e-6, "{most}");
+        let sliding: Vec<f64> = inside
+            .filter(|(_, slip)| *slip > 1e-6 * SPEED)
+            .map(|(ratio, _)| (ratio - coefficient).abs())
+            .collect();
+        let worst = sliding.iter().copied().fold(0.0, f64::max);
+        println!(
+            "{} of them slide on, off by {worst:.1e} at most",
+            sliding.len()
+        );
+        assert!(sliding.len() > 200 && worst < 1e-6);
         // The ring's edges have normals that are not quite those of its face.
         assert!((slide.ratio() - coefficient).abs() < 1e-2);
-        // The ring slides on at nearly its first speed: the heat is the friction's impulse times that, and part of the loss.
+        // The heat is less than the friction's impulse times the first speed of the slide, and part of the loss in contact.
         assert!((0.0..1.0).contains(&(slide.heat / energy.contact)));
         let fast = slide.passed[1] * SPEED;
-        assert!((0.6 * fast..=1.01 * fast).contains(&slide.heat), "{fast}");
+        assert!(
+            (0.4 * fast..=1.01 * fast).contains(&slide.heat),
+            "{} {fast}",
+            slide.heat
+        );
     }
 }
 
