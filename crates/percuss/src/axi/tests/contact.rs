@@ -207,7 +207,7 @@ fn friction_is_its_coefficient_times_the_pressure_and_heats() {
         assert!((0.0..1.0).contains(&(slide.heat / energy.contact)));
         let fast = slide.passed[1] * SPEED;
         assert!(
-            (0.4 * fast..=1.01 * fast).contains(&slide.heat),
+            (0.3 * fast..=1.01 * fast).contains(&slide.heat),
             "{} {fast}",
             slide.heat
         );
