@@ -6,8 +6,8 @@ use super::{Shot, fit::sign, link::Link};
 const CHI_SQUARE: f64 = 3.841_458_820_694_124;
 /// Spreads of the speeds beyond which an end is looked for no further.
 const FARTHEST: f64 = 1e4;
-/// Halvings that bring the place of an end, or the best scatter, to the precision of a number.
-const HALVINGS: usize = 60;
+/// Halvings that bring the place of an end, or the best scatter, to one part in 10¹³.
+const HALVINGS: usize = 45;
 
 /// Ends of the interval [m/s], given a V50 that is as likely as any and the logarithm of its likelihood; `None` for an end that
 /// does not exist. The profile rises to that V50 and falls beyond it, for the likelihood is concave in the line that it belongs to.

@@ -83,7 +83,7 @@ fn at_the_ends_of_the_interval_the_likelihood_is_down_by_half_of_chi_square() {
     }
 }
 
-/// At each of 21 speeds as many of 400 shots go through as a known distribution says, rounded.
+/// At each of 21 speeds as many of 100 shots go through as a known distribution says, rounded.
 #[test]
 fn known_numbers_are_recovered() {
     let (v50, deviation) = (300.0, 8.0);
@@ -91,8 +91,8 @@ fn known_numbers_are_recovered() {
         let speeds = (0..21).map(|i| 270.0 + 3.0 * f64::from(i));
         let at = |speed: f64| {
             let z = (speed - v50) / deviation * link.standard_deviation();
-            let through = (400.0 * link.chance(z)).round() as usize;
-            (0..400).map(move |i| Shot {
+            let through = (100.0 * link.chance(z)).round() as usize;
+            (0..100).map(move |i| Shot {
                 speed,
                 perforated: i < through,
             })
@@ -102,7 +102,10 @@ fn known_numbers_are_recovered() {
     for link in [Link::Probit, Link::Logit] {
         let found = by(link.method(), &made(link));
         assert!((found.v50_m_s.unwrap() - v50).abs() < 1e-6, "{found:?}");
-        assert!((found.standard_deviation_m_s.unwrap() / deviation - 1.0).abs() < 0.005, "{found:?}");
+        assert!(
+            (found.standard_deviation_m_s.unwrap() / deviation - 1.0).abs() < 0.01,
+            "{found:?}"
+        );
         // With so many shots the interval is that of the standard error.
         let wide = found.high_m_s.unwrap() - found.low_m_s.unwrap();
         let error = found.standard_error_m_s.unwrap();
