@@ -59,16 +59,13 @@ pub fn v50_figure(name: &str, shots: &[Shot], v50: &V50) -> Figure {
 
 /// V50 and the ends of its interval.
 fn marks(mut chart: LineChart, entry: &Estimate) -> LineChart {
-    let end =
-        |name: &str, value: f64| Mark::vertical(format!("{name}, {}", significant(value)), value);
-    for (name, value) in [
-        ("V50, probit", entry.v50_m_s),
-        ("lower end of 95 %", entry.low_m_s),
-        ("upper end of 95 %", entry.high_m_s),
-    ] {
-        if let Some(value) = value {
-            chart = chart.mark(end(name, value));
-        }
+    if let Some(value) = entry.v50_m_s {
+        chart = chart.mark(Mark::vertical(format!("V50 {}", significant(value)), value));
+    }
+    if let (Some(low), Some(high)) = (entry.low_m_s, entry.high_m_s) {
+        let name = format!("95 % {} to {}", significant(low), significant(high));
+        chart = chart.mark(Mark::vertical(name, low));
+        chart = chart.mark(Mark::vertical("", high));
     }
     chart
 }

@@ -1,7 +1,7 @@
 //! What shots of a model come to: whether one is perforated, where the limit is, and what to warn of.
 
 use super::{
-    Bracket, CurvePoint, LimitOutcome, ModelLimit, fit_lambert_jonas,
+    Bracket, CurvePoint, LambertJonasFit, LimitOutcome, ModelLimit, fit_lambert_jonas,
     search::{Passage, Sample, bracket},
 };
 use crate::{
@@ -164,16 +164,19 @@ pub(super) fn entry(
     warnings.extend(stated_outside(stated, found));
     warnings.extend(not_monotone(samples, above));
     warnings.extend(speeds_without_answer(samples));
+    let limit = limit_of(samples);
+    let fit = fit_lambert_jonas(&curve);
+    warnings.extend(curve_starts_elsewhere(limit, fit));
     ModelLimit {
         model,
         scheme,
         outcome: LimitOutcome::Found,
         reason: None,
-        ballistic_limit_m_s: limit_of(samples),
+        ballistic_limit_m_s: limit,
         stated_limit_m_s: stated,
         bracket: Some(found),
         runs,
-        fit: fit_lambert_jonas(&curve),
+        fit,
         curve,
         warnings,
     }
@@ -193,10 +196,19 @@ fn no_bracket(samples: &[Sample<Shot>]) -> (LimitOutcome, String) {
     match (stopped, perforated) {
         (Some(stopped), None) => (
             LimitOutcome::NeverPerforates,
-            format!(
-                "it is stopped at every speed up to {} m/s; search further up",
-                speed(stopped)
-            ),
+            match samples
+                .last()
+                .is_some_and(|last| last.speed > stopped.speed)
+            {
+                true => format!(
+                    "it is stopped at every speed up to {} m/s, and at higher ones the model gives no answer",
+                    speed(stopped)
+                ),
+                false => format!(
+                    "it is stopped at every speed up to {} m/s; search further up",
+                    speed(stopped)
+                ),
+            },
         ),
         (None, Some(perforated)) => (
             LimitOutcome::AlwaysPerforates,
@@ -252,6 +264,22 @@ fn stated_outside(stated: Option<f64>, found: Bracket) -> Option<String> {
             significant(stated, 4),
             significant(found.stopped_m_s, 4),
             significant(found.perforated_m_s, 4)
+        )
+    })
+}
+
+/// Part of the limit by which the start of a fitted curve may lie off.
+const SAME_START: f64 = 0.05;
+
+/// Says that the fitted curve does not start at the limit.
+fn curve_starts_elsewhere(limit: Option<f64>, fit: Option<LambertJonasFit>) -> Option<String> {
+    let (limit, start) = (limit?, fit?.ballistic_limit_m_s);
+    ((start - limit).abs() > SAME_START * limit).then(|| {
+        format!(
+            "the curve through the residual velocities starts at {} m/s and not at the limit, {} m/s: they do not follow the form \
+             of Lambert and Jonas",
+            significant(start, 4),
+            significant(limit, 4)
         )
     })
 }

@@ -83,7 +83,7 @@ impl Default for Search {
                 from: 0.0,
                 to: 2000.0,
             },
-            tolerance: Tolerance::Absolute(0.5),
+            tolerance: Tolerance::Absolute(0.1),
             points: 12,
         }
     }

@@ -27,7 +27,7 @@ fn search(from: f64, to: f64, points: usize) -> Search {
     Search {
         range: Range { from, to },
         points,
-        ..Search::default()
+        tolerance: Tolerance::Absolute(0.5),
     }
 }
 
@@ -239,6 +239,18 @@ fn speeds_without_an_answer_are_named() {
     );
     assert_eq!(nowhere.outcome, LimitOutcome::NotApplicable);
     assert_eq!(nowhere.reason.as_deref(), Some("too fast for it"));
+}
+
+#[test]
+fn a_curve_that_jumps_at_the_limit_is_said_to_start_elsewhere() {
+    // The made model loses no speed at all.
+    let model = made(|speed| over(speed, 300.0));
+    let found = one(&model, &scenario(BLUNT), &search(0.0, 1600.0, 12));
+    assert!(
+        (found.curve[0].residual_velocity_m_s - found.curve[0].impact_velocity_m_s).abs() < 1e-12
+    );
+    let said = found.warnings.iter().any(|w| w.contains("starts at"));
+    assert!(said, "{found:?}");
 }
 
 #[test]

@@ -79,7 +79,7 @@ impl Method {
         match self {
             Self::Probit => "probit",
             Self::Logit => "logit",
-            Self::MeanOfExtremes => "mean of extremes",
+            Self::MeanOfExtremes => "extremes",
         }
     }
 }

@@ -31,7 +31,7 @@ name.
 With --shots FILE.csv the speed V50 at which half of all shots go through is
 estimated from shots that scatter: by maximum likelihood (probit and logit) with
 the 95 % interval of the likelihood ratio, and as the mean of equal numbers of
-the fastest stopped shots and the slowest that went through. The file has a
+the fastest stopped shots and the slowest that went through (extremes). The file has a
 row a shot and the columns velocity_m_s and perforated (yes or no); the case may
 then be left out.
 
@@ -42,7 +42,7 @@ and v50, as SVG and PNG) are written to DIR, which is made if it does not exist.
 const AFTER_HELP: &str = "\
 Examples:
   percuss limit my-shot/scenario.toml
-  percuss limit my-shot/scenario.toml --velocity 100..400 --tolerance \"0.1 m/s\"
+  percuss limit my-shot/scenario.toml --velocity 100..400 --tolerance \"0.2 %\"
   percuss limit my-shot/scenario.toml --model plugging --out results
   percuss limit --shots my-shots.csv
 
@@ -66,7 +66,7 @@ pub struct Limit {
     #[arg(allow_hyphen_values = true)]
     velocity: Range,
     /// How far apart the stopped and the perforating shot may be: a speed, or a part in %
-    #[arg(long, value_name = "SPEED", default_value = "0.5 m/s", value_parser = values::tolerance)]
+    #[arg(long, value_name = "SPEED", default_value = "0.1 m/s", value_parser = values::tolerance)]
     #[arg(allow_hyphen_values = true)]
     tolerance: Tolerance,
     /// Residual velocities to compute above the limit, up to 2.5 times the limit; 0 for none

@@ -2,7 +2,7 @@
 
 use percuss::{
     Scenario,
-    limit::{LimitOutcome, Limits, ModelLimit, Tolerance},
+    limit::{LambertJonasFit, LimitOutcome, Limits, ModelLimit, Tolerance},
     units::significant,
     v50::{Estimate, Method, Pattern, V50},
 };
@@ -39,13 +39,14 @@ pub fn text(limits: &Limits) -> String {
     } else {
         text += &numbers(limits, &found);
     }
-    for limit in &limits.results {
-        for warning in &limit.warnings {
-            let line = format!("warning: {}: {warning}", limit.model);
-            let line = wrap(&line, width(), 9);
-            text += &line.replacen("warning:", &yellow("warning:"), 1);
-            text += "\n\n";
-        }
+    let said = limits.results.iter().flat_map(|limit| {
+        let warnings = limit.warnings.iter();
+        warnings.map(|warning| (limit.model, warning.clone()))
+    });
+    for (models, warning) in grouped(said) {
+        let line = wrap(&format!("warning: {models}: {warning}"), width(), 9);
+        text += &line.replacen("warning:", &yellow("warning:"), 1);
+        text += "\n\n";
     }
     let reasons = reasons(limits);
     if !reasons.is_empty() {
@@ -102,41 +103,72 @@ fn numbers(limits: &Limits, found: &[&ModelLimit]) -> String {
         number(limit.bracket.map(|bracket| bracket.perforated_m_s))
     }));
     columns.push(column("runs", "", &|limit| limit.runs.to_string()));
-    if found.iter().any(|limit| limit.fit.is_some()) {
-        let fit = |limit: &ModelLimit, of: fn(&percuss::limit::LambertJonasFit) -> f64| {
-            number(limit.fit.as_ref().map(of))
-        };
-        columns.push(column("fitted\na", "", &|limit| fit(limit, |fit| fit.a)));
-        columns.push(column("fitted\np", "", &|limit| fit(limit, |fit| fit.p)));
-        columns.push(column("fitted\nlimit\n[m/s]", "", &|limit| {
-            fit(limit, |fit| fit.ballistic_limit_m_s)
-        }));
-        columns.push(column("rms\n[m/s]", "", &|limit| {
-            let rms = limit.fit.as_ref().map(|fit| fit.rms_m_s);
-            rms.map_or_else(|| "–".to_owned(), |rms| format!("{rms:.2}"))
-        }));
+    blocks(&first, columns) + &curves(found)
+}
+
+/// Numbers of the curves through the residual velocities.
+fn curves(found: &[&ModelLimit]) -> String {
+    let fitted: Vec<(&ModelLimit, &LambertJonasFit)> = found
+        .iter()
+        .filter_map(|limit| Some((*limit, limit.fit.as_ref()?)))
+        .collect();
+    if fitted.is_empty() {
+        return String::new();
     }
-    blocks(&first, columns)
+    type Cell<'a> = &'a dyn Fn(&ModelLimit, &LambertJonasFit) -> String;
+    let column = |heading: &str, cell: Cell<'_>| Column {
+        heading: heading.to_owned(),
+        cells: fitted.iter().map(|(limit, fit)| cell(limit, fit)).collect(),
+        numbers: true,
+    };
+    let first = Column {
+        numbers: false,
+        ..column("model", &|limit, _| limit.model.to_owned())
+    };
+    let columns = vec![
+        column("points", &|limit, _| limit.curve.len().to_string()),
+        column("to\n[m/s]", &|limit, _| {
+            let last = limit.curve.last();
+            last.map_or_else(String::new, |p| significant(p.impact_velocity_m_s, 4))
+        }),
+        column("a", &|_, fit| significant(fit.a, 4)),
+        column("p", &|_, fit| significant(fit.p, 4)),
+        column("v_bl\n[m/s]", &|_, fit| {
+            significant(fit.ballistic_limit_m_s, 4)
+        }),
+        column("rms\n[m/s]", &|_, fit| format!("{:.2}", fit.rms_m_s)),
+    ];
+    let title = "residual velocity: v_r = a (v^p - v_bl^p)^(1/p)";
+    format!("{}\n{}", bold(title), blocks(&first, columns))
 }
 
 /// One line for each reason why models have no limit.
 pub fn reasons(limits: &Limits) -> Vec<String> {
-    let mut lines: Vec<(Vec<&str>, String)> = Vec::new();
-    for limit in limits.results.iter().filter(|limit| !is_found(limit)) {
+    let said = limits.results.iter().filter(|limit| !is_found(limit));
+    let said = said.map(|limit| {
         let reason = limit.reason.as_deref().unwrap_or("it does not say why");
         let words = match limit.outcome {
             LimitOutcome::NotApplicable => format!("not applicable, because {reason}"),
             other => format!("{}: {reason}", other.in_words()),
         };
-        match lines.iter_mut().find(|(_, said)| *said == words) {
-            Some((models, _)) => models.push(limit.model),
-            None => lines.push((vec![limit.model], words)),
+        (limit.model, words)
+    });
+    let lines = grouped(said).into_iter();
+    lines
+        .map(|(models, words)| format!("{models}: {words}"))
+        .collect()
+}
+
+/// Names that the same is said of, joined, and what is said.
+fn grouped<'a>(said: impl Iterator<Item = (&'a str, String)>) -> Vec<(String, String)> {
+    let mut groups: Vec<(String, String)> = Vec::new();
+    for (name, words) in said {
+        match groups.iter_mut().find(|(_, known)| *known == words) {
+            Some((names, _)) => *names += &format!(", {name}"),
+            None => groups.push((name.to_owned(), words)),
         }
     }
-    lines
-        .into_iter()
-        .map(|(models, words)| format!("{}: {words}", models.join(", ")))
-        .collect()
+    groups
 }
 
 /// One line a model, for scripts.
@@ -186,7 +218,7 @@ pub fn v50_text(file: &str, v50: &V50) -> String {
             column("standard\nerror\n[m/s]", &|entry| {
                 number(entry.standard_error_m_s)
             }),
-            column("scatter of\nshots\n[m/s]", &|entry| {
+            column("scatter\n[m/s]", &|entry| {
                 number(entry.standard_deviation_m_s)
             }),
             column("shots\nused", &|entry| match entry.shots_used {
@@ -197,7 +229,9 @@ pub fn v50_text(file: &str, v50: &V50) -> String {
             column("span\n[m/s]", &|entry| number(entry.span_m_s)),
         ],
     );
-    for (methods, reason) in absent(v50) {
+    let said = v50.estimates.iter();
+    let said = said.filter_map(|entry| Some((entry.method.in_words(), entry.reason.clone()?)));
+    for (methods, reason) in grouped(said) {
         text += &format!("{}\n\n", wrap(&format!("{methods}: {reason}"), width(), 2));
     }
     text
@@ -208,6 +242,7 @@ fn interval(entry: &Estimate) -> String {
     let ends = (entry.low_m_s, entry.high_m_s);
     match (entry.method, ends, entry.v50_m_s) {
         (Method::MeanOfExtremes, ..) | (_, (None, None), None) => "–".to_owned(),
+        (_, (None, None), Some(_)) => "unbounded".to_owned(),
         (_, (low, high), _) => format!("{} to {}", end(low, "no end"), end(high, "no end")),
     }
 }
@@ -227,21 +262,6 @@ fn pattern(v50: &V50) -> String {
         Pattern::AllStopped => "none went through".to_owned(),
         Pattern::AllPerforated => "none was stopped".to_owned(),
     }
-}
-
-/// Methods without a V50, with the reason that they share.
-fn absent(v50: &V50) -> Vec<(String, String)> {
-    let mut reasons: Vec<(String, String)> = Vec::new();
-    for entry in &v50.estimates {
-        let Some(reason) = &entry.reason else {
-            continue;
-        };
-        match reasons.iter_mut().find(|(_, said)| said == reason) {
-            Some((methods, _)) => *methods += &format!(", {}", entry.method.in_words()),
-            None => reasons.push((entry.method.in_words().to_owned(), reason.clone())),
-        }
-    }
-    reasons
 }
 
 /// One line a method, for scripts.
