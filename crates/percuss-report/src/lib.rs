@@ -32,6 +32,7 @@ mod column;
 mod compare_figure;
 mod compare_files;
 mod convergence_figure;
+pub mod damping;
 mod error;
 mod field;
 mod figure;
