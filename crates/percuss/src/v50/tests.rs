@@ -88,7 +88,7 @@ fn at_the_ends_of_the_interval_the_likelihood_is_down_by_half_of_chi_square() {
 fn known_numbers_are_recovered() {
     let (v50, deviation) = (300.0, 8.0);
     let made = |link: Link| -> Vec<Shot> {
-        let speeds = (0..21).map(|i| 270.0 + 3.0 * f64::from(i));
+        let speeds = (0..21).map(|i| 284.0 + 1.6 * f64::from(i));
         let at = |speed: f64| {
             let z = (speed - v50) / deviation * link.standard_deviation();
             let through = (100.0 * link.chance(z)).round() as usize;

@@ -92,7 +92,11 @@ fn numbers(limits: &Limits, found: &[&ModelLimit]) -> String {
         columns.push(column("off by\n[%]", "", &|limit| {
             let limit = limit.ballistic_limit_m_s;
             limit.map_or_else(String::new, |v| {
-                format!("{:+.1}", 100.0 * (v / measured - 1.0))
+                // Rounded before it is written, so that no zero is negative.
+                format!(
+                    "{:+.1}",
+                    (1000.0 * (v / measured - 1.0)).round() / 10.0 + 0.0
+                )
             })
         }));
     }
