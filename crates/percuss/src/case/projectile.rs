@@ -125,8 +125,20 @@ impl Projectile {
     pub(super) fn check(&self, check: &mut Check<'_>) {
         check.quantity("diameter", self.diameter, limits::DIAMETER);
         check.quantity("velocity", self.velocity, limits::IMPACT_SPEED);
-        if let Some(obliquity) = self.obliquity {
-            check.quantity("obliquity", obliquity, limits::OBLIQUITY);
+        let allowed = limits::OBLIQUITY.min..=limits::OBLIQUITY.max;
+        if let Some(obliquity) = self
+            .obliquity
+            .filter(|angle| !allowed.contains(&angle.si()))
+        {
+            check.fail(
+                "obliquity",
+                format!("{obliquity} is out of range"),
+                format!(
+                    "allowed: {} to {}, between the path and the normal of the struck face: 0 deg is normal impact",
+                    Angle::new(limits::OBLIQUITY.min),
+                    Angle::new(limits::OBLIQUITY.max)
+                ),
+            );
         }
         if let Some(temperature) = self.temperature {
             check.quantity("temperature", temperature, limits::TEMPERATURE);

@@ -31,9 +31,9 @@ name.
 With --shots FILE.csv the speed V50 at which half of all shots go through is
 estimated from shots that scatter: by maximum likelihood (probit and logit) with
 the 95 % interval of the likelihood ratio, and as the mean of equal numbers of
-the fastest stopped shots and the slowest that went through (extremes). The file has a
-row a shot and the columns velocity_m_s and perforated (yes or no); the case may
-then be left out.
+the fastest stopped shots and the slowest that went through (extremes). The file
+has a row a shot and the columns velocity_m_s and perforated (yes or no); the
+case may then be left out.
 
 With --out DIR a copy of the case (case-as-run.toml), limit.json, the tables
 limit.csv (a row a model) and curve.csv (a row a speed), and the figures (limit
@@ -49,7 +49,7 @@ Examples:
 Exit codes: 0 ok, 2 bad input or no model applies, 4 a file could not be read or
 written";
 
-/// Find the ballistic limit of a case by every model, or V50 from shots
+/// Find the ballistic limit of a case, or V50 from shots
 #[derive(Debug, Args)]
 #[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
 pub struct Limit {
