@@ -154,12 +154,14 @@ fn solve(mut matrix: [[f64; 3]; 3], mut right: [f64; 3]) -> Option<[f64; 3]> {
         if matrix[i][i] == 0.0 || !matrix[i][i].is_finite() {
             return None;
         }
-        for row in i + 1..3 {
-            let factor = matrix[row][i] / matrix[i][i];
-            for column in i..3 {
-                matrix[row][column] -= factor * matrix[i][column];
+        let (above, below) = matrix.split_at_mut(i + 1);
+        let pivot = above[i];
+        for (k, row) in below.iter_mut().enumerate() {
+            let factor = row[i] / pivot[i];
+            for (entry, of_pivot) in row.iter_mut().zip(pivot) {
+                *entry -= factor * of_pivot;
             }
-            right[row] -= factor * right[i];
+            right[i + 1 + k] -= factor * right[i];
         }
     }
     let mut solution = [0.0; 3];
