@@ -1,8 +1,9 @@
 //! What shots of a model come to: whether one is perforated, where the limit is, and what to warn of.
 
 use super::{
-    Bracket, CurvePoint, LambertJonasFit, LimitOutcome, ModelLimit, fit_lambert_jonas,
+    Bracket, CurvePoint, LimitOutcome, ModelLimit, fit_lambert_jonas,
     search::{Passage, Sample, bracket},
+    warnings,
 };
 use crate::{
     Error, Scenario,
@@ -150,7 +151,9 @@ pub(super) fn entry(
             scheme,
             runs,
             stated_limit_m_s: stated,
-            warnings: speeds_without_answer(samples).into_iter().collect(),
+            warnings: warnings::speeds_without_answer(samples)
+                .into_iter()
+                .collect(),
             ..without_limit(model, outcome, reason)
         };
     };
@@ -159,14 +162,14 @@ pub(super) fn entry(
         perforated_m_s: samples[above].speed,
     };
     let of_shot = samples[above].shot.as_ref();
-    let mut warnings = of_shot.map_or_else(Vec::new, |shot| shot.warnings.clone());
-    warnings.extend(undecided_inside(&samples[below..=above]));
-    warnings.extend(stated_outside(stated, found));
-    warnings.extend(not_monotone(samples, above));
-    warnings.extend(speeds_without_answer(samples));
+    let mut said = of_shot.map_or_else(Vec::new, |shot| shot.warnings.clone());
+    said.extend(warnings::undecided_inside(&samples[below..=above]));
+    said.extend(warnings::stated_outside(stated, found));
+    said.extend(warnings::not_monotone(samples, above));
+    said.extend(warnings::speeds_without_answer(samples));
     let limit = limit_of(samples);
     let fit = fit_lambert_jonas(&curve);
-    warnings.extend(curve_starts_elsewhere(limit, fit));
+    said.extend(warnings::curve_starts_elsewhere(limit, fit));
     ModelLimit {
         model,
         scheme,
@@ -178,11 +181,11 @@ pub(super) fn entry(
         runs,
         fit,
         curve,
-        warnings,
+        warnings: said,
     }
 }
 
-fn speed(sample: &Sample<Shot>) -> String {
+pub(super) fn speed(sample: &Sample<Shot>) -> String {
     significant(sample.speed, 4)
 }
 
@@ -238,97 +241,4 @@ fn no_bracket(samples: &[Sample<Shot>]) -> (LimitOutcome, String) {
             (outcome, reason.unwrap_or_default())
         }
     }
-}
-
-/// Says that shots inside the bracket are neither stopped nor perforated.
-fn undecided_inside(bracket: &[Sample<Shot>]) -> Option<String> {
-    let inside = bracket.get(1..bracket.len() - 1)?;
-    let (first, last) = (inside.first()?, inside.last()?);
-    let Passage::Undecided(reason) = &first.passage else {
-        return None;
-    };
-    Some(format!(
-        "from {} to {} m/s, inside the bracket, the model does not decide: {reason}",
-        speed(first),
-        speed(last)
-    ))
-}
-
-/// Says that a model's own limit is not where its shots change.
-fn stated_outside(stated: Option<f64>, found: Bracket) -> Option<String> {
-    let stated = stated?;
-    let inside = (found.stopped_m_s..=found.perforated_m_s).contains(&stated);
-    (!inside).then(|| {
-        format!(
-            "the model states a limit of {} m/s, but its shots change between {} and {} m/s",
-            significant(stated, 4),
-            significant(found.stopped_m_s, 4),
-            significant(found.perforated_m_s, 4)
-        )
-    })
-}
-
-/// Part of the limit by which the start of a fitted curve may lie off.
-const SAME_START: f64 = 0.05;
-
-/// Says that the fitted curve does not start at the limit.
-fn curve_starts_elsewhere(limit: Option<f64>, fit: Option<LambertJonasFit>) -> Option<String> {
-    let (limit, start) = (limit?, fit?.ballistic_limit_m_s);
-    ((start - limit).abs() > SAME_START * limit).then(|| {
-        format!(
-            "the curve through the residual velocities starts at {} m/s and not at the limit, {} m/s: they do not follow the form \
-             of Lambert and Jonas",
-            significant(start, 4),
-            significant(limit, 4)
-        )
-    })
-}
-
-/// Says that faster shots are stopped, or that slower ones perforate.
-fn not_monotone(samples: &[Sample<Shot>], above: usize) -> Option<String> {
-    let (low, high) = samples.split_at(above);
-    let through = low.iter().find(|s| s.passage == Passage::Perforated);
-    let faster = || high.iter().filter(|s| s.passage == Passage::Stopped);
-    let (from, to) = (faster().next(), faster().next_back());
-    let words = match (through, from.zip(to)) {
-        (Some(slow), _) => format!("a shot at {} m/s perforates", speed(slow)),
-        (None, Some((from, to))) => format!(
-            "shots that are faster are stopped again, at {}",
-            match from.speed == to.speed {
-                true => format!("{} m/s", speed(from)),
-                false => format!("{} to {} m/s", speed(from), speed(to)),
-            }
-        ),
-        (None, None) => return None,
-    };
-    Some(format!(
-        "perforation is not monotone in the speed: {words}; the limit is the lowest change from stopped to perforated that was seen"
-    ))
-}
-
-/// Says at which speeds, outside the bracket or without one, the model gave no answer.
-fn speeds_without_answer(samples: &[Sample<Shot>]) -> Option<String> {
-    let bracket = bracket(samples);
-    let outside = |i: usize| bracket.is_none_or(|(low, high)| i < low || i > high);
-    let silent: Vec<(&Sample<Shot>, &String)> = samples
-        .iter()
-        .enumerate()
-        .filter(|(i, _)| outside(*i))
-        .filter_map(|(_, sample)| match &sample.passage {
-            Passage::Undecided(reason) => Some((sample, reason)),
-            _ => None,
-        })
-        .collect();
-    let decided = silent.len() < samples.iter().filter(|s| s.shot.is_some()).count();
-    let ((first, reason), (last, _)) = (silent.first()?, silent.last()?);
-    let range = match first.speed == last.speed {
-        true => format!("at {} m/s", speed(first)),
-        false => format!(
-            "at {} speeds from {} to {} m/s",
-            silent.len(),
-            speed(first),
-            speed(last)
-        ),
-    };
-    decided.then(|| format!("{range} the model gives no answer: {reason}"))
 }

@@ -20,6 +20,7 @@ mod jobs;
 mod search;
 #[cfg(test)]
 mod tests;
+mod warnings;
 
 use serde::Serialize;
 
