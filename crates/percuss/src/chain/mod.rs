@@ -5,6 +5,7 @@ mod conservative;
 mod contact;
 mod element;
 mod erosion;
+mod expanding;
 mod friction;
 mod mesh;
 mod part;
@@ -28,7 +29,7 @@ pub(crate) use warnings::held_back;
 
 use crate::{
     Error, Scenario,
-    case::Scheme,
+    case::{Scheme, TargetClosure},
     guard::{FirstChoice, Guard, NoseKind, Range},
     material::MaterialClass,
     model::{Control, Model},
@@ -81,6 +82,7 @@ impl Model for Chain {
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
         match scenario.options.chain.scheme {
+            Scheme::Conservative if is_expanding(scenario) => expanding::not_applicable(scenario),
             Scheme::Conservative => None,
             Scheme::Published => Published::not_applicable(scenario),
         }
@@ -88,8 +90,15 @@ impl Model for Chain {
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
         match scenario.options.chain.scheme {
+            Scheme::Conservative if is_expanding(scenario) => {
+                expanding::Expanding::run(scenario, control)
+            }
             Scheme::Conservative => Conservative::new(scenario).run(control),
             Scheme::Published => Published::new(scenario)?.run(control),
         }
     }
+}
+
+fn is_expanding(scenario: &Scenario) -> bool {
+    scenario.options.chain.target_closure() == TargetClosure::ExpandingCavity
 }
