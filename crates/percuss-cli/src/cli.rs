@@ -5,7 +5,7 @@ use clap::{Parser, Subcommand};
 use crate::{
     commands::{
         Compare, Completions, Converge, Judge, Limit, Man, Materials, Models, New, Reproduce, Run,
-        Schema, Validate,
+        Schema, Sweep, Validate,
     },
     failure::Failure,
 };
@@ -26,6 +26,7 @@ Examples:
   percuss run my-shot/scenario.toml        run it
   percuss compare my-shot/scenario.toml    see what every model says of it
   percuss limit my-shot/scenario.toml      find the speed that perforates it
+  percuss sweep my-sweep.toml --out rows   vary a case and keep a row a shot
   percuss converge my-shot/scenario.toml   see whether its mesh is fine enough
   percuss materials show copper            show what is known of a material
   percuss run --help                       explain one command
@@ -57,6 +58,7 @@ pub enum Command {
     Run(Run),
     Compare(Compare),
     Limit(Limit),
+    Sweep(Sweep),
     Converge(Converge),
     Validate(Validate),
     Judge(Judge),
@@ -75,6 +77,7 @@ impl Command {
             Self::Run(command) => command.run(),
             Self::Compare(command) => command.run(),
             Self::Limit(command) => command.run(),
+            Self::Sweep(command) => command.run(),
             Self::Converge(command) => command.run(),
             Self::Validate(command) => command.run(),
             Self::Judge(command) => command.run(),

@@ -33,6 +33,8 @@ pub enum Failure {
     Output(io::Error),
     /// The user stopped a run, which left a checkpoint [us].
     Stopped { time_us: f64 },
+    /// The user stopped a sweep.
+    SweepStopped { done: u64, shots: u64 },
     /// The command line asks for something that does not exist.
     Usage { message: String, help: String },
 }
@@ -47,6 +49,11 @@ impl From<ReportError> for Failure {
     fn from(error: ReportError) -> Self {
         match error {
             ReportError::Write { path, source } => Self::write(&path)(source),
+            ReportError::Sweep { ref remedy, .. } => {
+                let help = remedy.clone();
+                let message = error.to_string();
+                Self::Usage { message, help }
+            }
             other => Self::Report(other),
         }
     }
@@ -67,7 +74,7 @@ impl Failure {
         ExitCode::from(match self {
             Self::Usage { .. } | Self::NoResult(_) => 2,
             // What shells report of a program that Ctrl-C ended.
-            Self::Stopped { .. } => 130,
+            Self::Stopped { .. } | Self::SweepStopped { .. } => 130,
             Self::Library(Error::Numerical(_) | Error::Cancelled { .. }) | Self::Report(_) => 3,
             Self::Library(Error::Read { .. }) | Self::Write { .. } | Self::Output(_) => 4,
             Self::Library(_) => 2,
@@ -148,6 +155,10 @@ impl Failure {
                     "the same command with `--resume` goes on from there",
                 )
             }
+            Self::SweepStopped { done, shots } => diagnostic::message(
+                &format!("the sweep was stopped with {done} of {shots} shots done"),
+                "the same command with `--resume` goes on from there",
+            ),
             Self::Usage { message, help } => diagnostic::message(message, help),
         };
         diagnostic::print(&text);

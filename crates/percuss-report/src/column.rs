@@ -55,6 +55,20 @@ impl<R> Column<R> {
         }
     }
 
+    /// Its name.
+    pub(crate) fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What its values are, in a word.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self.value {
+            Value::Float(_) | Value::Optional(_) => "number",
+            Value::Integer(_) => "integer",
+            Value::Text(_) => "text",
+        }
+    }
+
     pub(crate) fn text(name: impl Into<String>, value: impl Fn(&R) -> String + 'static) -> Self {
         Self {
             name: name.into(),

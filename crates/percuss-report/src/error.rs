@@ -33,6 +33,16 @@ pub enum ReportError {
         /// Why, in words.
         reason: String,
     },
+    /// A folder of a sweep is not what it should be.
+    #[error("`{}`: {reason}", .path.display())]
+    Sweep {
+        /// The folder or file.
+        path: PathBuf,
+        /// What is wrong, in words.
+        reason: String,
+        /// What to do.
+        remedy: String,
+    },
     /// A figure could not be turned into pixels.
     #[error("cannot draw figure `{name}`: {reason}")]
     Figure {

@@ -51,6 +51,7 @@ mod run_figures;
 mod series;
 mod shape_figure;
 mod stress_grid;
+pub mod sweep;
 mod time_figures;
 mod v50_figure;
 pub mod validation;

@@ -1,7 +1,8 @@
 //! Files that are complete or absent: a reader never sees half of one.
 
 use std::{
-    fs,
+    fs::{self, File},
+    io::{self, Write},
     path::{Path, PathBuf},
     process,
     sync::atomic::{AtomicU64, Ordering},
@@ -15,6 +16,43 @@ pub(crate) fn replace_file(
     name: &str,
     content: &[u8],
 ) -> Result<PathBuf, ReportError> {
+    replace(folder, name, |file| file.write_all(content))
+}
+
+/// The same, and the file is on the disk when this returns: it outlives a loss of power.
+pub(crate) fn replace_file_durably(
+    folder: &Path,
+    name: &str,
+    write: impl FnOnce(&mut File) -> io::Result<()>,
+) -> Result<PathBuf, ReportError> {
+    let path = replace(folder, name, |file| {
+        write(file)?;
+        file.sync_all()
+    })?;
+    sync_folder(folder).map_err(|source| ReportError::Write {
+        path: folder.to_owned(),
+        source,
+    })?;
+    Ok(path)
+}
+
+/// Puts the names of a folder's files on the disk.
+#[cfg(unix)]
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    File::open(folder)?.sync_all()
+}
+
+/// Elsewhere a folder cannot be opened as a file, and renaming is as durable as it gets.
+#[cfg(not(unix))]
+fn sync_folder(_: &Path) -> io::Result<()> {
+    Ok(())
+}
+
+fn replace(
+    folder: &Path,
+    name: &str,
+    write: impl FnOnce(&mut File) -> io::Result<()>,
+) -> Result<PathBuf, ReportError> {
     static COUNTER: AtomicU64 = AtomicU64::new(0);
     fs::create_dir_all(folder).map_err(|source| ReportError::Write {
         path: folder.to_owned(),
@@ -23,7 +61,8 @@ pub(crate) fn replace_file(
     let path = folder.join(name);
     let number = COUNTER.fetch_add(1, Ordering::Relaxed);
     let temporary = folder.join(format!(".{name}.{}-{number}.tmp", process::id()));
-    fs::write(&temporary, content)
+    File::create(&temporary)
+        .and_then(|mut file| write(&mut file))
         .and_then(|()| fs::rename(&temporary, &path))
         .map_err(|source| {
             // Nothing more can be done when the temporary file cannot be removed either.

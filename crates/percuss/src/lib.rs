@@ -42,6 +42,7 @@ pub mod scenario;
 pub mod shapes;
 pub mod shots;
 pub mod summary;
+pub mod sweep;
 pub mod units;
 pub mod v50;
 pub mod validate;

@@ -12,6 +12,7 @@ mod new;
 mod reproduce;
 mod run;
 mod schema;
+mod sweep;
 mod validate;
 
 pub use compare::Compare;
@@ -26,4 +27,5 @@ pub use new::New;
 pub use reproduce::Reproduce;
 pub use run::Run;
 pub use schema::Schema;
+pub use sweep::Sweep;
 pub use validate::Validate;

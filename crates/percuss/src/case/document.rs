@@ -29,7 +29,7 @@ impl Document {
         }
     }
 
-    pub(super) fn place(&self, finding: Finding) -> InputError {
+    pub(crate) fn place(&self, finding: Finding) -> InputError {
         InputError {
             file: self.file.clone(),
             text: self.text.clone(),

@@ -117,7 +117,7 @@ fn resolve(
 }
 
 /// The built-in materials with those of a case.
-fn library_of(
+pub(super) fn library_of(
     case: &Case,
     document: &Document,
     name: &str,

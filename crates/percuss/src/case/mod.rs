@@ -10,6 +10,7 @@ mod projectile;
 mod published_options;
 mod reword;
 mod target;
+mod template;
 #[cfg(test)]
 mod tests;
 
@@ -24,3 +25,4 @@ pub use options::*;
 pub use projectile::{Nose, Projectile};
 pub use published_options::*;
 pub use target::{BackFace, Layer, Target, Thickness};
+pub(crate) use template::Template;

@@ -193,7 +193,7 @@ fn expected<D: Dimension>() -> String {
 }
 
 /// Splits `"4.8 mm"` into its number and its unit.
-fn split_number(text: &str) -> Option<(f64, &str)> {
+pub(crate) fn split_number(text: &str) -> Option<(f64, &str)> {
     let end = text
         .find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c)))
         .unwrap_or(text.len());

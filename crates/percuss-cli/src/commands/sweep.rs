@@ -1,0 +1,257 @@
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+    process,
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::Instant,
+};
+
+use clap::{Args, Subcommand};
+use percuss::{
+    outcome::Outcome,
+    sweep::{self, Row, ScalarKernel},
+};
+use percuss_report::sweep::{SweepFolder, merge, status};
+
+use crate::{
+    failure::Failure,
+    progress::Progress,
+    terminal::{self, bold},
+};
+
+const LONG_ABOUT: &str = "\
+Compute a case many times with some of its numbers varied: all combinations of
+lists (a grid), a Latin hypercube, or scrambled Sobol' points, from values,
+ranges and distributions.
+
+DIR gets a manifest and Parquet files with a row a shot: inputs, outcome, every
+scalar result, warnings. A shot that fails is a row with its error. The sweep can
+be ended at any time, in whatever way; with --resume the same command computes
+what is missing. Shot i depends on the sweep file, the case and i alone, so rows
+are the same whatever the number of threads and shards.
+
+With --shard 2/8 the second of eight parts is computed: give every part a folder
+of its own, and `percuss sweep merge` joins them.";
+
+const AFTER_HELP: &str = "\
+Examples:
+  percuss sweep cases/paper-table1/sweep.toml --out rows
+  percuss sweep cases/paper-table1/sweep.toml --out rows --resume
+  percuss sweep my-sweep.toml --out rows-2 --shard 2/8 --threads 4
+  percuss sweep status rows
+  percuss sweep merge rows --out rows.parquet
+
+Exit codes: 0 ok, 2 bad input, 4 a file could not be read or written, 130 stopped";
+
+/// Compute a case many times with some of its numbers varied
+#[derive(Debug, Args)]
+#[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub struct Sweep {
+    #[command(subcommand)]
+    what: Option<What>,
+    /// Sweep file: the base case, the model and what is varied
+    #[arg(value_name = "SWEEP.toml", required = true)]
+    file: Option<PathBuf>,
+    /// Folder of the results
+    #[arg(long, value_name = "DIR", required = true)]
+    out: Option<PathBuf>,
+    /// Go on with a folder that holds a part of this sweep
+    #[arg(long)]
+    resume: bool,
+    /// Compute one of several parts only, such as 2/8
+    #[arg(long, value_name = "I/N", value_parser = shard, default_value = "1/1")]
+    shard: (u64, u64),
+    /// Threads; as many as there are cores when not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// No summary and no progress
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum What {
+    /// Say how far a folder has come
+    Status {
+        /// Folder of results
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+    },
+    /// Join folders that hold all parts of a sweep into one Parquet file
+    Merge {
+        /// Folders of results
+        #[arg(value_name = "DIR", required = true)]
+        folders: Vec<PathBuf>,
+        /// File to write; it is replaced if it exists
+        #[arg(long, value_name = "FILE.parquet")]
+        out: PathBuf,
+    },
+}
+
+impl Sweep {
+    pub fn run(&self) -> Result<(), Failure> {
+        match (&self.what, &self.file, &self.out) {
+            (Some(What::Status { folder }), ..) => print_status(folder),
+            (Some(What::Merge { folders, out }), ..) => {
+                let rows = merge(folders, out)?;
+                let rows = terminal::counted(rows as usize, "row");
+                terminal::print(&format!("wrote {rows} to {}\n", out.display()))
+            }
+            (None, Some(file), Some(out)) => self.compute(file, out),
+            _ => Err(Failure::Usage {
+                message: "a sweep file and --out DIR are due".to_owned(),
+                help: "percuss sweep SWEEP.toml --out DIR".to_owned(),
+            }),
+        }
+    }
+
+    fn compute(&self, file: &Path, out: &Path) -> Result<(), Failure> {
+        let sweep = sweep::Sweep::load(file)?;
+        let folder = SweepFolder::open(out, &sweep, self.resume)?;
+        let (part, parts) = self.shard;
+        let missing = folder.missing(part, parts);
+        let count = |blocks: &mut dyn Iterator<Item = u64>| -> u64 {
+            blocks.map(|block| folder.manifest().shots_in(block)).sum()
+        };
+        let total = count(&mut (part - 1..sweep.blocks()).step_by(parts as usize));
+        let due = count(&mut missing.iter().copied());
+        let board = Mutex::new(Board {
+            progress: Progress::new(!self.quiet),
+            outcomes: BTreeMap::new(),
+            done: 0,
+        });
+        let start = Instant::now();
+        let hear = |rows: &[Row]| {
+            let mut board = board.lock().unwrap_or_else(PoisonError::into_inner);
+            board.hear(rows);
+            let rate = board.done as f64 / start.elapsed().as_secs_f64();
+            let done = total - due + board.done;
+            let words = format!("{done} of {total} shots, {} a second", rounded(rate));
+            let fraction = done as f64 / total as f64;
+            board.progress.update(fraction, &words);
+        };
+        hear(&[]);
+        let mut pool = rayon::ThreadPoolBuilder::new();
+        if let Some(threads) = self.threads {
+            pool = pool.num_threads(usize::from(threads));
+        }
+        let pool = pool.build().map_err(|error| Failure::Usage {
+            message: format!("cannot start the threads: {error}"),
+            help: "ask for fewer with --threads".to_owned(),
+        })?;
+        let stop = stop_on_request();
+        let kernel = ScalarKernel::new(sweep.model);
+        let complete = pool.install(|| folder.compute(&sweep, &kernel, &missing, &stop, &hear));
+        let board = board.into_inner().unwrap_or_else(PoisonError::into_inner);
+        board.progress.finish();
+        if !complete? {
+            return Err(Failure::SweepStopped {
+                done: total - due + board.done,
+                shots: total,
+            });
+        }
+        if self.quiet {
+            return Ok(());
+        }
+        let seconds = start.elapsed().as_secs_f64();
+        let mut text = format!(
+            "{}\n  {} of {} in {}",
+            bold(format!("{}, model {}", sweep.case(), sweep.model.name())),
+            terminal::counted(sweep.shots() as usize, "shot"),
+            sweep.design().name(),
+            out.display(),
+        );
+        if parts > 1 {
+            text += &format!(", of which part {part}/{parts} has {total}");
+        }
+        let rate = rounded(due as f64 / seconds);
+        text += &format!("\n  computed {due} in {seconds:.1} s, {rate} a second\n");
+        for (outcome, count) in &board.outcomes {
+            text += &format!("  {count:>9} {outcome}\n");
+        }
+        terminal::print(&text)
+    }
+}
+
+/// What is known of a sweep while it is computed.
+struct Board {
+    progress: Progress,
+    outcomes: BTreeMap<&'static str, u64>,
+    done: u64,
+}
+
+impl Board {
+    fn hear(&mut self, rows: &[Row]) {
+        self.done += rows.len() as u64;
+        for row in rows {
+            let outcome = row.record.as_ref().map_or(Outcome::Failed, |r| r.outcome);
+            *self.outcomes.entry(outcome.in_words()).or_default() += 1;
+        }
+    }
+}
+
+/// Becomes true on the first Ctrl-C, or request of the system to end; the second one ends the program at once.
+fn stop_on_request() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    // Without a handler Ctrl-C just ends the program, which loses no block that is written.
+    let _ = ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            process::exit(130);
+        }
+    });
+    stop
+}
+
+fn print_status(folder: &Path) -> Result<(), Failure> {
+    let status = status(folder)?;
+    let manifest = &status.manifest;
+    let mut text = format!(
+        "{}\n  {} of {} shots done, {} of {} blocks\n",
+        bold(format!(
+            "{}: {}, model {}, {}",
+            folder.display(),
+            manifest.case,
+            manifest.model,
+            manifest.design
+        )),
+        status.shots_done(),
+        manifest.shots,
+        status.done.len(),
+        manifest.blocks(),
+    );
+    if !status.damaged.is_empty() {
+        let files = terminal::counted(status.damaged.len(), "damaged file");
+        text += &format!("  {files}: --resume computes what was in it anew\n");
+    }
+    if status.running {
+        text += "  a process is computing it now\n";
+    }
+    terminal::print(&text)
+}
+
+/// Three digits are enough of a rate.
+fn rounded(rate: f64) -> String {
+    match rate {
+        ..10.0 => format!("{rate:.2}"),
+        ..100.0 => format!("{rate:.1}"),
+        _ => format!("{rate:.0}"),
+    }
+}
+
+fn shard(text: &str) -> Result<(u64, u64), String> {
+    let parsed = text.split_once('/').and_then(|(part, parts)| {
+        let part: u64 = part.trim().parse().ok()?;
+        let parts: u64 = parts.trim().parse().ok()?;
+        (1..=parts).contains(&part).then_some((part, parts))
+    });
+    parsed
+        .filter(|(_, parts)| *parts <= 1_000_000)
+        .ok_or_else(|| {
+            "give a part and the number of parts, such as 2/8 for the second of eight".to_owned()
+        })
+}

@@ -1,0 +1,247 @@
+//! Computing what a folder lacks.
+
+use std::{
+    fs::{self, File, TryLockError},
+    io::Write,
+    path::{Path, PathBuf},
+    sync::atomic::{AtomicBool, Ordering},
+};
+
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use percuss::sweep::{Kernel, Row, Stopped, Sweep};
+use rayon::prelude::*;
+
+use super::{
+    block_file,
+    columns::columns,
+    manifest::{self, Manifest},
+};
+use crate::{ReportError, column, replace_file::replace_file_durably};
+
+/// Name of the file that the computing process holds locked; the system lets go of it however the process ends.
+const LOCK: &str = "lock";
+
+/// A folder that this process alone writes results to.
+#[derive(Debug)]
+pub struct SweepFolder {
+    path: PathBuf,
+    manifest: Manifest,
+    _lock: File,
+}
+
+/// How far a folder has come.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Status {
+    /// What it holds the results of.
+    pub manifest: Manifest,
+    /// Blocks that are there.
+    pub done: Vec<u64>,
+    /// Blocks whose file is damaged; they are computed anew.
+    pub damaged: Vec<u64>,
+    /// Whether a process is computing it.
+    pub running: bool,
+}
+
+impl Status {
+    /// Shots that are there.
+    pub fn shots_done(&self) -> u64 {
+        self.done
+            .iter()
+            .map(|block| self.manifest.shots_in(*block))
+            .sum()
+    }
+}
+
+impl SweepFolder {
+    /// Makes the folder of a sweep, or takes one that holds a part of it when `resume` says so.
+    ///
+    /// # Errors
+    /// [`ReportError::Sweep`] when the folder holds another sweep, or this one without `resume`, or another process writes to
+    /// it; [`ReportError::Write`].
+    pub fn open(path: &Path, sweep: &Sweep, resume: bool) -> Result<Self, ReportError> {
+        let fail = |reason: String, remedy: &str| ReportError::Sweep {
+            path: path.to_owned(),
+            reason,
+            remedy: remedy.to_owned(),
+        };
+        let write = |path: &Path| {
+            let path = path.to_owned();
+            move |source| ReportError::Write { path, source }
+        };
+        fs::create_dir_all(path).map_err(write(path))?;
+        let lock = lock_file(path).map_err(write(&path.join(LOCK)))?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                return Err(fail(
+                    "another process is computing this folder".to_owned(),
+                    "wait for it, or give every process a folder of its own and merge them",
+                ));
+            }
+            Err(TryLockError::Error(source)) => return Err(write(&path.join(LOCK))(source)),
+        }
+        let manifest = Manifest::new(sweep);
+        match Manifest::read(path)? {
+            None => {
+                replace_file_durably(path, manifest::NAME, |file| {
+                    file.write_all(manifest.text().as_bytes())
+                })?;
+            }
+            Some(found) => {
+                if let Some(difference) = manifest.difference(&found) {
+                    let reason = format!("the folder holds another sweep: {difference}");
+                    return Err(fail(reason, "use another folder, or empty this one"));
+                }
+                if !resume {
+                    return Err(fail(
+                        "the folder holds this sweep already".to_owned(),
+                        "`--resume` computes what it lacks",
+                    ));
+                }
+            }
+        }
+        remove_leftovers(path).map_err(write(path))?;
+        Ok(Self {
+            path: path.to_owned(),
+            manifest,
+            _lock: lock,
+        })
+    }
+
+    /// What is computed.
+    pub fn manifest(&self) -> &Manifest {
+        &self.manifest
+    }
+
+    /// The blocks that are missing of part `part` of `parts`, counted from 1, which share the blocks in turn.
+    pub fn missing(&self, part: u64, parts: u64) -> Vec<u64> {
+        (0..self.manifest.blocks())
+            .filter(|block| block % parts == part - 1)
+            .filter(|block| state(&self.path, &self.manifest, *block) != State::Done)
+            .collect()
+    }
+
+    /// Computes blocks and writes a file for each, with as many threads as there are in the pool. `done` gets the
+    /// rows of each block once they are on the disk. Returns whether all were computed: `stop` ends it early.
+    ///
+    /// # Errors
+    /// [`ReportError::Write`] and [`ReportError::Table`]; files that were written stay.
+    pub fn compute(
+        &self,
+        sweep: &Sweep,
+        kernel: &dyn Kernel,
+        blocks: &[u64],
+        stop: &AtomicBool,
+        done: &(dyn Fn(&[Row]) + Sync),
+    ) -> Result<bool, ReportError> {
+        // One block at a time for each thread, in order, so that little is lost when the sweep is ended.
+        let result = blocks
+            .par_iter()
+            .with_max_len(1)
+            .try_for_each(|block| self.compute_block(sweep, kernel, *block, stop, done));
+        match result {
+            Ok(()) => Ok(true),
+            Err(None) => Ok(false),
+            Err(Some(error)) => Err(error),
+        }
+    }
+
+    fn compute_block(
+        &self,
+        sweep: &Sweep,
+        kernel: &dyn Kernel,
+        block: u64,
+        stop: &AtomicBool,
+        done: &(dyn Fn(&[Row]) + Sync),
+    ) -> Result<(), Option<ReportError>> {
+        if stop.load(Ordering::Relaxed) {
+            return Err(None);
+        }
+        let shots = sweep.block(block).map(|shot| sweep.shot(shot)).collect();
+        let rows = kernel.rows(shots, stop).map_err(|Stopped| None)?;
+        let name = block_file(block);
+        let content = column::parquet(&name, &columns(sweep), &rows)?;
+        replace_file_durably(&self.path, &name, |file| file.write_all(&content))?;
+        done(&rows);
+        Ok(())
+    }
+}
+
+/// How far a folder has come.
+///
+/// # Errors
+/// [`ReportError::Sweep`] when it is no folder of a sweep; [`ReportError::Read`].
+pub fn status(path: &Path) -> Result<Status, ReportError> {
+    let manifest = manifest_of(path)?;
+    let mut status = Status {
+        done: Vec::new(),
+        damaged: Vec::new(),
+        // A folder that cannot be written to cannot be computed either.
+        running: File::open(path.join(LOCK))
+            .is_ok_and(|lock| matches!(lock.try_lock_shared(), Err(TryLockError::WouldBlock))),
+        manifest,
+    };
+    for block in 0..status.manifest.blocks() {
+        match state(path, &status.manifest, block) {
+            State::Done => status.done.push(block),
+            State::Damaged => status.damaged.push(block),
+            State::Missing => {}
+        }
+    }
+    Ok(status)
+}
+
+/// The manifest of a folder that should have one.
+pub(super) fn manifest_of(path: &Path) -> Result<Manifest, ReportError> {
+    Manifest::read(path)?.ok_or_else(|| ReportError::Sweep {
+        path: path.to_owned(),
+        reason: "this is no folder of a sweep: it has no manifest.json".to_owned(),
+        remedy: "give a folder that `percuss sweep` wrote".to_owned(),
+    })
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum State {
+    Missing,
+    Damaged,
+    Done,
+}
+
+/// What there is of a block. The end of a Parquet file says what is in it: one that was cut has none.
+pub(super) fn state(folder: &Path, manifest: &Manifest, block: u64) -> State {
+    let Ok(file) = File::open(folder.join(block_file(block))) else {
+        return State::Missing;
+    };
+    let Ok(reader) = SerializedFileReader::new(file) else {
+        return State::Damaged;
+    };
+    let metadata = reader.metadata().file_metadata();
+    let fields = metadata.schema_descr().columns();
+    let names = fields.iter().map(|field| field.name());
+    let whole = metadata.num_rows() as u64 == manifest.shots_in(block)
+        && reader.num_row_groups() == 1
+        && names.eq(manifest.columns.iter().map(|column| column.name.as_str()));
+    if whole { State::Done } else { State::Damaged }
+}
+
+fn lock_file(folder: &Path) -> std::io::Result<File> {
+    File::options()
+        .create(true)
+        .truncate(false)
+        .write(true)
+        .open(folder.join(LOCK))
+}
+
+/// Removes files that a process which was killed had not yet renamed.
+fn remove_leftovers(folder: &Path) -> std::io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        let ours = name.starts_with(".block-") || name.starts_with(".manifest.json");
+        if ours && name.ends_with(".tmp") {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,161 @@
+//! What a folder holds the results of.
+
+use std::{fs, path::Path};
+
+use percuss::sweep::Sweep;
+use serde::{Deserialize, Serialize};
+
+use super::columns::columns;
+use crate::ReportError;
+
+/// Name of the file.
+pub(super) const NAME: &str = "manifest.json";
+
+/// What a folder holds the results of: two folders of the same manifest hold the same rows.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Version of this layout.
+    pub format: u32,
+    /// Version of the program that computes it.
+    pub percuss_version: String,
+    /// One line that says what the sweep is.
+    pub title: String,
+    /// Name of the case that is varied.
+    pub case: String,
+    /// Name of the model.
+    pub model: String,
+    /// How the shots are chosen.
+    pub design: String,
+    /// What decides over everything drawn at random.
+    pub seed: u64,
+    /// Number of shots.
+    pub shots: u64,
+    /// Shots in a block; the last may have fewer.
+    pub block_size: u64,
+    /// Hash of the sweep file without its comments (FNV-1a, 128 bits).
+    pub sweep_hash: String,
+    /// Hash of the base case and its material files without their comments.
+    pub case_hash: String,
+    /// The columns of every file.
+    pub columns: Vec<ColumnName>,
+}
+
+/// A column.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ColumnName {
+    /// Its name, which ends with the unit.
+    pub name: String,
+    /// `number`, `integer` or `text`.
+    pub kind: String,
+}
+
+impl Manifest {
+    /// The manifest of a sweep.
+    pub fn new(sweep: &Sweep) -> Self {
+        let [file, case] = sweep.content().map(hash);
+        let name = |column: &crate::column::Column<_>| ColumnName {
+            name: column.name().to_owned(),
+            kind: column.kind().to_owned(),
+        };
+        Self {
+            format: 1,
+            percuss_version: env!("CARGO_PKG_VERSION").to_owned(),
+            title: sweep.title.clone(),
+            case: sweep.case().to_owned(),
+            model: sweep.model.name().to_owned(),
+            design: sweep.design().name().to_owned(),
+            seed: sweep.seed,
+            shots: sweep.shots(),
+            block_size: sweep.block_size,
+            sweep_hash: file,
+            case_hash: case,
+            columns: columns(sweep).iter().map(name).collect(),
+        }
+    }
+
+    /// Number of blocks.
+    pub fn blocks(&self) -> u64 {
+        self.shots.div_ceil(self.block_size)
+    }
+
+    /// Number of shots in a block.
+    pub fn shots_in(&self, block: u64) -> u64 {
+        self.block_size.min(self.shots - block * self.block_size)
+    }
+
+    /// Reads the manifest of a folder; `None` when it has none.
+    pub(super) fn read(folder: &Path) -> Result<Option<Self>, ReportError> {
+        let path = folder.join(NAME);
+        let text = match fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => {
+                let reason = error.to_string();
+                return Err(ReportError::Read { path, reason });
+            }
+        };
+        match serde_json::from_str::<Self>(&text) {
+            Ok(manifest) if manifest.block_size > 0 && manifest.shots > 0 => Ok(Some(manifest)),
+            Ok(_) => Err(unreadable(&path, "it counts no shots")),
+            Err(error) => Err(unreadable(&path, &error.to_string())),
+        }
+    }
+
+    pub(super) fn text(&self) -> String {
+        // Numbers and texts always make JSON.
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// What another manifest says otherwise, in words: the first difference.
+    pub(super) fn difference(&self, other: &Self) -> Option<String> {
+        let fields = |manifest: &Self| match serde_json::to_value(manifest) {
+            Ok(serde_json::Value::Object(fields)) => fields,
+            _ => serde_json::Map::new(),
+        };
+        let (ours, theirs) = (fields(self), fields(other));
+        ours.iter().find_map(|(name, value)| {
+            let other = theirs.get(name)?;
+            let words = match name.as_str() {
+                "columns" => "its columns are others".to_owned(),
+                "sweep_hash" => {
+                    "it was computed from a sweep file that says something else".to_owned()
+                }
+                "case_hash" => {
+                    "it was computed from a base case that says something else".to_owned()
+                }
+                _ => format!("its `{name}` is {other}, not {value}"),
+            };
+            (value != other).then_some(words)
+        })
+    }
+}
+
+fn unreadable(path: &Path, reason: &str) -> ReportError {
+    ReportError::Sweep {
+        path: path.to_owned(),
+        reason: format!("it is no manifest of a sweep: {reason}"),
+        remedy: "give a folder that `percuss sweep` wrote".to_owned(),
+    }
+}
+
+/// FNV-1a, 128 bits: the same on every machine. It tells sweeps apart; nobody forges one.
+fn hash(text: &str) -> String {
+    let hash = text.bytes().fold(
+        0x6c62_272e_07bb_0142_62b8_2175_6295_c58d,
+        |hash: u128, byte| {
+            (hash ^ u128::from(byte)).wrapping_mul(0x0000_0000_0100_0000_0000_0000_0000_013b)
+        },
+    );
+    format!("{hash:032x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::hash;
+
+    #[test]
+    fn the_hash_is_the_published_one() {
+        assert_eq!(hash(""), "6c62272e07bb014262b821756295c58d");
+        assert_eq!(hash("a"), "d228cb696f1a8caf78912b704e4a8964");
+    }
+}

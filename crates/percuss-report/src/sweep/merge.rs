@@ -1,0 +1,121 @@
+//! One file of all rows.
+
+use std::{
+    fs::File,
+    io,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use parquet::{
+    column::writer::ColumnCloseResult,
+    errors::ParquetError,
+    file::{
+        properties::WriterProperties,
+        reader::{FileReader, SerializedFileReader},
+        writer::SerializedFileWriter,
+    },
+};
+
+use super::{
+    block_file,
+    folder::{State, manifest_of, state},
+};
+use crate::{ReportError, replace_file::replace_file_durably};
+
+/// Joins the blocks of folders that hold parts of one sweep into one Parquet file, in the order of the shots: a row group a
+/// block. The file depends on the sweep alone, not on who computed which block. Returns the number of rows.
+///
+/// # Errors
+/// [`ReportError::Sweep`] when a folder holds another sweep or a block is missing; [`ReportError::Write`]; [`ReportError::Table`].
+pub fn merge(folders: &[PathBuf], out: &Path) -> Result<u64, ReportError> {
+    let fail = |path: &Path, reason: String, remedy: String| ReportError::Sweep {
+        path: path.to_owned(),
+        reason,
+        remedy,
+    };
+    let Some(first) = folders.first() else {
+        let remedy = "name at least one folder".to_owned();
+        return Err(fail(out, "there is nothing to merge".to_owned(), remedy));
+    };
+    let manifest = manifest_of(first)?;
+    for folder in &folders[1..] {
+        if let Some(difference) = manifest.difference(&manifest_of(folder)?) {
+            let reason = format!(
+                "it holds another sweep than `{}`: {difference}",
+                first.display()
+            );
+            let remedy = "merge folders of one sweep".to_owned();
+            return Err(fail(folder, reason, remedy));
+        }
+    }
+    let of = |block: u64| {
+        let whole = |folder: &&PathBuf| state(folder, &manifest, block) == State::Done;
+        folders
+            .iter()
+            .find(whole)
+            .map(|folder| folder.join(block_file(block)))
+    };
+    let files: Vec<Option<PathBuf>> = (0..manifest.blocks()).map(of).collect();
+    let missing = files.iter().filter(|file| file.is_none()).count();
+    if let Some(block) = files.iter().position(Option::is_none) {
+        let reason = format!(
+            "{missing} of {} blocks are missing or damaged, the first is {}",
+            files.len(),
+            block_file(block as u64)
+        );
+        let remedy = "`percuss sweep SWEEP.toml --out DIR --resume` computes them".to_owned();
+        return Err(fail(first, reason, remedy));
+    }
+    let files: Vec<PathBuf> = files.into_iter().flatten().collect();
+    let name = out.file_name().unwrap_or_default().to_string_lossy();
+    let folder = match out.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    replace_file_durably(folder, &name, |file| {
+        // What is wrong with the blocks comes out as an error of the system too: their footers were read before.
+        join(&files, file).map_err(io::Error::other)
+    })?;
+    Ok(manifest.shots)
+}
+
+/// Copies the encoded columns: nothing is decoded, and memory stays flat.
+fn join(files: &[PathBuf], out: &mut File) -> Result<(), ParquetError> {
+    let open =
+        |path: &PathBuf| File::open(path).map_err(|error| ParquetError::General(error.to_string()));
+    let Some(first) = files.first() else {
+        return Ok(());
+    };
+    let schema = SerializedFileReader::new(open(first)?)?
+        .metadata()
+        .file_metadata()
+        .schema_descr()
+        .root_schema_ptr();
+    let properties = WriterProperties::builder()
+        .set_created_by(concat!("percuss ", env!("CARGO_PKG_VERSION")).to_owned())
+        .build();
+    let mut writer = SerializedFileWriter::new(out, schema, Arc::new(properties))?;
+    for path in files {
+        let source = open(path)?;
+        let reader = SerializedFileReader::new(open(path)?)?;
+        let group = reader.metadata().row_group(0);
+        let mut copy = writer.next_row_group()?;
+        for column in group.columns() {
+            copy.append_column(
+                &source,
+                ColumnCloseResult {
+                    bytes_written: column.compressed_size() as u64,
+                    rows_written: group.num_rows() as u64,
+                    metadata: column.clone(),
+                    bloom_filter: None,
+                    column_index: None,
+                    offset_index: None,
+                },
+            )?;
+        }
+        copy.close()?;
+    }
+    writer.close()?;
+    Ok(())
+}

@@ -1,0 +1,18 @@
+//! The folder of a sweep: `manifest.json`, which says what is computed, and one Parquet file a block of shots.
+//!
+//! A block's file is complete or absent, and the same whoever writes it: a sweep that was ended, in whatever way, goes on with
+//! the blocks that are missing.
+
+mod columns;
+mod folder;
+mod manifest;
+mod merge;
+
+pub use folder::{Status, SweepFolder, status};
+pub use manifest::{ColumnName, Manifest};
+pub use merge::merge;
+
+/// Name of the file of a block.
+fn block_file(block: u64) -> String {
+    format!("block-{block:06}.parquet")
+}

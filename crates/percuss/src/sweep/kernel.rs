@@ -1,0 +1,100 @@
+//! What computes blocks of shots.
+
+use std::{
+    ops::ControlFlow,
+    sync::atomic::{AtomicBool, Ordering},
+};
+
+use crate::{
+    Error, Scenario,
+    model::{self, Control, Model},
+    summary::ResultRecord,
+};
+
+/// A shot of a sweep.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shot {
+    /// Its number, counted from 0.
+    pub index: u64,
+    /// Its values, in the order and the units of the axes.
+    pub inputs: Vec<f64>,
+    /// The case with these values, or why they make none.
+    pub scenario: Result<Scenario, String>,
+}
+
+/// A shot and what became of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Number of the shot, counted from 0.
+    pub index: u64,
+    /// Its values, in the order and the units of the axes.
+    pub inputs: Vec<f64>,
+    /// The results, those of a model that refused or failed included; or why there is no case to compute.
+    pub record: Result<ResultRecord, String>,
+}
+
+/// The caller stopped the sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stopped;
+
+/// A way to compute a block of shots: the place for one that advances many shots at once.
+pub trait Kernel: Sync {
+    /// A row for each shot, in their order. Rows depend on their own shot only. Ends early when `stop` becomes true.
+    ///
+    /// # Errors
+    /// [`Stopped`].
+    fn rows(&self, shots: Vec<Shot>, stop: &AtomicBool) -> Result<Vec<Row>, Stopped>;
+}
+
+/// Computes shots one after the other by a model.
+#[derive(Clone, Copy)]
+pub struct ScalarKernel {
+    model: &'static dyn Model,
+}
+
+impl ScalarKernel {
+    /// The kernel of a model.
+    pub fn new(model: &'static dyn Model) -> Self {
+        Self { model }
+    }
+
+    fn record(&self, scenario: &Scenario, stop: &AtomicBool) -> Result<ResultRecord, Stopped> {
+        let mut watch = |_: model::Progress| match stop.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        };
+        let mut control = Control {
+            progress: Some(&mut watch),
+            ..Control::default()
+        };
+        match model::run(self.model, scenario, &mut control) {
+            Ok(result) => Ok(ResultRecord::new(scenario, &result)),
+            Err(Error::Cancelled { .. }) => Err(Stopped),
+            Err(error) => Ok(ResultRecord::without_result(
+                scenario,
+                self.model.name(),
+                &error,
+            )),
+        }
+    }
+}
+
+impl Kernel for ScalarKernel {
+    fn rows(&self, shots: Vec<Shot>, stop: &AtomicBool) -> Result<Vec<Row>, Stopped> {
+        let row = |shot: Shot| {
+            if stop.load(Ordering::Relaxed) {
+                return Err(Stopped);
+            }
+            let record = match shot.scenario {
+                Ok(scenario) => Ok(self.record(&scenario, stop)?),
+                Err(reason) => Err(reason),
+            };
+            Ok(Row {
+                index: shot.index,
+                inputs: shot.inputs,
+                record,
+            })
+        };
+        shots.into_iter().map(row).collect()
+    }
+}

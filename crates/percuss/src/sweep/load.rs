@@ -1,0 +1,174 @@
+//! Reading a sweep file.
+
+use std::path::Path;
+
+use super::{
+    Sweep,
+    axis::Axis,
+    file::{Design, SweepFile},
+    points::{MAX_SHOTS, Points},
+    sobol::MAX_DIMENSIONS,
+};
+use crate::{
+    Error,
+    case::{Document, Template, read_text},
+    check::{Check, Finding},
+    error::nearest,
+    model::{MODELS, model},
+};
+
+/// Most shots in a block that is chosen by itself: one file of the result holds a block.
+const LARGEST_BLOCK: u64 = 1024;
+/// Blocks that there are at least, where there are as many shots: they are what threads share.
+const BLOCKS: u64 = 64;
+
+pub(super) fn load(path: &Path) -> Result<Sweep, Error> {
+    let document = Document {
+        file: path.display().to_string(),
+        text: read_text(path)?,
+    };
+    let file: SweepFile = document.parse()?;
+    let mut findings = Vec::new();
+    let mut check = Check::new(&mut findings);
+    check_model(&file, &mut check);
+    let mut axes: Vec<Axis> = Vec::new();
+    if file.parameter.is_empty() {
+        let help = "write one under [[parameter]]: key = \"projectile.velocity\" and values = [\"200 m/s\", \"230 m/s\"]";
+        check.fail("parameter", "the sweep varies nothing", help);
+    }
+    for (i, parameter) in file.parameter.iter().enumerate() {
+        let mut check = check.within(&format!("parameter.{i}"));
+        if axes.iter().any(|axis| axis.key == parameter.key) {
+            let message = format!("`{}` is varied twice", parameter.key);
+            check.fail("key", message, "remove one of the two");
+        }
+        axes.extend(parameter.resolve(&mut check, file.design));
+    }
+    let shots = check_design(&file, &axes, &mut check);
+    document.report(findings)?;
+
+    let directory = path.parent().unwrap_or(Path::new(""));
+    let base = directory.join(&file.base);
+    let template = Template::read(&base).map_err(|error| match error {
+        // The sweep names the file, so the place in the sweep is what a user has to look at.
+        Error::Read { path, reason, .. } => document
+            .place(Finding {
+                key: "base".to_owned(),
+                message: format!("cannot read `{}`: {reason}", path.display()),
+                help: "the path of the base case is relative to the sweep file".to_owned(),
+            })
+            .into(),
+        other => other,
+    })?;
+    let mut findings = Vec::new();
+    check_values(&axes, &template, &mut Check::new(&mut findings));
+    document.report(findings)?;
+
+    let canonical: toml::Table = document.parse()?;
+    let block_size = file
+        .block_size
+        .unwrap_or_else(|| shots.div_ceil(BLOCKS).clamp(1, LARGEST_BLOCK));
+    Ok(Sweep {
+        title: file.title,
+        base,
+        model: model(&file.model)?,
+        points: Points::new(file.design, shots, file.seed.unwrap_or(0), axes.len()),
+        seed: file.seed.unwrap_or(0),
+        block_size,
+        content: canonical.to_string(),
+        axes,
+        template,
+    })
+}
+
+fn check_model(file: &SweepFile, check: &mut Check<'_>) {
+    if model(&file.model).is_err() {
+        let names: Vec<&str> = MODELS.iter().map(|model| model.name()).collect();
+        let near = nearest(&file.model, names.iter().copied())
+            .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+        check.fail(
+            "model",
+            format!("no model is named `{}`", file.model),
+            format!("{near}models: {}", names.join(", ")),
+        );
+    }
+}
+
+/// Checks how the shots are chosen; returns their number.
+fn check_design(file: &SweepFile, axes: &[Axis], check: &mut Check<'_>) -> u64 {
+    let mut shots = file.samples.unwrap_or(1);
+    match (file.design, file.samples) {
+        (Design::Grid, Some(_)) => check.fail(
+            "samples",
+            "a grid has as many shots as its lists make",
+            "remove samples, or use design = \"latin-hypercube\" or \"sobol\"",
+        ),
+        (Design::Grid, None) => {
+            let counts = axes.iter().filter_map(Axis::count);
+            shots = counts.fold(1, u64::saturating_mul);
+            if shots > MAX_SHOTS {
+                let message = format!("the grid has more than {MAX_SHOTS} shots");
+                check.fail("design", message, "give fewer values");
+            }
+        }
+        (_, None) => check.fail(
+            "samples",
+            "the number of shots is missing",
+            "add samples = 1024, or as many as you want",
+        ),
+        (_, Some(samples)) if !(1..=MAX_SHOTS).contains(&samples) => check.fail(
+            "samples",
+            format!("{samples} is out of range"),
+            format!("allowed: 1 to {MAX_SHOTS}"),
+        ),
+        _ => {}
+    }
+    if file.design == Design::Grid && file.seed.is_some() {
+        check.fail("seed", "a grid draws nothing at random", "remove seed");
+    }
+    if file.design == Design::Sobol && file.parameter.len() > MAX_DIMENSIONS {
+        check.fail(
+            "parameter",
+            format!(
+                "{} parameters are more than there are Sobol' points for",
+                file.parameter.len()
+            ),
+            format!("vary {MAX_DIMENSIONS} at most, or use design = \"latin-hypercube\""),
+        );
+    }
+    if file
+        .block_size
+        .is_some_and(|size| !(1..=1 << 20).contains(&size))
+    {
+        check.fail(
+            "block_size",
+            "the block size is out of range",
+            "allowed: 1 to 1048576",
+        );
+    }
+    shots
+}
+
+/// Tries every value that the file writes down on the base case, one at a time.
+fn check_values(axes: &[Axis], template: &Template, check: &mut Check<'_>) {
+    for (i, axis) in axes.iter().enumerate() {
+        for (key, value) in &axis.samples {
+            let written = axis.written(*value);
+            let Err(findings) = template.scenario(&[(&axis.key, written.clone())]) else {
+                continue;
+            };
+            if let Some(finding) = findings.into_iter().next() {
+                let of = match finding.key.as_str() {
+                    "" => axis.key.clone(),
+                    key => key.to_owned(),
+                };
+                let message = format!(
+                    "with {} = {written} the case is not valid: `{of}`: {}",
+                    axis.key, finding.message
+                );
+                check.fail(&format!("parameter.{i}.{key}"), message, finding.help);
+                return;
+            }
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Sweeps: one case with some of its numbers varied, computed in blocks.
+//!
+//! Shot i of a sweep is a pure function of the sweep file, the base case and i, and so is its row: which thread, process or
+//! machine computes it, and when, makes no difference.
+
+mod axis;
+mod distribution;
+mod file;
+mod kernel;
+mod load;
+mod points;
+mod random;
+mod sobol;
+#[cfg(test)]
+mod tests;
+
+use std::{
+    ops::Range,
+    path::{Path, PathBuf},
+};
+
+pub use axis::Axis;
+pub use file::Design;
+pub use kernel::{Kernel, Row, ScalarKernel, Shot, Stopped};
+use points::Points;
+
+use crate::{Error, case::Template, model::Model};
+
+/// A sweep that was read and checked.
+pub struct Sweep {
+    /// One line that says what it is.
+    pub title: String,
+    /// The case that is varied.
+    pub base: PathBuf,
+    /// The model that computes it.
+    pub model: &'static dyn Model,
+    /// The numbers that are varied.
+    pub axes: Vec<Axis>,
+    /// What decides over everything drawn at random.
+    pub seed: u64,
+    /// Shots in a block; the last block may have fewer.
+    pub block_size: u64,
+    points: Points,
+    template: Template,
+    content: String,
+}
+
+impl Sweep {
+    /// Reads a sweep file and the case that it names.
+    ///
+    /// # Errors
+    /// [`Error::Read`] and [`Error::Input`]: every value that the file writes down has to be one that the case can have.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, Error> {
+        load::load(path.as_ref())
+    }
+
+    /// Name of the case that is varied.
+    pub fn case(&self) -> &str {
+        self.template.name()
+    }
+
+    /// How its shots are chosen.
+    pub fn design(&self) -> Design {
+        self.points.design
+    }
+
+    /// Number of shots.
+    pub fn shots(&self) -> u64 {
+        self.points.shots
+    }
+
+    /// Number of blocks.
+    pub fn blocks(&self) -> u64 {
+        self.shots().div_ceil(self.block_size)
+    }
+
+    /// The shots of a block.
+    pub fn block(&self, block: u64) -> Range<u64> {
+        let start = block * self.block_size;
+        start..(start + self.block_size).min(self.shots())
+    }
+
+    /// What the results rest on besides the program: sweep file, case and its material files, without comments.
+    pub fn content(&self) -> [&str; 2] {
+        [&self.content, &self.template.content]
+    }
+
+    /// A shot, counted from 0.
+    pub fn shot(&self, index: u64) -> Shot {
+        let inputs = self.points.values(&self.axes, index);
+        let changes: Vec<(&str, toml::Value)> = self
+            .axes
+            .iter()
+            .zip(&inputs)
+            .map(|(axis, value)| (axis.key.as_str(), axis.written(*value)))
+            .collect();
+        let scenario = self.template.scenario(&changes).map_err(|findings| {
+            let words = |finding: &crate::check::Finding| {
+                let mut text = format!("{}: {}", finding.key, finding.message);
+                if !finding.help.is_empty() {
+                    text += &format!(" ({})", finding.help);
+                }
+                text.trim_start_matches(": ").to_owned()
+            };
+            findings.iter().map(words).collect::<Vec<_>>().join("; ")
+        });
+        Shot {
+            index,
+            inputs,
+            scenario,
+        }
+    }
+}
+
+impl std::fmt::Debug for Sweep {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Sweep")
+            .field("base", &self.base)
+            .field("model", &self.model.name())
+            .field("axes", &self.axes)
+            .field("points", &self.points)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,94 @@
+//! Designs: which values shot i has.
+
+use super::{
+    axis::{Axis, Values},
+    file::Design,
+    random::{bits, permuted, stream},
+    sobol::Directions,
+};
+
+/// Most shots of a sweep.
+pub(super) const MAX_SHOTS: u64 = 1 << 30;
+/// Bits of the place of a Latin hypercube's shot in its interval: with 30 bits for the interval a 64-bit float holds both.
+const PLACE_BITS: u32 = 20;
+
+/// Purposes that random numbers are drawn for.
+const ORDER: u64 = 1;
+const PLACE: u64 = 2;
+const SCRAMBLE: u64 = 3;
+
+/// What it takes to make any shot of a design.
+#[derive(Debug, Clone)]
+pub(super) struct Points {
+    pub(super) design: Design,
+    pub(super) shots: u64,
+    seed: u64,
+    directions: Vec<Directions>,
+}
+
+impl Points {
+    pub(super) fn new(design: Design, shots: u64, seed: u64, dimensions: usize) -> Self {
+        let directions = match design {
+            Design::Sobol => (0..dimensions).map(Directions::of).collect(),
+            Design::Grid | Design::LatinHypercube => Vec::new(),
+        };
+        Self {
+            design,
+            shots,
+            seed,
+            directions,
+        }
+    }
+
+    /// The values of a shot, in the order of the axes.
+    pub(super) fn values(&self, axes: &[Axis], shot: u64) -> Vec<f64> {
+        match self.design {
+            Design::Grid => grid(axes, shot),
+            Design::LatinHypercube => axes
+                .iter()
+                .enumerate()
+                .map(|(dimension, axis)| axis.at(self.stratified(dimension, shot)))
+                .collect(),
+            Design::Sobol => axes
+                .iter()
+                .zip(&self.directions)
+                .enumerate()
+                .map(|(dimension, (axis, directions))| {
+                    let stream = stream(self.seed, SCRAMBLE, dimension);
+                    // There are fewer shots than 2^32.
+                    axis.at(directions.scrambled(shot as u32, stream))
+                })
+                .collect(),
+        }
+    }
+
+    /// Coordinate of a Latin hypercube's shot.
+    fn stratified(&self, dimension: usize, shot: u64) -> f64 {
+        let order = stream(self.seed, ORDER, dimension);
+        let interval = permuted(order, shot, self.shots);
+        let place = bits(stream(self.seed, PLACE, dimension), shot) >> (64 - PLACE_BITS);
+        let place = (place as f64 + 0.5) / f64::from(1_u32 << PLACE_BITS);
+        (interval as f64 + place) / self.shots as f64
+    }
+}
+
+/// The first axis varies slowest.
+fn grid(axes: &[Axis], shot: u64) -> Vec<f64> {
+    let mut rest = shot;
+    let mut values: Vec<f64> = axes
+        .iter()
+        .rev()
+        .map(|axis| match &axis.values {
+            Values::List(list) => {
+                let count = list.len() as u64;
+                let value = list[(rest % count) as usize];
+                rest /= count;
+                value
+            }
+            // Grids have lists only; the median would be the one value to take.
+            Values::Distribution(distribution) => distribution.quantile(0.5),
+        })
+        .collect();
+    values.reverse();
+    values
+}

@@ -1,0 +1,160 @@
+use std::{collections::BTreeSet, path::PathBuf, sync::atomic::AtomicBool};
+
+use super::*;
+
+/// Loads a sweep written into a folder of its own, beside the case that it names.
+fn load(name: &str, text: &str) -> Result<Sweep, Error> {
+    let folder = std::env::temp_dir().join(format!("percuss-sweep-{}-{name}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let case =
+        PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../cases/paper-table1/scenario.toml");
+    std::fs::copy(case, folder.join("scenario.toml")).unwrap();
+    std::fs::write(folder.join("sweep.toml"), text).unwrap();
+    let sweep = Sweep::load(folder.join("sweep.toml"));
+    std::fs::remove_dir_all(&folder).unwrap();
+    sweep
+}
+
+fn sweep(name: &str, head: &str, parameters: &str) -> Sweep {
+    let text = format!("base = 'scenario.toml'\nmodel = 'taylor'\n{head}\n{parameters}");
+    load(name, &text).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+const LISTS: &str = "
+[[parameter]]
+key = 'projectile.velocity'
+values = ['150 m/s', '200 m/s', '400 m/s']
+[[parameter]]
+key = 'chain.target_elements'
+linear = { from = 40, to = 80, count = 3 }
+[[parameter]]
+key = 'projectile.length'
+log = { from = '1 mm', to = '100 mm', count = 3 }
+";
+
+const DISTRIBUTIONS: &str = "
+[[parameter]]
+key = 'projectile.velocity'
+uniform = { from = '100 m/s', to = '400 m/s' }
+[[parameter]]
+key = 'chain.constraint_factor'
+uniform = { from = 1.0, to = 3.0 }
+[[parameter]]
+key = 'chain.border_shear'
+uniform = { from = 0, to = 1 }
+";
+
+#[test]
+fn a_grid_has_every_combination_and_its_last_parameter_varies_fastest() {
+    let sweep = sweep("grid", "design = 'grid'", LISTS);
+    assert_eq!(sweep.shots(), 27);
+    let at = |i: u64| sweep.shot(i).inputs;
+    assert_eq!(at(0), [150.0, 40.0, 1.0]);
+    assert!((at(1)[2] - 10.0).abs() < 1e-13);
+    assert_eq!(at(2), [150.0, 40.0, 100.0]);
+    assert_eq!(at(3), [150.0, 60.0, 1.0]);
+    assert_eq!(at(9), [200.0, 40.0, 1.0]);
+    assert_eq!(at(26), [400.0, 80.0, 100.0]);
+    let all: BTreeSet<String> = (0..27).map(|i| format!("{:?}", at(i))).collect();
+    assert_eq!(all.len(), 27);
+    let scenario = sweep.shot(12).scenario.unwrap();
+    assert_eq!(scenario.impact_speed, 200.0);
+    assert_eq!(scenario.options.chain.target_elements, Some(60));
+    assert_eq!(scenario.projectile.length, 1e-3);
+    let columns: Vec<String> = sweep.axes.iter().map(Axis::column).collect();
+    assert_eq!(
+        columns,
+        [
+            "projectile.velocity_m_s",
+            "chain.target_elements",
+            "projectile.length_mm"
+        ]
+    );
+}
+
+#[test]
+fn a_latin_hypercube_has_one_shot_in_every_interval_of_every_margin() {
+    for samples in [1_u64, 2, 37, 1000] {
+        let head = format!("design = 'latin-hypercube'\nsamples = {samples}\nseed = 4");
+        let sweep = sweep("lhs", &head, DISTRIBUTIONS);
+        for (dimension, (from, to)) in [(100.0, 400.0), (1.0, 3.0), (0.0, 1.0)].iter().enumerate() {
+            let interval = |i: u64| {
+                let part = (sweep.shot(i).inputs[dimension] - from) / (to - from);
+                (part * samples as f64) as u64
+            };
+            let seen: BTreeSet<u64> = (0..samples).map(interval).collect();
+            assert_eq!(seen, (0..samples).collect(), "{samples} {dimension}");
+        }
+    }
+}
+
+#[test]
+fn a_seed_gives_the_same_shots_and_another_seed_others() {
+    for design in ["latin-hypercube", "sobol"] {
+        let with = |seed: u64| {
+            let head = format!("design = '{design}'\nsamples = 64\nseed = {seed}");
+            let sweep = sweep(&format!("seed-{design}"), &head, DISTRIBUTIONS);
+            (0..64).map(|i| sweep.shot(i).inputs).collect::<Vec<_>>()
+        };
+        assert_eq!(with(1), with(1), "{design}");
+        assert_ne!(with(1), with(2), "{design}");
+        let mut columns: Vec<Vec<f64>> = vec![Vec::new(); 2];
+        for inputs in with(1) {
+            columns[0].push((inputs[0] - 100.0) / 300.0);
+            columns[1].push((inputs[1] - 1.0) / 2.0);
+        }
+        assert!(
+            columns[0].iter().zip(&columns[1]).all(|(a, b)| a != b),
+            "{design}"
+        );
+    }
+}
+
+#[test]
+fn sobol_shots_fill_the_strata_of_their_margins() {
+    let head = "design = 'sobol'\nsamples = 256\nseed = 9";
+    let sweep = sweep("sobol", head, DISTRIBUTIONS);
+    let stratum = |i: u64| ((sweep.shot(i).inputs[0] - 100.0) / 300.0 * 256.0) as u64;
+    let seen: BTreeSet<u64> = (0..256).map(stratum).collect();
+    assert_eq!(seen.len(), 256);
+}
+
+#[test]
+fn a_shot_that_fails_is_a_row_with_its_error() {
+    let text = "
+[[parameter]]
+key = 'projectile.velocity'
+normal = { mean = '100 m/s', standard_deviation = '200 m/s' }
+";
+    let sweep = sweep("bad-shot", "design = 'sobol'\nsamples = 32", text);
+    let shots = (0..32).map(|i| sweep.shot(i)).collect();
+    let rows = ScalarKernel::new(crate::model::model("poncelet").unwrap())
+        .rows(shots, &AtomicBool::new(false))
+        .unwrap();
+    assert_eq!(rows.len(), 32);
+    let bad: Vec<&Row> = rows.iter().filter(|row| row.record.is_err()).collect();
+    let negative = rows.iter().filter(|row| row.inputs[0] < 0.0).count();
+    assert!(negative > 3 && negative < 20, "{negative}");
+    assert_eq!(bad.len(), negative);
+    let reason = bad[0].record.as_ref().unwrap_err();
+    assert!(
+        reason.contains("projectile.velocity") && reason.contains("out of range"),
+        "{reason}"
+    );
+}
+
+#[test]
+fn a_stopped_sweep_gives_no_rows() {
+    let sweep = sweep("stop", "design = 'grid'", LISTS);
+    let kernel = ScalarKernel::new(sweep.model);
+    let shots = || sweep.block(0).map(|i| sweep.shot(i)).collect();
+    assert_eq!(kernel.rows(shots(), &AtomicBool::new(true)), Err(Stopped));
+    assert!(kernel.rows(shots(), &AtomicBool::new(false)).is_ok());
+}
+
+#[test]
+fn blocks_cover_all_shots() {
+    let sweep = sweep("blocks", "design = 'grid'\nblock_size = 4", LISTS);
+    let all: Vec<u64> = (0..sweep.blocks()).flat_map(|b| sweep.block(b)).collect();
+    assert_eq!((sweep.blocks(), all), (7, (0..27).collect()));
+}
