@@ -28,10 +28,10 @@ lists (a grid), a Latin hypercube, or scrambled Sobol' points, from values,
 ranges and distributions.
 
 DIR gets a manifest and Parquet files with a row a shot: inputs, outcome, every
-scalar result, warnings. A shot that fails is a row with its error. The sweep can
-be ended at any time, in whatever way; with --resume the same command computes
-what is missing. Shot i depends on the sweep file, the case and i alone, so rows
-are the same whatever the number of threads and shards.
+scalar result, warnings. A shot that fails is a row with its error. The sweep
+can be ended at any time, in whatever way; with --resume the same command
+computes what is missing. Shot i depends on the sweep file, the case and i
+alone, so rows are the same whatever the number of threads and shards.
 
 With --shard 2/8 the second of eight parts is computed: give every part a folder
 of its own, and `percuss sweep merge` joins them.";
@@ -44,7 +44,8 @@ Examples:
   percuss sweep status rows
   percuss sweep merge rows --out rows.parquet
 
-Exit codes: 0 ok, 2 bad input, 4 a file could not be read or written, 130 stopped";
+Exit codes: 0 ok, 2 bad input, 4 a file could not be read or written, 130 the
+sweep was stopped";
 
 /// Compute a case many times with some of its numbers varied
 #[derive(Debug, Args)]
@@ -159,17 +160,26 @@ impl Sweep {
         }
         let seconds = start.elapsed().as_secs_f64();
         let mut text = format!(
-            "{}\n  {} of {} in {}",
-            bold(format!("{}, model {}", sweep.case(), sweep.model.name())),
+            "{}\n  {} in {}",
+            bold(format!(
+                "{}, model {}, {}",
+                sweep.case(),
+                sweep.model.name(),
+                sweep.design().name()
+            )),
             terminal::counted(sweep.shots() as usize, "shot"),
-            sweep.design().name(),
             out.display(),
         );
         if parts > 1 {
             text += &format!(", of which part {part}/{parts} has {total}");
         }
-        let rate = rounded(due as f64 / seconds);
-        text += &format!("\n  computed {due} in {seconds:.1} s, {rate} a second\n");
+        text += &match due {
+            0 => "\n  all of it was there\n".to_owned(),
+            _ => {
+                let rate = rounded(due as f64 / seconds);
+                format!("\n  computed {due} in {seconds:.1} s, {rate} a second\n")
+            }
+        };
         for (outcome, count) in &board.outcomes {
             text += &format!("  {count:>9} {outcome}\n");
         }

@@ -1,0 +1,326 @@
+//! `percuss sweep`: rows that do not depend on who computes them or how often that is ended.
+
+mod support;
+
+use std::{
+    fs::{self, File},
+    path::{Path, PathBuf},
+    process::{Child, Command, Stdio},
+    thread,
+    time::Duration,
+};
+
+use parquet::{
+    file::reader::{FileReader, SerializedFileReader},
+    record::RowAccessor,
+};
+use support::{Said, percuss};
+use tempfile::TempDir;
+
+const CASE: &str = "
+projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }
+target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
+chain = { projectile_elements = 20, target_elements = 40 }
+";
+
+/// 320 shots of a few milliseconds.
+const GRID: &str = "
+base = 'scenario.toml'
+model = 'chain'
+design = 'grid'
+block_size = 3
+[[parameter]]
+key = 'projectile.velocity'
+linear = { from = '150 m/s', to = '400 m/s', count = 40 }
+[[parameter]]
+key = 'chain.constraint_factor'
+linear = { from = 1, to = 3.5, count = 8 }
+";
+
+/// Shots of which some have a negative speed.
+const RANDOM: &str = "
+base = 'scenario.toml'
+model = 'chain'
+design = 'sobol'
+samples = 50
+seed = 3
+block_size = 4
+[[parameter]]
+key = 'projectile.velocity'
+normal = { mean = '150 m/s', standard_deviation = '120 m/s' }
+[[parameter]]
+key = 'chain.border_shear'
+triangular = { from = 0, mode = 0.577, to = 1 }
+";
+
+fn folder() -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("scenario.toml"), CASE).unwrap();
+    fs::write(folder.path().join("grid.toml"), GRID).unwrap();
+    fs::write(folder.path().join("random.toml"), RANDOM).unwrap();
+    folder
+}
+
+fn sweep(folder: &TempDir, arguments: &[&str]) -> Said {
+    percuss(folder.path(), [&["sweep"], arguments].concat())
+}
+
+fn ok(folder: &TempDir, arguments: &[&str]) -> String {
+    let said = sweep(folder, arguments);
+    assert_eq!((said.code, said.stderr.as_str()), (0, ""), "{arguments:?}");
+    said.stdout
+}
+
+/// The merged rows of folders.
+fn merged(folder: &TempDir, parts: &[&str]) -> Vec<u8> {
+    ok(
+        folder,
+        &[&["merge"], parts, &["--out", "rows.parquet"]].concat(),
+    );
+    fs::read(folder.path().join("rows.parquet")).unwrap()
+}
+
+fn spawn(folder: &TempDir, arguments: &[&str]) -> Child {
+    Command::new(assert_cmd::cargo::cargo_bin!("percuss"))
+        .arg("sweep")
+        .args(arguments)
+        .current_dir(folder.path())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+fn blocks(folder: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = fs::read_dir(folder) else {
+        return Vec::new();
+    };
+    let paths = entries.map(|entry| entry.unwrap().path());
+    paths
+        .filter(|path| path.extension().is_some_and(|end| end == "parquet"))
+        .collect()
+}
+
+#[test]
+fn a_sweep_that_is_killed_again_and_again_ends_with_the_same_rows() {
+    let folder = folder();
+    ok(&folder, &["grid.toml", "--out", "whole"]);
+    let whole = merged(&folder, &["whole"]);
+    let out = folder.path().join("killed");
+    let mut killed_midway = 0;
+    let mut random = 12345_u64;
+    for _ in 0..14 {
+        let mut child = spawn(&folder, &["grid.toml", "--out", "killed", "--resume"]);
+        random = random.wrapping_mul(6364136223846793005).wrapping_add(1);
+        thread::sleep(Duration::from_millis(5 + (random >> 33) % 90));
+        let running = child.try_wait().unwrap().is_none();
+        // SIGKILL on Unix: nothing of the program runs any more.
+        child.kill().unwrap();
+        child.wait().unwrap();
+        killed_midway += u32::from(running && blocks(&out).len() < 107);
+    }
+    assert!(killed_midway >= 10, "{killed_midway}");
+    ok(&folder, &["grid.toml", "--out", "killed", "--resume"]);
+    assert!(merged(&folder, &["killed"]) == whole, "rows differ");
+    let leftovers = fs::read_dir(&out).unwrap();
+    let names = leftovers.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    assert!(names.into_iter().all(|name| !name.ends_with(".tmp")));
+}
+
+#[test]
+fn threads_and_shards_make_no_difference() {
+    let folder = folder();
+    let run = |out: &str, more: &[&str]| {
+        ok(&folder, &[&["random.toml", "--out", out], more].concat());
+    };
+    run("one", &["--threads", "1"]);
+    run("two", &["--threads", "2"]);
+    for part in 1..=3 {
+        run(&format!("part-{part}"), &["--shard", &format!("{part}/3")]);
+    }
+    let one = merged(&folder, &["one"]);
+    assert!(one == merged(&folder, &["two"]));
+    assert!(one == merged(&folder, &["part-3", "part-1", "part-2"]));
+    let said = sweep(
+        &folder,
+        &["merge", "part-1", "part-2", "--out", "x.parquet"],
+    );
+    assert_eq!(said.code, 2);
+    assert!(
+        said.stderr.contains("4 of 13 blocks are missing"),
+        "{}",
+        said.stderr
+    );
+    assert!(!folder.path().join("x.parquet").exists());
+}
+
+#[test]
+fn every_shot_is_a_row_and_one_that_fails_has_its_error() {
+    let folder = folder();
+    let said = ok(&folder, &["random.toml", "--out", "rows"]);
+    assert!(
+        said.contains("50 shots") && said.contains("failed"),
+        "{said}"
+    );
+    merged(&folder, &["rows"]);
+    let file = File::open(folder.path().join("rows.parquet")).unwrap();
+    let reader = SerializedFileReader::new(file).unwrap();
+    let schema = reader.metadata().file_metadata().schema_descr();
+    let column = |name: &str| {
+        let mut names = schema
+            .columns()
+            .iter()
+            .map(|column| column.name().to_owned());
+        names.position(|found| found == name).unwrap()
+    };
+    let (speed, outcome) = (column("projectile.velocity_m_s"), column("outcome"));
+    let (depth, error) = (column("depth_of_penetration_mm"), column("error"));
+    let mut failed = 0;
+    let rows = reader.get_row_iter(None).unwrap();
+    for (i, row) in rows.enumerate() {
+        let row = row.unwrap();
+        assert_eq!(row.get_long(0).unwrap(), i as i64);
+        let fails = row.get_double(speed).unwrap() < 0.0;
+        failed += usize::from(fails);
+        assert_eq!(row.get_string(outcome).unwrap() == "failed", fails);
+        assert_eq!(
+            row.get_string(error).unwrap().contains("out of range"),
+            fails
+        );
+        assert_eq!(row.get_double(depth).is_ok(), !fails);
+    }
+    assert!((2..20).contains(&failed), "{failed}");
+    assert_eq!(reader.metadata().file_metadata().num_rows(), 50);
+}
+
+#[test]
+fn what_is_lost_or_damaged_is_computed_anew() {
+    let folder = folder();
+    ok(&folder, &["random.toml", "--out", "rows"]);
+    let whole = merged(&folder, &["rows"]);
+    let block = |n: u32| folder.path().join(format!("rows/block-{n:06}.parquet"));
+    fs::remove_file(block(2)).unwrap();
+    let cut = File::options().write(true).open(block(7)).unwrap();
+    cut.set_len(500).unwrap();
+    fs::write(
+        folder.path().join("rows/.block-000002.parquet.1-0.tmp"),
+        "half",
+    )
+    .unwrap();
+    let said = ok(&folder, &["status", "rows"]);
+    assert!(
+        said.contains("42 of 50 shots done, 11 of 13 blocks"),
+        "{said}"
+    );
+    assert!(said.contains("1 damaged file"), "{said}");
+    let said = sweep(&folder, &["merge", "rows", "--out", "x.parquet"]);
+    assert!(
+        said.stderr.contains("the first is block-000002.parquet"),
+        "{}",
+        said.stderr
+    );
+    ok(&folder, &["random.toml", "--out", "rows", "--resume"]);
+    assert!(merged(&folder, &["rows"]) == whole);
+}
+
+#[test]
+fn a_folder_of_another_sweep_is_refused() {
+    let folder = folder();
+    ok(&folder, &["random.toml", "--out", "rows"]);
+    let refused = |words: &str| {
+        let said = sweep(&folder, &["random.toml", "--out", "rows", "--resume"]);
+        assert_eq!(said.code, 2, "{}", said.stderr);
+        let flat = said.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(flat.contains(words), "{flat}");
+    };
+    let again = sweep(&folder, &["random.toml", "--out", "rows"]);
+    assert!(
+        again.code == 2 && again.stderr.contains("--resume"),
+        "{}",
+        again.stderr
+    );
+    let file = folder.path().join("random.toml");
+    fs::write(&file, format!("# a comment changes nothing\n{RANDOM}")).unwrap();
+    ok(&folder, &["random.toml", "--out", "rows", "--resume"]);
+    fs::write(&file, RANDOM.replace("seed = 3", "seed = 4")).unwrap();
+    refused("holds another sweep: its `seed` is 3, not 4");
+    fs::write(&file, RANDOM).unwrap();
+    let case = CASE.replace("25 mm", "26 mm");
+    fs::write(folder.path().join("scenario.toml"), case).unwrap();
+    refused("computed from a base case that says something else");
+    let said = sweep(&folder, &["status", "."]);
+    assert!(
+        said.code == 2 && said.stderr.contains("no manifest.json"),
+        "{}",
+        said.stderr
+    );
+}
+
+#[test]
+#[cfg(unix)]
+fn a_second_process_is_refused_and_ctrl_c_ends_the_first_cleanly() {
+    let folder = folder();
+    let slow = GRID
+        .replace("model = 'chain'", "model = 'fdm'")
+        .replace("count = 8", "count = 800");
+    fs::write(folder.path().join("slow.toml"), slow).unwrap();
+    let child = spawn(&folder, &["slow.toml", "--out", "rows"]);
+    while blocks(&folder.path().join("rows")).is_empty() {
+        thread::sleep(Duration::from_millis(5));
+    }
+    let said = sweep(&folder, &["slow.toml", "--out", "rows", "--resume"]);
+    assert_eq!(said.code, 2);
+    assert!(
+        said.stderr.contains("another process is computing"),
+        "{}",
+        said.stderr
+    );
+    let said = ok(&folder, &["status", "rows"]);
+    assert!(said.contains("a process is computing it now"), "{said}");
+    let id = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(
+        said.contains("the sweep was stopped with") && said.contains("--resume"),
+        "{said}"
+    );
+    assert!(!ok(&folder, &["status", "rows"]).contains("now"));
+}
+
+#[test]
+fn wrong_sweep_files_are_refused_with_their_place() {
+    let bad = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad-sweeps");
+    let out = TempDir::new().unwrap();
+    let out = out.path().join("rows");
+    let mut names: Vec<String> = fs::read_dir(&bad)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    assert!(names.len() >= 20, "{}", names.len());
+    for name in names {
+        let said = percuss(&bad, ["sweep", &name, "--out", out.to_str().unwrap()]);
+        assert_eq!(said.code, 2, "{name}: {}", said.stderr);
+        assert!(
+            said.stderr.contains(&format!("--> {name}:")),
+            "{name}: {}",
+            said.stderr
+        );
+        assert!(!out.exists(), "{name}");
+        insta::with_settings!({
+            snapshot_path => "snapshots/bad-sweeps",
+            prepend_module_to_snapshot => false,
+            omit_expression => true,
+        }, {
+            insta::assert_snapshot!(name.trim_end_matches(".toml"), said.stderr);
+        });
+    }
+}
