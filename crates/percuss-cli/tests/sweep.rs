@@ -310,7 +310,7 @@ fn wrong_sweep_files_are_refused_with_their_place() {
         let said = percuss(&bad, ["sweep", &name, "--out", out.to_str().unwrap()]);
         assert_eq!(said.code, 2, "{name}: {}", said.stderr);
         assert!(
-            said.stderr.contains(&format!("--> {name}:")),
+            said.stderr.contains(&format!("--> {name}")),
             "{name}: {}",
             said.stderr
         );

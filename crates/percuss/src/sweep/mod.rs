@@ -8,6 +8,7 @@ mod distribution;
 mod file;
 mod kernel;
 mod load;
+mod parameter;
 mod points;
 mod random;
 mod sobol;
