@@ -90,6 +90,7 @@ fn put(table: &mut Table, key: &str, value: Value) -> Result<(), String> {
     let mut at: Option<&mut Value> = None;
     for (depth, part) in way.iter().enumerate() {
         let here = parts[..=depth].join(".");
+        let list_is_due = parts[depth + 1].parse::<usize>().is_ok();
         let next = match at {
             None => table
                 .entry(*part)
@@ -108,6 +109,9 @@ fn put(table: &mut Table, key: &str, value: Value) -> Result<(), String> {
             }
             Some(_) => return Err(format!("the case has no table above `{here}`")),
         };
+        if list_is_due && !next.is_array() {
+            return Err(format!("the case has no list `{here}`"));
+        }
         at = Some(next);
     }
     match at {

@@ -263,8 +263,8 @@ fn possible(check: &mut Check<'_>, kind: &str, distribution: &Distribution) -> b
                     ))
         }
     };
-    // Written so that NaN is refused too.
-    if fine && !(distribution.part_left() >= LEAST_LEFT) {
+    // NaN, which ends that are no numbers would give, is outside too.
+    if fine && !(LEAST_LEFT..=1.0).contains(&distribution.part_left()) {
         check.fail(
             kind,
             "`min` and `max` leave next to nothing of the distribution",
