@@ -5,6 +5,9 @@ use serde::Serialize;
 
 use crate::column::Column;
 
+/// How a number that a result may lack is read off it.
+type ReadNumber = fn(&ResultRecord) -> Option<f64>;
+
 /// The columns of a sweep's rows. A number that a shot does not have is null, a text empty.
 pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
     let mut columns = vec![Column::integer("shot", |row: &Row| row.index as i64)];
@@ -14,7 +17,7 @@ pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
     columns.push(text("outcome", |r| word(&r.outcome), "failed"));
     columns.push(text("termination", |r| word(&r.termination), ""));
     columns.push(text("scheme", |r| r.scheme.to_owned(), ""));
-    let numbers: [(&str, fn(&ResultRecord) -> Option<f64>); 29] = [
+    let numbers: [(&str, ReadNumber); 29] = [
         ("impact_velocity_m_s", |r| Some(r.impact_velocity_m_s)),
         ("impact_energy_j", |r| Some(r.impact_energy_j)),
         ("depth_of_penetration_mm", |r| r.depth_of_penetration_mm),
