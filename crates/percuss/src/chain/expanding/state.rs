@@ -43,9 +43,16 @@ pub(super) struct State {
 
 impl State {
     /// Advances by one step.
-    pub(super) fn advance(&mut self, courant: f64, erosion_strain: f64) -> Result<(), NumericalError> {
+    pub(super) fn advance(
+        &mut self,
+        courant: f64,
+        erosion_strain: f64,
+    ) -> Result<(), NumericalError> {
         let previous = self.time_step;
-        let stable = self.rod.stable_step(LARGEST_STRAIN_STEP).min(self.ground_step);
+        let stable = self
+            .rod
+            .stable_step(LARGEST_STRAIN_STEP)
+            .min(self.ground_step);
         let time_step = choose_time_step(previous, courant * stable);
         let kick = 0.5 * (previous + time_step);
         self.rod.collect();
@@ -183,7 +190,12 @@ impl State {
     }
 
     fn erode(&mut self, limit: f64) {
-        while self.rod.slices.last().is_some_and(|slice| slice.strain() >= limit) {
+        while self
+            .rod
+            .slices
+            .last()
+            .is_some_and(|slice| slice.strain() >= limit)
+        {
             let loss = self.rod.erode_tip();
             self.books.eroded_energy += loss.energy;
             self.books.eroded_momentum += loss.momentum;
