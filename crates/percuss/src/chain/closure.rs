@@ -109,7 +109,11 @@ mod tests {
                        poissons_ratio = 0.3\nstrength.elastic = {}";
         let scenario = load("material = 'e', thickness = '30 mm'", elastic);
         assert_eq!(closure_in_use(&scenario), Some(TargetClosure::Column));
-        let scenario = load(THICK, "projectile.nose = 'hemisphere'");
+        let text = format!(
+            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', nose = 'hemisphere', velocity = '230 m/s' }}\n\
+             target = {{ {THICK} }}\n"
+        );
+        let scenario = case::load_str("shot", &text).unwrap();
         assert_eq!(closure_in_use(&scenario), Some(TargetClosure::Column));
     }
 }
