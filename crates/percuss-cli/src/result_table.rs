@@ -21,7 +21,7 @@ const NEGLIGIBLE: f64 = 1e-9;
 /// Table, energy shares, books and warnings.
 pub fn text(scenario: &Scenario, result: &RunResult, record: &ResultRecord) -> String {
     let mut text = String::new();
-    head(scenario, result, &mut text);
+    head(scenario, result, record, &mut text);
     outcome(scenario, result, record, &mut text);
     details(result, &mut text);
     if let Some(numerics) = &result.numerics {
@@ -32,7 +32,7 @@ pub fn text(scenario: &Scenario, result: &RunResult, record: &ResultRecord) -> S
     text
 }
 
-fn head(scenario: &Scenario, result: &RunResult, text: &mut String) {
+fn head(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text: &mut String) {
     let title = if scenario.title.is_empty() {
         &scenario.name
     } else {
@@ -47,6 +47,9 @@ fn head(scenario: &Scenario, result: &RunResult, text: &mut String) {
     );
     if !result.scheme.is_empty() {
         line += &format!(", scheme {}", result.scheme);
+    }
+    if let Some(closure) = record.target_closure {
+        line += &format!(", target closure {closure}");
     }
     *text += &format!("{}\n\n", wrap(&line, width(), 0));
 }

@@ -22,6 +22,7 @@ target = { rigid_wall = true }
 const EROSION: &str = r#"
 projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "800 m/s" }
 target = { material = "aluminium-2024-t351", thickness = "50 mm" }
+chain.target_closure = "column"
 "#;
 
 fn run(text: &str) -> (Scenario, RunResult) {

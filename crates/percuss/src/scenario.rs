@@ -4,6 +4,7 @@ use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
     case::{BackFace, Case, Experiment, Layer, ModelOptions, Nose, Scheme, Thickness, Uncertainty},
+    chain,
     check::{Check, limits},
     material::{Library, Material, MaterialEntry},
     outcome::BandQuantity,
@@ -181,6 +182,11 @@ impl Scenario {
         let chain = &mut scenario.options.chain;
         if chain.target_elements.is_none() && chain.scheme == Scheme::Conservative {
             scenario.options.chain.target_elements = scenario.thin_target_elements();
+        }
+        if scenario.options.chain.target_closure.is_none() {
+            let column_diameter = case.target.column_diameter.is_some();
+            let closure = chain::default_closure(&scenario, column_diameter);
+            scenario.options.chain.target_closure = Some(closure);
         }
         Some(scenario)
     }

@@ -4,6 +4,8 @@ use serde::Serialize;
 
 use crate::{
     Error,
+    case::TargetClosure,
+    chain::closure_in_use,
     judge::Expectation,
     outcome::{Band, Detail, Outcome, RunResult, Termination},
     scenario::Scenario,
@@ -27,6 +29,8 @@ pub struct ResultRecord {
     pub model: &'static str,
     /// Scheme of the model.
     pub scheme: &'static str,
+    /// What stood for the target: `chain.target_closure`, where there is a choice of it.
+    pub target_closure: Option<&'static str>,
     /// How the shot ended.
     pub outcome: Outcome,
     /// Why the run was ended.
@@ -149,9 +153,11 @@ impl ResultRecord {
         scheme: &'static str,
         outcome: Outcome,
     ) -> Self {
+        let closure = closure_in_use(scenario).filter(|_| model == "chain");
         Self {
             model,
             scheme,
+            target_closure: closure.map(TargetClosure::name),
             outcome,
             termination: None,
             reason: None,

@@ -24,7 +24,10 @@ pub struct ChainOptions {
     /// Elements through the target, shared among its layers by thickness; 80 when not given, and fewer in a target thinner than
     /// half the projectile's length, a fourth as long as the projectile's but at least 24; always 80 in scheme `published`.
     pub target_elements: Option<u32>,
-    /// What stands for the target; `column` when not given; scheme `conservative` only.
+    /// What stands for the target; scheme `conservative` only. When not given, `expanding-cavity` for a flat-ended projectile on one
+    /// plate that yields, semi-infinite or at least 5 projectile diameters thick, unless `constraint_factor`, `border_shear`,
+    /// `kinematics`, `artificial_viscosity`, `damping_ratio`, `erosion_closure = "tate"` or `target.column_diameter` is given, which
+    /// only a column has; `column` otherwise.
     pub target_closure: Option<TargetClosure>,
     /// Factor on the target's flow stress for the lateral constraint; 2.7 \[woodward1982\] when not given.
     pub constraint_factor: Option<ConstraintFactor>,
@@ -163,9 +166,36 @@ impl ChainOptions {
             .unwrap_or(ConstraintFactor::Value(2.7))
     }
 
-    /// What stands for the target.
+    /// What stands for the target: of a [`Scenario`](crate::Scenario), where the default of its case is worked out.
     pub fn target_closure(&self) -> TargetClosure {
         self.target_closure.unwrap_or_default()
+    }
+
+    /// Keys that only a column has, and whether they are given.
+    fn column_keys(&self) -> [(&'static str, bool); 3] {
+        [
+            ("constraint_factor", self.constraint_factor.is_some()),
+            ("border_shear", self.border_shear.is_some()),
+            (
+                "erosion_closure",
+                self.erosion_closure() == ErosionClosure::Tate,
+            ),
+        ]
+    }
+
+    /// Keys of a chain of springs through the target that an expanding cavity has no use for, and whether they are given.
+    fn spring_keys(&self) -> [(&'static str, bool); 3] {
+        [
+            ("kinematics", self.kinematics.is_some()),
+            ("artificial_viscosity", self.artificial_viscosity.is_some()),
+            ("damping_ratio", self.damping_ratio.is_some()),
+        ]
+    }
+
+    /// Whether an option is given that an expanding cavity does not have.
+    pub(crate) fn asks_for_a_column(&self) -> bool {
+        let keys = [self.column_keys(), self.spring_keys()];
+        keys.as_flattened().iter().any(|(_, given)| *given)
     }
 
     /// How what erodes leaves the tip.
@@ -298,12 +328,7 @@ impl ChainOptions {
         if closure == TargetClosure::Column {
             return;
         }
-        let tate = self.erosion_closure() == ErosionClosure::Tate;
-        for (key, given) in [
-            ("constraint_factor", self.constraint_factor.is_some()),
-            ("border_shear", self.border_shear.is_some()),
-            ("erosion_closure", tate),
-        ] {
+        for (key, given) in self.column_keys() {
             if given {
                 check.fail(
                     key,
@@ -340,11 +365,7 @@ impl ChainOptions {
             );
         }
         if closure == TargetClosure::ExpandingCavity {
-            for (key, given) in [
-                ("kinematics", self.kinematics.is_some()),
-                ("artificial_viscosity", self.artificial_viscosity.is_some()),
-                ("damping_ratio", self.damping_ratio.is_some()),
-            ] {
+            for (key, given) in self.spring_keys() {
                 if given {
                     check.fail(
                         key,

@@ -1,5 +1,6 @@
 //! Model `chain`: the 1-D discrete element model, point masses joined by normal springs.
 
+mod closure;
 mod cone;
 mod conservative;
 mod contact;
@@ -21,7 +22,9 @@ mod tests;
 mod warnings;
 mod watch;
 
-pub use conservative::{Conservative, ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
+pub(crate) use closure::{closure_in_use, default_closure};
+use conservative::Conservative;
+pub use conservative::{ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
 pub(crate) use mesh::modelled_thickness;
 pub(crate) use part::constraint_factor;
 pub use published::Published;
@@ -72,8 +75,10 @@ impl Model for Chain {
                 }],
                 notes: &[
                     "normal impact of a flat-ended rod",
-                    "the column of target in line with the rod stands for the target: the depth is only as good as the constraint \
-                     factor and the border shear that close it",
+                    "a thick target of one metal is an expanding cavity under the rod, unless the case says otherwise: the depth is only \
+                     as good as the theory of cavities",
+                    "every other target is the column in line with the rod: the depth is only as good as the constraint factor and \
+                     the border shear that close it",
                 ],
                 ..Guard::OPEN
             }

@@ -12,6 +12,11 @@ use crate::{
     units::{StrainRate, Temperature, Velocity, significant},
 };
 
+const OUT_OF_TIME: &str =
+    "the run was ended before the shot was over: raise `chain.end_time` or `chain.max_steps`";
+/// Part of the thickness of a plate that a crater may take before its back face has a say in an expanding cavity.
+const FREE_OF_BACK_FACE: f64 = 0.5;
+
 /// Warnings of a run, the weightiest first.
 pub(super) fn warnings(
     scenario: &Scenario,
@@ -21,9 +26,7 @@ pub(super) fn warnings(
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     match result.outcome {
-        Outcome::OutOfTime => warnings.push(
-            "the run was ended before the shot was over: raise `chain.end_time` or `chain.max_steps`".to_owned(),
-        ),
+        Outcome::OutOfTime => warnings.push(OUT_OF_TIME.to_owned()),
         Outcome::Perforated if result.numerics().eroded_elements.1 == scenario.options.chain.target_elements() => {
             warnings.push("the whole column of target eroded before the projectile did: give a thicker target".to_owned());
         }
@@ -53,6 +56,42 @@ pub(super) fn warnings(
             warn(&name, &plate.material, reached.get(i + 1));
         }
     }
+    warnings
+}
+
+/// Warnings of a run with an expanding cavity for a target, the weightiest first.
+pub(super) fn warnings_of_cavity(
+    scenario: &Scenario,
+    result: &RunResult,
+    reached: &Reached,
+    erosion_strain: f64,
+) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if result.outcome == Outcome::OutOfTime {
+        warnings.push(OUT_OF_TIME.to_owned());
+    }
+    let depth = result.depth_of_penetration.unwrap_or(0.0);
+    if depth == 0.0 && scenario.impact_speed > 0.0 {
+        warnings.push("the target stays elastic: it keeps no dent".to_owned());
+    }
+    if depth > 0.0 {
+        warnings.push(
+            "the depth rests on the target closure `expanding-cavity`: nothing of it was fitted, but its forms were chosen on the shots \
+             that its expected error is of"
+                .to_owned(),
+        );
+    }
+    if let Some(thickness) = scenario.target_thickness()
+        && depth > FREE_OF_BACK_FACE * thickness
+    {
+        warnings.push(
+            "the crater is more than half as deep as the plate: the resistance is that of a target without a back face".to_owned(),
+        );
+    }
+    warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
+    let heated = scenario.options.chain.adiabatic_heating.unwrap_or(true);
+    let material = &scenario.projectile.material;
+    warn_of_material("projectile", material, reached, heated, &mut warnings);
     warnings
 }
 

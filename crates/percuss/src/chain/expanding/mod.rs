@@ -206,6 +206,7 @@ impl<'a> Expanding<'a> {
             &self.watch,
             termination,
             recorder,
+            self.erosion_strain,
         ))
     }
 

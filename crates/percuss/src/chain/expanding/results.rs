@@ -1,6 +1,10 @@
 //! When a shot is over, and what comes of it.
 
-use super::{parted, state::State};
+use super::{
+    super::warnings::{Reached, warnings_of_cavity},
+    parted,
+    state::State,
+};
 use crate::{
     history::{ElementState, Profile, Recorder, Sample},
     outcome::{Numerics, Outcome, RunResult, Termination},
@@ -96,6 +100,7 @@ pub(super) fn sum_up(
     watch: &Watch,
     termination: Termination,
     recorder: Option<Recorder>,
+    erosion_strain: f64,
 ) -> RunResult {
     let outcome = watch.outcome(termination, state, scenario.impact_speed);
     let mut result = RunResult::new("chain", "conservative", outcome, termination);
@@ -114,7 +119,12 @@ pub(super) fn sum_up(
     result.time_to_rest = watch.at_rest;
     result.peak_force = Some(watch.peak_force);
     result.end_time = Some(state.time);
-    let [plastic_strain, _, temperature] = state.rod.reached();
+    let [plastic_strain, strain_rate, temperature] = state.rod.reached();
+    let reached = Reached {
+        plastic_strain,
+        strain_rate,
+        temperature,
+    };
     let options = &scenario.options.chain;
     result.numerics = Some(Numerics {
         steps: state.step,
@@ -130,27 +140,8 @@ pub(super) fn sum_up(
         momentum_residual: watch.residuals[1],
     });
     result.history = recorder.map(|recorder| recorder.finish(sample(state), profile(state)));
-    result.warnings = warnings(scenario, state);
+    result.warnings = warnings_of_cavity(scenario, &result, &reached, erosion_strain);
     result
-}
-
-/// Parts of the depth of a plate within which its back face would have a say.
-const FREE_OF_BACK_FACE: f64 = 0.5;
-
-fn warnings(scenario: &Scenario, state: &State) -> Vec<String> {
-    let mut warnings = Vec::new();
-    let depth = state.floor.depth;
-    if depth == 0.0 && scenario.impact_speed > 0.0 {
-        warnings.push("the target stays elastic: it keeps no dent".to_owned());
-    }
-    if let Some(thickness) = scenario.target_thickness()
-        && depth > FREE_OF_BACK_FACE * thickness
-    {
-        warnings.push(
-            "the crater is more than half as deep as the plate: the resistance is that of a target without a back face".to_owned(),
-        );
-    }
-    warnings
 }
 
 pub(super) fn sample(state: &State) -> Sample {
