@@ -133,7 +133,7 @@ pub(super) fn sum_up(
         elements: (options.projectile_elements(), options.target_elements()),
         eroded_elements: (state.eroded, 0),
         largest_plastic_strain: (plastic_strain, 0.0),
-        largest_temperature: (temperature, 0.0),
+        largest_temperature: (temperature, state.ground.temperature),
         energy: state.energy(),
         momentum: state.momentum(),
         energy_residual: watch.residuals[0],
@@ -194,7 +194,7 @@ pub(super) fn profile(state: &State) -> Profile {
         strain: spring.strain,
         plastic_strain: 0.0,
         diameter: 2.0 * (spring.area / std::f64::consts::PI).sqrt(),
-        temperature: f64::NAN,
+        temperature: state.ground.temperature,
     });
     Profile {
         time: state.time,
