@@ -3,7 +3,7 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
-    case::{BackFace, Case, Experiment, Layer, ModelOptions, Nose, Scheme, Thickness, Uncertainty},
+    case::{BackFace, Case, Experiment, LayerInterface, Layer, ModelOptions, Nose, Scheme, Thickness, Uncertainty},
     check::{Check, limits},
     material::{Library, Material, MaterialEntry},
     outcome::BandQuantity,
@@ -97,8 +97,10 @@ pub enum TargetBody {
         layers: Vec<Plate>,
         /// What holds the back face.
         back_face: BackFace,
-        /// Diameter of the column that is modelled [m].
+        /// Diameter of the column that is modelled [m], where a layer has none of its own.
         column_diameter: f64,
+        /// Whether a layer has a gap, an interface or a diameter of its own.
+        separate_layers: bool,
     },
     /// A rigid, frictionless wall.
     RigidWall,
@@ -115,6 +117,12 @@ pub struct Plate {
     pub material_id: String,
     /// Thickness [m]; `None` for a semi-infinite layer.
     pub thickness: Option<f64>,
+    /// Distance to the layer before it [m].
+    pub gap: f64,
+    /// How it is joined to the layer before it.
+    pub interface: LayerInterface,
+    /// Diameter of the column that is modelled [m].
+    pub column_diameter: f64,
 }
 
 impl Scenario {
@@ -293,6 +301,9 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
     let semi_infinite = written
         .last()
         .is_some_and(|(_, layer)| layer.thickness == Thickness::SemiInfinite);
+    let column_diameter = target
+        .column_diameter
+        .map_or(case.projectile.diameter.si(), Length::si);
     let layers: Option<Vec<Plate>> = written
         .iter()
         .map(|(key, layer): &(String, Layer)| {
@@ -304,6 +315,9 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
                     Thickness::Finite(thickness) => Some(thickness.si()),
                     Thickness::SemiInfinite => None,
                 },
+                gap: layer.gap.map_or(0.0, Length::si),
+                interface: layer.interface.unwrap_or_default(),
+                column_diameter: layer.column_diameter.map_or(column_diameter, Length::si),
             })
         })
         .collect();
@@ -315,8 +329,7 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
     Some(TargetBody::Layers {
         layers: layers?,
         back_face: target.back_face.unwrap_or(natural),
-        column_diameter: target
-            .column_diameter
-            .map_or(case.projectile.diameter.si(), Length::si),
+        column_diameter,
+        separate_layers: target.has_separate_layers(),
     })
 }

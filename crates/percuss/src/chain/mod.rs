@@ -3,9 +3,13 @@
 mod cone;
 mod conservative;
 mod contact;
+mod damping;
 mod element;
 mod erosion;
+mod fracture;
+mod fragments;
 mod friction;
+mod joint;
 mod mesh;
 mod part;
 mod penetration;
@@ -54,6 +58,7 @@ impl Model for Chain {
             &Guard {
                 noses: &[NoseKind::Flat],
                 start_temperature: true,
+                separate_layers: true,
                 ranges: &[Range::COLUMN],
                 first_choice: &[FirstChoice {
                     projectile: ProjectileRegime::Deforming,
@@ -81,7 +86,7 @@ impl Model for Chain {
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
         match scenario.options.chain.scheme {
-            Scheme::Conservative => None,
+            Scheme::Conservative => fracture::not_applicable(scenario),
             Scheme::Published => Published::not_applicable(scenario),
         }
     }

@@ -51,12 +51,9 @@ impl Results<'_> {
                     .map_or(watch.largest_depth, |(_, depth)| depth.max(0.0)),
             ),
         };
-        let mut result = RunResult::new(
-            "chain",
-            "conservative",
-            watch.outcome(termination, state, scenario.impact_speed),
-            termination,
-        );
+        let (outcome, criterion) = watch.outcome(termination, state, scenario.impact_speed);
+        let mut result = RunResult::new("chain", "conservative", outcome, termination);
+        result.criterion = criterion;
         result.depth_of_penetration = depth;
         result.largest_depth = depth.map(|_| watch.largest_depth);
         result.permanent_depth = match scenario.target {
@@ -70,6 +67,8 @@ impl Results<'_> {
         result.projectile_final_mass = Some(mass);
         result.time_to_rest = watch.at_rest.map(|(time, _)| time);
         result.peak_force = Some(watch.peak_force);
+        result.contact_time = Some(watch.contact_time);
+        result.fragments = state.fragments();
         result.end_time = Some(state.time);
         result.numerics = Some(Numerics {
             steps: state.step,

@@ -55,7 +55,7 @@ impl State {
         for segment in &self.segments {
             let part = &self.parts[segment.part];
             for e in segment.elements().step_by(stride) {
-                let node = e + segment.part;
+                let node = e + segment.shift;
                 elements.push(ElementState {
                     part: segment.part,
                     initial_position: self.elements[e].initial_position,
