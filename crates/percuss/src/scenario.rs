@@ -3,7 +3,10 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
-    case::{BackFace, Case, Experiment, LayerInterface, Layer, ModelOptions, Nose, Scheme, Thickness, Uncertainty},
+    case::{
+        BackFace, Case, Experiment, Layer, LayerInterface, ModelOptions, Nose, Scheme, Thickness,
+        Uncertainty,
+    },
     check::{Check, limits},
     material::{Library, Material, MaterialEntry},
     outcome::BandQuantity,

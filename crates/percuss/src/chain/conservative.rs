@@ -197,8 +197,8 @@ impl<'a> Conservative<'a> {
             TargetBody::Layers { layers, .. } => {
                 for plate in layers {
                     let thickness = mesh::modelled_thickness(plate, self.scenario);
-                    time +=
-                        2.0 * thickness / plate.material.bar_wave_speed() + 2.0 * (thickness + plate.gap) / speed;
+                    time += 2.0 * thickness / plate.material.bar_wave_speed()
+                        + 2.0 * (thickness + plate.gap) / speed;
                 }
             }
             TargetBody::RigidWall => {}

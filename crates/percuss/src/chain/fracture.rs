@@ -1,11 +1,11 @@
 //! Fracture: bodies and bonded interfaces that part where their failure law says so.
 //!
 //! A body parts at a node, whose mass goes to its two elements: mass, momentum and energy stay what they are. The two ends touch
-//! until the next kick pulls them apart.
+//! until the next kick pulls them apart. An element parts from one of its neighbours only.
 
 use super::{
     joint::{Bond, Joint},
-    state::{Segment, State},
+    state::{Element, Parting, Segment, State},
 };
 use crate::{
     material::FailureState,
@@ -56,16 +56,16 @@ impl State {
         }
     }
 
-    /// Parts every segment where it is damaged most, and bonded interfaces, if the damage there is complete and something pulls.
+    /// Parts segments and bonded interfaces where elements have failed and something pulls.
     ///
-    /// What a node sees is the mean of its two elements. One node a segment and step: the new ends unload their neighbours.
+    /// One node a segment and step, the one whose two elements are damaged most: the new ends unload their neighbours.
     pub(super) fn part_where_failed(&mut self) {
         for s in 0..self.joints.len() {
             if self.joints[s].bond == Bond::Unbroken {
                 let ahead = self.segments[s + 1].elements().start;
                 let behind = self.segments[s].elements().end;
                 if behind > self.segments[s].elements().start && self.fails(behind - 1, ahead) {
-                    self.joints[s].bond = self.crack(s, behind - 1, ahead);
+                    self.joints[s].bond = self.part(s, behind - 1, ahead);
                 }
             }
         }
@@ -86,10 +86,13 @@ impl State {
         0.5 * (self.elements[behind].damage + self.elements[ahead].damage)
     }
 
-    /// Whether a node between two elements has failed.
+    /// Whether the node between two elements parts: one of them has failed, and something pulls.
     fn fails(&self, behind: usize, ahead: usize) -> bool {
         let pull = self.elements[behind].axial_force + self.elements[ahead].axial_force;
-        pull < 0.0 && self.damage_between(behind, ahead) >= 1.0
+        pull < 0.0
+            && [behind, ahead]
+                .iter()
+                .any(|&e| self.elements[e].has_failed())
     }
 
     /// The element ahead of the node of a segment that has failed most, if one has.
@@ -103,8 +106,16 @@ impl State {
             })
     }
 
-    /// The crack that opens between two elements.
-    fn crack(&self, s: usize, behind: usize, ahead: usize) -> Bond {
+    /// Books a parting between two elements and returns the crack that opens there.
+    fn part(&mut self, s: usize, behind: usize, ahead: usize) -> Bond {
+        let after = &self.elements[ahead];
+        self.partings.push(Parting {
+            position: after.initial_position - 0.5 * after.rest_length,
+            time: self.time,
+        });
+        for e in [behind, ahead] {
+            self.elements[e].parted |= self.elements[e].has_failed();
+        }
         let part = &self.parts[self.segments[s].part];
         let (behind, ahead) = (&self.elements[behind], &self.elements[ahead]);
         let strength = -0.5 * (behind.axial_force + ahead.axial_force);
@@ -116,7 +127,7 @@ impl State {
     fn split(&mut self, s: usize, element: usize) {
         let segment = self.segments[s];
         let friction_per_length = self.parts[segment.part].friction_per_length;
-        let bond = self.crack(s, element - 1, element);
+        let bond = self.part(s, element - 1, element);
         let node = element + segment.shift;
         let mut ahead = self.nodes[node];
         ahead.mass = self.elements[element].end_masses[0];
@@ -142,5 +153,12 @@ impl State {
             },
         );
         self.joints.insert(s, Joint::new(true, bond));
+    }
+}
+
+impl Element {
+    /// Whether it has failed and not yet parted from a neighbour.
+    fn has_failed(&self) -> bool {
+        self.damage >= 1.0 && !self.parted
     }
 }

@@ -1,19 +1,17 @@
 //! The pieces of the chain that nothing holds.
 
 use super::{
-    joint::Bond,
     part::Role,
     state::{End, Segment, State},
 };
 use crate::fragments::Fragment;
 
 impl State {
-    /// Free pieces from the projectile's tail to the back. What a bonded interface joins is one piece; what an end of the chain holds
-    /// is none.
+    /// Free pieces from the projectile's tail to the back. What a bond still joins is one piece; what an end of the chain holds is none.
     pub(super) fn fragments(&self) -> Vec<Fragment> {
         let mut pieces: Vec<Vec<Segment>> = Vec::new();
         for (s, &segment) in self.segments.iter().enumerate() {
-            let joined = s > 0 && self.joints[s - 1].bond == Bond::Unbroken;
+            let joined = s > 0 && self.joints[s - 1].bond.holds() > 0.0;
             match pieces.last_mut().filter(|_| joined) {
                 Some(piece) => piece.push(segment),
                 None => pieces.push(vec![segment]),

@@ -114,7 +114,10 @@ mod tests {
             gap += step;
         }
         assert!((work / energy - 1.0).abs() < 1e-4, "{work}");
-        assert!((gap / (2.0 * energy / strength) - 1.0).abs() < 1e-4, "{gap}");
+        assert!(
+            (gap / (2.0 * energy / strength) - 1.0).abs() < 1e-4,
+            "{gap}"
+        );
     }
 
     #[test]

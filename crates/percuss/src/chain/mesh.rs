@@ -10,7 +10,7 @@ use super::{
     state::{Books, Element, End, Node, Segment, State},
 };
 use crate::{
-    case::{BackFace, ErosionClosure, LayerInterface, Kinematics, TargetClosure},
+    case::{BackFace, ErosionClosure, Kinematics, LayerInterface, TargetClosure},
     material::{FlowState, YieldPoint},
     scenario::{Plate, Scenario, TargetBody},
 };
@@ -80,9 +80,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     let mut end = End::Free;
     match &scenario.target {
         TargetBody::Layers {
-            layers,
-            back_face,
-            ..
+            layers, back_face, ..
         } => {
             let area = |plate: &Plate| match options.erosion_closure() {
                 ErosionClosure::Strain => PI * plate.column_diameter * plate.column_diameter / 4.0,
@@ -104,8 +102,10 @@ pub(super) fn build(scenario: &Scenario) -> State {
                 };
                 let mut part = Part::new(Role::Target, material, area, elements, factor, options);
                 let flow_stress = material.strength.law().flow_stress_at_unit_strain(material);
-                part.friction_per_length =
-                    options.border_shear() * PI * plate.column_diameter * flow_stress.unwrap_or(0.0);
+                part.friction_per_length = options.border_shear()
+                    * PI
+                    * plate.column_diameter
+                    * flow_stress.unwrap_or(0.0);
                 if options.erosion_closure() == ErosionClosure::Tate || cone.is_some() {
                     // What holds the target ahead of the tip stands in the place of border shear; a cone widens instead.
                     part.friction_per_length = 0.0;
@@ -220,6 +220,7 @@ fn assemble(
         step: 0,
         time_step: 0.0,
         stable_step: f64::INFINITY,
+        partings: Vec::new(),
         meetings: 0,
         contact_force: 0.0,
         back_force: 0.0,

@@ -15,6 +15,8 @@ mod part;
 mod penetration;
 mod published;
 mod results;
+#[cfg(test)]
+mod separation_tests;
 mod snapshot;
 mod solver;
 mod state;

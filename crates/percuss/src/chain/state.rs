@@ -93,9 +93,20 @@ pub(super) struct Element {
     pub(super) eroded: bool,
     /// Damage by the failure law; 1 is failed.
     pub(super) damage: f64,
+    /// Whether its failure has parted it from a neighbour.
+    pub(super) parted: bool,
     /// Length of target that the tip has gone through [m], and its part in the last step.
     pub(super) advance: f64,
     pub(super) advance_step: f64,
+}
+
+/// A place where a body or a bonded interface has parted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Parting {
+    /// Initial position, struck face at 0 [m].
+    pub(super) position: f64,
+    /// [s].
+    pub(super) time: f64,
 }
 
 /// Work and impulse that have gone where the state itself does not show them.
@@ -145,6 +156,8 @@ pub(super) struct State {
     pub(super) time_step: f64,
     /// Largest stable time step of the current state.
     pub(super) stable_step: f64,
+    /// Places where bodies and bonded interfaces have parted, in the order of time.
+    pub(super) partings: Vec<Parting>,
     /// How often two ends have met.
     pub(super) meetings: u64,
     pub(super) contact_force: f64,

@@ -88,6 +88,7 @@ impl Watch {
             + books.plastic[1]
             + books.friction_work
             + books.viscous_work
+            + books.fracture_work
             + books.eroded_energy;
         let flow = (dissipation - self.window_dissipation) / books.initial_energy;
         let deepening = self.largest_depth > self.window_depth * (1.0 + 1e-9);

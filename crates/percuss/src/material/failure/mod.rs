@@ -1,5 +1,6 @@
 //! Failure laws: when material in tension parts. Adding one is one file here and one line in the `failure_laws!` list.
 
+mod johnson_cook;
 mod spall;
 mod tuler_butcher;
 
@@ -11,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::Material;
 use crate::check::Check;
 
+pub use johnson_cook::JohnsonCookDamage;
 pub use spall::Spall;
 pub use tuler_butcher::TulerButcher;
 
@@ -49,9 +51,8 @@ macro_rules! failure_laws {
     ($($(#[$doc:meta])* $key:literal $law:ident),* $(,)?) => {
         /// A failure law: one sub-table, named after the law.
         #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-        #[serde(rename_all = "snake_case")]
         pub enum Failure {
-            $($(#[$doc])* $law($law),)*
+            $($(#[$doc])* #[serde(rename = $key)] $law($law),)*
         }
 
         impl Failure {
@@ -77,4 +78,6 @@ failure_laws! {
     "spall" Spall,
     /// Cumulative: by how much and for how long the tension passes a threshold.
     "tuler_butcher" TulerButcher,
+    /// Johnson–Cook: plastic strain over a failure strain.
+    "johnson_cook" JohnsonCookDamage,
 }
