@@ -119,31 +119,6 @@ fn first_parting(result: &RunResult) -> (f64, f64) {
     )
 }
 
-fn print(result: &RunResult) {
-    for f in &result.fragments {
-        println!(
-            "  {} {:.4}..{:.4} mm  m {:.5e} kg v {:.5} m/s L {:.4} mm",
-            f.origin,
-            f.initial_from * 1e3,
-            f.initial_to * 1e3,
-            f.mass,
-            f.velocity,
-            f.length * 1e3
-        );
-    }
-    println!(
-        "  {:?} {:?} {} t {:.3e} E {:.1e} M {:.1e} contact {:?} {:?}",
-        result.outcome,
-        result.termination,
-        result.criterion,
-        result.end_time.unwrap(),
-        result.numerics().energy_residual,
-        result.numerics().momentum_residual,
-        result.contact_time,
-        result.details
-    );
-}
-
 /// The piece of the plate that carries most of the momentum.
 fn scab(result: &RunResult) -> &Fragment {
     let momentum = |f: &&Fragment| f.mass * f.velocity;
@@ -164,8 +139,7 @@ fn elastic_plates_spall_where_and_when_the_releases_meet() {
             let plates = spalling(flyer, elements, 2.0 / 3.0);
             let (thickness, meeting) = plates.scab();
             let result = plates.run();
-            print(&result);
-            let (position, time) = first_parting(&result);
+                let (position, time) = first_parting(&result);
             let size = 6e-3 / f64::from(elements);
             let off = (position - (6e-3 - thickness)).abs();
             println!(
@@ -214,7 +188,6 @@ fn a_free_surface_doubles_the_velocity() {
 #[test]
 fn a_plate_that_is_stronger_than_the_pull_stays_whole() {
     let result = spalling(STEEL, 240, 1.6).run();
-    print(&result);
     assert_eq!(result.fragments.len(), 2);
     assert_eq!(result.numerics().energy.fracture, 0.0);
 }
@@ -232,7 +205,6 @@ fn cumulative_damage_parts_the_plane_after_its_time() {
         );
         let (thickness, meeting) = plates.scab();
         let result = plates.run();
-        print(&result);
         let (position, time) = first_parting(&result);
         let size = 6e-3 / f64::from(elements);
         assert!(
@@ -246,8 +218,8 @@ fn cumulative_damage_parts_the_plane_after_its_time() {
     }
 }
 
-/// With a fracture energy the plate parts in one plane, whatever the mesh, and what that takes is a number of the material: the energy of
-/// one crack, and some more for those beside it that began to open.
+/// With a fracture energy the plate parts in one plane, whatever the mesh, and that takes the energy of one crack: those beside it that
+/// began to open closed again.
 #[test]
 fn a_fracture_energy_leaves_one_plane_and_no_crumbs() {
     let area = std::f64::consts::PI * 0.02 * 0.02 / 4.0;
@@ -256,7 +228,6 @@ fn a_fracture_energy_leaves_one_plane_and_no_crumbs() {
         let mut plates = spalling(STEEL, elements, 2.0 / 3.0);
         plates.options += "\nfracture_energy = \"1 kJ/m2\"\nend_time = \"15 us\"";
         let result = plates.run();
-        print(&result);
         assert_eq!(result.fragments.len(), 3);
         let size = 6e-3 / f64::from(elements);
         assert!((scab(&result).initial_from - 4e-3).abs() <= 1.01 * size);
@@ -267,7 +238,7 @@ fn a_fracture_energy_leaves_one_plane_and_no_crumbs() {
     }
     println!("{works:?} {speeds:?}");
     for work in works {
-        assert!((1.35..1.65).contains(&work), "{work}");
+        assert!((0.999..1.02).contains(&work), "{work}");
     }
     for speed in &speeds {
         assert!((speed / speeds[2] - 1.0).abs() < 0.02, "{speeds:?}");

@@ -133,8 +133,9 @@ impl State {
             if self.is_fixed(b) {
                 self.books.support_impulse += self.nodes[a].mass * change;
             }
-            // What holds across the gap pulls over the way that is left only: half a drift of it was booked too much.
-            let pulled = 0.5 * time_step * self.joints[s].pull * change;
+            // What holds across the gap pulls over the way that is left, and no more at its end: the half drift before the kick
+            // was booked at the speed before the jump, the one before the next kick will not be.
+            let pulled = 0.5 * self.joints[s].pull * (time_step * change - gap.max(0.0));
             self.books.fracture_work += pulled;
             self.books.contact_loss -= pulled;
             self.joints[s].closed = true;
