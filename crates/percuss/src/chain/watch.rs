@@ -135,13 +135,14 @@ impl Watch {
                 let words = "no element of the projectile is left".to_owned();
                 return (Outcome::ProjectileEroded, words);
             }
-            Termination::EndTime | Termination::StepLimit if self.at_rest.is_none() => {
-                let words = "the projectile still had forward momentum when the run was ended";
-                return (Outcome::OutOfTime, words.to_owned());
-            }
             _ => {}
         }
         let ratio = momentum / (mass * impact_speed);
+        let unfinished = matches!(termination, Termination::EndTime | Termination::StepLimit);
+        if unfinished && self.at_rest.is_none() && ratio > REST_FRACTION {
+            let words = "the projectile still moved forward when the run was ended";
+            return (Outcome::OutOfTime, words.to_owned());
+        }
         let speed = format!(
             "the projectile's mean speed at the end is {} % of the impact speed",
             significant(100.0 * ratio, 3)
