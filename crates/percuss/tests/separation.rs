@@ -139,7 +139,7 @@ fn elastic_plates_spall_where_and_when_the_releases_meet() {
             let plates = spalling(flyer, elements, 2.0 / 3.0);
             let (thickness, meeting) = plates.scab();
             let result = plates.run();
-                let (position, time) = first_parting(&result);
+            let (position, time) = first_parting(&result);
             let size = 6e-3 / f64::from(elements);
             let off = (position - (6e-3 - thickness)).abs();
             println!(
@@ -167,6 +167,46 @@ fn elastic_plates_spall_where_and_when_the_releases_meet() {
         }
         assert!(errors[4].abs() < 5e-3, "{errors:?}");
         assert!(errors[4].abs() < 0.25 * errors[0].abs(), "{errors:?}");
+    }
+}
+
+/// A law without a number anywhere is refused; a body without numbers is told of.
+#[test]
+fn bodies_that_cannot_part_are_named() {
+    let shot = |spall: &str| {
+        format!(
+            "projectile = {{ material = \"4340\", length = \"5 mm\", diameter = \"8 mm\", velocity = \"100 m/s\" }}\n\
+             target = {{ material = \"own\", thickness = \"10 mm\", back_face = \"free\" }}\n[chain]\nfailure = {{ spall = {{}} }}\n\
+             [materials.own]\nname = \"own\"\ndensity = \"7800 kg/m3\"\nyoungs_modulus = \"200 GPa\"\npoissons_ratio = 0.3\n{spall}\n\
+             strength.elastic = {{}}"
+        )
+    };
+    let chain = percuss::model::model("chain").unwrap();
+    let reason = percuss::model::applicability(chain, &common::scenario(&shot(""))).unwrap_err();
+    assert!(
+        reason.contains("`chain.failure.spall`") && reason.contains("`spall_strength`"),
+        "{reason}"
+    );
+    let result = run_recorded(&shot("spall_strength = \"2 GPa\""));
+    let named = |id: &str| {
+        result
+            .warnings
+            .iter()
+            .any(|w| w.contains(id) && w.contains("does not part"))
+    };
+    assert!(named("4340") && !named("own"), "{:?}", result.warnings);
+}
+
+/// Gaps and bonds are the chain's alone.
+#[test]
+fn models_that_take_layers_as_one_body_refuse_gaps() {
+    let scenario = common::scenario(
+        "projectile = { material = \"4340\", length = \"5 mm\", diameter = \"8 mm\", velocity = \"100 m/s\" }\n\
+         target = { layers = [{ material = \"4340\", thickness = \"5 mm\" }, { material = \"4340\", thickness = \"5 mm\", gap = \"1 mm\" }] }",
+    );
+    for model in percuss::model::MODELS {
+        let takes = percuss::model::applicability(*model, &scenario).is_ok();
+        assert_eq!(takes, model.name() == "chain", "{}", model.name());
     }
 }
 
