@@ -124,8 +124,8 @@ pub struct Plate {
     pub gap: f64,
     /// How it is joined to the layer before it.
     pub interface: LayerInterface,
-    /// Diameter of the column that is modelled [m].
-    pub column_diameter: f64,
+    /// Diameter of the column that is modelled [m]; that of the target where `None`.
+    pub column_diameter: Option<f64>,
 }
 
 impl Scenario {
@@ -304,9 +304,6 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
     let semi_infinite = written
         .last()
         .is_some_and(|(_, layer)| layer.thickness == Thickness::SemiInfinite);
-    let column_diameter = target
-        .column_diameter
-        .map_or(case.projectile.diameter.si(), Length::si);
     let layers: Option<Vec<Plate>> = written
         .iter()
         .map(|(key, layer): &(String, Layer)| {
@@ -320,7 +317,7 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
                 },
                 gap: layer.gap.map_or(0.0, Length::si),
                 interface: layer.interface.unwrap_or_default(),
-                column_diameter: layer.column_diameter.map_or(column_diameter, Length::si),
+                column_diameter: layer.column_diameter.map(Length::si),
             })
         })
         .collect();
@@ -332,7 +329,9 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
     Some(TargetBody::Layers {
         layers: layers?,
         back_face: target.back_face.unwrap_or(natural),
-        column_diameter,
+        column_diameter: target
+            .column_diameter
+            .map_or(case.projectile.diameter.si(), Length::si),
         separate_layers: target.has_separate_layers(),
     })
 }

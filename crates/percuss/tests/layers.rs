@@ -172,3 +172,33 @@ fn a_row_of_plates_with_gaps_passes_the_velocity_on() {
         result.numerics().momentum_residual < 1e-12 && result.numerics().energy_residual < 1e-9
     );
 }
+
+/// A light rod bounces off a plate, which crosses a gap to a plate that is held: the run does not end before they have met.
+#[test]
+fn a_run_goes_on_until_layers_have_met() {
+    for back_face in ["fixed", "free"] {
+        let layers = "{ material = \"steel\", thickness = \"10 mm\" }, { material = \"steel\", thickness = \"10 mm\", gap = \"0.5 mm\" }";
+        let options = "border_shear = 0.0\nprojectile_elements = 20\ntarget_elements = 80";
+        let text =
+            case(40.0, 5.0, layers, back_face, options).replacen("\"steel\"", "\"light\"", 1);
+        let result = run(&text);
+        // The momentum that the rod gives: V (Z₁ Z₂/(Z₁ + Z₂)) for 2L/c, on a plate of 10 mm.
+        let (light, steel) = (impedance(LIGHT), impedance(STEEL));
+        let speed =
+            2.0 * (5e-3 / 5000.0) * 40.0 * light * steel / (light + steel) / (8000.0 * 10e-3);
+        let flight = 0.5e-3 / speed;
+        println!(
+            "{back_face}: {:?}, meeting at {:.1} us, end at {:.1} us",
+            result.outcome,
+            flight * 1e6,
+            result.end_time.unwrap() * 1e6
+        );
+        assert_eq!(result.outcome, percuss::outcome::Outcome::Rebounded);
+        assert!(result.end_time.unwrap() > flight);
+        let ledger = &result.numerics().momentum;
+        match back_face {
+            "fixed" => assert!(ledger.support > 0.0),
+            _ => assert_near("second plate", result.fragments[2].velocity, speed, 0.03),
+        }
+    }
+}

@@ -80,10 +80,14 @@ pub(super) fn build(scenario: &Scenario) -> State {
     let mut end = End::Free;
     match &scenario.target {
         TargetBody::Layers {
-            layers, back_face, ..
+            layers,
+            back_face,
+            column_diameter,
+            ..
         } => {
+            let diameter = |plate: &Plate| plate.column_diameter.unwrap_or(*column_diameter);
             let area = |plate: &Plate| match options.erosion_closure() {
-                ErosionClosure::Strain => PI * plate.column_diameter * plate.column_diameter / 4.0,
+                ErosionClosure::Strain => PI * diameter(plate).powi(2) / 4.0,
                 ErosionClosure::Tate => parts[0].area,
             };
             let areas: Vec<f64> = layers.iter().map(area).collect();
@@ -102,10 +106,8 @@ pub(super) fn build(scenario: &Scenario) -> State {
                 };
                 let mut part = Part::new(Role::Target, material, area, elements, factor, options);
                 let flow_stress = material.strength.law().flow_stress_at_unit_strain(material);
-                part.friction_per_length = options.border_shear()
-                    * PI
-                    * plate.column_diameter
-                    * flow_stress.unwrap_or(0.0);
+                part.friction_per_length =
+                    options.border_shear() * PI * diameter(plate) * flow_stress.unwrap_or(0.0);
                 if options.erosion_closure() == ErosionClosure::Tate || cone.is_some() {
                     // What holds the target ahead of the tip stands in the place of border shear; a cone widens instead.
                     part.friction_per_length = 0.0;

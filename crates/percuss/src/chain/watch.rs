@@ -104,12 +104,15 @@ impl Watch {
         if mass == 0.0 {
             return flow <= QUIET_FRACTION && !deepening;
         }
+        let meets =
+            |from: usize| approaches(state, from, end_time - state.time, scenario.impact_speed);
         if !touched {
-            return flow <= PARTED_FRACTION && !approaches(state, end_time - state.time);
+            return flow <= PARTED_FRACTION && !meets(0);
         }
         // A projectile that is still being pushed back has not got its rebound speed yet.
         let still = (momentum / mass).abs() <= REST_FRACTION * scenario.impact_speed;
-        self.at_rest.is_some() && !deepening && still && flow <= QUIET_FRACTION
+        let layers_rest = || state.tip_segment().is_none_or(|tip| !meets(tip + 1));
+        self.at_rest.is_some() && !deepening && still && flow <= QUIET_FRACTION && layers_rest()
     }
 
     /// How a run ended that was ended for a reason, and what that was told by.
@@ -165,29 +168,32 @@ impl Watch {
     }
 }
 
-/// Whether pieces in free flight will meet within a time: those of the projectile what is ahead of them and, behind a free back
-/// face, those of the target as well.
-fn approaches(state: &State, horizon: f64) -> bool {
+/// Whether pieces in free flight will meet within a time at one of the joints from a given one on.
+///
+/// The target of a held back face rings between its layers without end: there only what is worth a hundredth of the impact speed counts.
+fn approaches(state: &State, from: usize, horizon: f64, impact_speed: f64) -> bool {
     let Some(tip) = state.tip_segment() else {
         return false;
     };
-    let watched = match state.end {
-        End::Free => state.joints.len(),
-        _ => tip + 1,
-    };
-    let joints = state.joints.iter().enumerate().take(watched);
+    let joints = state.joints.iter().enumerate().skip(from);
     joints.filter(|(_, joint)| !joint.closed).any(|(s, _)| {
         let (behind, ahead) = (state.segments[s], state.segments[s + 1]);
         let gap = state.nodes[ahead.first_node].position - state.nodes[behind.last_node].position;
         // A target that is held vibrates about its place; anything else flies at its mean speed.
-        let held = s == tip && state.end != End::Free;
-        let away = if held {
+        let is_held = state.end != End::Free;
+        let ahead_is_held = is_held && (s == tip || s + 2 == state.segments.len());
+        let away = if ahead_is_held {
             0.0
         } else {
             state.mean_velocity(ahead)
         };
+        let least = if is_held && s > tip {
+            REST_FRACTION * impact_speed
+        } else {
+            0.0
+        };
         let approach = state.mean_velocity(behind) - away;
-        approach > 0.0 && gap < approach * horizon
+        approach > least && gap < approach * horizon
     })
 }
 
