@@ -196,7 +196,15 @@ fn a_run_goes_on_until_layers_have_met() {
         assert_eq!(result.outcome, percuss::outcome::Outcome::Rebounded);
         assert!(result.end_time.unwrap() > flight);
         if back_face == "free" {
-            assert_near("second plate", result.fragments[2].velocity, speed, 0.03);
+            // The first plate still rings when it strikes: how much it gives depends on the phase, the sum does not.
+            let [first, second] = [1, 2].map(|i| result.fragments[i].velocity);
+            assert_near(
+                "momentum of both plates, as a speed",
+                first + second,
+                speed,
+                0.01,
+            );
+            assert!(second > 2.0 * first, "{first} {second}");
         }
     }
 }
