@@ -87,7 +87,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
         } => {
             let diameter = |plate: &Plate| plate.column_diameter.unwrap_or(*column_diameter);
             let area = |plate: &Plate| match options.erosion_closure() {
-                ErosionClosure::Strain => PI * diameter(plate).powi(2) / 4.0,
+                ErosionClosure::Strain => PI * diameter(plate) * diameter(plate) / 4.0,
                 ErosionClosure::Tate => parts[0].area,
             };
             let areas: Vec<f64> = layers.iter().map(area).collect();

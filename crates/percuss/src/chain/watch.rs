@@ -170,7 +170,7 @@ impl Watch {
 
 /// Whether pieces in free flight will meet within a time at one of the joints from a given one on.
 ///
-/// The target of a held back face rings between its layers without end: there only what is worth a hundredth of the impact speed counts.
+/// A target whose back face is held rings without end: there only layers that approach by a hundredth of the impact speed count.
 fn approaches(state: &State, from: usize, horizon: f64, impact_speed: f64) -> bool {
     let Some(tip) = state.tip_segment() else {
         return false;
@@ -181,6 +181,9 @@ fn approaches(state: &State, from: usize, horizon: f64, impact_speed: f64) -> bo
         let gap = state.nodes[ahead.first_node].position - state.nodes[behind.last_node].position;
         // A target that is held vibrates about its place; anything else flies at its mean speed.
         let is_held = state.end != End::Free;
+        if is_held && s > tip && behind.part == ahead.part {
+            return false;
+        }
         let ahead_is_held = is_held && (s == tip || s + 2 == state.segments.len());
         let away = if ahead_is_held {
             0.0
