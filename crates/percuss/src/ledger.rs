@@ -28,13 +28,15 @@ pub struct EnergyLedger {
     pub boundary: f64,
     /// Energy that eroded elements and target that was turned aside carried away.
     pub eroded: f64,
+    /// Work that opened cracks: their fracture energy.
+    pub fracture: f64,
     /// Lost between particles and grid: motion finer than the grid; it vanishes with the cell size.
     pub transfer: f64,
 }
 
 impl EnergyLedger {
     /// Labels and values of all lines but the initial energy, in reading order.
-    pub fn lines(&self) -> [(&'static str, f64); 12] {
+    pub fn lines(&self) -> [(&'static str, f64); 13] {
         [
             ("kinetic, projectile", self.kinetic_projectile),
             ("kinetic, target", self.kinetic_target),
@@ -47,6 +49,7 @@ impl EnergyLedger {
             ("contact", self.contact),
             ("through back face", self.boundary),
             ("eroded", self.eroded),
+            ("fracture", self.fracture),
             ("particles to grid", self.transfer),
         ]
     }
@@ -80,17 +83,20 @@ pub struct MomentumLedger {
     pub border_shear: f64,
     /// Momentum that eroded elements and target that was turned aside carried away.
     pub eroded: f64,
+    /// Impulse taken by local damping, which pushes against every node by itself.
+    pub damping: f64,
 }
 
 impl MomentumLedger {
     /// Labels and values of all lines but the initial momentum, in reading order.
-    pub fn lines(&self) -> [(&'static str, f64); 5] {
+    pub fn lines(&self) -> [(&'static str, f64); 6] {
         [
             ("projectile", self.projectile),
             ("target", self.target),
             ("support", self.support),
             ("border shear", self.border_shear),
             ("eroded", self.eroded),
+            ("local damping", self.damping),
         ]
     }
 

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::{
+    fragments::Fragment,
     history::History,
     judge::Expectation,
     ledger::{EnergyLedger, MomentumLedger},
@@ -107,6 +108,8 @@ pub struct RunResult {
     pub scheme: &'static str,
     /// How the shot ended.
     pub outcome: Outcome,
+    /// What the outcome was told by, in words; empty where the model names nothing beyond its termination.
+    pub criterion: String,
     /// Why the run was ended.
     pub termination: Termination,
     /// Depth of the crater floor below the original face when the projectile's momentum is used up [m].
@@ -135,8 +138,12 @@ pub struct RunResult {
     pub time_to_rest: Option<f64>,
     /// Largest force between projectile and target [N].
     pub peak_force: Option<f64>,
+    /// Time during which projectile and target touched [s].
+    pub contact_time: Option<f64>,
     /// Time at the end [s].
     pub end_time: Option<f64>,
+    /// Pieces that fly free at the end, from the projectile's tail to the target's back; empty from a model that follows none.
+    pub fragments: Vec<Fragment>,
     /// Numbers that this model alone has, in its own order.
     pub details: Vec<Detail>,
     /// Steps and books of a model that steps through time on a mesh.
@@ -265,6 +272,7 @@ impl RunResult {
             model,
             scheme,
             outcome,
+            criterion: String::new(),
             termination,
             depth_of_penetration: None,
             expected_error: None,
@@ -278,7 +286,9 @@ impl RunResult {
             projectile_final_mass: None,
             time_to_rest: None,
             peak_force: None,
+            contact_time: None,
             end_time: None,
+            fragments: Vec::new(),
             details: Vec::new(),
             numerics: None,
             shapes: None,

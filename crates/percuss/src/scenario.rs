@@ -3,7 +3,10 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
-    case::{BackFace, Case, Experiment, Layer, ModelOptions, Nose, Scheme, Thickness, Uncertainty},
+    case::{
+        BackFace, Case, Experiment, Layer, LayerInterface, ModelOptions, Nose, Scheme, Thickness,
+        Uncertainty,
+    },
     check::{Check, limits},
     material::{Library, Material, MaterialEntry},
     outcome::BandQuantity,
@@ -99,8 +102,10 @@ pub enum TargetBody {
         layers: Vec<Plate>,
         /// What holds the back face.
         back_face: BackFace,
-        /// Diameter of the column that is modelled [m].
+        /// Diameter of the column that is modelled [m], where a layer has none of its own.
         column_diameter: f64,
+        /// Whether a layer has a gap, an interface or a diameter of its own.
+        separate_layers: bool,
     },
     /// A rigid, frictionless wall.
     RigidWall,
@@ -117,6 +122,12 @@ pub struct Plate {
     pub material_id: String,
     /// Thickness [m]; `None` for a semi-infinite layer.
     pub thickness: Option<f64>,
+    /// Distance to the layer before it [m].
+    pub gap: f64,
+    /// How it is joined to the layer before it.
+    pub interface: LayerInterface,
+    /// Diameter of the column that is modelled [m]; that of the target where `None`.
+    pub column_diameter: Option<f64>,
 }
 
 impl Scenario {
@@ -307,6 +318,9 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
                     Thickness::Finite(thickness) => Some(thickness.si()),
                     Thickness::SemiInfinite => None,
                 },
+                gap: layer.gap.map_or(0.0, Length::si),
+                interface: layer.interface.unwrap_or_default(),
+                column_diameter: layer.column_diameter.map(Length::si),
             })
         })
         .collect();
@@ -321,5 +335,6 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
         column_diameter: target
             .column_diameter
             .map_or(case.projectile.diameter.si(), Length::si),
+        separate_layers: target.has_separate_layers(),
     })
 }

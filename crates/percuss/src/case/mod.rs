@@ -2,6 +2,7 @@
 
 mod document;
 mod experiment;
+mod failure_options;
 mod load;
 mod model_options;
 mod number_or_word;
@@ -23,4 +24,4 @@ pub use number_or_word::{ConstraintFactor, ErosionStrain};
 pub use options::*;
 pub use projectile::{Nose, Projectile};
 pub use published_options::*;
-pub use target::{BackFace, Layer, Target, Thickness};
+pub use target::{BackFace, Layer, LayerInterface, Target, Thickness};

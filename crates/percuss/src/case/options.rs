@@ -10,7 +10,8 @@ use super::{
 };
 use crate::{
     check::{Check, limits},
-    units::Time,
+    material::Failure,
+    units::{EnergyPerArea, Time},
 };
 
 /// Options of the model `chain`; a key that is not given has the default that the scheme states.
@@ -42,6 +43,13 @@ pub struct ChainOptions {
     pub artificial_viscosity: Option<ArtificialViscosity>,
     /// Viscous damping of every spring as a fraction of critical; 0 when not given; scheme `conservative` only.
     pub damping_ratio: Option<f64>,
+    /// Local damping: part of the unbalanced force on every node that acts against its motion; 0 when not given; scheme
+    /// `conservative` only.
+    pub local_damping: Option<f64>,
+    /// When material in tension parts; never when not given; scheme `conservative` only.
+    pub failure: Option<Failure>,
+    /// Energy that a crack takes to open, per area [J/m2]; none when not given.
+    pub fracture_energy: Option<EnergyPerArea>,
     /// Whether strength laws see the strain rate; true when not given; scheme `conservative` only.
     pub rate_effects: Option<bool>,
     /// Whether plastic work heats the material; true when not given; scheme `conservative` only.
@@ -215,6 +223,7 @@ impl ChainOptions {
             ("border_shear", self.border_shear, limits::BORDER_SHEAR),
             ("courant", self.courant, limits::COURANT),
             ("damping_ratio", self.damping_ratio, limits::DAMPING),
+            ("local_damping", self.local_damping, limits::LOCAL_DAMPING),
             ("heat_fraction", self.heat_fraction, limits::HEAT_FRACTION),
             (
                 "constraint_factor",
@@ -246,6 +255,8 @@ impl ChainOptions {
         if let Some(mass) = self.published().target_mass {
             check.quantity("published.target_mass", mass, limits::MASS);
         }
+        self.check_failure(check);
+        self.check_layers(check, target);
         self.check_scheme(check);
     }
 
@@ -344,6 +355,8 @@ impl ChainOptions {
                 ("kinematics", self.kinematics.is_some()),
                 ("artificial_viscosity", self.artificial_viscosity.is_some()),
                 ("damping_ratio", self.damping_ratio.is_some()),
+                ("local_damping", self.local_damping.is_some()),
+                ("failure", self.failure.is_some()),
             ] {
                 if given {
                     check.fail(
@@ -366,6 +379,9 @@ impl ChainOptions {
             ("target_closure", self.target_closure.is_some()),
             ("artificial_viscosity", self.artificial_viscosity.is_some()),
             ("damping_ratio", self.damping_ratio.is_some()),
+            ("local_damping", self.local_damping.is_some()),
+            ("failure", self.failure.is_some()),
+            ("fracture_energy", self.fracture_energy.is_some()),
             ("rate_effects", self.rate_effects.is_some()),
             ("adiabatic_heating", self.adiabatic_heating.is_some()),
             ("heat_fraction", self.heat_fraction.is_some()),

@@ -43,6 +43,26 @@ pub struct Layer {
     pub material: String,
     /// Thickness, or `"semi-infinite"` for the last layer.
     pub thickness: Thickness,
+    /// Distance to the layer before it [m]; 0 when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gap: Option<Length>,
+    /// How it is joined to the layer before it; `sliding` when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interface: Option<LayerInterface>,
+    /// Diameter of the column that is modelled [m]; `column_diameter` of the target when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column_diameter: Option<Length>,
+}
+
+/// How a layer is joined to the one before it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LayerInterface {
+    /// Carries compression only: it opens in tension and may close again.
+    #[default]
+    Sliding,
+    /// Carries tension too, until the material on either side fails.
+    Bonded,
 }
 
 /// What holds the back face of a target.
@@ -141,6 +161,43 @@ impl JsonSchema for Thickness {
     }
 }
 
+impl Layer {
+    /// Whether anything is given that only a model with separate layers can take.
+    fn is_separate(&self) -> bool {
+        self.gap.is_some() || self.interface.is_some() || self.column_diameter.is_some()
+    }
+
+    fn check_joint(&self, is_first: bool, check: &mut Check<'_>) {
+        if is_first {
+            for (key, given) in [
+                ("gap", self.gap.is_some()),
+                ("interface", self.interface.is_some()),
+            ] {
+                if given {
+                    check.fail(
+                        key,
+                        format!("the first layer has no layer before it: `{key}` has no effect"),
+                        "remove the key, or move it to the layer behind the gap or interface",
+                    );
+                }
+            }
+        }
+        if let Some(gap) = self.gap {
+            check.quantity("gap", gap, limits::GAP);
+            if self.interface == Some(LayerInterface::Bonded) && gap.si() > 0.0 {
+                check.fail(
+                    "interface",
+                    "a layer behind a gap is bonded to nothing",
+                    "remove `gap`, or use interface = \"sliding\"",
+                );
+            }
+        }
+        if let Some(diameter) = self.column_diameter {
+            check.quantity("column_diameter", diameter, limits::DIAMETER);
+        }
+    }
+}
+
 impl Target {
     /// The layers, whether the target is written as one plate or as several layers, with the keys they stand under.
     pub(crate) fn layers_with_keys(&self) -> Vec<(String, Layer)> {
@@ -149,6 +206,9 @@ impl Target {
                 let layer = Layer {
                     material: material.clone(),
                     thickness,
+                    gap: None,
+                    interface: None,
+                    column_diameter: None,
                 };
                 vec![("target".to_owned(), layer)]
             }
@@ -159,6 +219,11 @@ impl Target {
                 .map(|(i, layer)| (format!("target.layers.{i}"), layer.clone()))
                 .collect(),
         }
+    }
+
+    /// Whether a layer has a gap, an interface or a diameter of its own.
+    pub(crate) fn has_separate_layers(&self) -> bool {
+        self.layers.iter().any(Layer::is_separate)
     }
 
     /// Whether there is a column of material, rather than a wall or a pressure.
@@ -242,6 +307,7 @@ impl Target {
                 ),
                 Thickness::SemiInfinite => {}
             }
+            layer.check_joint(i == 0, &mut check);
         }
         if let Some(diameter) = self.column_diameter {
             check.quantity("column_diameter", diameter, limits::DIAMETER);

@@ -3,15 +3,21 @@
 mod cone;
 mod conservative;
 mod contact;
+mod damping;
 mod element;
 mod erosion;
 mod expanding;
+mod fracture;
+mod fragments;
 mod friction;
+mod joint;
 mod mesh;
 mod part;
 mod penetration;
 mod published;
 mod results;
+#[cfg(test)]
+mod separation_tests;
 mod snapshot;
 mod solver;
 mod state;
@@ -55,6 +61,7 @@ impl Model for Chain {
             &Guard {
                 noses: &[NoseKind::Flat],
                 start_temperature: true,
+                separate_layers: true,
                 ranges: &[Range::COLUMN],
                 first_choice: &[FirstChoice {
                     projectile: ProjectileRegime::Deforming,
@@ -83,7 +90,7 @@ impl Model for Chain {
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
         match scenario.options.chain.scheme {
             Scheme::Conservative if is_expanding(scenario) => expanding::not_applicable(scenario),
-            Scheme::Conservative => None,
+            Scheme::Conservative => fracture::not_applicable(scenario),
             Scheme::Published => Published::not_applicable(scenario),
         }
     }

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use super::tate::USED_UP_STRAIN;
 use crate::{
     case::{ChainOptions, ConstraintFactor, ErosionClosure, Kinematics},
-    material::{Material, PreparedStrength, cavity_expansion_pressure},
+    material::{Material, PreparedFailure, PreparedStrength, cavity_expansion_pressure},
+    units::Quantity,
 };
 
 /// What a part is.
@@ -33,6 +34,12 @@ pub(super) struct Part {
     pub(super) start_temperature: f64,
     pub(super) rate_effects: bool,
     pub(super) kinematics: Kinematics,
+    /// Factor on the flow stress.
+    pub(super) constraint: f64,
+    /// When it parts in tension; `None` when it does not.
+    pub(super) failure: Option<Box<dyn PreparedFailure>>,
+    /// Energy that a crack takes to open, per area [J/m2].
+    pub(super) fracture_energy: f64,
     /// Border shear per length of element [N/m]; 0 for a projectile.
     pub(super) friction_per_length: f64,
 }
@@ -73,6 +80,12 @@ impl Part {
             start_temperature: material.room_temperature.si(),
             rate_effects: options.rate_effects.unwrap_or(true),
             kinematics: options.kinematics(),
+            constraint: factor,
+            failure: options
+                .failure
+                .as_ref()
+                .and_then(|failure| failure.law().prepare(material)),
+            fracture_energy: options.fracture_energy.map_or(0.0, Quantity::si),
             friction_per_length: 0.0,
         }
     }

@@ -1,9 +1,11 @@
 //! State of the chain: nodes joined by elements, in segments that touch, part or meet again.
 //!
 //! Position is measured from the struck face, positive into the target; force and stress are positive in compression.
-//! Part `p` has one node more than it has elements, so element `e` of part `p` joins the nodes `e + p` and `e + p + 1`.
+//! Every segment has one node more than it has elements, so element `e` joins the nodes `e + shift` and `e + shift + 1`, where the
+//! shift of the first segment is 0 and grows by one at every place where ends meet.
 
 use super::{
+    joint::Joint,
     part::{Part, Role},
     penetration::Penetration,
     tate::Tip,
@@ -34,11 +36,13 @@ pub(super) struct Segment {
     pub(super) part: usize,
     pub(super) first_node: usize,
     pub(super) last_node: usize,
+    /// Number of its first node less that of its first element.
+    pub(super) shift: usize,
 }
 
 impl Segment {
     pub(super) fn elements(self) -> std::ops::Range<usize> {
-        self.first_node - self.part..self.last_node - self.part
+        self.first_node - self.shift..self.last_node - self.shift
     }
 }
 
@@ -54,6 +58,8 @@ pub(super) struct Node {
     pub(super) force: f64,
     /// Force of the elements without viscosity [N].
     pub(super) spring_force: f64,
+    /// Force of local damping in this step, part of `force` [N].
+    pub(super) damping: f64,
     /// Largest friction force [N].
     pub(super) friction: f64,
 }
@@ -85,9 +91,22 @@ pub(super) struct Element {
     /// Initial position of its middle.
     pub(super) initial_position: f64,
     pub(super) eroded: bool,
+    /// Damage by the failure law; 1 is failed.
+    pub(super) damage: f64,
+    /// Whether its failure has parted it from a neighbour.
+    pub(super) parted: bool,
     /// Length of target that the tip has gone through [m], and its part in the last step.
     pub(super) advance: f64,
     pub(super) advance_step: f64,
+}
+
+/// A place where a body or a bonded interface has parted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Parting {
+    /// Initial position, struck face at 0 [m].
+    pub(super) position: f64,
+    /// [s].
+    pub(super) time: f64,
 }
 
 /// Work and impulse that have gone where the state itself does not show them.
@@ -101,9 +120,11 @@ pub(super) struct Books {
     pub(super) contact_loss: f64,
     pub(super) boundary_work: f64,
     pub(super) eroded_energy: f64,
+    pub(super) fracture_work: f64,
     pub(super) support_impulse: f64,
     pub(super) friction_impulse: f64,
     pub(super) eroded_momentum: f64,
+    pub(super) damping_impulse: f64,
 }
 
 /// Nodes, elements and books at one time. Node velocities stand half a step behind the positions.
@@ -112,8 +133,8 @@ pub(super) struct State {
     pub(super) parts: Vec<Part>,
     /// From the projectile's tail to the target's back.
     pub(super) segments: Vec<Segment>,
-    /// `closed[s]`: whether segments `s` and `s + 1` touch.
-    pub(super) closed: Vec<bool>,
+    /// `joints[s]`: what is between segments `s` and `s + 1`.
+    pub(super) joints: Vec<Joint>,
     pub(super) end: End,
     /// Force of a constant-pressure target on the projectile's tip [N]; 0 with any other target.
     pub(super) tip_friction: f64,
@@ -135,6 +156,10 @@ pub(super) struct State {
     pub(super) time_step: f64,
     /// Largest stable time step of the current state.
     pub(super) stable_step: f64,
+    /// Places where bodies and bonded interfaces have parted, in the order of time.
+    pub(super) partings: Vec<Parting>,
+    /// How often two ends have met.
+    pub(super) meetings: u64,
     pub(super) contact_force: f64,
     pub(super) back_force: f64,
     pub(super) books: Books,
@@ -232,6 +257,7 @@ impl State {
             contact: books.contact_loss,
             boundary: books.boundary_work,
             eroded: books.eroded_energy,
+            fracture: books.fracture_work,
             transfer: 0.0,
         }
     }
@@ -252,6 +278,7 @@ impl State {
             support: books.support_impulse,
             border_shear: books.friction_impulse,
             eroded: books.eroded_momentum,
+            damping: books.damping_impulse,
         }
     }
 }

@@ -37,6 +37,7 @@ pub(super) fn warnings(
     warnings.extend(held_back(scenario));
     warn_of_closure(scenario, result, &mut warnings);
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
+    warn_of_failure(scenario, result, &mut warnings);
     let heated = scenario.options.chain.adiabatic_heating.unwrap_or(true);
     let mut warn = |what: &str, material: &Material, reached: Option<&Reached>| {
         if let Some(reached) = reached {
@@ -193,6 +194,40 @@ fn warn_of_erosion(
     }
 }
 
+/// Bodies that cannot fail for want of numbers, and pieces that depend on the mesh.
+fn warn_of_failure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<String>) {
+    let Some(failure) = &scenario.options.chain.failure else {
+        return;
+    };
+    let mut without: Vec<&str> = Vec::new();
+    let mut look_at = |material: &Material, id| {
+        if failure.law().prepare(material).is_none() && !without.contains(&id) {
+            without.push(id);
+        }
+    };
+    let rod = &scenario.projectile;
+    look_at(&rod.material, &rod.material_id);
+    if let TargetBody::Layers { layers, .. } = &scenario.target {
+        for plate in layers {
+            look_at(&plate.material, &plate.material_id);
+        }
+    }
+    for id in without {
+        warnings.push(format!(
+            "`{id}` has no `{}`: it does not part",
+            failure.law().record_key()
+        ));
+    }
+    let energy = scenario.options.chain.fracture_energy;
+    if energy.is_none_or(|energy| energy.si() == 0.0) && result.fragments.len() > 3 {
+        warnings.push(
+            "cracks open at once: the first one is a result, the number of pieces and the smallest of them depend on the mesh; \
+             give `chain.fracture_energy`"
+                .to_owned(),
+        );
+    }
+}
+
 /// Extremes of a part.
 pub(super) struct Reached {
     pub(super) plastic_strain: f64,
@@ -201,6 +236,10 @@ pub(super) struct Reached {
     /// [K].
     pub(super) temperature: f64,
 }
+
+/// Part of the way from room temperature to melting that may be left: the strength goes with it, and with the strength the heat,
+/// so that nothing quite gets there.
+const NEARLY_MOLTEN: f64 = 0.01;
 
 fn warn_of_material(
     what: &str,
@@ -211,7 +250,8 @@ fn warn_of_material(
 ) {
     let flowed = reached.plastic_strain > 0.0;
     if let Some(melting) = material.melting_temperature
-        && reached.temperature >= melting.si()
+        && reached.temperature
+            >= melting.si() - NEARLY_MOLTEN * (melting.si() - material.room_temperature.si())
     {
         warnings.push(format!(
             "the {what} reached its melting point ({melting}): there the law has no strength"

@@ -216,6 +216,7 @@ impl State {
             contact: self.books.contact_loss,
             boundary: self.ground.boundary_work,
             eroded: self.books.eroded_energy,
+            fracture: 0.0,
             transfer: 0.0,
         }
     }
@@ -228,6 +229,7 @@ impl State {
             support: self.ground.support_impulse,
             border_shear: 0.0,
             eroded: self.books.eroded_momentum,
+            damping: 0.0,
         }
     }
 
