@@ -138,5 +138,5 @@ cases! {
     taylor_copper_wilkins: "taylor-copper-wilkins",
     elastic_bars: "elastic-bars",
     concrete_forrestal_1994: "concrete-forrestal-1994",
-    weldox_borvik_2002: "weldox-borvik-2002",
+    weldox_460e_12mm_blunt: "weldox-460e-12mm-blunt",
 }
