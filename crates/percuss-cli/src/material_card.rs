@@ -17,6 +17,7 @@ pub fn text(entry: &MaterialEntry, library: &Library) -> String {
     constants(material, &mut text);
     strength(material, &mut text);
     equation_of_state(material, &mut text);
+    damage(material, &mut text);
     validity(material, &mut text);
     provenance(material, &mut text);
     let rivals: Vec<&MaterialEntry> = library.rivals(entry).collect();
@@ -149,6 +150,29 @@ fn equation_of_state(material: &Material, text: &mut String) {
     }
     if !eos.sources.is_empty() {
         row("from", &eos.sources.join(", "), text);
+    }
+}
+
+fn damage(material: &Material, text: &mut String) {
+    let Some(damage) = &material.damage else {
+        return;
+    };
+    heading("damage: Johnson–Cook", text);
+    *text += &format!("  {}\n", damage.equation());
+    let constants = [damage.d1, damage.d2, damage.d3, damage.d4, damage.d5];
+    for (name, value) in ["D₁", "D₂", "D₃", "D₄", "D₅"].into_iter().zip(constants) {
+        row(name, &value.to_string(), text);
+    }
+    row(
+        "ε̇₀ (reference_rate)",
+        &damage.reference_rate.to_string(),
+        text,
+    );
+    if !damage.note.is_empty() {
+        paragraph(&damage.note, text);
+    }
+    if !damage.sources.is_empty() {
+        row("from", &damage.sources.join(", "), text);
     }
 }
 

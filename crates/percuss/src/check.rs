@@ -167,6 +167,16 @@ pub mod limits {
     pub const BORDER_SHEAR: Limits = limits(0.0, 10.0);
     /// Courant number.
     pub const COURANT: Limits = limits(1e-4, 1.0);
+    /// Failure strains D₁ and D₂ of a Johnson–Cook damage law; D₁ alone may be negative.
+    pub const DAMAGE_STRAIN: Limits = limits(-10.0, 100.0);
+    /// Its exponent D₃ of the stress triaxiality; tension is positive, and makes the material fail earlier.
+    pub const TRIAXIALITY_EXPONENT: Limits = limits(-20.0, 0.0);
+    /// Its rate coefficient D₄.
+    pub const DAMAGE_RATE_COEFFICIENT: Limits = limits(-1.0, 1.0);
+    /// Its thermal coefficient D₅.
+    pub const DAMAGE_THERMAL_COEFFICIENT: Limits = limits(-1.0, 20.0);
+    /// Plastic strain at which a solid fails in shear.
+    pub const FAILURE_STRAIN: Limits = limits(0.001, 100.0);
     /// Strain at which an element erodes.
     pub const EROSION_STRAIN: Limits = limits(0.05, 20.0);
     /// Coefficient of artificial viscosity.

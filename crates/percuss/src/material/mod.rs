@@ -1,6 +1,7 @@
 //! Materials: elastic constants, a strength law and where every number comes from.
 
 mod cavity;
+mod damage;
 mod equation_of_state;
 mod library;
 mod references;
@@ -19,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::units::{Density, Pressure, SpecificHeat, StrainRate, Temperature};
 
 pub use cavity::{cavity_expansion_pressure, cylindrical_cavity_pressure};
+pub use damage::{Damage, DamageState, PreparedDamage};
 pub use equation_of_state::EquationOfState;
 pub use library::{Library, MaterialEntry};
 pub use references::{Reference, references};
@@ -85,6 +87,9 @@ pub struct Material {
     /// Shock equation of state; models of planar shocks need it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub equation_of_state: Option<EquationOfState>,
+    /// Damage by plastic strain; models use it where they are asked to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damage: Option<Damage>,
     /// The strength law.
     pub strength: Strength,
 }

@@ -28,6 +28,12 @@ impl Material {
         if let Some(eos) = &self.equation_of_state {
             eos.check(&mut check.within("equation_of_state"));
         }
+        if let Some(damage) = &self.damage {
+            damage.check(
+                &mut check.within("damage"),
+                self.melting_temperature.is_some(),
+            );
+        }
         if let Some(hardness) = self.brinell_hardness {
             check.number("brinell_hardness", hardness, limits::BRINELL_HARDNESS);
         }

@@ -179,6 +179,7 @@ impl Properties {
             room_temperature: Temperature::new(293.0),
             validity: material::Validity::default(),
             equation_of_state: None,
+            damage: None,
             strength,
         }
     }

@@ -17,7 +17,7 @@ use crate::check::Check;
 
 pub use concrete::Concrete;
 pub use elastic::Elastic;
-pub use johnson_cook::JohnsonCook;
+pub use johnson_cook::{JohnsonCook, RateForm};
 pub use perfectly_plastic::PerfectlyPlastic;
 pub use power_law::PowerLaw;
 pub use steinberg_guinan::SteinbergGuinan;
