@@ -59,6 +59,8 @@ pub enum Termination {
     TipStopped,
     /// The crater floor passed the original back face.
     PassedBackFace,
+    /// All of the shear band around the plug has ended, and projectile and plug fly at their final speeds.
+    PlugFree,
     /// The last of the projectile eroded.
     ProjectileConsumed,
     /// The resistance of the target holds what is left of the projectile.
@@ -85,6 +87,7 @@ impl Termination {
             Self::Parted => "projectile and target have parted and will not meet again",
             Self::TipStopped => "the tip's speed reached zero",
             Self::PassedBackFace => "crater floor passed the original back face",
+            Self::PlugFree => "the whole shear band failed; projectile and plug fly freely",
             Self::ProjectileConsumed => "the last of the projectile eroded",
             Self::PenetrationStopped => {
                 "the target's resistance holds what is left of the projectile"
@@ -131,6 +134,10 @@ pub struct RunResult {
     pub projectile_final_diameter: Option<f64>,
     /// Mass left of the projectile [kg].
     pub projectile_final_mass: Option<f64>,
+    /// Mass of the plug that a plate let go [kg].
+    pub plug_mass: Option<f64>,
+    /// Its speed [m/s].
+    pub plug_velocity: Option<f64>,
     /// Time at which the projectile's momentum was used up [s].
     pub time_to_rest: Option<f64>,
     /// Largest force between projectile and target [N].
@@ -276,6 +283,8 @@ impl RunResult {
             projectile_final_length: None,
             projectile_final_diameter: None,
             projectile_final_mass: None,
+            plug_mass: None,
+            plug_velocity: None,
             time_to_rest: None,
             peak_force: None,
             end_time: None,

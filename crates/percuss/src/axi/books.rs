@@ -33,6 +33,7 @@ impl Solver {
             boundary: books.boundary,
             eroded: books.lost_energy + books.work[0][3] + books.work[1][3],
             transfer: books.transfer,
+            ..EnergyLedger::default()
         }
     }
 
@@ -45,6 +46,7 @@ impl Solver {
             support: self.books.support_impulse,
             border_shear: 0.0,
             eroded: self.books.lost_momentum,
+            ..MomentumLedger::default()
         }
     }
 }

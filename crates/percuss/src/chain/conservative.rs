@@ -166,6 +166,7 @@ impl<'a> Conservative<'a> {
                 if self.watch.is_quiet(&self.state, self.scenario, end_time) {
                     let state = &self.state;
                     break match state.tip_segment().map(|tip| state.closed.get(tip)) {
+                        Some(_) if state.plug_is_free() => Termination::PlugFree,
                         Some(Some(false)) => Termination::Parted,
                         Some(_) => Termination::Quiescent,
                         None => Termination::ProjectileConsumed,

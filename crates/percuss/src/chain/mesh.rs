@@ -81,6 +81,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
             layers,
             back_face,
             column_diameter,
+            ..
         } => {
             let area = match options.erosion_closure() {
                 ErosionClosure::Strain => PI * column_diameter * column_diameter / 4.0,
@@ -142,6 +143,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     {
         state.let_penetrate(material);
     }
+    state.hold_plug(scenario);
     for node in &mut state.nodes[..=rod_elements] {
         node.velocity = scenario.impact_speed;
     }
@@ -168,6 +170,7 @@ fn assemble(parts: Vec<Part>, lengths: &[f64], end: End, cone: Option<(Cone, Gra
         tip_friction: 0.0,
         tip: None,
         penetration: None,
+        hold: None,
         drag: 0.0,
         back_position: 0.0,
         nodes: vec![Node::default(); nodes],

@@ -3,14 +3,19 @@
 mod cone;
 mod conservative;
 mod contact;
+mod dishing;
 mod element;
 mod erosion;
 mod friction;
 mod mesh;
 mod part;
 mod penetration;
+mod plate_section;
+mod plug;
 mod published;
 mod results;
+mod shear_band;
+mod shear_zone;
 mod snapshot;
 mod solver;
 mod state;
@@ -81,7 +86,7 @@ impl Model for Chain {
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
         match scenario.options.chain.scheme {
-            Scheme::Conservative => None,
+            Scheme::Conservative => plug::band_laws(scenario).err(),
             Scheme::Published => Published::not_applicable(scenario),
         }
     }

@@ -60,6 +60,8 @@ impl Results<'_> {
         result.depth_of_penetration = depth;
         result.largest_depth = depth.map(|_| watch.largest_depth);
         result.permanent_depth = match scenario.target {
+            // The compression of a plug is not its depth.
+            _ if state.hold.is_some() => None,
             TargetBody::Layers { .. } => Some(remains.permanent_depth),
             TargetBody::ConstantPressure(_) => Some(watch.largest_depth),
             TargetBody::RigidWall => None,
@@ -70,6 +72,12 @@ impl Results<'_> {
         result.projectile_final_mass = Some(mass);
         result.time_to_rest = watch.at_rest.map(|(time, _)| time);
         result.peak_force = Some(watch.peak_force);
+        if state.plug_is_free() {
+            let (mass, velocity) = state.plug_motion();
+            result.plug_mass = Some(mass);
+            result.plug_velocity = Some(velocity);
+        }
+        result.details = state.plug_details();
         result.end_time = Some(state.time);
         result.numerics = Some(Numerics {
             steps: state.step,

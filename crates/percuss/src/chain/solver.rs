@@ -73,11 +73,13 @@ impl State {
             (control.courant * self.stable_step).min(control.longest_step),
         );
         self.collect_forces();
+        self.collect_band_forces();
         self.meet_target();
         // Velocities live half a step behind positions: the kick spans the two half steps around the current time.
         self.kick(0.5 * (previous + time_step), control.is_viscous());
         self.close_gaps(time_step);
         self.drift(control, time_step)?;
+        self.drift_plate(time_step);
         self.time += time_step;
         self.time_step = time_step;
         self.step += 1;
@@ -135,6 +137,7 @@ impl State {
             self.book_viscous_work(kick);
         }
         self.book_target_turned_aside(kick);
+        self.kick_plate(kick);
     }
 
     fn book_viscous_work(&mut self, kick: f64) {

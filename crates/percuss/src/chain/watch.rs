@@ -68,7 +68,8 @@ impl Watch {
             + books.plastic[1]
             + books.friction_work
             + books.viscous_work
-            + books.eroded_energy;
+            + books.eroded_energy
+            + state.plug_dissipation();
         let flow = (dissipation - self.window_dissipation) / books.initial_energy;
         let deepening = self.largest_depth > self.window_depth * (1.0 + 1e-9);
         let touched = self.touched;
@@ -82,6 +83,11 @@ impl Watch {
         }
         if !touched {
             return flow <= PARTED_FRACTION && !approaches(state, end_time - state.time);
+        }
+        if state.plug_is_free() {
+            // Projectile and plug may fly on together.
+            let apart = (momentum / mass - state.plug_motion().1).abs();
+            return flow <= PARTED_FRACTION && apart <= REST_FRACTION * scenario.impact_speed;
         }
         // A projectile that is still being pushed back has not got its rebound speed yet.
         let still = (momentum / mass).abs() <= REST_FRACTION * scenario.impact_speed;
@@ -106,6 +112,13 @@ impl Watch {
             _ => {}
         }
         let ratio = momentum / (mass * impact_speed);
+        // What a plate still holds does not move away for good.
+        if state.plug_is_free() && ratio > REST_FRACTION {
+            return Outcome::Perforated;
+        }
+        if state.plug_is_held() && ratio > REST_FRACTION {
+            return Outcome::AtRest;
+        }
         if ratio < -REST_FRACTION {
             Outcome::Rebounded
         } else if ratio > REST_FRACTION {
@@ -131,7 +144,7 @@ fn approaches(state: &State, horizon: f64) -> bool {
             let gap =
                 state.nodes[ahead.first_node].position - state.nodes[behind.last_node].position;
             // A target that is held vibrates about its place; anything else flies at its mean speed.
-            let held = s == tip && state.end != End::Free;
+            let held = s == tip && (state.end != End::Free || state.plug_is_held());
             let away = if held {
                 0.0
             } else {
@@ -152,7 +165,8 @@ pub(super) fn event(state: &State, scenario: &Scenario) -> Result<Option<Termina
     match (thickness, state.face_segment()) {
         (None, None) => Err(state.depth()),
         (Some(_), None) => Ok(Some(Termination::PassedBackFace)),
-        (Some(thickness), Some(_)) if state.depth() >= thickness => {
+        // A plug that is still held, or that the projectile still pushes, is no end.
+        (Some(thickness), Some(_)) if state.hold.is_none() && state.depth() >= thickness => {
             Ok(Some(Termination::PassedBackFace))
         }
         _ => Ok(None),

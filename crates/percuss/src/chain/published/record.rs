@@ -33,7 +33,7 @@ impl Published<'_> {
             target: momentum(&self.target_velocity, self.target.mass),
             support: self.support_impulse,
             border_shear: self.friction_impulse,
-            eroded: 0.0,
+            ..MomentumLedger::default()
         };
         (energy, momentum)
     }

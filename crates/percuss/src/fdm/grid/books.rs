@@ -75,7 +75,7 @@ impl<L: Law> Grid<L> {
             contact: self.books.contact_loss,
             boundary: self.books.boundary_work,
             eroded: 0.0,
-            transfer: 0.0,
+            ..EnergyLedger::default()
         }
     }
 
@@ -102,7 +102,7 @@ impl<L: Law> Grid<L> {
             target: self.motion(1).1,
             support: self.books.support_impulse,
             border_shear: self.books.friction_impulse,
-            eroded: 0.0,
+            ..MomentumLedger::default()
         }
     }
 }
