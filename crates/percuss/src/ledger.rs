@@ -56,10 +56,10 @@ impl EnergyLedger {
             ("contact", self.contact),
             ("through back face", self.boundary),
             ("eroded", self.eroded),
-            ("particles to grid", self.transfer),
             ("kinetic, plate", self.kinetic_plate),
             ("elastic, plate", self.elastic_plate),
             ("plastic, plate", self.plastic_plate),
+            ("particles to grid", self.transfer),
         ]
     }
 

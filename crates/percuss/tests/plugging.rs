@@ -82,7 +82,8 @@ fn with_its_shear_work_lumped_it_is_recht_and_ipson() {
 
 #[test]
 fn a_plug_that_is_free_keeps_its_momentum() {
-    let chain = "shear_band = { width = \"0.2 mm\", shear_strength = \"300 MPa\", failure_strain = 1.0 }";
+    let chain =
+        "shear_band = { width = \"0.2 mm\", shear_strength = \"300 MPa\", failure_strain = 1.0 }";
     let result = run(&scenario(150.0, "", chain));
     balanced(&result);
     let history = result.history.as_ref().unwrap();
@@ -102,7 +103,10 @@ fn a_plug_that_is_free_keeps_its_momentum() {
     assert!(after.len() > 20);
     let last = after[after.len() - 1];
     // From where projectile and plug have parted for good nothing acts on it.
-    let parted = after.iter().rev().take_while(|p| (*p / last - 1.0).abs() < 1e-12);
+    let parted = after
+        .iter()
+        .rev()
+        .take_while(|p| (*p / last - 1.0).abs() < 1e-12);
     assert!(parted.count() > after.len() / 3, "{after:?}");
     assert!((result.plug_mass.unwrap() * result.plug_velocity.unwrap() / last - 1.0).abs() < 1e-12);
 }

@@ -33,7 +33,7 @@ pub(crate) use warnings::held_back;
 
 use crate::{
     Error, Scenario,
-    case::Scheme,
+    case::{BorderShearLaw, Scheme},
     guard::{FirstChoice, Guard, NoseKind, Range},
     material::MaterialClass,
     model::{Control, Model},
@@ -59,7 +59,6 @@ impl Model for Chain {
             &Guard {
                 noses: &[NoseKind::Flat],
                 start_temperature: true,
-                ranges: &[Range::COLUMN],
                 first_choice: &[FirstChoice {
                     projectile: ProjectileRegime::Deforming,
                     targets: &[
@@ -78,6 +77,8 @@ impl Model for Chain {
                     "normal impact of a flat-ended rod",
                     "the column of target in line with the rod stands for the target: the depth is only as good as the constraint \
                      factor and the border shear that close it",
+                    "a plate is perforated by a plug with `border_shear_law = \"shear-band\"`; without it a column can neither let go a \
+                     plug nor bend",
                 ],
                 ..Guard::OPEN
             }
@@ -92,9 +93,14 @@ impl Model for Chain {
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        match scenario.options.chain.scheme {
-            Scheme::Conservative => Conservative::new(scenario).run(control),
-            Scheme::Published => Published::new(scenario)?.run(control),
+        let mut result = match scenario.options.chain.scheme {
+            Scheme::Conservative => Conservative::new(scenario).run(control)?,
+            Scheme::Published => Published::new(scenario)?.run(control)?,
+        };
+        if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction {
+            let thin = Range::COLUMN.finding(scenario);
+            result.warnings.splice(0..0, thin);
         }
+        Ok(result)
     }
 }

@@ -14,6 +14,10 @@ use crate::{
     scenario::{Scenario, TargetBody},
 };
 
+/// Names of two numbers of a result.
+pub(super) const WIDTH: &str = "width of shear band";
+pub(super) const DISHING: &str = "largest dishing of plate";
+
 /// What holds a plug.
 #[derive(Debug)]
 pub(super) struct Hold {
@@ -157,7 +161,7 @@ impl State {
         let law = bands.laws.first();
         let plate = hold.plate.as_ref();
         let details = [
-            law.and_then(|law| detail("width of shear band", "mm", law.width * 1e3)),
+            law.and_then(|law| detail(WIDTH, "mm", law.width * 1e3)),
             law.and_then(BandLaw::failure_strain)
                 .and_then(|strain| detail("its failure shear strain, slow and cold", "", strain)),
             detail("its largest slip", "mm", books.largest_slip * 1e3),

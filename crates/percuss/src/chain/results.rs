@@ -44,6 +44,8 @@ impl Results<'_> {
         let (mass, momentum) = state.projectile_motion();
         let depth = match scenario.target {
             TargetBody::RigidWall => None,
+            // What flies has no depth.
+            _ if state.plug_is_free() => None,
             // A crater floor that sprang back beyond the original face is no depth.
             _ => Some(
                 watch

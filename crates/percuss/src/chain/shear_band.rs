@@ -393,3 +393,7 @@ impl Band {
         self.temperature += law.heating * mean * increment;
     }
 }
+
+#[cfg(test)]
+#[path = "shear_band_tests.rs"]
+mod tests;
