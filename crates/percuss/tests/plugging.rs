@@ -110,3 +110,130 @@ fn a_plug_that_is_free_keeps_its_momentum() {
     assert!(parted.count() > after.len() / 3, "{after:?}");
     assert!((result.plug_mass.unwrap() * result.plug_velocity.unwrap() / last - 1.0).abs() < 1e-12);
 }
+
+/// The blunt shot on Weldox, at a speed and on a mesh, with more options of the chain.
+fn weldox(speed: f64, elements: (u32, u32), chain: &str) -> Scenario {
+    let text = format!(
+        r#"
+        projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "{speed} m/s" }}
+        target = {{ material = "weldox-460-e", thickness = "12 mm", back_face = "free", plate_diameter = "500 mm" }}
+        [chain]
+        border_shear_law = "shear-band"
+        projectile_elements = {}
+        target_elements = {}
+        {chain}
+        "#,
+        elements.0, elements.1
+    );
+    case::load_str("weldox", &text).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Middle of a bracket between shots that are stopped and shots that go through [m/s].
+fn limit(within: f64, shot: impl Fn(f64) -> Scenario) -> f64 {
+    let (mut low, mut high) = (40.0, 300.0);
+    while high - low > within {
+        let speed = 0.5 * (low + high);
+        let result = run(&shot(speed));
+        balanced(&result);
+        match result.outcome {
+            Outcome::Perforated => high = speed,
+            Outcome::AtRest | Outcome::Rebounded => low = speed,
+            other => panic!("{speed} m/s: {other:?}"),
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[test]
+fn limit_and_residual_velocity_converge_with_the_mesh() {
+    let meshes = [(10, 6), (20, 12), (40, 24), (80, 48)];
+    let limits = meshes.map(|mesh| limit(0.25, |speed| weldox(speed, mesh, "dishing = true")));
+    let residuals = meshes.map(|mesh| {
+        let result = run(&weldox(300.0, mesh, "dishing = true"));
+        result.residual_velocity.unwrap()
+    });
+    println!("limits {limits:.2?} m/s, residual velocities at 300 m/s {residuals:.2?} m/s");
+    for values in [limits, residuals] {
+        assert!((values[3] / values[2] - 1.0).abs() < 0.01, "{values:?}");
+        assert!((values[2] / values[1] - 1.0).abs() < 0.02, "{values:?}");
+    }
+    // Blind, against 184.5 m/s measured: 42 % low, told of in the case. A change of it is a change of the prediction.
+    assert!((limits[2] / 107.4 - 1.0).abs() < 0.01, "{limits:?}");
+}
+
+#[test]
+fn the_books_close_whatever_holds_the_plug() {
+    let shots = [
+        ("", 90.0),
+        ("dishing = true", 60.0),
+        ("dishing = true", 108.0),
+        ("dishing = true\nconstraint_factor = 1.0", 250.0),
+        ("dishing = true\nconstraint_factor = 1.0", 700.0),
+        (
+            "dishing = true\nerosion_strain = 0.3\nconstraint_factor = 1.0",
+            600.0,
+        ),
+        (
+            "dishing = true\nshear_band = { failure = \"never\" }",
+            164.0,
+        ),
+        ("shear_band = { failure = \"never\" }", 300.0),
+        (
+            "dishing = true\nshear_band = { failure = \"instability\" }",
+            400.0,
+        ),
+        (
+            "dishing = true\nshear_band = { width = \"0.05 mm\" }",
+            150.0,
+        ),
+        (
+            "dishing = true\nartificial_viscosity = { linear = 0.06, quadratic = 1.5 }\ndamping_ratio = 0.05",
+            150.0,
+        ),
+        (
+            "rate_effects = false\nadiabatic_heating = false\nshear_band = { width = \"1 mm\" }",
+            200.0,
+        ),
+    ];
+    for (chain, speed) in shots {
+        let result = run(&weldox(speed, (20, 12), chain));
+        println!(
+            "{speed} m/s, {chain:?}: {:?}, residuals {:.1e} and {:.1e}",
+            result.outcome,
+            result.numerics().energy_residual,
+            result.numerics().momentum_residual
+        );
+        balanced(&result);
+        let energy = &result.numerics().energy;
+        assert!(energy.border_shear > 0.0);
+        assert_eq!(energy.kinetic_plate > 0.0, chain.contains("dishing"));
+    }
+}
+
+/// Slower than half the width's effect of the mesh: half the width takes less work, twice the width more.
+#[test]
+fn the_width_is_the_length_scale() {
+    let of_width = |width: &str| {
+        let chain = format!("shear_band = {{ width = \"{width}\" }}");
+        limit(2.0, |speed| weldox(speed, (20, 12), &chain))
+    };
+    let limits = ["0.325 mm", "0.65 mm", "1.3 mm"].map(of_width);
+    println!("limits by width, rigid plate: {limits:.1?} m/s");
+    assert!(limits[0] < 0.85 * limits[1] && limits[1] < 0.85 * limits[2]);
+}
+
+#[test]
+fn a_material_that_gives_no_width_is_refused_in_words() {
+    let chain = model::model("chain").unwrap();
+    let refused = |scenario: Scenario| match model::run(chain, &scenario, &mut Control::default()) {
+        Err(percuss::Error::NotApplicable { reason, .. }) => reason,
+        other => panic!("{other:?}"),
+    };
+    let elastic = scenario(100.0, "", "");
+    assert!(refused(elastic).contains("never yields"));
+    let mut plastic = weldox(100.0, (20, 12), "");
+    if let percuss::scenario::TargetBody::Layers { layers, .. } = &mut plastic.target {
+        layers[0].material = plastic.projectile.material.clone();
+    }
+    assert!(refused(plastic).contains("give `chain.shear_band.width`"));
+}

@@ -168,9 +168,6 @@ impl State {
             detail("its work", "J", books.work),
             detail("its largest temperature", "K", books.largest_temperature),
             books
-                .first_end
-                .and_then(|time| detail("its first failure", "us", time * 1e6)),
-            books
                 .last_end
                 .filter(|_| !bands.hold_any())
                 .and_then(|time| detail("plug free", "us", time * 1e6)),

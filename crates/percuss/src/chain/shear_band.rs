@@ -184,8 +184,7 @@ pub(super) struct BandBooks {
     pub(super) work: f64,
     /// Impulse on the plate around the plug [N s].
     pub(super) impulse: f64,
-    /// Time at which the first and the last band ended [s].
-    pub(super) first_end: Option<f64>,
+    /// Time at which the last band ended [s].
     pub(super) last_end: Option<f64>,
     pub(super) largest_temperature: f64,
     pub(super) largest_slip: f64,
@@ -282,7 +281,6 @@ impl Bands {
             if held < band.held {
                 books.work += band.release(held, volume, law.shear_modulus);
                 if held == 0.0 {
-                    books.first_end.get_or_insert(time);
                     books.last_end = Some(time);
                 }
             }
