@@ -42,6 +42,9 @@ pub struct Damage {
     pub note: String,
 }
 
+/// Beyond it, an exponential is no number any more.
+const LARGEST_EXPONENT: f64 = 700.0;
+
 fn reference_rate() -> StrainRate {
     StrainRate::new(1.0)
 }
@@ -141,7 +144,8 @@ impl PreparedDamage {
         };
         let homologous =
             ((state.temperature - self.room_temperature) / self.melting_range).clamp(0.0, 1.0);
-        let strain = d1 + d2 * (d3 * state.triaxiality).exp();
+        // Without an equivalent stress the triaxiality has no bounds, or is no number: then nothing is used up.
+        let strain = d1 + d2 * (d3 * state.triaxiality).min(LARGEST_EXPONENT).exp();
         strain.max(0.0) * rate_factor.max(0.0) * (1.0 + d5 * homologous).max(0.0)
     }
 
@@ -267,6 +271,10 @@ mod tests {
         assert_eq!(law.grow(0.2, &triaxial, 0.0), 0.2);
         // Compression without end takes no part of it.
         assert_eq!(law.grow(0.2, &slow(-1e9), 0.1), 0.2);
+        assert_eq!(law.grow(0.2, &slow(f64::NEG_INFINITY), 0.1), 0.2);
+        assert_eq!(law.grow(0.2, &slow(f64::NAN), 0.1), 0.2);
+        let constant = prepared("d1 = 0.3, d2 = 0.0, d3 = -1.0");
+        assert_eq!(constant.failure_strain(&slow(f64::NEG_INFINITY)), 0.3);
     }
 
     fn keys(material: &Material) -> Vec<String> {
