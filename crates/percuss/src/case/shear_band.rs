@@ -73,7 +73,9 @@ impl ChainOptions {
                 if given {
                     check.fail(
                         key,
-                        format!("`{key}` has no effect without a shear band"),
+                        format!(
+                            "`{key}` has no effect where border shear is friction, the default"
+                        ),
                         "add border_shear_law = \"shear-band\", or remove the key",
                     );
                 }
@@ -114,7 +116,7 @@ impl ChainOptions {
         if self.dishing() && target.plate_diameter.is_none() {
             check.fail(
                 "dishing",
-                "a plate that dishes has a support",
+                "a plate that dishes ends somewhere",
                 "give `target.plate_diameter`, the diameter inside its support",
             );
         }
