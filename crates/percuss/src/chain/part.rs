@@ -48,7 +48,7 @@ impl Part {
         options: &ChainOptions,
     ) -> Self {
         // What the constraint adds to the stress is work against the material around the column, not heat in it.
-        let heating = heating(material, options) / factor;
+        let heating = heating(material, options, factor);
         let factor = match options.erosion_closure() {
             ErosionClosure::Strain => factor,
             // An element's force over the part of its length that is used up does the work of its flow stress over all of it.
@@ -89,11 +89,11 @@ impl Part {
     }
 }
 
-/// Temperature rise per plastic work per volume [K m3/J]; 0 without heating.
-pub(super) fn heating(material: &Material, options: &ChainOptions) -> f64 {
+/// Temperature rise per work per volume of a flow stress with a factor on it [K m3/J]; 0 without heating.
+pub(super) fn heating(material: &Material, options: &ChainOptions, factor: f64) -> f64 {
     match material.specific_heat {
         Some(heat) if options.adiabatic_heating.unwrap_or(true) => {
-            options.heat_fraction.unwrap_or(0.9) / (material.density.si() * heat.si())
+            options.heat_fraction.unwrap_or(0.9) / (factor * material.density.si() * heat.si())
         }
         _ => 0.0,
     }

@@ -41,7 +41,7 @@ impl PlateSection {
             bending: material.youngs_modulus.si() * thickness.powi(3) / (12.0 * (1.0 - nu * nu)),
             shear: SHEAR_CORRECTION * material.shear_modulus() * thickness,
             strength: material.strength.law().prepare(material, 1.0),
-            heating: super::part::heating(material, options),
+            heating: super::part::heating(material, options, 1.0),
             rate_effects: options.rate_effects.unwrap_or(true),
             start_temperature: material.room_temperature.si(),
         }

@@ -71,7 +71,7 @@ impl BandLaw {
             Some(stress) => perfectly_plastic(SQRT_3 * stress.si()),
             None => material.strength.law().prepare(material, 1.0),
         };
-        let heating = part::heating(material, options);
+        let heating = part::heating(material, options, 1.0);
         let sheared = Sheared {
             strength: &*strength,
             heating,
