@@ -162,11 +162,20 @@ impl State {
         let plate = hold.plate.as_ref();
         let details = [
             law.and_then(|law| detail(WIDTH, "mm", law.width * 1e3)),
-            law.and_then(BandLaw::failure_strain)
-                .and_then(|strain| detail("its failure shear strain, slow and cold", "", strain)),
-            detail("its largest slip", "mm", books.largest_slip * 1e3),
-            detail("its work", "J", books.work),
-            detail("its largest temperature", "K", books.largest_temperature),
+            law.and_then(BandLaw::failure_strain).and_then(|strain| {
+                detail(
+                    "failure shear strain of shear band, slow and cold",
+                    "",
+                    strain,
+                )
+            }),
+            detail("largest slip of shear band", "mm", books.largest_slip * 1e3),
+            detail("work of shear band", "J", books.work),
+            detail(
+                "largest temperature of shear band",
+                "K",
+                books.largest_temperature,
+            ),
             books
                 .last_end
                 .filter(|_| !bands.hold_any())
