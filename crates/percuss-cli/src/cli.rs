@@ -4,8 +4,8 @@ use clap::{Parser, Subcommand};
 
 use crate::{
     commands::{
-        Compare, Completions, Converge, Judge, Man, Materials, Models, New, Reproduce, Run, Schema,
-        Validate,
+        Compare, Completions, Converge, Judge, Limit, Man, Materials, Models, New, Reproduce, Run,
+        Schema, Validate,
     },
     failure::Failure,
 };
@@ -25,6 +25,7 @@ Examples:
   percuss new my-shot                      write my-shot/scenario.toml
   percuss run my-shot/scenario.toml        run it
   percuss compare my-shot/scenario.toml    see what every model says of it
+  percuss limit my-shot/scenario.toml      find the speed that perforates it
   percuss converge my-shot/scenario.toml   see whether its mesh is fine enough
   percuss materials show copper            show what is known of a material
   percuss run --help                       explain one command
@@ -55,6 +56,7 @@ pub struct Cli {
 pub enum Command {
     Run(Run),
     Compare(Compare),
+    Limit(Limit),
     Converge(Converge),
     Validate(Validate),
     Judge(Judge),
@@ -72,6 +74,7 @@ impl Command {
         match self {
             Self::Run(command) => command.run(),
             Self::Compare(command) => command.run(),
+            Self::Limit(command) => command.run(),
             Self::Converge(command) => command.run(),
             Self::Validate(command) => command.run(),
             Self::Judge(command) => command.run(),

@@ -7,7 +7,7 @@ use std::{
 };
 
 use percuss::Error;
-use percuss_report::{ReportError, paper::ReproduceError};
+use percuss_report::ReportError;
 
 use crate::{diagnostic, terminal};
 
@@ -48,15 +48,6 @@ impl From<ReportError> for Failure {
         match error {
             ReportError::Write { path, source } => Self::write(&path)(source),
             other => Self::Report(other),
-        }
-    }
-}
-
-impl From<ReproduceError> for Failure {
-    fn from(error: ReproduceError) -> Self {
-        match error {
-            ReproduceError::Run(error) => error.into(),
-            ReproduceError::Report(error) => error.into(),
         }
     }
 }

@@ -43,18 +43,40 @@ pub struct RunFolder {
 impl RunFolder {
     /// Makes the folder and puts a copy of the case into it.
     pub fn create(path: &Path, case: &Path) -> Result<Self, Failure> {
+        Self::create_for(path, Some(case))
+    }
+
+    /// Makes the folder and puts a copy of the case into it, if there is one.
+    pub fn create_for(path: &Path, case: Option<&Path>) -> Result<Self, Failure> {
         make_folder(path)?;
+        let mut folder = Self {
+            path: path.to_path_buf(),
+            written: Vec::new(),
+        };
+        let Some(case) = case else {
+            return Ok(folder);
+        };
         let text = fs::read(case).map_err(|error| percuss::Error::Read {
             path: case.to_path_buf(),
             reason: error.to_string(),
             source: Some(error),
         })?;
-        let mut folder = Self {
-            path: path.to_path_buf(),
-            written: Vec::new(),
-        };
         folder.put(CASE_COPY, &text)?;
         Ok(folder)
+    }
+
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Notes files that were written to it.
+    pub fn add(&mut self, files: impl IntoIterator<Item = PathBuf>) {
+        self.written.extend(files);
+    }
+
+    /// All files that were written to it.
+    pub fn written(self) -> Vec<PathBuf> {
+        self.written
     }
 
     /// Writes everything that a run gives; returns the files. Without a history there is neither file nor figure of one.
@@ -98,7 +120,8 @@ impl RunFolder {
         Ok(self.written)
     }
 
-    fn put(&mut self, name: &str, content: &[u8]) -> Result<(), Failure> {
+    /// Writes a file.
+    pub fn put(&mut self, name: &str, content: &[u8]) -> Result<(), Failure> {
         let path = self.path.join(name);
         fs::write(&path, content).map_err(Failure::write(&path))?;
         self.written.push(path);

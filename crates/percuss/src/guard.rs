@@ -2,6 +2,7 @@
 
 mod fitted_to;
 mod nose_kind;
+mod oblique;
 mod temperature;
 mod words;
 
@@ -39,6 +40,8 @@ pub struct Guard {
     pub ranges: &'static [Range],
     /// What it predicts, where the case has it.
     pub predicts: &'static [BandQuantity],
+    /// Noses with which it takes oblique impact; none when it takes normal impact alone.
+    pub oblique_noses: &'static [NoseKind],
     /// Whether it follows a projectile that is not at the temperature its material was measured at.
     pub start_temperature: bool,
     /// Whether it sees the back face of a plate: one that does not gives no depth close to the thickness.
@@ -68,6 +71,7 @@ impl Guard {
             BandQuantity::ResidualVelocity,
             BandQuantity::ProjectileFinalLength,
         ],
+        oblique_noses: &[],
         start_temperature: false,
         sees_back_face: true,
         first_choice: &[],
@@ -92,6 +96,9 @@ impl Guard {
                 list(self.noses.iter().map(|nose| nose.name())),
                 nose.name()
             ));
+        }
+        if let Some(reason) = oblique::reason(self, scenario, nose) {
+            return Verdict::Outside(reason);
         }
         if let Some(reason) = self.wrong_material(scenario) {
             return Verdict::Outside(reason);
@@ -197,6 +204,7 @@ impl Guard {
         [projectile, target, predicts]
             .into_iter()
             .chain(temperature)
+            .chain([oblique::in_words(self)])
             .chain(ranges)
             .chain(self.fitted_to.iter().map(FittedTo::in_words))
             .chain(self.notes.iter().map(|&note| note.to_owned()))
@@ -311,6 +319,8 @@ pub enum Measure {
     ThicknessToDiameter,
     /// Impact speed [m/s].
     ImpactSpeed,
+    /// Angle between the path and the normal of the struck face [deg].
+    Obliquity,
 }
 
 impl Measure {
@@ -325,6 +335,7 @@ impl Measure {
             }
             Self::ThicknessToDiameter => Some(scenario.target_thickness()? / rod.diameter),
             Self::ImpactSpeed => Some(scenario.impact_speed),
+            Self::Obliquity => Some(scenario.obliquity.to_degrees()),
         }
     }
 
@@ -335,12 +346,14 @@ impl Measure {
             Self::FlatRodLengthToDiameter => "length to diameter, as a flat-ended rod of its mass,",
             Self::ThicknessToDiameter => "thickness to projectile diameter",
             Self::ImpactSpeed => "impact speed",
+            Self::Obliquity => "angle to the normal",
         }
     }
 
     fn with_unit(self, value: f64) -> String {
         let unit = match self {
             Self::ImpactSpeed => " m/s",
+            Self::Obliquity => " deg",
             _ => "",
         };
         format!("{}{unit}", significant(value, 4))

@@ -33,6 +33,7 @@ pub mod guard;
 pub mod history;
 pub mod judge;
 pub mod ledger;
+pub mod limit;
 pub mod material;
 pub mod model;
 pub mod outcome;
@@ -42,6 +43,7 @@ pub mod shapes;
 pub mod shots;
 pub mod summary;
 pub mod units;
+pub mod v50;
 pub mod validate;
 
 pub use error::{Error, InputError, NumericalError};

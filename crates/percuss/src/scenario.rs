@@ -26,6 +26,8 @@ pub struct Scenario {
     pub projectile: Rod,
     /// Impact speed [m/s].
     pub impact_speed: f64,
+    /// Angle between the path and the normal of the struck face [rad].
+    pub obliquity: f64,
     /// What is struck.
     pub target: TargetBody,
     /// Options of the models.
@@ -181,6 +183,7 @@ impl Scenario {
             sources: case.sources,
             projectile: projectile?,
             impact_speed: case.projectile.velocity.si(),
+            obliquity: case.projectile.obliquity(),
             target: target?,
             options,
             experiments: case

@@ -74,17 +74,6 @@ pub struct Reproduction {
     pub figures: Vec<Figure>,
 }
 
-/// Why the paper could not be worked through.
-#[derive(Debug, thiserror::Error)]
-pub enum ReproduceError {
-    /// A run failed.
-    #[error(transparent)]
-    Run(#[from] Error),
-    /// A figure or page could not be written.
-    #[error(transparent)]
-    Report(#[from] ReportError),
-}
-
 /// Told the part done, 0 to 1; may stop the work.
 pub type OnProgress<'a> = &'a mut dyn FnMut(f64) -> ControlFlow<()>;
 

@@ -177,6 +177,7 @@ impl Model for PlateCavity {
                 projectile: &[ProjectileRegime::Rigid],
                 targets: TargetKind::PLATES,
                 noses: NoseKind::SHARP,
+                oblique_noses: NoseKind::SHARP,
                 ranges: &[
                     Range {
                         measure: Measure::ThicknessToDiameter,
@@ -199,6 +200,20 @@ impl Model for PlateCavity {
                         outside: Outside::Warning,
                         because: "a thinner plate bends as well; in a thicker one the tip meets the pressure of a sphere",
                     },
+                    Range {
+                        measure: Measure::Obliquity,
+                        min: 0.0,
+                        max: 30.0,
+                        outside: Outside::Warning,
+                        because: "the path turns, which a straight one leaves out: at 45 deg measured limits are 17 % higher",
+                    },
+                    Range {
+                        measure: Measure::Obliquity,
+                        min: 0.0,
+                        max: 60.0,
+                        outside: Outside::NotApplicable,
+                        because: "a projectile that strikes at a flatter angle may glance off",
+                    },
                 ],
                 first_choice: &[FirstChoice {
                     projectile: ProjectileRegime::Rigid,
@@ -212,7 +227,7 @@ impl Model for PlateCavity {
                     because: "the form of the inertial pressure, V sin θ in place of V tan θ, was chosen with limits of the REL V50 database in view",
                 }],
                 notes: &[
-                    "normal impact; no friction, no free faces, no heat",
+                    "no friction, no free faces, no heat; an oblique path is straight, and the hole along it is longer (reconstructed)",
                     "a plate that plugs, scabs or breaks the projectile is out of its reach",
                 ],
                 ..Guard::OPEN
@@ -240,7 +255,8 @@ impl Model for PlateCavity {
             CavityShape::Sphere => "spherical cavity",
         };
         let mut result = plate_result(self.name(), scheme, shot.speed, limit, residual);
-        if shot.speed <= limit {
+        // Along an oblique path the tip has no depth that compares with others.
+        if shot.speed <= limit && scenario.obliquity == 0.0 {
             let part = passage.part_opened(shot.speed).min(1.0);
             let rod = &scenario.projectile;
             let depth = if part > 0.0 {

@@ -19,7 +19,7 @@ pub(super) struct PlateShot<'a> {
     pub speed: f64,
     /// Diameter of the shank [m].
     pub diameter: f64,
-    /// Thickness of the plate [m].
+    /// Thickness of the plate along the path, which is more than the plate's own for an oblique one [m].
     pub thickness: f64,
     /// Material of the plate.
     pub plate: &'a Material,
@@ -38,7 +38,7 @@ impl<'a> PlateShot<'a> {
             mass: scenario.projectile.mass,
             speed: scenario.impact_speed,
             diameter: scenario.projectile.diameter,
-            thickness: layer.thickness?,
+            thickness: layer.thickness? / scenario.obliquity.cos(),
             plate: &layer.material,
         })
     }

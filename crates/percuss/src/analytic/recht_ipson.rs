@@ -53,8 +53,9 @@ impl Model for RechtIpson {
                 predicts: &[BandQuantity::ResidualVelocity],
                 projectile: &[ProjectileRegime::Rigid, ProjectileRegime::Deforming],
                 targets: TargetKind::PLATES,
+                oblique_noses: NoseKind::SHARP,
                 notes: &[
-                    "normal impact; the work that the plate takes does not depend on the speed",
+                    "the work that the plate takes does not depend on the speed",
                     "a flat nose drives a plug of its own diameter through the whole thickness; a sharp nose leaves the metal in the plate",
                 ],
                 ..Guard::OPEN

@@ -123,6 +123,7 @@ pub(super) fn advance(
     let mut sums = Sums::default();
     let (mut least, mut most, mut widest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
     for particle in particles.iter_mut().filter(|particle| particle.mass > 0.0) {
+        let mut power_at_end = 0.0;
         if pass.time_step > 0.0 {
             let work = step(particle, law, field, pass);
             sums.work.total += work.total;
@@ -130,7 +131,7 @@ pub(super) fn advance(
             sums.work.viscous += work.viscous;
             sums.work.failure += work.failure;
             sums.work.power_at_start += work.power_at_start;
-            sums.work.power_at_end += work.power_at_end;
+            power_at_end = work.power_at_end;
         }
         let [radius, depth] = particle.position;
         let kinetic = particle.kinetic_energy(pass.cell);
@@ -140,17 +141,17 @@ pub(super) fn advance(
             particle.mass = 0.0;
             continue;
         }
-        let eroded = law
-            .erosion_strain
-            .is_some_and(|most| particle.plastic_strain >= most);
         let limits = &pass.limits;
-        if radius > limits.radius || depth < limits.back || depth > limits.front || eroded {
+        let is_beyond = radius > limits.radius || depth < limits.back || depth > limits.front;
+        if is_beyond || law.erodes(particle) {
             sums.lost.0 += 1;
             sums.lost.1 += particle.mass * particle.velocity[1];
             sums.lost.2 += kinetic;
+            sums.work.failure += law.elastic_energy(particle);
             particle.mass = 0.0;
             continue;
         }
+        sums.work.power_at_end += power_at_end;
         least = least.min(depth);
         most = most.max(depth);
         widest = widest.max(radius);

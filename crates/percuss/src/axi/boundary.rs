@@ -62,42 +62,84 @@ impl Supports {
         }
     }
 
-    /// A node and the mirror image that a plane without motion across it adds to it; `None` behind the plane. A wall holds only
-    /// what presses.
+    /// Column of the edge in which the body is mirrored, if it is a smooth one. An edge on the axis holds the whole body, and mirrors
+    /// nothing.
+    fn mirror_column(&self) -> Option<usize> {
+        match self.edge {
+            (column, Support::Smooth) if column > 1 => Some(column),
+            _ => None,
+        }
+    }
+
+    /// A node and what contact takes from it, with what lies mirrored in planes without motion across them added; `None` behind
+    /// such a plane. A wall holds only what presses.
     pub(super) fn folded(
         &self,
         field: &Field,
         row: isize,
         column: usize,
         time_step: f64,
-    ) -> Option<Node> {
-        let mut node = field.node(row, column);
+    ) -> Option<Load> {
+        let mut load = self.folded_along(field, row, column, time_step)?;
+        let Some(edge) = self.mirror_column() else {
+            return Some(load);
+        };
+        if column == edge {
+            load.stop(0);
+        } else if column == edge + 1 {
+            return None;
+        } else if column + 1 == edge
+            && let Some(mut image) = self.folded_along(field, row, edge + 1, time_step)
+        {
+            image.reverse(0);
+            load.add(&image);
+        }
+        Some(load)
+    }
+
+    /// The same for planes across the axis alone.
+    fn folded_along(
+        &self,
+        field: &Field,
+        row: isize,
+        column: usize,
+        time_step: f64,
+    ) -> Option<Load> {
+        let mut load = Load::at(field, row, column);
         let Some(plane) = self.mirror() else {
-            return Some(node);
+            return Some(load);
         };
         let behind = row.saturating_sub(plane);
         if !(-1..=1).contains(&behind) {
-            return Some(node);
+            return Some(load);
         }
         let touching = field.node(plane, column);
         let presses = touching[MOMENTUM + 1] + time_step * touching[FORCE + 1] > 0.0;
         match behind {
             _ if self.wall && !presses => {}
             1 => return None,
-            0 => {
-                node[MOMENTUM + 1] = 0.0;
-                node[FORCE + 1] = 0.0;
-            }
+            0 => load.stop(1),
             _ => {
-                let mut image = field.node(plane + 1, column);
-                image[MOMENTUM + 1] *= -1.0;
-                image[FORCE + 1] *= -1.0;
-                for (entry, added) in node.iter_mut().zip(image) {
-                    *entry += added;
-                }
+                let mut image = Load::at(field, plane + 1, column);
+                image.reverse(1);
+                load.add(&image);
             }
         }
-        Some(node)
+        Some(load)
+    }
+
+    /// The place whose mirror image a node is that `folded` has nothing for, and the signs of its velocity there.
+    pub(super) fn original(&self, row: isize, column: usize) -> ((isize, usize), [f64; 2]) {
+        let (mut place, mut signs) = ((row, column), [1.0; 2]);
+        if let Some(edge) = self.mirror_column().filter(|edge| column == edge + 1) {
+            place.1 = edge - 1;
+            signs[0] = -1.0;
+        }
+        if let Some(plane) = self.mirror().filter(|plane| row == plane + 1) {
+            place.0 = plane - 1;
+            signs[1] = -1.0;
+        }
+        (place, signs)
     }
 
     /// Velocity of a node after its supports had their say.
@@ -151,6 +193,44 @@ impl Supports {
             _ => {}
         }
         velocity
+    }
+}
+
+/// A node and what contact takes from it [N s].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Load {
+    pub(super) node: Node,
+    pub(super) taken: [f64; 2],
+}
+
+impl Load {
+    fn at(field: &Field, row: isize, column: usize) -> Self {
+        Self {
+            node: field.node(row, column),
+            taken: field.taken(row, column),
+        }
+    }
+
+    /// Takes away all motion in a direction.
+    fn stop(&mut self, direction: usize) {
+        self.node[MOMENTUM + direction] = 0.0;
+        self.node[FORCE + direction] = 0.0;
+        self.taken[direction] = 0.0;
+    }
+
+    fn reverse(&mut self, direction: usize) {
+        self.node[MOMENTUM + direction] *= -1.0;
+        self.node[FORCE + direction] *= -1.0;
+        self.taken[direction] *= -1.0;
+    }
+
+    fn add(&mut self, other: &Self) {
+        for (entry, added) in self.node.iter_mut().zip(other.node) {
+            *entry += added;
+        }
+        for (entry, added) in self.taken.iter_mut().zip(other.taken) {
+            *entry += added;
+        }
     }
 }
 

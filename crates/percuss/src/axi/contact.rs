@@ -14,22 +14,16 @@ pub(super) enum Contact {
 /// Part of a node's cell that bodies must fill together to touch: less is a gap.
 const TOUCHING: f64 = 0.9;
 
-/// What contact did in a step.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Touch {
-    /// Energy lost: the contact's impulses times the mean velocities of the whole step [J].
-    pub(super) loss: f64,
-    /// Fall of the nodes' kinetic energy [J].
-    pub(super) fall: f64,
-    /// Change of the power of the nodal forces [W].
-    pub(super) power: f64,
-    /// Axial impulse from the first body on the second [N s].
-    pub(super) impulse: f64,
-}
-
-/// Lets two bodies meet: changes the velocities of nodes that both reach.
-pub(super) fn meet(contact: Contact, first: &mut Field, second: &mut Field, cell: f64) -> Touch {
-    let mut touch = Touch::default();
+/// Lets two bodies meet: what each node of the first gives to that of the second in a step, before supports have their say. Gives the
+/// axial impulse from the first on the second [N s].
+pub(super) fn meet(
+    contact: Contact,
+    first: &mut Field,
+    second: &mut Field,
+    cell: f64,
+    time_step: f64,
+) -> f64 {
+    let mut passed = 0.0;
     let from = first.first_row.max(second.first_row);
     let to = (first.first_row + first.rows as isize).min(second.first_row + second.rows as isize);
     for row in from..to {
@@ -41,7 +35,8 @@ pub(super) fn meet(contact: Contact, first: &mut Field, second: &mut Field, cell
             if mass_a <= 0.0 || mass_b <= 0.0 {
                 continue;
             }
-            let (v_a, v_b) = (first.velocity[a], second.velocity[b]);
+            // A third body may have met one of the two already.
+            let (v_a, v_b) = (first.pushed(a, time_step), second.pushed(b, time_step));
             let reduced = mass_a * mass_b / (mass_a + mass_b);
             let closing = [v_a[0] - v_b[0], v_a[1] - v_b[1]];
             let impulse = match contact {
@@ -72,45 +67,14 @@ pub(super) fn meet(contact: Contact, first: &mut Field, second: &mut Field, cell
                     [0, 1].map(|k| reduced * (approach * normal[k] + grip * slide[k]))
                 }
             };
-            let energy = |v: [f64; 2], mass: f64| 0.5 * mass * (v[0] * v[0] + v[1] * v[1]);
-            let before = energy(v_a, mass_a) + energy(v_b, mass_b);
-            let mut new_a = [0, 1].map(|k| v_a[k] - impulse[k] / mass_a);
-            let mut new_b = [0, 1].map(|k| v_b[k] + impulse[k] / mass_b);
-            if column == 1 {
-                new_a[0] = 0.0;
-                new_b[0] = 0.0;
+            for (k, part) in impulse.into_iter().enumerate() {
+                first.impulse[a][k] += part;
+                second.impulse[b][k] -= part;
             }
-            touch.fall += before - energy(new_a, mass_a) - energy(new_b, mass_b);
-            let start = |node: &Node, mass: f64| [0, 1].map(|k| node[MOMENTUM + k] / mass);
-            let (old_a, old_b) = (
-                start(&first.nodes[a], mass_a),
-                start(&second.nodes[b], mass_b),
-            );
-            for k in 0..2 {
-                touch.loss += 0.5
-                    * (mass_a * (v_a[k] - new_a[k]) * (old_a[k] + new_a[k])
-                        + mass_b * (v_b[k] - new_b[k]) * (old_b[k] + new_b[k]));
-            }
-            for k in 0..2 {
-                touch.power += first.nodes[a][FORCE + k] * (new_a[k] - v_a[k])
-                    + second.nodes[b][FORCE + k] * (new_b[k] - v_b[k]);
-            }
-            touch.impulse += impulse[1];
-            first.set_velocity(a, column, new_a);
-            second.set_velocity(b, column, new_b);
+            passed += impulse[1];
         }
     }
-    touch
-}
-
-impl Field {
-    /// Sets the velocity of a node and of its image in the axis.
-    pub(super) fn set_velocity(&mut self, index: usize, column: usize, velocity: [f64; 2]) {
-        self.velocity[index] = velocity;
-        if column == 2 {
-            self.velocity[index - 2] = [-velocity[0], velocity[1]];
-        }
-    }
+    passed
 }
 
 /// Unit normal from the first body into the second: down the first's and up the second's filling.
@@ -131,7 +95,17 @@ fn normal(first: &Field, second: &Field, row: isize, column: usize) -> Option<[f
     (size > 0.0).then(|| [radial / size, axial / size])
 }
 
-/// Velocity of a node before contact and supports [m/s].
-pub(super) fn free_velocity(node: &[f64; 6], time_step: f64) -> [f64; 2] {
-    [0, 1].map(|k| (node[MOMENTUM + k] + time_step * node[FORCE + k]) / node[MASS])
+impl Field {
+    /// Velocity of a node after its forces and the contacts that are known [m/s].
+    fn pushed(&self, index: usize, time_step: f64) -> [f64; 2] {
+        pushed(&self.nodes[index], self.impulse[index], time_step)
+    }
+}
+
+/// Velocity of a node after its forces and what contact takes from it [m/s].
+pub(super) fn pushed(node: &Node, taken: [f64; 2], time_step: f64) -> [f64; 2] {
+    [0, 1].map(|k| {
+        let free = (node[MOMENTUM + k] + time_step * node[FORCE + k]) / node[MASS];
+        free - taken[k] / node[MASS]
+    })
 }

@@ -44,6 +44,9 @@ pub(super) struct Field {
     pub(super) columns: usize,
     pub(super) nodes: Vec<Node>,
     pub(super) velocity: Vec<[f64; 2]>,
+    /// What contact takes from a node in this step [N s].
+    #[serde(skip)]
+    pub(super) impulse: Vec<[f64; 2]>,
 }
 
 impl Field {
@@ -57,12 +60,20 @@ impl Field {
         self.columns = strips.iter().map(|s| s.columns).max().unwrap_or(0);
         self.nodes.resize(self.rows * self.columns, [0.0; 6]);
         self.velocity.resize(self.rows * self.columns, [0.0; 2]);
+        self.impulse.clear();
+        self.impulse.resize(self.rows * self.columns, [0.0; 2]);
     }
 
     /// Index of a node: its column is counted with the mirrored one, its row from the struck face.
     pub(super) fn index(&self, row: isize, column: usize) -> Option<usize> {
         let row = usize::try_from(row - self.first_row).ok()?;
         (row < self.rows && column < self.columns).then(|| row * self.columns + column)
+    }
+
+    /// What contact takes from the node in this step [N s].
+    pub(super) fn taken(&self, row: isize, column: usize) -> [f64; 2] {
+        self.index(row, column)
+            .map_or([0.0; 2], |index| self.impulse[index])
     }
 
     /// The node, or an empty one outside the window.

@@ -4,7 +4,7 @@ use super::particle::{Particle, equivalent};
 use crate::{
     case::ArtificialViscosity,
     fdm::StateEquation,
-    material::{FlowState, PreparedStrength, Trial, YieldPoint},
+    material::{DamageState, FlowState, PreparedDamage, PreparedStrength, Trial, YieldPoint},
 };
 
 /// Pressure against volume and energy.
@@ -30,8 +30,12 @@ pub(super) struct Law {
     pub(super) viscosity: ArtificialViscosity,
     /// Tension beyond which a particle spalls [Pa].
     pub(super) spall_strength: Option<f64>,
+    /// How plastic strain uses a particle up.
+    pub(super) damage: Option<PreparedDamage>,
     /// Equivalent plastic strain at which a particle fails.
     pub(super) failure_strain: Option<f64>,
+    /// Whether a particle that fails leaves the body.
+    pub(super) erode_failed: bool,
     /// Equivalent plastic strain at which a particle leaves the body.
     pub(super) erosion_strain: Option<f64>,
     /// Off only in plane strain, which some exact checks need.
@@ -97,11 +101,12 @@ impl Law {
         let size = equivalent(&trial);
         let mean_volume = 0.5 * (volume_before + particle.volume);
         let mut work = Work::default();
-        if particle.damage > 0.0 {
+        let mut increment = 0.0;
+        if particle.has_failed() {
             trial = [0.0; 3];
         } else if !particle.yield_point.holds(size) {
             let before = particle.yield_point.stress();
-            let increment = self.flow(particle, &mut trial, size, time_step);
+            increment = self.flow(particle, &mut trial, size, time_step);
             let after = size - 3.0 * self.shear_modulus * increment;
             work.plastic = 0.5 * (before.min(after) + after) * increment * mean_volume;
         }
@@ -129,7 +134,9 @@ impl Law {
         if self.strength.depends_on_pressure() {
             particle.yield_point.forget();
         }
-        self.fail(particle, &mut work);
+        if !particle.has_failed() {
+            self.fail(particle, increment, time_step, &mut work);
+        }
         let pressure = particle.pressure + particle.viscous_pressure;
         work.power_at_end =
             particle.volume * (shear_power(&particle.deviator, &rate) - pressure * expansion);
@@ -190,31 +197,58 @@ impl Law {
 
     /// Failure in shear and in tension: what a failed particle gives up counts as failure work.
     #[inline(always)]
-    fn fail(&self, particle: &mut Particle, work: &mut Work) {
+    fn fail(&self, particle: &mut Particle, increment: f64, time_step: f64, work: &mut Work) {
+        if let Some(law) = self.damage.filter(|_| increment > 0.0) {
+            let strain_rate = if self.rate_effects {
+                increment / time_step
+            } else {
+                0.0
+            };
+            let state = DamageState {
+                triaxiality: -particle.pressure / particle.equivalent_stress(),
+                strain_rate,
+                temperature: particle.temperature,
+            };
+            particle.damage = law.grow(particle.damage, &state, increment);
+        }
         let sheared = self
             .failure_strain
             .is_some_and(|most| particle.plastic_strain >= most);
         let torn = self
             .spall_strength
             .is_some_and(|most| particle.pressure < 0.0 && particle.largest_tension() > most);
-        if particle.damage > 0.0 || !(sheared || torn) {
+        if !(particle.has_failed() || sheared || torn) {
             return;
         }
-        let shear = equivalent(&particle.deviator);
-        let stretch = particle.pressure.min(0.0);
-        let per_volume = shear * shear / (6.0 * self.shear_modulus)
-            + stretch * stretch / (2.0 * self.bulk_modulus);
-        work.failure += per_volume * particle.volume;
+        let whole = self.elastic_energy(particle);
         particle.damage = 1.0;
         particle.deviator = [0.0; 3];
         particle.pressure = particle.pressure.max(0.0);
+        work.failure += whole - self.elastic_energy(particle);
+    }
+
+    /// Elastic energy of a particle, for small strains [J].
+    pub(super) fn elastic_energy(&self, particle: &Particle) -> f64 {
+        let shear = particle.equivalent_stress();
+        let per_volume = shear * shear / (6.0 * self.shear_modulus)
+            + particle.pressure * particle.pressure / (2.0 * self.bulk_modulus);
+        per_volume * particle.volume
+    }
+
+    /// Whether a particle is to leave its body.
+    #[inline(always)]
+    pub(super) fn erodes(&self, particle: &Particle) -> bool {
+        (self.erode_failed && particle.has_failed())
+            || self
+                .erosion_strain
+                .is_some_and(|most| particle.plastic_strain >= most)
     }
 }
 
 /// A pressure that the particle can bear: no tension when it has failed.
 #[inline(always)]
 fn whole(particle: &Particle, pressure: f64) -> f64 {
-    if particle.damage > 0.0 {
+    if particle.has_failed() {
         pressure.max(0.0)
     } else {
         pressure

@@ -39,10 +39,14 @@ pub struct AxiOptions {
     pub adiabatic_heating: Option<bool>,
     /// Fraction of plastic work that becomes heat; 0.9 when not given.
     pub heat_fraction: Option<f64>,
+    /// Whether plastic strain uses material up by the damage of its record; false when not given.
+    pub damage: Option<bool>,
     /// Equivalent plastic strain at which material loses its strength in shear and tension; never when not given.
     pub failure_strain: Option<f64>,
     /// Equivalent plastic strain at which material is taken out; never when not given.
     pub erosion_strain: Option<f64>,
+    /// Whether material that fails is taken out, not left without strength; false when not given.
+    pub erode_failed: Option<bool>,
     /// Whether material spalls at the spall strength of its record; false when not given.
     pub spall: Option<bool>,
     /// Tensile stress at which material spalls, in place of that of the materials' records [Pa].
@@ -110,6 +114,16 @@ impl AxiOptions {
             linear: 0.06,
             quadratic: 1.2,
         })
+    }
+
+    /// Whether material spalls.
+    pub fn spalls(&self) -> bool {
+        self.spall.unwrap_or(self.spall_strength.is_some())
+    }
+
+    /// Whether anything makes material fail.
+    pub fn can_fail(&self) -> bool {
+        self.damage == Some(true) || self.failure_strain.is_some() || self.spalls()
     }
 
     pub(crate) fn check(&self, check: &mut Check<'_>, target: &Target) {
@@ -180,30 +194,36 @@ impl AxiOptions {
                 "remove the key",
             );
         }
-        let pairs = [
+        let of_two = "remove one of the two keys";
+        let without_effect = [
             (
                 "friction",
                 self.friction.is_some() && self.contact == Some(ContactKind::Sticking),
                 "with contact `sticking`",
+                of_two,
             ),
             (
                 "heat_fraction",
                 self.heat_fraction.is_some() && self.adiabatic_heating == Some(false),
                 "without `adiabatic_heating`",
+                of_two,
             ),
             (
                 "spall_strength",
                 self.spall_strength.is_some() && self.spall == Some(false),
                 "with `spall = false`",
+                of_two,
+            ),
+            (
+                "erode_failed",
+                self.erode_failed == Some(true) && !self.can_fail(),
+                "where nothing fails",
+                "remove the key, or give `damage`, `failure_strain` or `spall`",
             ),
         ];
-        for (key, ignored, why) in pairs {
+        for (key, ignored, why, remedy) in without_effect {
             if ignored {
-                check.fail(
-                    key,
-                    format!("`{key}` has no effect {why}"),
-                    "remove one of the two keys",
-                );
+                check.fail(key, format!("`{key}` has no effect {why}"), remedy);
             }
         }
     }

@@ -32,7 +32,7 @@ pub struct Particle {
     pub temperature: f64,
     /// Internal energy per mass, 0 at rest [J/kg].
     pub energy: f64,
-    /// Damage: 0 sound, 1 without strength in shear and tension.
+    /// Damage: 0 sound, 1 failed, without strength in shear and tension.
     pub damage: f64,
 }
 
@@ -47,6 +47,12 @@ impl Particle {
     #[inline(always)]
     pub fn equivalent_stress(&self) -> f64 {
         equivalent(&self.deviator)
+    }
+
+    /// Whether it has no strength left in shear and tension.
+    #[inline(always)]
+    pub fn has_failed(&self) -> bool {
+        self.damage >= 1.0
     }
 
     /// Kinetic energy, that of the velocity gradient within the particle's kernel included [J].

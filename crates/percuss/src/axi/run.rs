@@ -1,5 +1,7 @@
 //! Runs a case to its end.
 
+use std::iter;
+
 use super::{
     axial,
     checkpoint::Keeping,
@@ -15,9 +17,10 @@ use crate::{
     error::NumericalError,
     frames::{Frame, FrameClock},
     history::Recorder,
+    material::Material,
     model::{Control, Progress},
     outcome::{RunResult, Termination},
-    scenario::TargetBody,
+    scenario::{Plate, TargetBody},
 };
 
 /// Steps between two looks at the books and reports of progress.
@@ -37,27 +40,45 @@ pub(super) struct Run<'a> {
 
 /// Why a case that the guard lets pass gets no number, if it does not.
 pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
-    let TargetBody::Layers { layers, .. } = &scenario.target else {
-        return None;
-    };
-    if scenario.options.axi.equation_of_state != Some(Eos::MieGruneisen) {
-        return None;
+    let options = &scenario.options.axi;
+    let materials: Vec<(&Material, &str)> = materials(scenario).collect();
+    if options.equation_of_state == Some(Eos::MieGruneisen) {
+        let lacking = materials
+            .iter()
+            .find(|(m, _)| m.equation_of_state.is_none());
+        if let Some((_, id)) = lacking {
+            return Some(format!(
+                "`axi.equation_of_state = \"mie-gruneisen\"` needs an equation of state, and the material `{id}` has none"
+            ));
+        }
     }
-    let materials = layers
+    if options.damage == Some(true) && materials.iter().all(|(m, _)| m.damage.is_none()) {
+        return Some(
+            "`axi.damage = true` needs a material that has a `damage` table, and none has one"
+                .to_owned(),
+        );
+    }
+    let spalls = options.spalls() && options.spall_strength.is_none();
+    if spalls && materials.iter().all(|(m, _)| m.spall_strength.is_none()) {
+        return Some(
+            "`axi.spall = true` needs a material that has a `spall_strength`, and none has one: give one, or `axi.spall_strength`"
+                .to_owned(),
+        );
+    }
+    None
+}
+
+/// Materials of projectile and target, with their ids.
+pub(super) fn materials(scenario: &Scenario) -> impl Iterator<Item = (&Material, &str)> {
+    let rod = &scenario.projectile;
+    let layers: &[Plate] = match &scenario.target {
+        TargetBody::Layers { layers, .. } => layers,
+        _ => &[],
+    };
+    let layers = layers
         .iter()
-        .map(|layer| (&layer.material, &layer.material_id));
-    let rod = (
-        &scenario.projectile.material,
-        &scenario.projectile.material_id,
-    );
-    let mut missing = materials
-        .chain([rod])
-        .filter(|(m, _)| m.equation_of_state.is_none());
-    missing.next().map(|(_, id)| {
-        format!(
-            "`axi.equation_of_state = \"mie-gruneisen\"` needs an equation of state, and the material `{id}` has none"
-        )
-    })
+        .map(|layer| (&*layer.material, &*layer.material_id));
+    iter::once((&*rod.material, &*rod.material_id)).chain(layers)
 }
 
 impl<'a> Run<'a> {

@@ -100,7 +100,6 @@ fn law(material: &Material, scenario: &Scenario) -> Law {
         Eos::MieGruneisen => StateEquation::of(material),
     };
     let bulk_modulus = material.bulk_modulus();
-    let spall = options.spall.unwrap_or(options.spall_strength.is_some());
     Law {
         density: material.density.si(),
         shear_modulus: material.shear_modulus(),
@@ -112,11 +111,18 @@ fn law(material: &Material, scenario: &Scenario) -> Law {
             .specific_heat
             .map_or(0.0, |heat| fraction / heat.si()),
         viscosity: options.artificial_viscosity(),
-        spall_strength: spall
+        spall_strength: options
+            .spalls()
             .then(|| options.spall_strength.or(material.spall_strength))
             .flatten()
             .map(|strength| strength.si()),
+        damage: material
+            .damage
+            .as_ref()
+            .filter(|_| options.damage == Some(true))
+            .map(|damage| damage.prepare(material)),
         failure_strain: options.failure_strain,
+        erode_failed: options.erode_failed == Some(true),
         erosion_strain: options.erosion_strain,
         axisymmetric: true,
     }

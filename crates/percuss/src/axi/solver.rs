@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::{
     body::{Body, CHUNK, Limits, Pass, Sums, advance},
-    boundary::Supports,
-    contact::{Contact, free_velocity, meet},
+    boundary::{Load, Supports},
+    contact::{Contact, meet, pushed},
     field::{FORCE, Field, MASS, MOMENTUM, Node, Strip},
 };
 
@@ -70,6 +70,8 @@ struct RowSums {
     kinetic: [f64; 3],
     /// Power of the nodal forces on the velocities that came from the particles and on those after the step, together [W].
     power: f64,
+    /// Energy lost in contact with other bodies: its impulses times the mean velocities of the whole step [J].
+    contact: f64,
     /// Work on the supports: their impulses times the mean velocities of the whole step [J].
     boundary: f64,
     /// Momentum given to wall and supports [N s].
@@ -196,6 +198,17 @@ impl Solver {
         let (wave, speed) = (most(|s| s.wave_squared), most(|s| s.speed_squared));
         self.time_step = self.courant * self.cell / (wave + speed);
         let (time_step, cell) = (self.time_step, self.cell);
+        let mut passed = 0.0;
+        for second in 1..self.bodies.len() {
+            let (before, after) = self.bodies.split_at_mut(second);
+            for (first, body) in before.iter_mut().enumerate() {
+                let other = &mut after[0].field;
+                let impulse = meet(self.contact, &mut body.field, other, cell, time_step);
+                if first == 0 {
+                    passed += impulse;
+                }
+            }
+        }
         let mut total = RowSums::default();
         for (body, supports) in self.bodies.iter_mut().zip(&self.supports) {
             let columns = body.field.columns;
@@ -216,6 +229,7 @@ impl Solver {
                     *sum += added;
                 }
                 total.boundary += row.boundary;
+                total.contact += row.contact;
                 total.power += row.power;
                 total.impulse += row.impulse;
                 total.wall += row.wall;
@@ -225,25 +239,12 @@ impl Solver {
         let [came, walled, held] = total.kinetic;
         let mut pending = Pending {
             transfer: particles - came,
-            contact: came - walled,
+            contact: came - walled + total.contact,
             boundary: total.boundary,
             support_impulse: total.impulse,
             nodal: held,
-            contact_force: total.wall,
+            contact_force: (total.wall + passed) / time_step,
         };
-        for second in 1..self.bodies.len() {
-            let (before, after) = self.bodies.split_at_mut(second);
-            for (first, body) in before.iter_mut().enumerate() {
-                let touch = meet(self.contact, &mut body.field, &mut after[0].field, cell);
-                pending.contact += touch.loss;
-                pending.nodal -= touch.fall;
-                total.power += touch.power;
-                if first == 0 {
-                    pending.contact_force += touch.impulse;
-                }
-            }
-        }
-        pending.contact_force /= time_step;
         // Nodal forces work on velocities that the way from particles to nodes has smoothed; on the particles' own strain rates,
         // before and after, the stresses would have done half the work each. The second half is known after the next step.
         let stresses: f64 = self.sums.iter().map(|sums| sums.work.power_at_end).sum();
@@ -302,17 +303,16 @@ fn move_row(
                 [raw[MOMENTUM] / raw[MASS], raw[MOMENTUM + 1] / raw[MASS]],
             );
         }
-        let node = supports.folded(field, row, column, time_step);
-        let pushed_raw = raw[MOMENTUM + 1] + time_step * raw[FORCE + 1];
-        let Some(node) = node else {
+        let pushed_raw =
+            raw[MOMENTUM + 1] + time_step * raw[FORCE + 1] - field.taken(row, column)[1];
+        let Some(Load { node, taken }) = supports.folded(field, row, column, time_step) else {
             // Behind a plane without motion across it stands the mirror image of what is in front of it.
-            let image = 2 * supports.mirror().unwrap_or(row) - row;
-            let original = supports.folded(field, image, column, time_step);
-            if let Some(node) = original.filter(|node| node[MASS] > 0.0) {
-                let pushed = free_velocity(&node, time_step);
-                let place = (image, column);
-                let [radial, axial] = supports.held(&node, pushed, place, cell, time_step);
-                *velocity = [radial, -axial];
+            let (place, signs) = supports.original(row, column);
+            let original = supports.folded(field, place.0, place.1, time_step);
+            if let Some(load) = original.filter(|load| load.node[MASS] > 0.0) {
+                let pushed = pushed(&load.node, load.taken, time_step);
+                let [radial, axial] = supports.held(&load.node, pushed, place, cell, time_step);
+                *velocity = [signs[0] * radial, signs[1] * axial];
             }
             let impulse = pushed_raw - raw[MASS] * velocity[1];
             sums.impulse += impulse;
@@ -324,15 +324,15 @@ fn move_row(
             continue;
         }
         let before = [node[MOMENTUM] / mass, node[MOMENTUM + 1] / mass];
-        let pushed = free_velocity(&node, time_step);
+        let pushed = pushed(&node, taken, time_step);
         let held = supports.held(&node, pushed, (row, column), cell, time_step);
         sums.kinetic[1] += energy(mass, before);
-        for k in 0..2 {
-            sums.power += node[FORCE + k] * (before[k] + held[k]);
-        }
         sums.kinetic[2] += energy(mass, held);
         for k in 0..2 {
-            sums.boundary += 0.5 * mass * (pushed[k] - held[k]) * (before[k] + held[k]);
+            let twice_mean = before[k] + held[k];
+            sums.power += node[FORCE + k] * twice_mean;
+            sums.contact += 0.5 * taken[k] * twice_mean;
+            sums.boundary += 0.5 * mass * (pushed[k] - held[k]) * twice_mean;
         }
         sums.impulse += pushed_raw - raw[MASS] * held[1];
         sums.wall += pushed_raw - raw[MASS] * pushed[1];

@@ -1,7 +1,12 @@
 //! What to know before relying on a result.
 
-use super::{run::Run, setup::extent};
-use crate::{Scenario, case::BackFace, outcome::RunResult, scenario::TargetBody};
+use super::{
+    run::{Run, materials},
+    setup::extent,
+};
+use crate::{
+    Scenario, case::BackFace, material::Material, outcome::RunResult, scenario::TargetBody,
+};
 
 /// Part of the energy lost between particles and grid that deserves a word.
 const TRANSFER: f64 = 0.1;
@@ -22,6 +27,16 @@ fn holds_a_plate(scenario: &Scenario) -> bool {
         }
     );
     thin && held
+}
+
+/// Ids of the case's materials of a kind, each once.
+fn unlike(scenario: &Scenario, is_one: fn(&Material) -> bool) -> Vec<&str> {
+    let mut ids: Vec<&str> = materials(scenario)
+        .filter(|(material, _)| is_one(material))
+        .map(|(_, id)| id)
+        .collect();
+    ids.dedup();
+    ids
 }
 
 pub(super) fn warnings(run: &Run<'_>, result: &RunResult) -> Vec<String> {
@@ -49,6 +64,26 @@ pub(super) fn warnings(run: &Run<'_>, result: &RunResult) -> Vec<String> {
             "the back face of the plate is held, which is what `target.back_face` is unless it is given: a plate that may bend, bulge or be perforated needs `back_face = \"free\""
                 .to_owned(),
         );
+    }
+    let options = &run.scenario.options.axi;
+    for (asked, what, lacks) in [
+        (
+            options.damage == Some(true),
+            "damage",
+            unlike(run.scenario, |m| m.damage.is_none()),
+        ),
+        (
+            options.spalls() && options.spall_strength.is_none(),
+            "spall_strength",
+            unlike(run.scenario, |m| m.spall_strength.is_none()),
+        ),
+    ] {
+        if asked && !lacks.is_empty() {
+            warnings.push(format!(
+                "without `{what}` in its record nothing of it fails by that: {}",
+                lacks.join(", ")
+            ));
+        }
     }
     if run.solver.books.lost != [0, 0] {
         warnings.push(format!(

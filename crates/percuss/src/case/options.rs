@@ -106,6 +106,9 @@ pub enum TargetClosure {
     Diverging,
     /// The same cone, into which the tip penetrates where the load would exceed the resistance to steady penetration.
     DivergingPenetrable,
+    /// A crater floor that advances against the pressure of an expanding cavity, carried by an elastic cone, under a projectile that
+    /// takes time to widen.
+    ExpandingCavity,
 }
 
 impl TargetClosure {
@@ -115,6 +118,7 @@ impl TargetClosure {
             Self::Column => "column",
             Self::Diverging => "diverging",
             Self::DivergingPenetrable => "diverging-penetrable",
+            Self::ExpandingCavity => "expanding-cavity",
         }
     }
 }
@@ -329,12 +333,34 @@ impl ChainOptions {
                 "remove `target.column_diameter`, or use target_closure = \"column\"",
             );
         }
-        if closure == TargetClosure::DivergingPenetrable && target.layers.len() > 1 {
+        let one_material = [
+            TargetClosure::DivergingPenetrable,
+            TargetClosure::ExpandingCavity,
+        ];
+        if one_material.contains(&closure) && target.layers.len() > 1 {
             check.fail(
                 "target_closure",
-                "the target closure `diverging-penetrable` has one resistance: it takes a target of one material",
-                "use target_closure = \"cone\" or \"column\"",
+                format!(
+                    "the target closure `{}` has one resistance: it takes a target of one material",
+                    closure.name()
+                ),
+                "use target_closure = \"diverging\" or \"column\"",
             );
+        }
+        if closure == TargetClosure::ExpandingCavity {
+            for (key, given) in [
+                ("kinematics", self.kinematics.is_some()),
+                ("artificial_viscosity", self.artificial_viscosity.is_some()),
+                ("damping_ratio", self.damping_ratio.is_some()),
+            ] {
+                if given {
+                    check.fail(
+                        key,
+                        format!("the target closure `{}` has no `{key}`", closure.name()),
+                        "remove the key, or use another target closure",
+                    );
+                }
+            }
         }
     }
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     check::{Check, limits},
-    units::{Length, Mass, Temperature, Velocity},
+    units::{Angle, Length, Mass, Quantity, Temperature, Velocity},
 };
 
 /// A straight rod with a nose.
@@ -27,6 +27,9 @@ pub struct Projectile {
     pub nose: Nose,
     /// Impact speed [m/s].
     pub velocity: Velocity,
+    /// Angle between the path and the normal of the struck face [rad]; 0, normal impact, when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub obliquity: Option<Angle>,
     /// Temperature before the impact [K]; `room_temperature` of the material when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperature: Option<Temperature>,
@@ -96,6 +99,11 @@ impl Nose {
 }
 
 impl Projectile {
+    /// Angle between the path and the normal of the struck face [rad].
+    pub fn obliquity(&self) -> f64 {
+        self.obliquity.map_or(0.0, Quantity::si)
+    }
+
     /// Length over all [m] and mass [kg], one from the other; `None` when not just one of them is given.
     pub fn length_and_mass(&self, density: f64) -> Option<(f64, f64)> {
         let diameter = self.diameter.si();
@@ -117,6 +125,21 @@ impl Projectile {
     pub(super) fn check(&self, check: &mut Check<'_>) {
         check.quantity("diameter", self.diameter, limits::DIAMETER);
         check.quantity("velocity", self.velocity, limits::IMPACT_SPEED);
+        let allowed = limits::OBLIQUITY.min..=limits::OBLIQUITY.max;
+        if let Some(obliquity) = self
+            .obliquity
+            .filter(|angle| !allowed.contains(&angle.si()))
+        {
+            check.fail(
+                "obliquity",
+                format!("{obliquity} is out of range"),
+                format!(
+                    "allowed: {} to {}, between the path and the normal of the struck face: 0 deg is normal impact",
+                    Angle::new(limits::OBLIQUITY.min),
+                    Angle::new(limits::OBLIQUITY.max)
+                ),
+            );
+        }
         if let Some(temperature) = self.temperature {
             check.quantity("temperature", temperature, limits::TEMPERATURE);
         }

@@ -6,6 +6,7 @@ mod contact;
 mod dishing;
 mod element;
 mod erosion;
+mod expanding;
 mod friction;
 mod mesh;
 mod part;
@@ -33,7 +34,7 @@ pub(crate) use warnings::held_back;
 
 use crate::{
     Error, Scenario,
-    case::{BorderShearLaw, Scheme},
+    case::{BorderShearLaw, Scheme, TargetClosure},
     guard::{FirstChoice, Guard, NoseKind, Range},
     material::MaterialClass,
     model::{Control, Model},
@@ -87,6 +88,7 @@ impl Model for Chain {
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
         match scenario.options.chain.scheme {
+            Scheme::Conservative if is_expanding(scenario) => expanding::not_applicable(scenario),
             Scheme::Conservative => plug::band_laws(scenario).err(),
             Scheme::Published => Published::not_applicable(scenario),
         }
@@ -94,6 +96,9 @@ impl Model for Chain {
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
         let mut result = match scenario.options.chain.scheme {
+            Scheme::Conservative if is_expanding(scenario) => {
+                expanding::Expanding::run(scenario, control)?
+            }
             Scheme::Conservative => Conservative::new(scenario).run(control)?,
             Scheme::Published => Published::new(scenario)?.run(control)?,
         };
@@ -103,4 +108,8 @@ impl Model for Chain {
         }
         Ok(result)
     }
+}
+
+fn is_expanding(scenario: &Scenario) -> bool {
+    scenario.options.chain.target_closure() == TargetClosure::ExpandingCavity
 }

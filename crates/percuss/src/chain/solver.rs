@@ -277,7 +277,7 @@ fn inverted(step: u64, time: f64, element: usize) -> NumericalError {
 /// Time step after one of length `previous`, when `allowed` is the largest one allowed.
 ///
 /// Every change of the time step costs a little energy, so small changes are not made.
-fn choose_time_step(previous: f64, allowed: f64) -> f64 {
+pub(super) fn choose_time_step(previous: f64, allowed: f64) -> f64 {
     if previous == 0.0 || allowed < previous {
         STEP_MARGIN * allowed
     } else if allowed > STEP_SLACK * previous {

@@ -26,6 +26,7 @@ use crate::{
     model::Model,
     outcome::{BandQuantity, Outcome},
     regime::Regime,
+    scenario::Measurement,
     summary::ResultRecord,
 };
 
@@ -78,6 +79,21 @@ pub struct ExperimentRecord {
     pub note: String,
 }
 
+impl ExperimentRecord {
+    /// What was measured on shots of a case.
+    pub(crate) fn all(scenario: &Scenario) -> Vec<Self> {
+        let record = |measured: &Measurement| Self {
+            quantity: measured.quantity,
+            impact_velocity_m_s: measured.impact_speed,
+            value: measured.quantity.in_unit(measured.value),
+            uncertainty: measured.uncertainty.map(|u| measured.quantity.in_unit(u)),
+            sources: measured.sources.clone(),
+            note: measured.note.clone(),
+        };
+        scenario.experiments.iter().map(record).collect()
+    }
+}
+
 /// Runs models on a case at each of these impact speeds [m/s], on all cores.
 ///
 /// A model that does not apply or that fails leaves the reason in its entry and never stops the others. The order of the
@@ -105,18 +121,7 @@ pub fn compare(
         percuss_version: env!("CARGO_PKG_VERSION"),
         recommended,
         quantities: quantities::leading(scenario, &results),
-        experiments: scenario
-            .experiments
-            .iter()
-            .map(|measured| ExperimentRecord {
-                quantity: measured.quantity,
-                impact_velocity_m_s: measured.impact_speed,
-                value: measured.quantity.in_unit(measured.value),
-                uncertainty: measured.uncertainty.map(|u| measured.quantity.in_unit(u)),
-                sources: measured.sources.clone(),
-                note: measured.note.clone(),
-            })
-            .collect(),
+        experiments: ExperimentRecord::all(scenario),
         results,
         regime: shots
             .into_iter()

@@ -42,6 +42,10 @@ const CLOSURES: &[(&str, Closure)] = &[
         "chain: diverging-penetrable",
         Closure::of(TargetClosure::DivergingPenetrable),
     ),
+    (
+        "chain: expanding-cavity",
+        Closure::of(TargetClosure::ExpandingCavity),
+    ),
 ];
 
 impl Closure {

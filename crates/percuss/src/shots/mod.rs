@@ -7,7 +7,7 @@ mod columns;
 mod header;
 mod materials;
 mod read;
-mod row;
+pub(crate) mod row;
 mod scenario;
 #[cfg(test)]
 mod tests;

@@ -8,20 +8,20 @@ use crate::{
 };
 
 /// A file of shots and which column stands where.
-pub(super) struct Table<'a> {
-    pub(super) file: &'a str,
-    pub(super) text: &'a str,
-    pub(super) header: Vec<String>,
+pub(crate) struct Table<'a> {
+    pub(crate) file: &'a str,
+    pub(crate) text: &'a str,
+    pub(crate) header: Vec<String>,
 }
 
 /// A row of it.
-pub(super) struct Row<'a> {
-    pub(super) table: &'a Table<'a>,
-    pub(super) record: csv::StringRecord,
+pub(crate) struct Row<'a> {
+    pub(crate) table: &'a Table<'a>,
+    pub(crate) record: csv::StringRecord,
 }
 
 impl Table<'_> {
-    pub(super) fn error(
+    pub(crate) fn error(
         &self,
         span: Range<usize>,
         column: &str,
@@ -41,24 +41,24 @@ impl Table<'_> {
 
 impl Row<'_> {
     /// Text of a field; empty where the file lacks the column.
-    pub(super) fn text(&self, column: &str) -> &str {
+    pub(crate) fn text(&self, column: &str) -> &str {
         let at = self.table.header.iter().position(|name| name == column);
         at.and_then(|at| self.record.get(at)).map_or("", str::trim)
     }
 
     /// Text of a field, unless it is empty.
-    pub(super) fn optional(&self, column: &str) -> Option<String> {
+    pub(crate) fn optional(&self, column: &str) -> Option<String> {
         Some(self.text(column).to_owned()).filter(|text| !text.is_empty())
     }
 
     /// Text of a field that must not be empty.
-    pub(super) fn required(&self, column: &str) -> Result<String, Box<InputError>> {
+    pub(crate) fn required(&self, column: &str) -> Result<String, Box<InputError>> {
         self.optional(column)
             .ok_or_else(|| self.error(column, format!("`{column}` is empty"), "write its value"))
     }
 
     /// A number, unless the field is empty.
-    pub(super) fn number(&self, column: &str) -> Result<Option<f64>, Box<InputError>> {
+    pub(crate) fn number(&self, column: &str) -> Result<Option<f64>, Box<InputError>> {
         let text = self.text(column);
         if text.is_empty() {
             return Ok(None);
@@ -74,7 +74,7 @@ impl Row<'_> {
     }
 
     /// A number that must be there.
-    pub(super) fn required_number(&self, column: &str) -> Result<f64, Box<InputError>> {
+    pub(crate) fn required_number(&self, column: &str) -> Result<f64, Box<InputError>> {
         self.required(column)?;
         match self.number(column)? {
             Some(number) => Ok(number),
@@ -83,7 +83,7 @@ impl Row<'_> {
     }
 
     /// One of several words; `None` when the field is empty.
-    pub(super) fn word<T: Copy>(
+    pub(crate) fn word<T: Copy>(
         &self,
         column: &str,
         words: &[(&'static str, T)],
@@ -106,7 +106,7 @@ impl Row<'_> {
     }
 
     /// An error at a field; at the start of the row where the file lacks the column.
-    pub(super) fn error(
+    pub(crate) fn error(
         &self,
         column: &str,
         message: impl Into<String>,
@@ -128,7 +128,7 @@ impl Row<'_> {
 }
 
 /// Bytes of field `index` of the record that begins at `start`, its quotes included; at least one byte where there is one.
-pub(super) fn field_span(text: &str, start: usize, index: usize) -> Range<usize> {
+pub(crate) fn field_span(text: &str, start: usize, index: usize) -> Range<usize> {
     // The reader counts line breaks that it skips to the record that follows.
     let skipped = text[start..].find(|c| c != '\n' && c != '\r').unwrap_or(0);
     let (mut begin, mut field, mut quoted) = (start + skipped, 0, false);

@@ -6,7 +6,7 @@ use crate::{
     case::{BackFace, Case, Projectile, Target, Thickness},
     check::Finding,
     material::{self, Library, Material, MaterialTable},
-    units::{Density, Length, Mass, Pressure, Temperature, Velocity, significant},
+    units::{Angle, Density, Length, Mass, Pressure, Temperature, Velocity},
 };
 
 /// Difference from the temperature at which a material was measured that is not worth telling [K]: all laboratories are rooms.
@@ -38,15 +38,7 @@ impl Shot {
 
     /// Why no case can be made of it, whichever material stands for its projectile.
     pub fn no_case(&self) -> Option<String> {
-        if let Some(reason) = &self.unusable {
-            return Some(reason.clone());
-        }
-        (self.obliquity_deg != 0.0).then(|| {
-            format!(
-                "it struck at {} degrees from the normal, and a case is normal impact",
-                significant(self.obliquity_deg, 3)
-            )
-        })
+        self.unusable.clone()
     }
 
     /// Whether its projectile was heated or cooled: most models take room temperature alone.
@@ -111,6 +103,8 @@ impl Shot {
             diameter: Length::new(self.diameter.unwrap_or(0.0)),
             nose: self.nose,
             velocity: Velocity::new(self.impact_velocity),
+            obliquity: (self.obliquity_deg != 0.0)
+                .then(|| Angle::new(self.obliquity_deg.to_radians())),
             temperature: temperature.map(Temperature::new),
         };
         Case {

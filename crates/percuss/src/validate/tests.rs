@@ -110,7 +110,7 @@ fn what_is_not_counted_says_why() {
     let expected = [
         ("d", Standing::Flagged, ""),
         ("e", Standing::Repeated, ""),
-        ("f", Standing::NoCase, "30 degrees"),
+        ("f", Standing::NotApplicable, "30 deg"),
         ("g", Standing::NotGiven, "gives no ballistic limit"),
         ("h", Standing::NotGiven, "gives no depth"),
     ];

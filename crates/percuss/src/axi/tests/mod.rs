@@ -1,7 +1,9 @@
 //! Exact checks of the model, a small file a problem. Bodies are filled by hand, so that shapes and initial motions are free.
 
 mod contact;
+mod failure;
 mod load;
+mod outgoing;
 mod pressurised;
 mod rigid_motion;
 mod shell_collapse;
@@ -74,7 +76,9 @@ impl Solid {
                 quadratic: 0.0,
             },
             spall_strength: None,
+            damage: None,
             failure_strain: None,
+            erode_failed: false,
             erosion_strain: None,
             axisymmetric: true,
         }
@@ -156,6 +160,9 @@ fn spherical_shell(inner: f64, outer: f64, spacing: f64) -> Vec<([f64; 2], f64)>
     }
     sections
 }
+
+/// A smooth back face in front of everything: nothing moves along the axis.
+const ALL_ROWS: isize = isize::MIN;
 
 /// Bodies without supports, ready to move.
 fn solver(bodies: Vec<Body>, cell: f64) -> Solver {

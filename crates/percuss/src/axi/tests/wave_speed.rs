@@ -2,8 +2,11 @@
 
 use std::f64::consts::PI;
 
-use super::{Solid, Solver, body, rectangle, supported};
-use crate::axi::boundary::{Support, Supports};
+use super::{ALL_ROWS, Solid, Solver, body, rectangle, supported};
+use crate::axi::{
+    boundary::{Support, Supports},
+    law::Law,
+};
 
 const LENGTH: f64 = 0.1;
 const SPEED: f64 = 1.0;
@@ -152,4 +155,63 @@ fn a_wall_and_a_fixed_back_face_hold_to_second_order_in_the_cell() {
         assert!(fine.abs() < 1e-3);
         assert!((coarse / fine).log2() > 1.7);
     }
+}
+
+/// Error of the time that a wave of four lengths of a block takes to fall to rest, its outer edge held; with cells in the block.
+///
+/// Plane strain, and no motion along the axis: what happens is uniaxial strain along the radius.
+fn edge_error(cells: f64) -> f64 {
+    let solid = copper();
+    let modulus = solid.bulk_modulus + 4.0 / 3.0 * solid.shear_modulus;
+    let number = 0.5 * PI / LENGTH;
+    let edge = 2.0 * LENGTH;
+    let motion = |[radius, _]: [f64; 2]| {
+        let phase = number * (edge - radius);
+        (
+            [SPEED * phase.sin(), 0.0],
+            [-SPEED * number * phase.cos(), 0.0, 0.0, 0.0],
+        )
+    };
+    let cell = LENGTH / cells;
+    let law = Law {
+        axisymmetric: false,
+        ..solid.law()
+    };
+    let sections = rectangle((LENGTH, edge), (0.0, 2.0 * cell), 0.5 * cell);
+    let supports = Supports {
+        back: (ALL_ROWS, Support::Smooth),
+        edge: ((edge / cell).round() as usize + 1, Support::Smooth),
+        ..Supports::NONE
+    };
+    let mut solver = supported(vec![body(law, sections, &motion)], vec![supports], cell);
+    let amplitude = |solver: &Solver| -> f64 {
+        let particles = solver.bodies[0].particles.iter();
+        particles
+            .map(|p| p.mass * p.velocity[0] * (number * (edge - p.position[0])).sin())
+            .sum()
+    };
+    let mut before = (0.0, amplitude(&solver));
+    loop {
+        let half = 0.5 * solver.time_step;
+        assert!(solver.advance());
+        let now = (solver.time - half, amplitude(&solver));
+        if now.1 <= 0.0 {
+            let time = before.0 + (now.0 - before.0) * before.1 / (before.1 - now.1);
+            assert!(solver.energy().residual().abs() < ENERGY);
+            return time / LENGTH * (modulus / solid.density).sqrt() - 1.0;
+        }
+        before = now;
+    }
+}
+
+#[test]
+fn a_fixed_edge_holds_to_second_order_in_the_cell() {
+    let [coarse, fine] = [10.0, 20.0].map(edge_error);
+    println!(
+        "fixed edge: {:+.3} %, {:+.3} %",
+        100.0 * coarse,
+        100.0 * fine
+    );
+    assert!(fine.abs() < 1e-3);
+    assert!((coarse / fine).log2() > 1.7);
 }

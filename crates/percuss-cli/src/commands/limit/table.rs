@@ -1,0 +1,285 @@
+//! What is printed of limits and of V50.
+
+use percuss::{
+    Scenario,
+    limit::{LambertJonasFit, LimitOutcome, Limits, ModelLimit, Tolerance},
+    units::significant,
+    v50::{Estimate, Method, Pattern, V50},
+};
+
+use super::values;
+use crate::{
+    table::{Column, blocks},
+    terminal::{bold, counted, width, wrap, yellow},
+};
+
+/// Case, range and tolerance.
+pub fn head(scenario: &Scenario, limits: &Limits, tolerance: Tolerance) -> String {
+    let title = match scenario.title.is_empty() {
+        true => &scenario.name,
+        false => &scenario.title,
+    };
+    let line = format!(
+        "case {}, searched from {} to {} m/s, brackets of {} or less",
+        limits.case,
+        significant(limits.searched_m_s.0, 4),
+        significant(limits.searched_m_s.1, 4),
+        values::in_words(tolerance)
+    );
+    let (title, line) = (wrap(title, width(), 0), wrap(&line, width(), 0));
+    format!("{}\n{line}\n\n", bold(title))
+}
+
+/// Table of limits, warnings, and models without a limit.
+pub fn text(limits: &Limits) -> String {
+    let found: Vec<&ModelLimit> = limits.results.iter().filter(|l| is_found(l)).collect();
+    let mut text = String::new();
+    if found.is_empty() {
+        text += "no model finds a limit in this range\n\n";
+    } else {
+        text += &numbers(limits, &found);
+    }
+    let said = limits.results.iter().flat_map(|limit| {
+        let warnings = limit.warnings.iter();
+        warnings.map(|warning| (limit.model, warning.clone()))
+    });
+    for (models, warning) in grouped(said) {
+        let line = wrap(&format!("warning: {models}: {warning}"), width(), 9);
+        text += &line.replacen("warning:", &yellow("warning:"), 1);
+        text += "\n\n";
+    }
+    let reasons = reasons(limits);
+    if !reasons.is_empty() {
+        text += &format!("{}\n", bold("without a limit"));
+        for reason in reasons {
+            text += &format!("  {}\n", wrap(&reason, width() - 2, 4));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+fn is_found(limit: &ModelLimit) -> bool {
+    limit.outcome == LimitOutcome::Found
+}
+
+fn numbers(limits: &Limits, found: &[&ModelLimit]) -> String {
+    let measured = limits.measured();
+    let column = |heading: &str, last: &str, cell: &dyn Fn(&ModelLimit) -> String| {
+        let mut cells: Vec<String> = found.iter().map(|limit| cell(limit)).collect();
+        cells.extend(measured.map(|_| last.to_owned()));
+        Column {
+            heading: heading.to_owned(),
+            cells,
+            numbers: true,
+        }
+    };
+    let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| significant(v, 4));
+    let first = Column {
+        numbers: false,
+        ..column("model", "experiment", &|limit| limit.model.to_owned())
+    };
+    let measured_words = measured.map_or_else(String::new, |(value, count)| match count {
+        1 => significant(value, 4),
+        _ => format!("{} (mean of {count})", significant(value, 4)),
+    });
+    let mut columns = vec![column(
+        "ballistic\nlimit\n[m/s]",
+        &measured_words,
+        &|limit| number(limit.ballistic_limit_m_s),
+    )];
+    if let Some((measured, _)) = measured {
+        columns.push(column("off by\n[%]", "", &|limit| {
+            let limit = limit.ballistic_limit_m_s;
+            limit.map_or_else(String::new, |v| {
+                // Rounded before it is written, so that no zero is negative.
+                format!(
+                    "{:+.1}",
+                    (1000.0 * (v / measured - 1.0)).round() / 10.0 + 0.0
+                )
+            })
+        }));
+    }
+    columns.push(column("fastest\nstopped\n[m/s]", "", &|limit| {
+        number(limit.bracket.map(|bracket| bracket.stopped_m_s))
+    }));
+    columns.push(column("slowest\nthrough\n[m/s]", "", &|limit| {
+        number(limit.bracket.map(|bracket| bracket.perforated_m_s))
+    }));
+    columns.push(column("runs", "", &|limit| limit.runs.to_string()));
+    blocks(&first, columns) + &curves(found)
+}
+
+/// Numbers of the curves through the residual velocities.
+fn curves(found: &[&ModelLimit]) -> String {
+    let fitted: Vec<(&ModelLimit, &LambertJonasFit)> = found
+        .iter()
+        .filter_map(|limit| Some((*limit, limit.fit.as_ref()?)))
+        .collect();
+    if fitted.is_empty() {
+        return String::new();
+    }
+    type Cell<'a> = &'a dyn Fn(&ModelLimit, &LambertJonasFit) -> String;
+    let column = |heading: &str, cell: Cell<'_>| Column {
+        heading: heading.to_owned(),
+        cells: fitted.iter().map(|(limit, fit)| cell(limit, fit)).collect(),
+        numbers: true,
+    };
+    let first = Column {
+        numbers: false,
+        ..column("model", &|limit, _| limit.model.to_owned())
+    };
+    let columns = vec![
+        column("points", &|limit, _| limit.curve.len().to_string()),
+        column("to\n[m/s]", &|limit, _| {
+            let last = limit.curve.last();
+            last.map_or_else(String::new, |p| significant(p.impact_velocity_m_s, 4))
+        }),
+        column("a", &|_, fit| significant(fit.a, 4)),
+        column("p", &|_, fit| significant(fit.p, 4)),
+        column("v_bl\n[m/s]", &|_, fit| {
+            significant(fit.ballistic_limit_m_s, 4)
+        }),
+        column("rms\n[m/s]", &|_, fit| format!("{:.2}", fit.rms_m_s)),
+    ];
+    let title = "residual velocity: v_r = a (v^p - v_bl^p)^(1/p)";
+    format!("{}\n{}", bold(title), blocks(&first, columns))
+}
+
+/// One line for each reason why models have no limit.
+pub fn reasons(limits: &Limits) -> Vec<String> {
+    let said = limits.results.iter().filter(|limit| !is_found(limit));
+    let said = said.map(|limit| {
+        let reason = limit.reason.as_deref().unwrap_or("it does not say why");
+        let words = match limit.outcome {
+            LimitOutcome::NotApplicable => format!("not applicable, because {reason}"),
+            other => format!("{}: {reason}", other.in_words()),
+        };
+        (limit.model, words)
+    });
+    let lines = grouped(said).into_iter();
+    lines
+        .map(|(models, words)| format!("{models}: {words}"))
+        .collect()
+}
+
+/// Names that the same is said of, joined, and what is said.
+fn grouped<'a>(said: impl Iterator<Item = (&'a str, String)>) -> Vec<(String, String)> {
+    let mut groups: Vec<(String, String)> = Vec::new();
+    for (name, words) in said {
+        match groups.iter_mut().find(|(_, known)| *known == words) {
+            Some((names, _)) => *names += &format!(", {name}"),
+            None => groups.push((name.to_owned(), words)),
+        }
+    }
+    groups
+}
+
+/// One line a model, for scripts.
+pub fn lines(limits: &Limits) -> String {
+    let value = |value: Option<f64>| value.map_or_else(|| "none".to_owned(), |v| significant(v, 6));
+    let line = |limit: &ModelLimit| {
+        format!(
+            "model={} outcome={} ballistic_limit_m_s={} stopped_m_s={} perforated_m_s={} runs={} warnings={}\n",
+            limit.model,
+            limit.outcome.in_words().replace(' ', "_"),
+            value(limit.ballistic_limit_m_s),
+            value(limit.bracket.map(|bracket| bracket.stopped_m_s)),
+            value(limit.bracket.map(|bracket| bracket.perforated_m_s)),
+            limit.runs,
+            limit.warnings.len()
+        )
+    };
+    limits.results.iter().map(line).collect()
+}
+
+/// V50 of shots by every method.
+pub fn v50_text(file: &str, v50: &V50) -> String {
+    let line = format!(
+        "{} of {file}: {} stopped, {} went through; {}",
+        counted(v50.shots, "shot"),
+        v50.shots - v50.perforated,
+        v50.perforated,
+        pattern(v50)
+    );
+    let mut text = format!("{}\n{}\n\n", bold("V50"), wrap(&line, width(), 0));
+    let column = |heading: &str, cell: &dyn Fn(&Estimate) -> String| Column {
+        heading: heading.to_owned(),
+        cells: v50.estimates.iter().map(cell).collect(),
+        numbers: true,
+    };
+    let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| significant(v, 5));
+    let first = Column {
+        numbers: false,
+        ..column("method", &|entry| entry.method.in_words().to_owned())
+    };
+    let percent = format!("{:.0} %", 100.0 * v50.confidence);
+    text += &blocks(
+        &first,
+        vec![
+            column("V50\n[m/s]", &|entry| number(entry.v50_m_s)),
+            column(&format!("{percent} interval\n[m/s]"), &interval),
+            column("standard\nerror\n[m/s]", &|entry| {
+                number(entry.standard_error_m_s)
+            }),
+            column("scatter\n[m/s]", &|entry| {
+                number(entry.standard_deviation_m_s)
+            }),
+            column("shots\nused", &|entry| match entry.shots_used {
+                Some(used) => used.to_string(),
+                None if entry.v50_m_s.is_some() => v50.shots.to_string(),
+                None => "–".to_owned(),
+            }),
+            column("span\n[m/s]", &|entry| number(entry.span_m_s)),
+        ],
+    );
+    let said = v50.estimates.iter();
+    let said = said.filter_map(|entry| Some((entry.method.in_words(), entry.reason.clone()?)));
+    for (methods, reason) in grouped(said) {
+        text += &format!("{}\n\n", wrap(&format!("{methods}: {reason}"), width(), 2));
+    }
+    text
+}
+
+fn interval(entry: &Estimate) -> String {
+    let end = |value: Option<f64>, none: &str| value.map_or(none.to_owned(), |v| significant(v, 5));
+    let ends = (entry.low_m_s, entry.high_m_s);
+    match (entry.method, ends, entry.v50_m_s) {
+        (Method::MeanOfExtremes, ..) | (_, (None, None), None) => "–".to_owned(),
+        (_, (None, None), Some(_)) => "unbounded".to_owned(),
+        (_, (low, high), _) => format!("{} to {}", end(low, "no end"), end(high, "no end")),
+    }
+}
+
+fn pattern(v50: &V50) -> String {
+    let speed = |value: Option<f64>| value.map_or_else(String::new, |v| significant(v, 6));
+    let (stopped, through) = (
+        speed(v50.highest_stopped_m_s),
+        speed(v50.lowest_perforated_m_s),
+    );
+    match v50.pattern {
+        Pattern::Mixed => format!("mixed results from {through} to {stopped} m/s"),
+        Pattern::Separated => {
+            format!("no mixed results: stopped up to {stopped} m/s, through from {through} m/s on")
+        }
+        Pattern::Reversed => "the faster ones were stopped".to_owned(),
+        Pattern::AllStopped => "none went through".to_owned(),
+        Pattern::AllPerforated => "none was stopped".to_owned(),
+    }
+}
+
+/// One line a method, for scripts.
+pub fn v50_lines(v50: &V50) -> String {
+    let value = |value: Option<f64>| value.map_or_else(|| "none".to_owned(), |v| significant(v, 6));
+    let line = |entry: &Estimate| {
+        format!(
+            "method={} v50_m_s={} low_m_s={} high_m_s={} standard_deviation_m_s={}\n",
+            entry.method.in_words().replace(' ', "_"),
+            value(entry.v50_m_s),
+            value(entry.low_m_s),
+            value(entry.high_m_s),
+            value(entry.standard_deviation_m_s)
+        )
+    };
+    v50.estimates.iter().map(line).collect()
+}

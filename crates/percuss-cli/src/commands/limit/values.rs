@@ -1,0 +1,149 @@
+//! What `--velocity`, `--tolerance` and `--span` take.
+
+use std::str::FromStr;
+
+use percuss::{
+    check::limits::IMPACT_SPEED,
+    limit::{Range, Tolerance},
+    units::{QuantityError, Velocity, significant},
+};
+
+const RANGE: &str =
+    "allowed: FROM..TO such as 100..400 or \"0.1..0.4 km/s\", in m/s unless a unit follows";
+const TOLERANCE: &str =
+    "allowed: a speed such as \"0.5 m/s\", or a part of the limit such as \"0.2 %\"";
+/// Narrowest and widest bracket that can be asked for [m/s], and the same as parts of the speed.
+const WIDTHS: std::ops::RangeInclusive<f64> = 1e-6..=1000.0;
+const PARTS: std::ops::RangeInclusive<f64> = 1e-8..=0.5;
+
+/// Why a value of the command line means nothing.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ValueError {
+    #[error("`{0}` is no range\n{RANGE}")]
+    NoRange(String),
+    #[error("{0}\n{RANGE}")]
+    Speed(QuantityError),
+    #[error("the range ends at {to}, which is not above its start at {from}\n{RANGE}")]
+    NotRising { from: String, to: String },
+    #[error("{0} is out of range: speeds are {min} to {max} m/s", min = IMPACT_SPEED.min, max = IMPACT_SPEED.max)]
+    OutOfRange(Velocity),
+    #[error("{0}\n{TOLERANCE}")]
+    Tolerance(QuantityError),
+    #[error("`{0}` is no part of a speed\n{TOLERANCE}")]
+    Part(String),
+    #[error("`{0}` is no span of speeds: write a speed such as \"38 m/s\"")]
+    Span(String),
+    #[error("{0} is out of range: allowed are 1e-6 to 1000 m/s, or 1e-6 to 50 %")]
+    Width(String),
+}
+
+/// `FROM..TO`, with one unit at the end that holds for both.
+pub fn range(text: &str) -> Result<Range, ValueError> {
+    let (from, to) = text
+        .split_once("..")
+        .ok_or_else(|| ValueError::NoRange(text.to_owned()))?;
+    let (from, to) = (from.trim(), to.trim());
+    // A unit starts with a letter after the last digit.
+    let end = to.rfind(|c: char| c.is_ascii_digit() || c == '.');
+    let unit = match end.map_or("", |at| to[at + 1..].trim()) {
+        "" => "m/s",
+        unit => unit,
+    };
+    let speed = |number: &str| -> Result<f64, ValueError> {
+        let text = format!("{} {unit}", number.trim_end_matches(unit).trim());
+        let speed = Velocity::from_str(&text).map_err(ValueError::Speed)?;
+        match (IMPACT_SPEED.min..=IMPACT_SPEED.max).contains(&speed.si()) {
+            true => Ok(speed.si()),
+            false => Err(ValueError::OutOfRange(speed)),
+        }
+    };
+    let range = Range {
+        from: speed(from)?,
+        to: speed(to)?,
+    };
+    match range.from < range.to {
+        true => Ok(range),
+        false => Err(ValueError::NotRising {
+            from: from.to_owned(),
+            to: to.to_owned(),
+        }),
+    }
+}
+
+/// A speed with its unit, or a percentage.
+pub fn tolerance(text: &str) -> Result<Tolerance, ValueError> {
+    let outside = || ValueError::Width(text.trim().to_owned());
+    if let Some(number) = text.trim().strip_suffix('%') {
+        let part = number.trim().parse::<f64>();
+        let part = part.map_err(|_| ValueError::Part(text.to_owned()))? / 100.0;
+        return match PARTS.contains(&part) {
+            true => Ok(Tolerance::Relative(part)),
+            false => Err(outside()),
+        };
+    }
+    let width = Velocity::from_str(text)
+        .map_err(ValueError::Tolerance)?
+        .si();
+    match WIDTHS.contains(&width) {
+        true => Ok(Tolerance::Absolute(width)),
+        false => Err(outside()),
+    }
+}
+
+/// A speed with its unit that is no longer than any range of speeds.
+pub fn span(text: &str) -> Result<f64, ValueError> {
+    match tolerance(text)? {
+        Tolerance::Absolute(span) => Ok(span),
+        Tolerance::Relative(_) => Err(ValueError::Span(text.to_owned())),
+    }
+}
+
+/// The tolerance as it can be given.
+pub fn in_words(tolerance: Tolerance) -> String {
+    match tolerance {
+        Tolerance::Absolute(width) => format!("{} m/s", significant(width, 4)),
+        Tolerance::Relative(part) => format!("{} %", significant(100.0 * part, 4)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_and_units_are_read() {
+        let ends = |text| range(text).map(|range| (range.from, range.to)).unwrap();
+        assert_eq!(ends("100..400"), (100.0, 400.0));
+        assert_eq!(ends(" 0 .. 1.5 km/s"), (0.0, 1500.0));
+        assert_eq!(ends("100 m/s..400 m/s"), (100.0, 400.0));
+        assert_eq!(ends("1e2..4e2 m/s"), (100.0, 400.0));
+        for (text, words) in [
+            ("400", "is no range"),
+            ("400..100", "not above"),
+            ("a..100", "not a number"),
+            ("0..100 mph", "mph"),
+            ("0..20 km/s", "out of range"),
+            ("-5..20", "out of range"),
+        ] {
+            let error = range(text).unwrap_err().to_string();
+            assert!(error.contains(words), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn tolerances_are_speeds_or_parts() {
+        assert_eq!(tolerance("0.5 m/s"), Ok(Tolerance::Absolute(0.5)));
+        assert_eq!(tolerance(" 0.2% "), Ok(Tolerance::Relative(0.002)));
+        for (text, words) in [
+            ("0.5", "0.5 m/s"),
+            ("few %", "no part"),
+            ("0 m/s", "out of range"),
+            ("-1 m/s", "out of range"),
+            ("80 %", "out of range"),
+            ("5 mm", "speed"),
+        ] {
+            let error = tolerance(text).unwrap_err().to_string();
+            assert!(error.contains(words), "{text}: {error}");
+        }
+    }
+}

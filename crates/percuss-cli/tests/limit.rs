@@ -1,0 +1,270 @@
+//! `percuss limit`: ballistic limits of a case, and V50 of shots.
+
+mod support;
+
+use std::fs;
+
+use serde_json::Value;
+use support::{Said, percuss};
+use tempfile::TempDir;
+
+const BLUNT: &str = "
+projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', velocity = '300 m/s' }
+target = { material = 'weldox-460-e', thickness = '12 mm' }
+[[experiments]]
+ballistic_limit = '184.5 m/s'
+source = 'borvik2002a'
+[[experiments]]
+velocity = '300 m/s'
+residual_velocity = '200 m/s'
+source = 'made up'
+";
+const SHOTS: &str = "velocity_m_s,perforated\n180,no\n184,no\n188,no\n186,yes\n190,yes\n194,yes\n";
+
+fn folder_with(case: &str) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("shot.toml"), case).unwrap();
+    fs::write(folder.path().join("shots.csv"), SHOTS).unwrap();
+    folder
+}
+
+fn limit(folder: &TempDir, arguments: &[&str]) -> Said {
+    percuss(folder.path(), [&["limit"], arguments].concat())
+}
+
+fn ok(folder: &TempDir, arguments: &[&str]) -> String {
+    let said = limit(folder, arguments);
+    assert_eq!((said.code, said.stderr.as_str()), (0, ""), "{arguments:?}");
+    said.stdout
+}
+
+/// A text without its line breaks.
+fn flat(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+#[test]
+fn the_table_has_limits_brackets_and_fits_and_says_who_has_none() {
+    let folder = folder_with(BLUNT);
+    let text = ok(&folder, &["shot.toml"]);
+    for part in [
+        "searched from 0 to 2000 m/s, brackets of 0.1 m/s or less",
+        "131.4",
+        "-28.8",
+        "184.5",
+        "v_r = a (v^p - v_bl^p)^(1/p)",
+        "without a limit",
+        "plate_cavity: not applicable, because it takes",
+    ] {
+        assert!(text.contains(part), "{part:?} is not in:\n{text}");
+    }
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
+}
+
+#[test]
+fn json_has_an_entry_a_model_with_stable_names() {
+    let folder = folder_with(BLUNT);
+    let object = json(&ok(
+        &folder,
+        &["shot.toml", "--json", "--shots", "shots.csv"],
+    ));
+    let results = object["results"].as_array().unwrap();
+    let of = |model: &str| {
+        results
+            .iter()
+            .find(|entry| entry["model"] == model)
+            .unwrap()
+    };
+    let plugging = of("plugging");
+    assert_eq!(plugging["outcome"], "found");
+    let number = |value: &Value| value.as_f64().unwrap();
+    assert!((number(&plugging["ballistic_limit_m_s"]) - 131.42955).abs() < 1e-4);
+    assert_eq!(
+        plugging["stated_limit_m_s"],
+        plugging["ballistic_limit_m_s"]
+    );
+    let bracket = &plugging["bracket"];
+    assert!(number(&bracket["stopped_m_s"]) < 131.42955);
+    assert!(number(&bracket["perforated_m_s"]) > 131.42955);
+    assert_eq!(plugging["curve"].as_array().unwrap().len(), 12);
+    assert!((number(&plugging["fit"]["p"]) - 2.0).abs() < 1e-5);
+    let forrestal = of("forrestal");
+    assert_eq!(forrestal["outcome"], "not_applicable");
+    assert!(
+        forrestal["reason"]
+            .as_str()
+            .unwrap()
+            .contains("does not say")
+    );
+    assert_eq!(forrestal["ballistic_limit_m_s"], Value::Null);
+    assert_eq!(object["experiments"].as_array().unwrap().len(), 2);
+    assert_eq!(object["v50"]["pattern"], "mixed");
+    let probit = &object["v50"]["estimates"][0];
+    assert_eq!(probit["method"], "probit");
+    assert!((number(&probit["v50_m_s"]) - 187.0).abs() < 1e-6);
+}
+
+#[test]
+fn a_range_that_is_stopped_or_perforated_throughout_is_an_answer() {
+    let folder = folder_with(BLUNT);
+    let text = ok(
+        &folder,
+        &["shot.toml", "--model", "plugging", "--velocity", "10..100"],
+    );
+    assert!(
+        text.contains("never perforates: it is stopped at every speed up to 100 m/s"),
+        "{text}"
+    );
+    let quiet = ok(
+        &folder,
+        &[
+            "shot.toml",
+            "--model",
+            "plugging",
+            "--velocity",
+            "0.2..0.3 km/s",
+            "-q",
+        ],
+    );
+    assert!(
+        quiet.starts_with("model=plugging outcome=always_perforates ballistic_limit_m_s=none"),
+        "{quiet}"
+    );
+}
+
+#[test]
+fn where_no_model_applies_the_reasons_are_the_error() {
+    let folder = folder_with("
+projectile = { material = 'ofhc-copper', length = '23.47 mm', diameter = '7.62 mm', velocity = '183 m/s' }
+target = { rigid_wall = true }
+");
+    let said = limit(&folder, &["shot.toml"]);
+    assert_eq!((said.code, said.stdout.as_str()), (2, ""));
+    assert!(
+        flat(&said.stderr).contains("the target has no back face to perforate"),
+        "{}",
+        said.stderr
+    );
+}
+
+#[test]
+fn files_and_figures_are_written() {
+    let folder = folder_with(BLUNT);
+    ok(
+        &folder,
+        &[
+            "shot.toml",
+            "--shots",
+            "shots.csv",
+            "--out",
+            "out",
+            "--model",
+            "recht_ipson",
+            "--model",
+            "plugging",
+        ],
+    );
+    let out = folder.path().join("out");
+    for name in [
+        "case-as-run.toml",
+        "limit.json",
+        "limit.svg",
+        "limit.png",
+        "v50.svg",
+        "v50.png",
+    ] {
+        assert!(out.join(name).is_file(), "{name}");
+    }
+    let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+    assert_eq!(read("limit.csv").lines().count(), 3);
+    assert!(read("limit.csv").starts_with("model,outcome,ballistic_limit_m_s,"));
+    assert_eq!(read("curve.csv").lines().count(), 25);
+    let figure = read("limit.svg");
+    for part in [
+        "plugging, 131.4 m/s",
+        "experiment",
+        "measured limit, 184.5 m/s",
+    ] {
+        assert!(figure.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn shots_need_no_case_and_separated_ones_have_no_likeliest_v50() {
+    let folder = folder_with(BLUNT);
+    let text = ok(&folder, &["--shots", "shots.csv"]);
+    assert!(
+        flat(&text).contains(
+            "6 shots of shots.csv: 3 stopped, 3 went through; mixed results from 186 to 188 m/s"
+        ),
+        "{text}"
+    );
+    fs::write(
+        folder.path().join("apart.csv"),
+        "velocity_m_s,perforated\n170,no\n180,no\n190,yes\n200,yes\n",
+    )
+    .unwrap();
+    let text = ok(&folder, &["--shots", "apart.csv", "--span", "20 m/s"]);
+    for part in [
+        "no zone of mixed results",
+        "extremes: the 2 fastest stopped shots",
+    ] {
+        assert!(flat(&text).contains(part), "{text}");
+    }
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
+}
+
+#[test]
+fn what_is_wrong_is_said_with_its_place() {
+    let folder = folder_with(BLUNT);
+    fs::write(
+        folder.path().join("bad.csv"),
+        "velocity_m_s,perforated\n184,maybe\n",
+    )
+    .unwrap();
+    for (arguments, code, words) in [
+        (vec!["--shots", "bad.csv"], 2, "bad.csv:2:5"),
+        (
+            vec!["--shots", "none.csv"],
+            4,
+            "give the path of a CSV file that exists",
+        ),
+        (
+            vec!["shot.toml", "--velocity", "400..100"],
+            2,
+            "not above its start",
+        ),
+        (
+            vec!["shot.toml", "--velocity", "400"],
+            2,
+            "FROM..TO such as 100..400",
+        ),
+        (vec!["shot.toml", "--tolerance", "0.5"], 2, "0.2 %"),
+        (vec!["shot.toml", "--model", "pluging"], 2, "plugging"),
+        (
+            vec!["--model", "plugging", "--shots", "shots.csv"],
+            2,
+            "CASE.toml",
+        ),
+        (vec![], 2, "CASE.toml"),
+    ] {
+        let said = limit(&folder, &arguments);
+        assert_eq!(said.code, code, "{arguments:?}: {}", said.stderr);
+        assert!(
+            said.stderr.contains(words),
+            "{arguments:?}: {}",
+            said.stderr
+        );
+        assert_eq!(said.stdout, "");
+    }
+}

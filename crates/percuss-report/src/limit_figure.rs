@@ -1,0 +1,78 @@
+//! Figure of speeds behind a target against impact speeds.
+
+use percuss::{
+    Scenario,
+    limit::{LimitOutcome, Limits, ModelLimit},
+    outcome::BandQuantity,
+};
+
+use crate::{
+    Axis, Figure, LineChart, Mark, Series, Style, palette, run_figures::caption,
+    run_figures::significant,
+};
+
+/// Points of a curve that looks smooth.
+const POINTS: u32 = 200;
+
+/// Draws residual velocities of all models, their curves of Lambert and Jonas, and what was measured, as `limit`; `None` when no
+/// model found a limit.
+pub fn limit_figure(scenario: &Scenario, limits: &Limits) -> Option<Figure> {
+    let found = || {
+        let results = limits.results.iter().enumerate();
+        results.filter(|(_, limit)| limit.outcome == LimitOutcome::Found)
+    };
+    found().next()?;
+    let mut chart = LineChart::new(
+        "limit",
+        format!("Residual velocity and ballistic limit: {}", limits.case),
+        Axis::new("impact speed [m/s]"),
+        Axis::new("residual velocity [m/s]"),
+    )
+    .caption(caption(scenario, None));
+    for (symbol, (_, limit)) in found().enumerate() {
+        chart = series(chart, limit, symbol);
+    }
+    let measured: Vec<_> = limits
+        .experiments
+        .iter()
+        .filter(|measured| measured.quantity == BandQuantity::ResidualVelocity)
+        .filter_map(|measured| Some((measured.impact_velocity_m_s?, measured)))
+        .collect();
+    if !measured.is_empty() {
+        let bar = |u: Option<f64>| u.map_or((0.0, 0.0), |u| (u, u));
+        chart = chart.series(
+            Series::new("experiment", measured.iter().map(|(v, m)| (*v, m.value)))
+                .style(Style::Markers)
+                .color(palette::EXPERIMENT)
+                .error_bars(measured.iter().map(|(_, m)| bar(m.uncertainty))),
+        );
+    }
+    if let Some((value, _)) = limits.measured() {
+        let name = format!("measured limit, {} m/s", significant(value));
+        chart = chart.mark(Mark::vertical(name, value));
+    }
+    Some(chart.draw())
+}
+
+/// A model's points and curve; the point at its limit stands on the axis.
+fn series(chart: LineChart, limit: &ModelLimit, symbol: usize) -> LineChart {
+    let Some(at_limit) = limit.ballistic_limit_m_s else {
+        return chart;
+    };
+    let points = limit.curve.iter();
+    let points = points.map(|p| (p.impact_velocity_m_s, p.residual_velocity_m_s));
+    let name = format!("{}, {} m/s", limit.model, significant(at_limit));
+    let points = Series::new(name, std::iter::once((at_limit, 0.0)).chain(points));
+    let chart = chart.series(points.style(Style::Markers).symbol(symbol));
+    let (Some(fit), Some(last)) = (limit.fit, limit.curve.last()) else {
+        return chart;
+    };
+    let (from, to) = (fit.ballistic_limit_m_s, last.impact_velocity_m_s);
+    let curve = (0..=POINTS).map(|i| {
+        // Closer to each other where the curve is steep.
+        let part = f64::from(i) / f64::from(POINTS);
+        let speed = from + (to - from) * part * part;
+        (speed, fit.at(speed))
+    });
+    chart.series(Series::new("", curve).color(palette::symbol_color(symbol)))
+}

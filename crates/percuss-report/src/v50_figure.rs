@@ -1,0 +1,80 @@
+//! Figure of shots that were stopped or went through, and of the chance of going through.
+
+use percuss::v50::{Estimate, Method, Shot, V50, chance};
+
+use crate::{Axis, Figure, LineChart, Mark, Series, Style, palette, run_figures::significant};
+
+/// Points of a curve that looks smooth.
+const POINTS: u32 = 200;
+
+/// Draws shots, the likeliest chances of going through and V50 with its interval, as `v50`.
+pub fn v50_figure(name: &str, shots: &[Shot], v50: &V50) -> Figure {
+    let mut chart = LineChart::new(
+        "v50",
+        format!("Shots stopped and gone through: {name}"),
+        Axis::new("impact speed [m/s]"),
+        Axis::new("chance of going through").range(-0.05, 1.05),
+    )
+    .caption(caption(v50));
+    let (slowest, fastest) = shots
+        .iter()
+        .fold((f64::MAX, f64::MIN), |(low, high), shot| {
+            (low.min(shot.speed), high.max(shot.speed))
+        });
+    let margin = 0.15 * (fastest - slowest);
+    let speeds = (0..=POINTS).map(|i| {
+        let part = f64::from(i) / f64::from(POINTS);
+        slowest - margin + part * (fastest - slowest + 2.0 * margin)
+    });
+    for (method, style) in [
+        (Method::Probit, Style::Line),
+        (Method::Logit, Style::Dashed),
+    ] {
+        let Some(entry) = v50.of(method).filter(|entry| entry.v50_m_s.is_some()) else {
+            continue;
+        };
+        let curve: Vec<(f64, f64)> = speeds
+            .clone()
+            .filter_map(|speed| Some((speed, chance(entry, speed)?)))
+            .collect();
+        chart = chart.series(Series::new(method.in_words(), curve).style(style));
+    }
+    for (words, perforated, color) in [
+        ("went through", true, palette::SERIES[1]),
+        ("stopped", false, palette::SERIES[2]),
+    ] {
+        let kind = shots.iter().filter(|shot| shot.perforated == perforated);
+        let height = f64::from(u8::from(perforated));
+        chart = chart.series(
+            Series::new(words, kind.map(|shot| (shot.speed, height)))
+                .style(Style::Markers)
+                .color(color),
+        );
+    }
+    if let Some(entry) = v50.of(Method::Probit) {
+        chart = marks(chart, entry);
+    }
+    chart.draw()
+}
+
+/// V50 and the ends of its interval.
+fn marks(mut chart: LineChart, entry: &Estimate) -> LineChart {
+    if let Some(value) = entry.v50_m_s {
+        chart = chart.mark(Mark::vertical(format!("V50 {}", significant(value)), value));
+    }
+    if let (Some(low), Some(high)) = (entry.low_m_s, entry.high_m_s) {
+        let name = format!("95 % {} to {}", significant(low), significant(high));
+        chart = chart.mark(Mark::vertical(name, low));
+        chart = chart.mark(Mark::vertical("", high));
+    }
+    chart
+}
+
+fn caption(v50: &V50) -> String {
+    format!(
+        "{} shots, {} stopped and {} gone through",
+        v50.shots,
+        v50.shots - v50.perforated,
+        v50.perforated
+    )
+}

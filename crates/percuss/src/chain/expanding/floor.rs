@@ -1,0 +1,93 @@
+//! The crater floor: what goes on between the tip of the projectile and the ground.
+
+use super::resistance::Resistance;
+
+/// Added mass of a disc that moves normal to itself, on one side of it, over `ρ a³` \[lamb1932\].
+const ADDED_MASS: f64 = 4.0 / 3.0;
+
+/// Whether the tip is on the floor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Contact {
+    Open,
+    Closed,
+}
+
+/// The floor has a permanent depth below the ground that carries it.
+#[derive(Debug)]
+pub(super) struct Floor {
+    resistance: Resistance,
+    /// Area of the undeformed projectile [m2].
+    area: f64,
+    /// Density of the target [kg/m3].
+    density: f64,
+    pub(super) contact: Contact,
+    pub(super) depth: f64,
+    /// Speed at which it advances into the ground, never negative [m/s].
+    pub(super) speed: f64,
+    /// Lengths of what eroded, which stands between the tip and the floor no more [m].
+    pub(super) lost_length: f64,
+}
+
+/// What the tip of the projectile brings to the floor.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Tip {
+    pub(super) area: f64,
+    pub(super) flow_stress: f64,
+    pub(super) density: f64,
+    /// Speed at which the projectile behind it catches up with it [m/s].
+    pub(super) closing: f64,
+}
+
+impl Floor {
+    pub(super) fn new(resistance: Resistance, area: f64, density: f64) -> Self {
+        Self {
+            resistance,
+            area,
+            density,
+            contact: Contact::Closed,
+            depth: 0.0,
+            speed: 0.0,
+            lost_length: 0.0,
+        }
+    }
+
+    /// Mass of target that moves with the floor [kg].
+    pub(super) fn added_mass(&self) -> f64 {
+        ADDED_MASS * self.density * (self.area / std::f64::consts::PI).powf(1.5)
+    }
+
+    /// Inverse of the inertia of the floor against an impulse on it [1/kg]; none as long as it stands.
+    pub(super) fn mobility(&self) -> f64 {
+        if self.speed > 0.0 {
+            1.0 / self.added_mass()
+        } else {
+            0.0
+        }
+    }
+
+    /// Force at which it advances at its present speed [N]: the target's resistance and the pressure that turns it aside, both on
+    /// the area of the undeformed projectile, and what the projectile has spread beyond that.
+    ///
+    /// The spread part flows outwards and presses with its own flow stress. Of it, `½ρ_p w²` on the undeformed area belongs to the
+    /// stagnation on the axis, as in the equation of Alekseevskii and Tate, and presses on the floor.
+    pub(super) fn resistance(&self, tip: Tip) -> f64 {
+        let drag = 0.5 * self.density * self.speed * self.speed;
+        let pressing = tip.flow_stress.min(self.resistance.steady());
+        let stagnation = 0.5 * tip.density * self.area * tip.closing * tip.closing;
+        let spread = (tip.area - self.area).max(0.0) * pressing - stagnation;
+        self.area * (self.resistance.at(self.depth) + drag) + spread.max(0.0)
+    }
+
+    /// Kinetic energy of the target that moves with it [J].
+    pub(super) fn kinetic_energy(&self) -> f64 {
+        0.5 * self.added_mass() * self.speed * self.speed
+    }
+
+    /// Slows down by itself while the tip is off it; gives the energy that this takes [J].
+    pub(super) fn coast(&mut self, kick: f64) -> f64 {
+        let before = self.kinetic_energy();
+        let force = self.resistance(Tip::default());
+        self.speed = (self.speed - force * kick / self.added_mass()).max(0.0);
+        before - self.kinetic_energy()
+    }
+}

@@ -1,0 +1,295 @@
+//! Target closure `expanding-cavity`: a projectile that takes time to widen, on a crater floor that advances against the pressure
+//! of an expanding cavity, carried by an elastic cone.
+//!
+//! It has a solver of its own: no part of the column is left in it.
+
+mod floor;
+mod ground;
+mod node;
+mod resistance;
+mod results;
+mod rod;
+mod slice;
+mod state;
+#[cfg(test)]
+mod tests;
+
+use self::{
+    floor::{Contact, Floor},
+    ground::Ground,
+    resistance::Resistance,
+    results::Watch,
+    rod::Rod,
+    slice::Metal,
+    state::{Books, State},
+};
+use super::{
+    ENERGY_TOLERANCE, MOMENTUM_TOLERANCE,
+    cone::{Cone, Grading},
+    mesh::modelled_thickness,
+    state::End,
+};
+use crate::{
+    Error, Scenario,
+    case::{BackFace, ErosionStrain},
+    error::NumericalError,
+    history::Recorder,
+    model::{Control, Progress},
+    outcome::{RunResult, Termination},
+    scenario::{Plate, TargetBody},
+};
+
+const DEFAULT_COURANT: f64 = 0.5;
+const SMALLEST_COURANT: f64 = 0.03;
+const DEFAULT_EROSION_STRAIN: f64 = 2.0;
+const DEFAULT_MAX_STEPS: u64 = 20_000_000;
+/// Steps between two looks at the books.
+const AUDIT_INTERVAL: u64 = 64;
+
+/// Why a case cannot be run with this closure, if it cannot.
+pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
+    let Some(plate) = struck(scenario) else {
+        return Some(
+            "the target closure `expanding-cavity` needs a target of one material".to_owned(),
+        );
+    };
+    let yields = plate
+        .material
+        .strength
+        .law()
+        .initial_yield_stress(&plate.material);
+    yields
+        .is_none()
+        .then(|| "the target closure `expanding-cavity` needs a target that yields".to_owned())
+}
+
+fn struck(scenario: &Scenario) -> Option<&Plate> {
+    match &scenario.target {
+        TargetBody::Layers { layers, .. } if layers.len() == 1 => layers.first(),
+        _ => None,
+    }
+}
+
+/// A run with this closure.
+pub(super) struct Expanding<'a> {
+    scenario: &'a Scenario,
+    plate: &'a Plate,
+    courant: f64,
+    erosion_strain: f64,
+    state: State,
+    watch: Watch,
+}
+
+impl<'a> Expanding<'a> {
+    /// Runs to the end.
+    ///
+    /// # Errors
+    /// [`Error::NotApplicable`] when [`not_applicable`] has a reason; [`Error::Numerical`] when a slice is crushed or the books do not balance;
+    /// [`Error::Cancelled`].
+    pub(super) fn run(
+        scenario: &'a Scenario,
+        control: &mut Control<'_>,
+    ) -> Result<RunResult, Error> {
+        let given = scenario.options.chain.courant;
+        let mut courant = given.unwrap_or(DEFAULT_COURANT);
+        loop {
+            let mut run = Self::new(scenario, courant)?;
+            match run.attempt(control) {
+                Err(Error::Numerical(_))
+                    if given.is_none() && 0.5 * courant >= SMALLEST_COURANT =>
+                {
+                    courant *= 0.5;
+                }
+                result => return result,
+            }
+        }
+    }
+
+    fn new(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
+        let refuse = || Error::NotApplicable {
+            model: "chain",
+            reason: not_applicable(scenario).unwrap_or_default(),
+        };
+        let plate = struck(scenario).ok_or_else(refuse)?;
+        let options = &scenario.options.chain;
+        let projectile = &scenario.projectile;
+        let area = projectile.mass / (projectile.material.density.si() * projectile.length);
+        let heat = if options.adiabatic_heating.unwrap_or(true) {
+            options.heat_fraction.unwrap_or(0.9)
+        } else {
+            0.0
+        };
+        let rate_effects = options.rate_effects.unwrap_or(true);
+        let metal = Metal::new(&projectile.material, heat, rate_effects);
+        let temperature = projectile
+            .temperature
+            .unwrap_or(projectile.material.room_temperature.si());
+        let speed = scenario.impact_speed;
+        let count = options.projectile_elements();
+        let rod = Rod::new(metal, count, projectile.length, area, temperature, speed);
+        let radius = (area / std::f64::consts::PI).sqrt();
+        // The floor advances at about half the impact speed, and the flow under it is as deep as the projectile is thick.
+        let rate = if rate_effects {
+            speed / (2.0 * radius)
+        } else {
+            0.0
+        };
+        let resistance = Resistance::new(&plate.material, radius, rate, heat).ok_or_else(refuse)?;
+        let floor = Floor::new(resistance, area, plate.material.density.si());
+        let (ground, ground_step) = ground(scenario, plate, area, count);
+        let mut state = State {
+            rod,
+            floor,
+            ground,
+            books: Books::default(),
+            time: 0.0,
+            step: 0,
+            time_step: 0.0,
+            ground_step,
+            contact_force: 0.0,
+            eroded: 0,
+        };
+        state.books.initial_energy = state.energy().kinetic_projectile;
+        state.books.initial_momentum = state.momentum().projectile;
+        Ok(Self {
+            scenario,
+            plate,
+            courant,
+            erosion_strain: match options.erosion_strain {
+                Some(ErosionStrain::At(strain)) => strain,
+                Some(ErosionStrain::Never) => f64::INFINITY,
+                None => DEFAULT_EROSION_STRAIN,
+            },
+            state,
+            watch: Watch::default(),
+        })
+    }
+
+    fn attempt(&mut self, control: &mut Control<'_>) -> Result<RunResult, Error> {
+        let options = &self.scenario.options.chain;
+        let mut recorder = control.record.then(Recorder::new);
+        let end_time = options.end_time.map_or(f64::INFINITY, |time| time.si());
+        let max_steps = options.max_steps.unwrap_or(DEFAULT_MAX_STEPS);
+        self.record(&mut recorder);
+        let termination = loop {
+            if self.scenario.impact_speed == 0.0 {
+                break Termination::NothingMoves;
+            }
+            self.state.advance(self.courant, self.erosion_strain)?;
+            self.watch.follow(&self.state);
+            self.record(&mut recorder);
+            if self.state.step.is_multiple_of(AUDIT_INTERVAL) {
+                self.audit()?;
+                control.report(self.progress(end_time))?;
+            }
+            if self
+                .plate
+                .thickness
+                .is_some_and(|h| self.state.position() >= h)
+            {
+                break Termination::PassedBackFace;
+            }
+            if self.state.time >= end_time {
+                break Termination::EndTime;
+            }
+            if self.state.step >= max_steps {
+                break Termination::StepLimit;
+            }
+            if let Some(termination) = self.watch.end(&self.state, self.scenario) {
+                break termination;
+            }
+        };
+        self.audit()?;
+        Ok(results::sum_up(
+            self.scenario,
+            &self.state,
+            &self.watch,
+            termination,
+            recorder,
+        ))
+    }
+
+    fn audit(&mut self) -> Result<(), Error> {
+        let energy = self.state.energy().residual();
+        let momentum = self.state.momentum().residual();
+        self.watch.residuals[0] = self.watch.residuals[0].max(energy.abs());
+        self.watch.residuals[1] = self.watch.residuals[1].max(momentum.abs());
+        for (book, residual, tolerance) in [
+            ("energy", energy, ENERGY_TOLERANCE),
+            ("momentum", momentum, MOMENTUM_TOLERANCE),
+        ] {
+            if residual.is_nan() || residual.abs() > tolerance {
+                return Err(NumericalError {
+                    what: format!("the {book} book is off by {residual:.2e} of the initial {book}, more than {tolerance:e},"),
+                    step: self.state.step,
+                    time_us: self.state.time * 1e6,
+                    element: None,
+                    remedy: format!("lower `chain.courant` (now {})", self.courant),
+                }
+                .into());
+            }
+        }
+        Ok(())
+    }
+
+    fn progress(&self, end_time: f64) -> Progress {
+        let (mass, momentum) = self.state.rod.motion();
+        let slowed = if mass > 0.0 {
+            1.0 - momentum / (mass * self.scenario.impact_speed)
+        } else {
+            1.0
+        };
+        Progress {
+            step: self.state.step,
+            time: self.state.time,
+            fraction: (self.state.time / end_time)
+                .max(0.95 * slowed)
+                .clamp(0.0, 1.0),
+            depth: self.watch.largest_depth,
+        }
+    }
+
+    fn record(&self, recorder: &mut Option<Recorder>) {
+        let Some(recorder) = recorder else { return };
+        if recorder.wants_sample(self.state.step) {
+            recorder.sample(results::sample(&self.state));
+        }
+        if recorder.wants_profile(self.state.step) {
+            recorder.profile(results::profile(&self.state));
+        }
+    }
+}
+
+/// The ground with its largest stable step.
+fn ground(scenario: &Scenario, plate: &Plate, area: f64, rod_elements: usize) -> (Ground, f64) {
+    let material = &plate.material;
+    let thickness = modelled_thickness(plate, scenario);
+    let cone = Cone::under_disc(area, material.poissons_ratio);
+    let first = scenario.projectile.length / rod_elements as f64;
+    let count = scenario.options.chain.target_elements();
+    let grading = Grading::new(first, thickness, count);
+    let back_face = match &scenario.target {
+        TargetBody::Layers { back_face, .. } => *back_face,
+        _ => BackFace::Free,
+    };
+    let modulus = material.youngs_modulus.si();
+    let end = match back_face {
+        BackFace::Fixed => End::Fixed,
+        BackFace::Free => End::Free,
+        BackFace::NonReflecting => End::Open {
+            impedance: material.bar_impedance() * cone.area_at(thickness),
+            stiffness: modulus * cone.stiffness_beyond(thickness),
+        },
+    };
+    let constants = (material.density.si(), modulus);
+    let ground = Ground::new(cone, grading, thickness, count, constants, end);
+    let smallest = grading.nodes(0.0, thickness, count);
+    let smallest = smallest.windows(2).map(|pair| pair[1] - pair[0]);
+    let step = smallest.fold(f64::INFINITY, f64::min) / material.bar_wave_speed();
+    (ground, step)
+}
+
+/// Whether the tip has left the floor, or is gone.
+fn parted(state: &State) -> bool {
+    state.floor.contact == Contact::Open
+}

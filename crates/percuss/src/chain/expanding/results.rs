@@ -1,0 +1,212 @@
+//! When a shot is over, and what comes of it.
+
+use super::{parted, state::State};
+use crate::{
+    history::{ElementState, Profile, Recorder, Sample},
+    outcome::{Numerics, Outcome, RunResult, Termination},
+    scenario::Scenario,
+};
+
+/// Part of the impact speed below which a projectile counts as stopped.
+const REST_FRACTION: f64 = 0.01;
+/// Part of its depth by which a floor may still sink in a window of a run that is over.
+const QUIET_FRACTION: f64 = 1e-6;
+
+/// What is followed during a run.
+#[derive(Debug, Default)]
+pub(super) struct Watch {
+    pub(super) largest_depth: f64,
+    peak_force: f64,
+    smallest_time_step: f64,
+    first_time_step: f64,
+    /// Of energy and momentum.
+    pub(super) residuals: [f64; 2],
+    /// Time at which the projectile's momentum was first used up.
+    at_rest: Option<f64>,
+    window_start: f64,
+    window_depth: f64,
+    touched: bool,
+}
+
+impl Watch {
+    pub(super) fn follow(&mut self, state: &State) {
+        self.largest_depth = self.largest_depth.max(state.position());
+        self.peak_force = self.peak_force.max(state.contact_force);
+        if state.step == 1 {
+            self.first_time_step = state.time_step;
+            self.smallest_time_step = state.time_step;
+        }
+        self.smallest_time_step = self.smallest_time_step.min(state.time_step);
+        self.touched |= !parted(state);
+        if self.at_rest.is_none() && state.rod.motion().1 <= 0.0 {
+            self.at_rest = Some(state.time);
+        }
+    }
+
+    /// Why the shot is over, if it is: looked at once in a round trip of a wave in the projectile.
+    pub(super) fn end(&mut self, state: &State, scenario: &Scenario) -> Option<Termination> {
+        let rod = &scenario.projectile;
+        let window = 2.0 * rod.length.max(rod.diameter) / rod.material.bar_wave_speed();
+        if state.time < self.window_start + window {
+            return None;
+        }
+        let sinks = state.floor.depth > self.window_depth * (1.0 + QUIET_FRACTION)
+            || state.floor.speed > 0.0;
+        let touched = self.touched;
+        self.window_start = state.time;
+        self.window_depth = state.floor.depth;
+        self.touched = false;
+        let (mass, momentum) = state.rod.motion();
+        if sinks {
+            return None;
+        }
+        if mass == 0.0 {
+            return Some(Termination::ProjectileConsumed);
+        }
+        self.at_rest?;
+        if !touched && momentum <= 0.0 {
+            return Some(Termination::Parted);
+        }
+        let still = (momentum / mass).abs() <= REST_FRACTION * scenario.impact_speed;
+        (still && touched).then_some(Termination::Quiescent)
+    }
+
+    fn outcome(&self, termination: Termination, state: &State, impact_speed: f64) -> Outcome {
+        let (mass, momentum) = state.rod.motion();
+        match termination {
+            Termination::PassedBackFace => return Outcome::Perforated,
+            Termination::NothingMoves => return Outcome::AtRest,
+            _ if mass == 0.0 => return Outcome::ProjectileEroded,
+            Termination::EndTime | Termination::StepLimit if self.at_rest.is_none() => {
+                return Outcome::OutOfTime;
+            }
+            _ => {}
+        }
+        if momentum < -REST_FRACTION * mass * impact_speed {
+            Outcome::Rebounded
+        } else {
+            Outcome::AtRest
+        }
+    }
+}
+
+pub(super) fn sum_up(
+    scenario: &Scenario,
+    state: &State,
+    watch: &Watch,
+    termination: Termination,
+    recorder: Option<Recorder>,
+) -> RunResult {
+    let outcome = watch.outcome(termination, state, scenario.impact_speed);
+    let mut result = RunResult::new("chain", "conservative", outcome, termination);
+    let (mass, momentum) = state.rod.motion();
+    let unloaded = state.rod.slices.iter().map(|slice| slice.unloaded());
+    let (length, radius) = unloaded.fold((0.0, 0.0), |(length, widest), (own, radius)| {
+        (length + own, f64::max(widest, radius))
+    });
+    result.depth_of_penetration = Some(state.floor.depth);
+    result.largest_depth = Some(watch.largest_depth);
+    result.permanent_depth = Some(state.floor.depth);
+    result.residual_velocity = Some(if mass > 0.0 { momentum / mass } else { 0.0 });
+    result.projectile_final_length = Some(length);
+    result.projectile_final_diameter = (length > 0.0).then_some(2.0 * radius);
+    result.projectile_final_mass = Some(mass);
+    result.time_to_rest = watch.at_rest;
+    result.peak_force = Some(watch.peak_force);
+    result.end_time = Some(state.time);
+    let [plastic_strain, _, temperature] = state.rod.reached();
+    let options = &scenario.options.chain;
+    result.numerics = Some(Numerics {
+        steps: state.step,
+        first_time_step: watch.first_time_step,
+        smallest_time_step: watch.smallest_time_step,
+        elements: (options.projectile_elements(), options.target_elements()),
+        eroded_elements: (state.eroded, 0),
+        largest_plastic_strain: (plastic_strain, 0.0),
+        largest_temperature: (temperature, 0.0),
+        energy: state.energy(),
+        momentum: state.momentum(),
+        energy_residual: watch.residuals[0],
+        momentum_residual: watch.residuals[1],
+    });
+    result.history = recorder.map(|recorder| recorder.finish(sample(state), profile(state)));
+    result.warnings = warnings(scenario, state);
+    result
+}
+
+/// Parts of the depth of a plate within which its back face would have a say.
+const FREE_OF_BACK_FACE: f64 = 0.5;
+
+fn warnings(scenario: &Scenario, state: &State) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let depth = state.floor.depth;
+    if depth == 0.0 && scenario.impact_speed > 0.0 {
+        warnings.push("the target stays elastic: it keeps no dent".to_owned());
+    }
+    if let Some(thickness) = scenario.target_thickness()
+        && depth > FREE_OF_BACK_FACE * thickness
+    {
+        warnings.push(
+            "the crater is more than half as deep as the plate: the resistance is that of a target without a back face".to_owned(),
+        );
+    }
+    warnings
+}
+
+pub(super) fn sample(state: &State) -> Sample {
+    let (mass, momentum) = state.rod.motion();
+    let (tail, tip) = (state.rod.nodes.first(), state.rod.nodes.last());
+    let velocity = |node: Option<&super::node::Node>| node.map_or(f64::NAN, |n| n.velocity);
+    let place = |node: Option<&super::node::Node>| node.map_or(f64::NAN, |n| n.position);
+    Sample {
+        time: state.time,
+        step: state.step,
+        tip_velocity: velocity(tip),
+        tail_velocity: velocity(tail),
+        interface_velocity: state.ground.nodes[0].velocity + state.floor.speed,
+        mean_velocity: momentum / mass,
+        tip_position: place(tip) + state.floor.lost_length,
+        depth: state.position(),
+        projectile_length: if mass > 0.0 {
+            place(tip) - place(tail)
+        } else {
+            0.0
+        },
+        contact_force: state.contact_force,
+        back_force: state.ground.back_force,
+        energy: state.energy(),
+        momentum: state.momentum(),
+    }
+}
+
+pub(super) fn profile(state: &State) -> Profile {
+    let rod = state.rod.slices.iter().enumerate().map(|(i, slice)| {
+        let nodes = &state.rod.nodes;
+        ElementState {
+            part: 0,
+            initial_position: slice.initial_position,
+            position: 0.5 * (nodes[i].position + nodes[i + 1].position) + state.floor.lost_length,
+            length: slice.length,
+            stress: slice.axial_stress(),
+            strain: slice.strain(),
+            plastic_strain: slice.plastic_strain,
+            diameter: 2.0 * slice.radius,
+            temperature: slice.temperature,
+        }
+    });
+    let ground = state.ground.strained().map(|spring| ElementState {
+        part: 1,
+        initial_position: spring.middle,
+        position: spring.middle + spring.displacement + state.floor.depth,
+        length: spring.length,
+        stress: spring.stress,
+        strain: spring.strain,
+        plastic_strain: 0.0,
+        diameter: 2.0 * (spring.area / std::f64::consts::PI).sqrt(),
+        temperature: f64::NAN,
+    });
+    Profile {
+        time: state.time,
+        elements: rod.chain(ground).collect(),
+    }
+}

@@ -1,0 +1,189 @@
+//! The projectile: nodes on the axis, slices between them, and the shear between neighbouring slices.
+
+use std::f64::consts::PI;
+
+use super::{
+    node::Node,
+    slice::{Metal, Shear, Slice},
+};
+
+/// From its tail to its tip; what erodes leaves from the tip.
+#[derive(Debug)]
+pub(super) struct Rod {
+    pub(super) metal: Metal,
+    pub(super) nodes: Vec<Node>,
+    pub(super) slices: Vec<Slice>,
+    /// `shears[i]` is between the slices `i` and `i + 1`.
+    shears: Vec<Shear>,
+    /// What eroded: largest plastic strain, plastic strain rate and temperature of its slices.
+    lost: [f64; 3],
+}
+
+/// What left with a slice.
+#[derive(Debug, Default)]
+pub(super) struct Loss {
+    pub(super) energy: f64,
+    pub(super) momentum: f64,
+    /// Its length [m].
+    pub(super) length: f64,
+}
+
+impl Rod {
+    pub(super) fn new(
+        metal: Metal,
+        count: usize,
+        length: f64,
+        area: f64,
+        temperature: f64,
+        speed: f64,
+    ) -> Self {
+        let size = length / count as f64;
+        let radius = (area / PI).sqrt();
+        let slices: Vec<Slice> = (0..count)
+            .map(|i| {
+                let middle = size * (i as f64 + 0.5) - length;
+                Slice::new(&metal, size, radius, temperature, middle)
+            })
+            .collect();
+        let mut nodes: Vec<Node> = (0..=count)
+            .map(|i| Node {
+                position: -size * (count - i) as f64,
+                velocity: speed,
+                ..Node::default()
+            })
+            .collect();
+        for (i, slice) in slices.iter().enumerate() {
+            nodes[i].mass += 0.5 * slice.mass;
+            nodes[i + 1].mass += 0.5 * slice.mass;
+        }
+        Self {
+            shears: vec![Shear::default(); count.saturating_sub(1)],
+            metal,
+            nodes,
+            slices,
+            lost: [0.0; 3],
+        }
+    }
+
+    pub(super) fn tip(&self) -> Option<&Node> {
+        self.nodes.last()
+    }
+
+    /// Forces of the slices on the nodes.
+    pub(super) fn collect(&mut self) {
+        for node in &mut self.nodes {
+            node.force = 0.0;
+        }
+        for (i, slice) in self.slices.iter().enumerate() {
+            self.nodes[i].force -= slice.axial_force;
+            self.nodes[i + 1].force += slice.axial_force;
+        }
+    }
+
+    /// New velocities of all but the tip.
+    pub(super) fn kick(&mut self, kick: f64) {
+        let count = self.nodes.len().saturating_sub(1);
+        for node in &mut self.nodes[..count] {
+            node.kick(node.force * kick);
+        }
+        for (i, shear) in self.shears.iter().enumerate() {
+            self.slices[i].radial_force += shear.force;
+            self.slices[i + 1].radial_force -= shear.force;
+        }
+        for slice in &mut self.slices {
+            slice.radial_velocity += slice.radial_force * kick / slice.radial_mass();
+        }
+    }
+
+    /// Moves on and gives the plastic work [J]; an error names a slice that was crushed.
+    pub(super) fn drift(&mut self, time_step: f64) -> Result<f64, usize> {
+        for node in &mut self.nodes {
+            node.position += node.velocity * time_step;
+        }
+        let mut plastic = 0.0;
+        for (i, slice) in self.slices.iter_mut().enumerate() {
+            let length = self.nodes[i + 1].position - self.nodes[i].position;
+            if length <= 0.0 || slice.radius + slice.radial_velocity * time_step <= 0.0 {
+                return Err(i);
+            }
+            plastic += slice.deform(&self.metal, length, time_step);
+        }
+        for (pair, shear) in self.slices.windows(2).zip(&mut self.shears) {
+            plastic += shear.deform(&self.metal, &pair[0], &pair[1], time_step);
+        }
+        Ok(plastic)
+    }
+
+    /// Largest stable step [s], in which no slice changes its size by more than a part either.
+    pub(super) fn stable_step(&self, largest_strain: f64) -> f64 {
+        let mut step = f64::INFINITY;
+        for (pair, slice) in self.nodes.windows(2).zip(&self.slices) {
+            let approach = (pair[0].velocity - pair[1].velocity).abs() / slice.length;
+            let rate = approach.max(slice.radial_velocity.abs() / slice.radius);
+            step = step
+                .min(2.0 / slice.stiffness_per_mass(&self.metal).sqrt())
+                .min(largest_strain / rate);
+        }
+        step
+    }
+
+    /// Takes the foremost slice out, with what leaves with it.
+    pub(super) fn erode_tip(&mut self) -> Loss {
+        let (Some(slice), Some(tip)) = (self.slices.pop(), self.nodes.pop()) else {
+            return Loss::default();
+        };
+        let shear = self.shears.pop();
+        let half = 0.5 * slice.mass;
+        let mut loss = Loss {
+            energy: slice.elastic_energy(&self.metal)
+                + slice.radial_energy()
+                + shear.map_or(0.0, |shear| shear.elastic_energy(&self.metal)),
+            momentum: 0.0,
+            length: slice.length,
+        };
+        let behind = self.nodes.last().map_or(0.0, |node| node.velocity);
+        for velocity in [tip.velocity, behind] {
+            loss.energy += 0.5 * half * velocity * velocity;
+            loss.momentum += half * velocity;
+        }
+        if let Some(node) = self.nodes.last_mut() {
+            node.mass -= half;
+        }
+        if self.slices.is_empty() {
+            self.nodes.clear();
+        }
+        for (most, value) in self.lost.iter_mut().zip(reached(&slice)) {
+            *most = most.max(value);
+        }
+        loss
+    }
+
+    /// Mass [kg] and momentum [N s].
+    pub(super) fn motion(&self) -> (f64, f64) {
+        self.nodes.iter().fold((0.0, 0.0), |(mass, momentum), n| {
+            (mass + n.mass, momentum + n.mass * n.velocity)
+        })
+    }
+
+    /// Kinetic and elastic energy [J].
+    pub(super) fn energies(&self) -> [f64; 2] {
+        let axial: f64 = self.nodes.iter().map(Node::kinetic_energy).sum();
+        let radial: f64 = self.slices.iter().map(Slice::radial_energy).sum();
+        let metal = &self.metal;
+        let slices: f64 = self.slices.iter().map(|s| s.elastic_energy(metal)).sum();
+        let shears: f64 = self.shears.iter().map(|s| s.elastic_energy(metal)).sum();
+        [axial + radial, slices + shears]
+    }
+
+    /// Largest plastic strain, plastic strain rate [1/s] and temperature [K] so far.
+    pub(super) fn reached(&self) -> [f64; 3] {
+        let slices = self.slices.iter().map(reached);
+        slices.fold(self.lost, |most, value| {
+            std::array::from_fn(|k| most[k].max(value[k]))
+        })
+    }
+}
+
+fn reached(slice: &Slice) -> [f64; 3] {
+    [slice.plastic_strain, slice.largest_rate, slice.temperature]
+}

@@ -1,0 +1,244 @@
+//! What shots of a model come to: whether one is perforated, where the limit is, and what to warn of.
+
+use super::{
+    Bracket, CurvePoint, LimitOutcome, ModelLimit, fit_lambert_jonas,
+    search::{Passage, Sample, bracket},
+    warnings,
+};
+use crate::{
+    Error, Scenario,
+    model::Model,
+    outcome::{Outcome, RunResult},
+    units::significant,
+};
+
+/// What is kept of a shot.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Shot {
+    pub scheme: &'static str,
+    /// Speed behind the target [m/s].
+    pub residual: Option<f64>,
+    /// Ballistic limit that the model states [m/s].
+    pub stated: Option<f64>,
+    pub warnings: Vec<String>,
+    /// How it ended without a result.
+    pub absent: Option<LimitOutcome>,
+}
+
+impl Shot {
+    pub(super) fn of(result: RunResult) -> Self {
+        Self {
+            scheme: result.scheme,
+            residual: result.residual_velocity,
+            stated: result.ballistic_limit,
+            warnings: result.warnings,
+            absent: None,
+        }
+    }
+
+    pub(super) fn failed(error: &Error) -> Self {
+        Self {
+            scheme: "",
+            residual: None,
+            stated: None,
+            warnings: Vec::new(),
+            absent: Some(match error {
+                Error::NotApplicable { .. } => LimitOutcome::NotApplicable,
+                _ => LimitOutcome::Failed,
+            }),
+        }
+    }
+}
+
+/// Why a model cannot be asked, at whatever speed.
+pub(super) fn unsuited(model: &dyn Model, scenario: &Scenario) -> Option<String> {
+    if !model.guard().decides_perforation() {
+        return Some("it does not say whether a target is perforated".to_owned());
+    }
+    match scenario.target_thickness() {
+        Some(_) => None,
+        None => Some("the target has no back face to perforate".to_owned()),
+    }
+}
+
+/// Whether a shot went through.
+pub(super) fn passage(result: &RunResult) -> Passage {
+    let undecided = |reason: &str| Passage::Undecided(reason.to_owned());
+    match result.outcome {
+        Outcome::Perforated => Passage::Perforated,
+        Outcome::AtRest | Outcome::Rebounded | Outcome::ProjectileEroded => Passage::Stopped,
+        Outcome::Separated => {
+            undecided("the target runs away from the projectile, and whether it opens is not said")
+        }
+        Outcome::OutOfTime => undecided("the run ended before the shot did"),
+        Outcome::NotApplicable => undecided("the model does not apply"),
+        Outcome::Failed => undecided("the model failed"),
+    }
+}
+
+/// Why a run gave no result.
+pub(super) fn reason(error: &Error) -> String {
+    match error {
+        Error::NotApplicable { reason, .. } => reason.clone(),
+        other => other.to_string(),
+    }
+}
+
+/// The limit of a search [m/s]: what the model states where the bracket holds it, otherwise the middle of the bracket.
+pub(super) fn limit_of(samples: &[Sample<Shot>]) -> Option<f64> {
+    let (below, above) = bracket(samples)?;
+    let (low, high) = (samples[below].speed, samples[above].speed);
+    let stated = stated(samples).filter(|limit| (low..=high).contains(limit));
+    Some(stated.unwrap_or(0.5 * (low + high)))
+}
+
+/// What the model states at the lowest speed that perforated.
+fn stated(samples: &[Sample<Shot>]) -> Option<f64> {
+    let perforated = |sample: &&Sample<Shot>| sample.passage == Passage::Perforated;
+    samples.iter().find(perforated)?.shot.as_ref()?.stated
+}
+
+/// Residual velocities of shots that perforated.
+pub(super) fn curve(shots: &[Sample<Shot>]) -> Vec<CurvePoint> {
+    let through = shots
+        .iter()
+        .filter(|sample| sample.passage == Passage::Perforated);
+    through
+        .filter_map(|sample| {
+            Some(CurvePoint {
+                impact_velocity_m_s: sample.speed,
+                residual_velocity_m_s: sample.shot.as_ref()?.residual?,
+            })
+        })
+        .collect()
+}
+
+/// The entry of a model without a limit.
+pub(super) fn without_limit(
+    model: &'static str,
+    outcome: LimitOutcome,
+    reason: String,
+) -> ModelLimit {
+    ModelLimit {
+        model,
+        scheme: "",
+        outcome,
+        reason: Some(reason),
+        ballistic_limit_m_s: None,
+        stated_limit_m_s: None,
+        bracket: None,
+        runs: 0,
+        curve: Vec::new(),
+        fit: None,
+        warnings: Vec::new(),
+    }
+}
+
+/// The entry of a model whose shots, in the order of their speeds, are these.
+pub(super) fn entry(
+    model: &'static str,
+    samples: &[Sample<Shot>],
+    curve: Vec<CurvePoint>,
+) -> ModelLimit {
+    let shots = || samples.iter().filter_map(|sample| sample.shot.as_ref());
+    let runs = shots().count();
+    let scheme = shots().map(|shot| shot.scheme).find(|s| !s.is_empty());
+    let scheme = scheme.unwrap_or("");
+    let stated = stated(samples);
+    let Some((below, above)) = bracket(samples) else {
+        let (outcome, reason) = no_bracket(samples);
+        return ModelLimit {
+            scheme,
+            runs,
+            stated_limit_m_s: stated,
+            warnings: warnings::speeds_without_answer(samples)
+                .into_iter()
+                .collect(),
+            ..without_limit(model, outcome, reason)
+        };
+    };
+    let found = Bracket {
+        stopped_m_s: samples[below].speed,
+        perforated_m_s: samples[above].speed,
+    };
+    let of_shot = samples[above].shot.as_ref();
+    let mut said = of_shot.map_or_else(Vec::new, |shot| shot.warnings.clone());
+    said.extend(warnings::undecided_inside(&samples[below..=above]));
+    said.extend(warnings::stated_outside(stated, found));
+    said.extend(warnings::not_monotone(samples, above));
+    said.extend(warnings::speeds_without_answer(samples));
+    let limit = limit_of(samples);
+    let fit = fit_lambert_jonas(&curve);
+    said.extend(warnings::curve_starts_elsewhere(limit, fit));
+    ModelLimit {
+        model,
+        scheme,
+        outcome: LimitOutcome::Found,
+        reason: None,
+        ballistic_limit_m_s: limit,
+        stated_limit_m_s: stated,
+        bracket: Some(found),
+        runs,
+        fit,
+        curve,
+        warnings: said,
+    }
+}
+
+pub(super) fn speed(sample: &Sample<Shot>) -> String {
+    significant(sample.speed, 4)
+}
+
+/// What shots without a change from stopped to perforated say.
+fn no_bracket(samples: &[Sample<Shot>]) -> (LimitOutcome, String) {
+    let first = |wanted: fn(&Passage) -> bool| samples.iter().find(|s| wanted(&s.passage));
+    let stopped = samples
+        .iter()
+        .rfind(|sample| sample.passage == Passage::Stopped && sample.speed > 0.0);
+    let perforated = first(|passage| *passage == Passage::Perforated);
+    match (stopped, perforated) {
+        (Some(stopped), None) => (
+            LimitOutcome::NeverPerforates,
+            match samples
+                .last()
+                .is_some_and(|last| last.speed > stopped.speed)
+            {
+                true => format!(
+                    "it is stopped at every speed up to {} m/s, and at higher ones the model gives no answer",
+                    speed(stopped)
+                ),
+                false => format!(
+                    "it is stopped at every speed up to {} m/s; search further up",
+                    speed(stopped)
+                ),
+            },
+        ),
+        (None, Some(perforated)) => (
+            LimitOutcome::AlwaysPerforates,
+            format!(
+                "it perforates at every speed from {} m/s on; search further down",
+                speed(perforated)
+            ),
+        ),
+        (Some(stopped), Some(perforated)) => (
+            LimitOutcome::Undecided,
+            format!(
+                "it perforates at {} m/s and is stopped at {} m/s, above it: no change from stopped to perforated lies in the range",
+                speed(perforated),
+                speed(stopped)
+            ),
+        ),
+        (None, None) => {
+            let absent = samples.iter().filter_map(|s| Some((s, s.shot.as_ref()?)));
+            let mut outcomes = absent.map(|(_, shot)| shot.absent);
+            let one = outcomes.next().flatten();
+            let all_same = one.is_some() && outcomes.all(|outcome| outcome == one);
+            let reason = samples.iter().find_map(|sample| match &sample.passage {
+                Passage::Undecided(reason) => Some(reason.clone()),
+                _ => None,
+            });
+            let outcome = one.filter(|_| all_same).unwrap_or(LimitOutcome::Undecided);
+            (outcome, reason.unwrap_or_default())
+        }
+    }
+}

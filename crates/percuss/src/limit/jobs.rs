@@ -1,0 +1,191 @@
+//! Searches of many models side by side.
+
+use std::{
+    ops::ControlFlow,
+    sync::{Mutex, PoisonError},
+};
+
+use rayon::prelude::*;
+
+use super::{
+    LimitOutcome, ModelLimit, Progress, Search, Watch,
+    findings::{self, Shot},
+    search::{INTERVALS, Passage, Sample, search},
+};
+use crate::{
+    Error, Scenario,
+    model::{self, Control, Model},
+    regime::Regime,
+};
+
+/// Part of the limit by which the curve of residual velocities goes beyond it.
+const BEYOND: f64 = 1.5;
+
+/// Searches by every model; the entries stand in the order of the models.
+pub(super) fn run(
+    models: &[&dyn Model],
+    scenario: &Scenario,
+    search: &Search,
+    watch: &mut Watch<'_>,
+) -> Result<Vec<ModelLimit>, Error> {
+    let planned = planned_runs(search);
+    let board = Mutex::new(Board {
+        planned,
+        models: vec![(0, 0.0); models.len()],
+        stopped: false,
+        watch,
+    });
+    (0..models.len())
+        .into_par_iter()
+        .map(|index| {
+            let job = Job {
+                model: models[index],
+                index,
+                scenario,
+                search,
+                board: &board,
+            };
+            let entry = job.entry()?;
+            job.tell(|(runs, part)| (runs, part.max(planned as f64)))?;
+            Ok(entry)
+        })
+        .collect()
+}
+
+/// Runs that a model takes that finds its limit.
+fn planned_runs(search: &Search) -> usize {
+    let range = search.range;
+    let interval = (range.to - range.from) / f64::from(INTERVALS);
+    let halvings = (interval / search.tolerance.at(0.5 * range.to)).log2();
+    INTERVALS as usize + 1 + halvings.ceil().max(0.0) as usize + search.points
+}
+
+/// One model's search.
+struct Job<'a, 'b, 'c> {
+    model: &'a dyn Model,
+    index: usize,
+    scenario: &'a Scenario,
+    search: &'a Search,
+    board: &'a Mutex<Board<'b, 'c>>,
+}
+
+impl Job<'_, '_, '_> {
+    fn entry(&self) -> Result<ModelLimit, Error> {
+        if let Some(reason) = findings::unsuited(self.model, self.scenario) {
+            let outcome = LimitOutcome::NotApplicable;
+            return Ok(findings::without_limit(self.model.name(), outcome, reason));
+        }
+        let mut samples = search(self.search.range, self.search.tolerance, &|speed| {
+            self.shoot(speed)
+        })?;
+        let mut curve = Vec::new();
+        if let Some(limit) = findings::limit_of(&samples) {
+            let most = self.search.range.to.min((1.0 + BEYOND) * limit);
+            curve = self.curve_speeds(limit, most);
+        }
+        let shots: Vec<Sample<Shot>> = curve
+            .par_iter()
+            .map(|speed| self.shoot(*speed))
+            .collect::<Result<_, _>>()?;
+        let residuals = findings::curve(&shots);
+        samples.extend(shots);
+        samples.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        Ok(findings::entry(self.model.name(), &samples, residuals))
+    }
+
+    /// Speeds above the limit, closer to each other where the residual velocity rises steeply.
+    fn curve_speeds(&self, limit: f64, most: f64) -> Vec<f64> {
+        let count = self.search.points;
+        (1..=count)
+            .map(|i| {
+                let part = i as f64 / count as f64;
+                limit + (most - limit) * part * part
+            })
+            .filter(|speed| *speed > limit)
+            .collect()
+    }
+
+    /// A shot at a speed. What a model cannot say there is no error.
+    fn shoot(&self, speed: f64) -> Result<Sample<Shot>, Error> {
+        let sample = |passage, shot| Sample {
+            speed,
+            passage,
+            shot,
+        };
+        if speed == 0.0 {
+            return Ok(sample(Passage::Stopped, None));
+        }
+        let scenario = self.scenario.at_speed(speed);
+        let regime = Regime::of(&scenario);
+        let mut told = 0.0;
+        let mut report = |now: model::Progress| {
+            let more = now.fraction.clamp(told, 1.0) - told;
+            told += more;
+            match self.tell(|(runs, part)| (runs, part + more)) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(_) => ControlFlow::Break(()),
+            }
+        };
+        let mut control = Control {
+            progress: Some(&mut report),
+            ..Control::default()
+        };
+        let result = model::run_in(self.model, &scenario, &regime, &mut control);
+        self.tell(|(runs, part)| (runs + 1, part + 1.0 - told))?;
+        match result {
+            Ok(result) => Ok(sample(findings::passage(&result), Some(Shot::of(result)))),
+            Err(stop @ Error::Cancelled { .. }) => Err(stop),
+            Err(error) => Ok(sample(
+                Passage::Undecided(findings::reason(&error)),
+                Some(Shot::failed(&error)),
+            )),
+        }
+    }
+
+    /// Changes what is known of this model's runs: how many have ended, and how many are done in parts.
+    fn tell(&self, change: impl Fn((usize, f64)) -> (usize, f64)) -> Result<(), Error> {
+        // A caller whose callback has panicked gets its panic anyway.
+        let mut board = self.board.lock().unwrap_or_else(PoisonError::into_inner);
+        board.models[self.index] = change(board.models[self.index]);
+        match board.report() {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(Error::Cancelled {
+                step: 0,
+                time_us: 0.0,
+            }),
+        }
+    }
+}
+
+/// What all searches together have done.
+struct Board<'a, 'b> {
+    /// Runs that a model is expected to take.
+    planned: usize,
+    /// Of each model, the runs that have ended and the runs done in parts.
+    models: Vec<(usize, f64)>,
+    stopped: bool,
+    watch: &'a mut Watch<'b>,
+}
+
+impl Board<'_, '_> {
+    fn report(&mut self) -> ControlFlow<()> {
+        if self.stopped {
+            return ControlFlow::Break(());
+        }
+        let planned = self.planned as f64;
+        let part = |done: f64| (done / planned).min(1.0);
+        let progress = Progress {
+            finished: self.models.iter().map(|(runs, _)| runs).sum(),
+            total: self.planned * self.models.len(),
+            fraction: self.models.iter().map(|(_, done)| part(*done)).sum::<f64>()
+                / self.models.len() as f64,
+        };
+        if let Some(callback) = &mut self.watch.progress {
+            self.stopped = callback(progress).is_break();
+        }
+        match self.stopped {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! Search for the speed at which stopping ends and perforation begins, over anything that says which of them a shot does.
+
+use rayon::prelude::*;
+
+use super::{Range, Tolerance};
+use crate::Error;
+
+/// Intervals of the range at whose ends shots are tried before the bracket is narrowed.
+pub(super) const INTERVALS: u32 = 16;
+/// Bound on the shots that narrow a bracket: twice what the precision of a speed can ask for.
+const MOST_SHOTS: usize = 100;
+
+/// What becomes of a shot.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Passage {
+    /// The target stops it.
+    Stopped,
+    /// It goes through.
+    Perforated,
+    /// Neither is known, for this reason.
+    Undecided(String),
+}
+
+/// A shot at a speed.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Sample<T> {
+    /// Impact speed [m/s].
+    pub speed: f64,
+    /// What became of it.
+    pub passage: Passage,
+    /// What else is known of it.
+    pub shot: Option<T>,
+}
+
+/// Shots in the order of their speeds.
+pub(super) type Samples<T> = Vec<Sample<T>>;
+
+/// Tries the ends of equal intervals of a range, then narrows the lowest change from stopped to perforated.
+///
+/// # Errors
+/// Those of `shoot`, which are not for reasons that a sample carries.
+pub(super) fn search<T: Send>(
+    range: Range,
+    tolerance: Tolerance,
+    shoot: &(dyn Fn(f64) -> Result<Sample<T>, Error> + Sync),
+) -> Result<Samples<T>, Error> {
+    let mut samples: Samples<T> = (0..=INTERVALS)
+        .into_par_iter()
+        .map(|i| shoot(range.at(f64::from(i) / f64::from(INTERVALS))))
+        .collect::<Result<_, _>>()?;
+    for _ in 0..MOST_SHOTS {
+        let Some(speed) = next_speed(&samples, tolerance) else {
+            break;
+        };
+        let at = samples.partition_point(|sample| sample.speed < speed);
+        samples.insert(at, shoot(speed)?);
+    }
+    Ok(samples)
+}
+
+/// Indices of the lowest pair of a stopped and a perforated shot with none that is decided between them.
+pub(super) fn bracket<T>(samples: &[Sample<T>]) -> Option<(usize, usize)> {
+    let mut stopped = None;
+    for (i, sample) in samples.iter().enumerate() {
+        match (&sample.passage, stopped) {
+            (Passage::Stopped, _) => stopped = Some(i),
+            (Passage::Perforated, Some(below)) => return Some((below, i)),
+            _ => {}
+        }
+    }
+    None
+}
+
+/// Middle of the interval to narrow, unless that is narrow enough. Where undecided shots lie in the bracket, the intervals at its
+/// two ends are narrowed.
+fn next_speed<T>(samples: &[Sample<T>], tolerance: Tolerance) -> Option<f64> {
+    let (below, above) = bracket(samples)?;
+    let ends = [(below, below + 1), (above - 1, above)];
+    let narrow = |(low, high): (usize, usize)| {
+        let (low, high) = (samples[low].speed, samples[high].speed);
+        let middle = 0.5 * (low + high);
+        let wide = high - low > tolerance.at(high) && low < middle && middle < high;
+        wide.then_some(middle)
+    };
+    ends.into_iter().find_map(narrow)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shots(passage: impl Fn(f64) -> Passage + Sync) -> Samples<()> {
+        let range = Range {
+            from: 0.0,
+            to: 1600.0,
+        };
+        search(range, Tolerance::Absolute(0.5), &|speed| {
+            Ok(Sample {
+                speed,
+                passage: passage(speed),
+                shot: None,
+            })
+        })
+        .unwrap()
+    }
+
+    fn speeds(samples: &Samples<()>) -> Option<(f64, f64)> {
+        bracket(samples).map(|(low, high)| (samples[low].speed, samples[high].speed))
+    }
+
+    fn over(limit: f64) -> impl Fn(f64) -> Passage {
+        move |speed| match speed > limit {
+            true => Passage::Perforated,
+            false => Passage::Stopped,
+        }
+    }
+
+    #[test]
+    fn the_bracket_holds_the_limit_and_is_as_narrow_as_was_asked() {
+        for limit in [0.0, 0.1, 184.5, 700.0, 1599.9] {
+            let samples = shots(over(limit));
+            let (low, high) = speeds(&samples).unwrap();
+            assert!(low <= limit && limit < high, "{limit}: {low} to {high}");
+            assert!(high - low <= 0.5);
+            // 17 of the scan and 8 halvings of 100 m/s.
+            assert_eq!(samples.len(), 25);
+            assert!(samples.is_sorted_by(|a, b| a.speed < b.speed));
+        }
+    }
+
+    #[test]
+    fn a_relative_tolerance_is_one_of_the_speed() {
+        let range = Range {
+            from: 100.0,
+            to: 900.0,
+        };
+        let shoot = |speed| {
+            Ok(Sample {
+                speed,
+                passage: over(400.0)(speed),
+                shot: None::<()>,
+            })
+        };
+        let samples = search(range, Tolerance::Relative(0.01), &shoot).unwrap();
+        let (low, high) = speeds(&samples).unwrap();
+        assert!(high - low <= 4.04 && high - low > 1.0);
+    }
+
+    #[test]
+    fn without_a_change_nothing_is_narrowed() {
+        for samples in [shots(|_| Passage::Stopped), shots(|_| Passage::Perforated)] {
+            assert_eq!((samples.len(), speeds(&samples)), (17, None));
+        }
+    }
+
+    #[test]
+    fn of_several_changes_the_lowest_is_narrowed() {
+        let gap = |speed: f64| match speed {
+            ..=350.0 => Passage::Stopped,
+            ..=820.0 => Passage::Perforated,
+            ..=1210.0 => Passage::Stopped,
+            _ => Passage::Perforated,
+        };
+        let (low, high) = speeds(&shots(gap)).unwrap();
+        assert!(low <= 350.0 && 350.0 < high && high - low <= 0.5);
+    }
+
+    #[test]
+    fn both_ends_of_an_undecided_zone_are_narrowed() {
+        let zone = |speed: f64| match speed {
+            ..=333.0 => Passage::Stopped,
+            ..=777.0 => Passage::Undecided("not known".to_owned()),
+            _ => Passage::Perforated,
+        };
+        let (low, high) = speeds(&shots(zone)).unwrap();
+        assert!((332.5..=333.0).contains(&low), "{low}");
+        assert!((777.0..=777.5).contains(&high), "{high}");
+    }
+}

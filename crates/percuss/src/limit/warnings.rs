@@ -1,0 +1,104 @@
+//! What a user should know before relying on a limit that was searched for.
+
+use super::{
+    Bracket, LambertJonasFit,
+    findings::{Shot, speed},
+    search::{Passage, Sample, bracket},
+};
+use crate::units::significant;
+
+/// Says that shots inside the bracket are neither stopped nor perforated.
+pub(super) fn undecided_inside(bracket: &[Sample<Shot>]) -> Option<String> {
+    let inside = bracket.get(1..bracket.len() - 1)?;
+    let (first, last) = (inside.first()?, inside.last()?);
+    let Passage::Undecided(reason) = &first.passage else {
+        return None;
+    };
+    Some(format!(
+        "from {} to {} m/s, inside the bracket, the model does not decide: {reason}",
+        speed(first),
+        speed(last)
+    ))
+}
+
+/// Says that a model's own limit is not where its shots change.
+pub(super) fn stated_outside(stated: Option<f64>, found: Bracket) -> Option<String> {
+    let stated = stated?;
+    let inside = (found.stopped_m_s..=found.perforated_m_s).contains(&stated);
+    (!inside).then(|| {
+        format!(
+            "the model states a limit of {} m/s, but its shots change between {} and {} m/s",
+            significant(stated, 4),
+            significant(found.stopped_m_s, 4),
+            significant(found.perforated_m_s, 4)
+        )
+    })
+}
+
+/// Part of the limit by which the start of a fitted curve may lie off.
+const SAME_START: f64 = 0.05;
+
+/// Says that the fitted curve does not start at the limit.
+pub(super) fn curve_starts_elsewhere(
+    limit: Option<f64>,
+    fit: Option<LambertJonasFit>,
+) -> Option<String> {
+    let (limit, start) = (limit?, fit?.ballistic_limit_m_s);
+    ((start - limit).abs() > SAME_START * limit).then(|| {
+        format!(
+            "the curve through the residual velocities starts at {} m/s and not at the limit, {} m/s: they do not follow the form \
+             of Lambert and Jonas",
+            significant(start, 4),
+            significant(limit, 4)
+        )
+    })
+}
+
+/// Says that faster shots are stopped, or that slower ones perforate.
+pub(super) fn not_monotone(samples: &[Sample<Shot>], above: usize) -> Option<String> {
+    let (low, high) = samples.split_at(above);
+    let through = low.iter().find(|s| s.passage == Passage::Perforated);
+    let faster = || high.iter().filter(|s| s.passage == Passage::Stopped);
+    let (from, to) = (faster().next(), faster().next_back());
+    let words = match (through, from.zip(to)) {
+        (Some(slow), _) => format!("a shot at {} m/s perforates", speed(slow)),
+        (None, Some((from, to))) => format!(
+            "shots that are faster are stopped again, at {}",
+            match from.speed == to.speed {
+                true => format!("{} m/s", speed(from)),
+                false => format!("{} to {} m/s", speed(from), speed(to)),
+            }
+        ),
+        (None, None) => return None,
+    };
+    Some(format!(
+        "perforation is not monotone in the speed: {words}; the limit is the lowest change from stopped to perforated that was seen"
+    ))
+}
+
+/// Says at which speeds, outside the bracket or without one, the model gave no answer.
+pub(super) fn speeds_without_answer(samples: &[Sample<Shot>]) -> Option<String> {
+    let bracket = bracket(samples);
+    let outside = |i: usize| bracket.is_none_or(|(low, high)| i < low || i > high);
+    let silent: Vec<(&Sample<Shot>, &String)> = samples
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| outside(*i))
+        .filter_map(|(_, sample)| match &sample.passage {
+            Passage::Undecided(reason) => Some((sample, reason)),
+            _ => None,
+        })
+        .collect();
+    let decided = silent.len() < samples.iter().filter(|s| s.shot.is_some()).count();
+    let ((first, reason), (last, _)) = (silent.first()?, silent.last()?);
+    let range = match first.speed == last.speed {
+        true => format!("at {} m/s", speed(first)),
+        false => format!(
+            "at {} speeds from {} to {} m/s",
+            silent.len(),
+            speed(first),
+            speed(last)
+        ),
+    };
+    decided.then(|| format!("{range} the model gives no answer: {reason}"))
+}

@@ -1,0 +1,151 @@
+//! Maximum likelihood of the two numbers of a distribution.
+
+use super::{Estimate, Pattern, Shot, interval::interval, link::Link, speeds};
+use crate::units::significant;
+
+const ITERATIONS: usize = 200;
+/// Part of the logarithm of the likelihood that a last step gains at most.
+const CONVERGED: f64 = 1e-14;
+
+/// `α + β x` with speeds x that were moved and scaled.
+#[derive(Debug, Clone, Copy)]
+struct Line {
+    alpha: f64,
+    beta: f64,
+}
+
+/// The estimate of maximum likelihood, or why there is none.
+pub(super) fn likeliest(link: Link, shots: &[Shot], pattern: Pattern) -> Estimate {
+    let none = |reason: String| Estimate::none(link.method(), reason);
+    match pattern {
+        Pattern::Mixed => {}
+        Pattern::Separated => {
+            // Silvapulle's condition fails: the likelihood rises to 1 as the scatter shrinks to nothing.
+            let (stopped, through) = gap(shots);
+            let (low, high) = interval(link, shots, 0.5 * (stopped + through), 0.0);
+            return Estimate {
+                low_m_s: low,
+                high_m_s: high,
+                ..none(separated(stopped, through))
+            };
+        }
+        Pattern::Reversed => {
+            return none(
+                "the faster shots were stopped and the slower ones went through".to_owned(),
+            );
+        }
+        Pattern::AllStopped => return none("no shot went through".to_owned()),
+        Pattern::AllPerforated => return none("no shot was stopped".to_owned()),
+    }
+    let count = shots.len() as f64;
+    let mean = shots.iter().map(|shot| shot.speed).sum::<f64>() / count;
+    let square = |shot: &Shot| (shot.speed - mean).powi(2);
+    let unit = (shots.iter().map(square).sum::<f64>() / count).sqrt();
+    let scaled: Vec<(f64, f64)> = shots
+        .iter()
+        .map(|shot| ((shot.speed - mean) / unit, sign(shot)))
+        .collect();
+    let (line, log_likelihood) = climb(link, &scaled);
+    if line.beta <= 0.0 {
+        return none(
+            "by these shots faster ones go through no more often than slower ones".to_owned(),
+        );
+    }
+    let x50 = -line.alpha / line.beta;
+    let v50 = mean + unit * x50;
+    let (low, high) = interval(link, shots, v50, log_likelihood);
+    Estimate {
+        v50_m_s: Some(v50),
+        standard_deviation_m_s: Some(unit / line.beta * link.standard_deviation()),
+        standard_error_m_s: standard_error(link, &scaled, line).map(|error| unit * error),
+        low_m_s: low,
+        high_m_s: high,
+        log_likelihood: Some(log_likelihood),
+        ..Estimate::empty(link.method())
+    }
+}
+
+/// Speeds of the fastest shot that was stopped and of the slowest that went through [m/s].
+fn gap(shots: &[Shot]) -> (f64, f64) {
+    (
+        speeds(shots, false).fold(f64::MIN, f64::max),
+        speeds(shots, true).fold(f64::MAX, f64::min),
+    )
+}
+
+fn separated(stopped: f64, through: f64) -> String {
+    let (stopped, through) = (significant(stopped, 6), significant(through, 6));
+    format!(
+        "no zone of mixed results: every shot up to {stopped} m/s was stopped and every one from {through} m/s went through; \
+         any V50 between them with a scatter of zero is equally likely"
+    )
+}
+
+/// 1 for a shot that went through, −1 for one that was stopped.
+pub(super) fn sign(shot: &Shot) -> f64 {
+    match shot.perforated {
+        true => 1.0,
+        false => -1.0,
+    }
+}
+
+fn log_likelihood(link: Link, scaled: &[(f64, f64)], line: Line) -> f64 {
+    let log = |(x, sign): &(f64, f64)| link.log_chance(sign * (line.alpha + line.beta * x));
+    scaled.iter().map(log).sum()
+}
+
+/// Observed information of α and β: the entries αα, αβ and ββ; and the gradient of the logarithm of the likelihood.
+fn information(link: Link, scaled: &[(f64, f64)], line: Line) -> ([f64; 3], [f64; 2]) {
+    let (mut information, mut gradient) = ([0.0; 3], [0.0; 2]);
+    for (x, sign) in scaled {
+        let (slope, curvature) = link.slopes(sign * (line.alpha + line.beta * x));
+        gradient[0] += sign * slope;
+        gradient[1] += sign * slope * x;
+        information[0] += curvature;
+        information[1] += curvature * x;
+        information[2] += curvature * x * x;
+    }
+    (information, gradient)
+}
+
+/// Newton's method with halved steps: the logarithm of the likelihood is concave for both distributions.
+fn climb(link: Link, scaled: &[(f64, f64)]) -> (Line, f64) {
+    let mut line = Line {
+        alpha: 0.0,
+        beta: 0.0,
+    };
+    let mut height = log_likelihood(link, scaled, line);
+    for _ in 0..ITERATIONS {
+        let ([aa, ab, bb], [ga, gb]) = information(link, scaled, line);
+        let determinant = aa * bb - ab * ab;
+        let (da, db) = (
+            (bb * ga - ab * gb) / determinant,
+            (aa * gb - ab * ga) / determinant,
+        );
+        let step = |part: f64| Line {
+            alpha: line.alpha + part * da,
+            beta: line.beta + part * db,
+        };
+        let halves = (0..60).map(|halvings| step(0.5_f64.powi(halvings)));
+        let better = halves
+            .map(|line| (line, log_likelihood(link, scaled, line)))
+            .find(|(_, higher)| *higher >= height);
+        let Some((next, higher)) = better else { break };
+        let gained = higher - height;
+        (line, height) = (next, higher);
+        if gained <= CONVERGED * height.abs() {
+            break;
+        }
+    }
+    (line, height)
+}
+
+/// Standard error of `−α/β` from the observed information, to first order.
+fn standard_error(link: Link, scaled: &[(f64, f64)], line: Line) -> Option<f64> {
+    let ([aa, ab, bb], _) = information(link, scaled, line);
+    let determinant = aa * bb - ab * ab;
+    let x50 = -line.alpha / line.beta;
+    // Variances of α and β and their covariance are bb, aa and −ab over the determinant.
+    let variance = (bb + aa * x50 * x50 - 2.0 * ab * x50) / (determinant * line.beta * line.beta);
+    (determinant > 0.0 && variance.is_finite()).then(|| variance.sqrt())
+}

@@ -1,0 +1,51 @@
+//! V50 as the mean of equal numbers of the fastest stopped shots and the slowest that went through \[milstd662f\].
+
+use super::{Estimate, Method, Shot, speeds};
+use crate::units::significant;
+
+/// Fewest shots of either kind.
+const FEWEST: usize = 2;
+
+/// The mean over as many shots as lie within a span [m/s].
+pub(super) fn of_extremes(shots: &[Shot], span: f64) -> Estimate {
+    let sorted = |perforated| {
+        let mut speeds: Vec<f64> = speeds(shots, perforated).collect();
+        speeds.sort_by(f64::total_cmp);
+        speeds
+    };
+    let (mut stopped, perforated) = (sorted(false), sorted(true));
+    stopped.reverse();
+    let method = Method::MeanOfExtremes;
+    let most = stopped.len().min(perforated.len());
+    if most < FEWEST {
+        return Estimate::none(
+            method,
+            format!("it takes {FEWEST} shots of either kind or more"),
+        );
+    }
+    let used = |count: usize| stopped[..count].iter().chain(&perforated[..count]).copied();
+    let span_of = |count: usize| {
+        let (low, high) = used(count).fold((f64::MAX, f64::MIN), |(low, high), speed| {
+            (low.min(speed), high.max(speed))
+        });
+        high - low
+    };
+    // Rounding of speeds that were given in other units must not decide.
+    let fits = |count: &usize| span_of(*count) <= span * (1.0 + 1e-9);
+    let Some(count) = (FEWEST..=most).rev().find(fits) else {
+        return Estimate::none(
+            method,
+            format!(
+                "the {FEWEST} fastest stopped shots and the {FEWEST} slowest that went through span {} m/s, more than {} m/s",
+                significant(span_of(FEWEST), 4),
+                significant(span, 4)
+            ),
+        );
+    };
+    Estimate {
+        v50_m_s: Some(used(count).sum::<f64>() / (2 * count) as f64),
+        shots_used: Some(2 * count),
+        span_m_s: Some(span_of(count)),
+        ..Estimate::empty(method)
+    }
+}
