@@ -106,6 +106,10 @@ fn outcome(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text:
         };
         rows.add("residual velocity", number(velocity, "m/s") + direction);
     }
+    if let (Some(mass), Some(velocity)) = (record.plug_mass_g, record.plug_velocity_m_s) {
+        let flight = format!("{} at {}", number(mass, "g"), number(velocity, "m/s"));
+        rows.add("plug", flight);
+    }
     let rod = &scenario.projectile;
     let remains = [
         (

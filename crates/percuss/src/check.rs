@@ -169,6 +169,10 @@ pub mod limits {
     pub const CONSTRAINT_FACTOR: Limits = limits(0.1, 20.0);
     /// Border-shear coefficient C.
     pub const BORDER_SHEAR: Limits = limits(0.0, 10.0);
+    /// Width of a shear band [m].
+    pub const BAND_WIDTH: Limits = limits(1e-6, 0.1);
+    /// Plastic shear strain at which a band fails.
+    pub const BAND_STRAIN: Limits = limits(0.01, 1000.0);
     /// Courant number.
     pub const COURANT: Limits = limits(1e-4, 1.0);
     /// Exponent of a cumulative failure law.

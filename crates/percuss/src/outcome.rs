@@ -60,6 +60,8 @@ pub enum Termination {
     TipStopped,
     /// The crater floor passed the original back face.
     PassedBackFace,
+    /// No border shear holds the plug any more, and projectile and plug fly at their final speeds.
+    PlugFree,
     /// The last of the projectile eroded.
     ProjectileConsumed,
     /// The resistance of the target holds what is left of the projectile.
@@ -86,6 +88,7 @@ impl Termination {
             Self::Parted => "projectile and target have parted and will not meet again",
             Self::TipStopped => "the tip's speed reached zero",
             Self::PassedBackFace => "crater floor passed the original back face",
+            Self::PlugFree => "no border shear is left; projectile and plug fly freely",
             Self::ProjectileConsumed => "the last of the projectile eroded",
             Self::PenetrationStopped => {
                 "the target's resistance holds what is left of the projectile"
@@ -134,6 +137,10 @@ pub struct RunResult {
     pub projectile_final_diameter: Option<f64>,
     /// Mass left of the projectile [kg].
     pub projectile_final_mass: Option<f64>,
+    /// Mass of the plug that a plate let go [kg].
+    pub plug_mass: Option<f64>,
+    /// Its speed [m/s].
+    pub plug_velocity: Option<f64>,
     /// Time at which the projectile's momentum was used up [s].
     pub time_to_rest: Option<f64>,
     /// Largest force between projectile and target [N].
@@ -284,6 +291,8 @@ impl RunResult {
             projectile_final_length: None,
             projectile_final_diameter: None,
             projectile_final_mass: None,
+            plug_mass: None,
+            plug_velocity: None,
             time_to_rest: None,
             peak_force: None,
             contact_time: None,

@@ -4,8 +4,8 @@ use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
     case::{
-        BackFace, Case, Experiment, Layer, LayerInterface, ModelOptions, Nose, Scheme, Thickness,
-        Uncertainty,
+        BackFace, Case, Experiment, Layer, LayerInterface, ModelOptions, Nose, Scheme, Support,
+        Thickness, Uncertainty,
     },
     check::{Check, limits},
     material::{Library, Material, MaterialEntry},
@@ -106,11 +106,22 @@ pub enum TargetBody {
         column_diameter: f64,
         /// Whether a layer has a gap, an interface or a diameter of its own.
         separate_layers: bool,
+        /// Where the plate ends; `None` where the case does not say.
+        edge: Option<PlateEdge>,
     },
     /// A rigid, frictionless wall.
     RigidWall,
     /// A constant pressure on the projectile's face [Pa].
     ConstantPressure(f64),
+}
+
+/// Edge of a plate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlateEdge {
+    /// Diameter inside the support [m].
+    pub diameter: f64,
+    /// How it is held there.
+    pub support: Support,
 }
 
 /// A layer of a target.
@@ -329,6 +340,22 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
     } else {
         BackFace::Fixed
     };
+    let column_diameter = target
+        .column_diameter
+        .map_or(case.projectile.diameter.si(), Length::si);
+    if let Some(diameter) = target.plate_diameter
+        && diameter.si() <= 2.0 * column_diameter
+    {
+        check.fail(
+            "target.plate_diameter",
+            format!("{diameter} leaves no plate around what is struck"),
+            format!(
+                "give more than twice the diameter of what is struck, {}",
+                Length::new(column_diameter)
+            ),
+        );
+        return None;
+    }
     Some(TargetBody::Layers {
         layers: layers?,
         back_face: target.back_face.unwrap_or(natural),
@@ -336,5 +363,9 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
             .column_diameter
             .map_or(case.projectile.diameter.si(), Length::si),
         separate_layers: target.has_separate_layers(),
+        edge: target.plate_diameter.map(|diameter| PlateEdge {
+            diameter: diameter.si(),
+            support: target.support.unwrap_or_default(),
+        }),
     })
 }

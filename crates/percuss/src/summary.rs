@@ -58,6 +58,10 @@ pub struct ResultRecord {
     pub projectile_final_diameter_mm: Option<f64>,
     /// Mass left of the projectile [g].
     pub projectile_final_mass_g: Option<f64>,
+    /// Mass of the plug that a plate let go [g].
+    pub plug_mass_g: Option<f64>,
+    /// Its speed [m/s].
+    pub plug_velocity_m_s: Option<f64>,
     /// Time at which the projectile's momentum was used up [us].
     pub time_to_rest_us: Option<f64>,
     /// Largest force between projectile and target [kN].
@@ -117,6 +121,8 @@ impl ResultRecord {
             projectile_final_length_mm: mm(result.projectile_final_length),
             projectile_final_diameter_mm: mm(result.projectile_final_diameter),
             projectile_final_mass_g: mm(result.projectile_final_mass),
+            plug_mass_g: mm(result.plug_mass),
+            plug_velocity_m_s: result.plug_velocity,
             time_to_rest_us: us(result.time_to_rest),
             peak_force_kn: result.peak_force.map(|force| force * 1e-3),
             contact_time_us: us(result.contact_time),
@@ -177,6 +183,8 @@ impl ResultRecord {
             projectile_final_length_mm: None,
             projectile_final_diameter_mm: None,
             projectile_final_mass_g: None,
+            plug_mass_g: None,
+            plug_velocity_m_s: None,
             time_to_rest_us: None,
             peak_force_kn: None,
             contact_time_us: None,

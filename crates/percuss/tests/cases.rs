@@ -146,5 +146,5 @@ cases! {
     spall_delayed: "spall-delayed",
     layered_with_gap: "layered-with-gap",
     concrete_forrestal_1994: "concrete-forrestal-1994",
-    weldox_borvik_2002: "weldox-borvik-2002",
+    weldox_460e_12mm_blunt: "weldox-460e-12mm-blunt",
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     number_or_word::{ConstraintFactor, ErosionStrain, NumberOrWord},
     published_options::PublishedOptions,
+    shear_band::{BorderShearLaw, ShearBandOptions},
     target::Target,
 };
 use crate::{
@@ -31,6 +32,12 @@ pub struct ChainOptions {
     pub constraint_factor: Option<ConstraintFactor>,
     /// Border-shear coefficient C in `Fy = C π d h σ_f` \[paper, eq. 24\]; 0.577 when not given.
     pub border_shear: Option<f64>,
+    /// What holds the column of target to the plate around it; `friction` when not given; scheme `conservative` only.
+    pub border_shear_law: Option<BorderShearLaw>,
+    /// The shear band, with `border_shear_law = "shear-band"`.
+    pub shear_band: Option<ShearBandOptions>,
+    /// Whether the plate around the column dishes, with a shear band and `target.plate_diameter`; false when not given.
+    pub dishing: Option<bool>,
     /// Strain measure and area change; `logarithmic` when not given; scheme `conservative` only.
     pub kinematics: Option<Kinematics>,
     /// Courant number on the current smallest transit time; scheme `conservative` only.
@@ -198,6 +205,7 @@ impl ChainOptions {
         let target_is_solid = target.is_solid();
         self.check_target(check, target_is_solid);
         self.check_closure(check, target);
+        self.check_border_shear(check, target);
         for (key, elements) in [
             ("projectile_elements", self.projectile_elements),
             ("target_elements", self.target_elements),

@@ -27,6 +27,12 @@ pub struct Target {
     /// Diameter of the column of target that is modelled [m]; the projectile's when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column_diameter: Option<Length>,
+    /// Diameter of the plate inside its support [m]: how far it can dish.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plate_diameter: Option<Length>,
+    /// How the plate is held there; `clamped` when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub support: Option<Support>,
     /// `true` for a rigid, frictionless wall: a Taylor test.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub rigid_wall: bool,
@@ -87,6 +93,17 @@ impl BackFace {
             Self::NonReflecting => "non-reflecting",
         }
     }
+}
+
+/// How the edge of a plate is held.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Support {
+    /// It neither moves nor turns.
+    #[default]
+    Clamped,
+    /// It turns freely.
+    SimplySupported,
 }
 
 /// Thickness of a layer.
@@ -312,6 +329,15 @@ impl Target {
         if let Some(diameter) = self.column_diameter {
             check.quantity("column_diameter", diameter, limits::DIAMETER);
         }
+        if let Some(diameter) = self.plate_diameter {
+            check.quantity("plate_diameter", diameter, limits::DIAMETER);
+        } else if self.support.is_some() {
+            check.fail(
+                "support",
+                "a support has no effect without the diameter of the plate",
+                "add `plate_diameter`, or remove `support`",
+            );
+        }
         if let Some(pressure) = self.constant_pressure {
             check.quantity("constant_pressure", pressure, limits::CONTACT_PRESSURE);
         }
@@ -327,6 +353,13 @@ impl Target {
             );
         }
         let solid = self.is_solid();
+        if self.plate_diameter.is_some() && !solid {
+            check.fail(
+                "plate_diameter",
+                "a rigid wall or a constant pressure is no plate",
+                "remove `plate_diameter`",
+            );
+        }
         if self.back_face.is_some() && !solid {
             check.fail(
                 "back_face",

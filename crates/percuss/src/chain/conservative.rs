@@ -168,6 +168,7 @@ impl<'a> Conservative<'a> {
                 if self.watch.is_quiet(&self.state, self.scenario, end_time) {
                     let state = &self.state;
                     break match state.tip_segment().map(|tip| state.joints.get(tip)) {
+                        Some(_) if state.left_the_plate() => Termination::PlugFree,
                         Some(Some(joint)) if !joint.closed => Termination::Parted,
                         Some(_) => Termination::Quiescent,
                         None => Termination::ProjectileConsumed,

@@ -57,6 +57,9 @@ impl State {
             self.books.eroded_momentum += mass * velocity;
             self.nodes[i].mass -= mass;
             self.nodes[i].friction = (self.nodes[i].friction - half_friction).max(0.0);
+            if let Some(hold) = &mut self.hold {
+                hold.bands.erode(i, 0.5 * self.elements[e].rest_length);
+            }
         }
         self.elements[e].eroded = true;
         self.move_tip(s, left);

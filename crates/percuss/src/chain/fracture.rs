@@ -137,6 +137,9 @@ impl State {
         behind.mass -= ahead.mass;
         behind.friction -= ahead.friction;
         self.nodes.insert(node + 1, ahead);
+        if let Some(hold) = &mut self.hold {
+            hold.bands.part(node);
+        }
         self.segments[s].last_node = node;
         for later in &mut self.segments[s + 1..] {
             later.first_node += 1;

@@ -7,7 +7,8 @@ use super::{
 use crate::fragments::Fragment;
 
 impl State {
-    /// Free pieces from the projectile's tail to the back. What a bond still joins is one piece; what an end of the chain holds is none.
+    /// Free pieces from the projectile's tail to the back. What a bond still joins is one piece; what an end of the chain or a shear
+    /// band holds is none.
     pub(super) fn fragments(&self) -> Vec<Fragment> {
         let mut pieces: Vec<Vec<Segment>> = Vec::new();
         for (s, &segment) in self.segments.iter().enumerate() {
@@ -20,7 +21,13 @@ impl State {
         if self.end != End::Free {
             pieces.pop();
         }
-        pieces.iter().map(|piece| self.fragment(piece)).collect()
+        let is_held = |segment: &Segment| {
+            let nodes = segment.first_node..=segment.last_node;
+            let hold = self.hold.as_ref();
+            hold.is_some_and(|hold| hold.bands.hold_among(nodes))
+        };
+        let free = pieces.iter().filter(|piece| !piece.iter().any(is_held));
+        free.map(|piece| self.fragment(piece)).collect()
     }
 
     fn fragment(&self, piece: &[Segment]) -> Fragment {

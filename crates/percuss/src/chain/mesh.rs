@@ -157,6 +157,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     {
         state.let_penetrate(material);
     }
+    state.hold_plug(scenario);
     for node in &mut state.nodes[..=rod_elements] {
         node.velocity = scenario.impact_speed;
     }
@@ -214,6 +215,7 @@ fn assemble(
         tip_friction: 0.0,
         tip: None,
         penetration: None,
+        hold: None,
         drag: 0.0,
         back_position: 0.0,
         nodes: vec![Node::default(); nodes],

@@ -4,6 +4,7 @@ mod cone;
 mod conservative;
 mod contact;
 mod damping;
+mod dishing;
 mod element;
 mod erosion;
 mod expanding;
@@ -14,10 +15,14 @@ mod joint;
 mod mesh;
 mod part;
 mod penetration;
+mod plate_section;
+mod plug;
 mod published;
 mod results;
 #[cfg(test)]
 mod separation_tests;
+mod shear_band;
+mod shear_zone;
 mod snapshot;
 mod solver;
 mod state;
@@ -35,7 +40,7 @@ pub(crate) use warnings::held_back;
 
 use crate::{
     Error, Scenario,
-    case::{Scheme, TargetClosure},
+    case::{BorderShearLaw, Scheme, TargetClosure},
     guard::{FirstChoice, Guard, NoseKind, Range},
     material::MaterialClass,
     model::{Control, Model},
@@ -62,7 +67,6 @@ impl Model for Chain {
                 noses: &[NoseKind::Flat],
                 start_temperature: true,
                 separate_layers: true,
-                ranges: &[Range::COLUMN],
                 first_choice: &[FirstChoice {
                     projectile: ProjectileRegime::Deforming,
                     targets: &[
@@ -81,6 +85,8 @@ impl Model for Chain {
                     "normal impact of a flat-ended rod",
                     "the column of target in line with the rod stands for the target: the depth is only as good as the constraint \
                      factor and the border shear that close it",
+                    "a plate is perforated by a plug with `border_shear_law = \"shear-band\"`; without it a column can neither let go a \
+                     plug nor bend",
                 ],
                 ..Guard::OPEN
             }
@@ -90,19 +96,26 @@ impl Model for Chain {
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
         match scenario.options.chain.scheme {
             Scheme::Conservative if is_expanding(scenario) => expanding::not_applicable(scenario),
-            Scheme::Conservative => fracture::not_applicable(scenario),
+            Scheme::Conservative => {
+                fracture::not_applicable(scenario).or_else(|| plug::band_laws(scenario).err())
+            }
             Scheme::Published => Published::not_applicable(scenario),
         }
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        match scenario.options.chain.scheme {
+        let mut result = match scenario.options.chain.scheme {
             Scheme::Conservative if is_expanding(scenario) => {
-                expanding::Expanding::run(scenario, control)
+                expanding::Expanding::run(scenario, control)?
             }
-            Scheme::Conservative => Conservative::new(scenario).run(control),
-            Scheme::Published => Published::new(scenario)?.run(control),
+            Scheme::Conservative => Conservative::new(scenario).run(control)?,
+            Scheme::Published => Published::new(scenario)?.run(control)?,
+        };
+        if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction {
+            let thin = Range::COLUMN.finding(scenario);
+            result.warnings.splice(0..0, thin);
         }
+        Ok(result)
     }
 }
 

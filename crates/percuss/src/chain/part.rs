@@ -54,14 +54,8 @@ impl Part {
         factor: f64,
         options: &ChainOptions,
     ) -> Self {
-        let heat_fraction = options.heat_fraction.unwrap_or(0.9);
-        let heating = match material.specific_heat {
-            Some(heat) if options.adiabatic_heating.unwrap_or(true) => {
-                // What the constraint adds to the stress is work against the material around the column, not heat in it.
-                heat_fraction / (factor * material.density.si() * heat.si())
-            }
-            _ => 0.0,
-        };
+        // What the constraint adds to the stress is work against the material around the column, not heat in it.
+        let heating = heating(material, options, factor);
         let factor = match options.erosion_closure() {
             ErosionClosure::Strain => factor,
             // An element's force over the part of its length that is used up does the work of its flow stress over all of it.
@@ -105,6 +99,16 @@ impl Part {
             Kinematics::Logarithmic => rest_length * (-strain).exp(),
             Kinematics::SmallStrain => rest_length * (1.0 - strain),
         }
+    }
+}
+
+/// Temperature rise per work per volume of a flow stress with a factor on it [K m3/J]; 0 without heating.
+pub(super) fn heating(material: &Material, options: &ChainOptions, factor: f64) -> f64 {
+    match material.specific_heat {
+        Some(heat) if options.adiabatic_heating.unwrap_or(true) => {
+            options.heat_fraction.unwrap_or(0.9) / (factor * material.density.si() * heat.si())
+        }
+        _ => 0.0,
     }
 }
 

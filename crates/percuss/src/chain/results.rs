@@ -45,6 +45,8 @@ impl Results<'_> {
         let (mass, momentum) = state.projectile_motion();
         let depth = match scenario.target {
             TargetBody::RigidWall => None,
+            // What flies has no depth.
+            _ if state.left_the_plate() => None,
             // A crater floor that sprang back beyond the original face is no depth.
             _ => Some(
                 watch
@@ -58,6 +60,8 @@ impl Results<'_> {
         result.depth_of_penetration = depth;
         result.largest_depth = depth.map(|_| watch.largest_depth);
         result.permanent_depth = match scenario.target {
+            // The compression of a plug is not its depth.
+            _ if state.hold.is_some() => None,
             TargetBody::Layers { .. } => Some(remains.permanent_depth),
             TargetBody::ConstantPressure(_) => Some(watch.largest_depth),
             TargetBody::RigidWall => None,
@@ -68,9 +72,15 @@ impl Results<'_> {
         result.projectile_final_mass = Some(mass);
         result.time_to_rest = watch.at_rest.map(|(time, _)| time);
         result.peak_force = Some(watch.peak_force);
+        if state.left_the_plate() {
+            let (mass, velocity) = state.plug_motion();
+            result.plug_mass = Some(mass);
+            result.plug_velocity = Some(velocity);
+        }
         result.contact_time = Some(watch.contact_time);
         result.fragments = state.fragments();
         result.details = self.details(&result.fragments);
+        result.details.extend(state.plug_details());
         result.end_time = Some(state.time);
         result.numerics = Some(Numerics {
             steps: state.step,

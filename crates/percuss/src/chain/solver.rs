@@ -76,6 +76,7 @@ impl State {
             (control.courant * self.stable_step).min(control.longest_step),
         );
         self.collect_forces();
+        self.collect_band_forces();
         self.pull_gaps();
         self.meet_target();
         if control.local_damping > 0.0 {
@@ -89,6 +90,7 @@ impl State {
         }
         self.close_gaps(time_step);
         self.drift(control, time_step)?;
+        self.drift_plate(time_step);
         self.time += time_step;
         self.time_step = time_step;
         self.step += 1;
@@ -151,6 +153,7 @@ impl State {
         }
         self.book_fracture(kick);
         self.book_target_turned_aside(kick);
+        self.kick_plate(kick);
     }
 
     fn book_viscous_work(&mut self, kick: f64) {

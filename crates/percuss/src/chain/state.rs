@@ -5,9 +5,12 @@
 //! shift of the first segment is 0 and grows by one at every place where ends meet.
 
 use super::{
+    dishing::Dishing,
     joint::Joint,
     part::{Part, Role},
     penetration::Penetration,
+    plug::Hold,
+    shear_band::Bands,
     tate::Tip,
 };
 use crate::{
@@ -142,6 +145,8 @@ pub(super) struct State {
     pub(super) tip: Option<Tip>,
     /// What the tip has to overcome to penetrate a cone.
     pub(super) penetration: Option<Penetration>,
+    /// What holds a plug, in the place of friction.
+    pub(super) hold: Option<Hold>,
     /// Force of the target that is turned aside on the tip [N].
     pub(super) drag: f64,
     /// Initial position of the last node [m].
@@ -244,21 +249,26 @@ impl State {
             }
         }
         let books = &self.books;
+        let bands = self.hold.as_ref().map(|hold| &hold.bands);
+        let plate = self.hold.as_ref().and_then(|hold| hold.plate.as_ref());
         EnergyLedger {
             initial: books.initial_energy,
             kinetic_projectile: kinetic[0],
             kinetic_target: kinetic[1],
             elastic_projectile: elastic[0],
-            elastic_target: elastic[1],
+            elastic_target: elastic[1] + bands.map_or(0.0, Bands::elastic_energy),
             plastic_projectile: books.plastic[0],
             plastic_target: books.plastic[1],
-            border_shear: books.friction_work,
+            border_shear: books.friction_work + bands.map_or(0.0, |bands| bands.books.work),
             viscous: books.viscous_work,
             contact: books.contact_loss,
             boundary: books.boundary_work,
             eroded: books.eroded_energy,
             fracture: books.fracture_work,
             transfer: 0.0,
+            kinetic_plate: plate.map_or(0.0, Dishing::kinetic_energy),
+            elastic_plate: plate.map_or(0.0, Dishing::elastic_energy),
+            plastic_plate: plate.map_or(0.0, |plate| plate.plastic_work),
         }
     }
 
@@ -271,13 +281,20 @@ impl State {
             }
         }
         let books = &self.books;
+        let plate = self.hold.as_ref().and_then(|hold| hold.plate.as_ref());
+        // A plate that does not move hands the impulse of the bands on; one that does keeps what its support does not take.
+        let held_still = match (&self.hold, plate) {
+            (Some(hold), None) => hold.bands.books.impulse,
+            _ => 0.0,
+        };
         MomentumLedger {
             initial: books.initial_momentum,
             projectile: momentum[0],
             target: momentum[1],
-            support: books.support_impulse,
-            border_shear: books.friction_impulse,
+            support: books.support_impulse + plate.map_or(0.0, |plate| plate.support_impulse),
+            border_shear: books.friction_impulse + held_still,
             eroded: books.eroded_momentum,
+            plate: plate.map_or(0.0, Dishing::momentum),
             damping: books.damping_impulse,
         }
     }

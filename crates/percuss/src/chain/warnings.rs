@@ -2,9 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::mesh;
+use super::{mesh, plug};
 use crate::{
-    case::{BackFace, ErosionClosure, TargetClosure},
+    case::{BackFace, BorderShearLaw, ErosionClosure, TargetClosure},
     material::{Material, Strength, cavity_expansion_pressure},
     outcome::{Outcome, RunResult},
     regime::THICK,
@@ -24,6 +24,7 @@ pub(super) fn warnings(
         Outcome::OutOfTime => warnings.push(
             "the run was ended before the shot was over: raise `chain.end_time` or `chain.max_steps`".to_owned(),
         ),
+        Outcome::Perforated if result.plug_mass.is_some() => {}
         Outcome::Perforated if result.numerics().eroded_elements.1 == scenario.options.chain.target_elements() => {
             warnings.push("the whole column of target eroded before the projectile did: give a thicker target".to_owned());
         }
@@ -35,6 +36,7 @@ pub(super) fn warnings(
         _ => {}
     }
     warnings.extend(held_back(scenario));
+    warn_of_plug(scenario, result, &mut warnings);
     warn_of_closure(scenario, result, &mut warnings);
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
     warn_of_failure(scenario, result, &mut warnings);
@@ -74,6 +76,32 @@ pub(crate) fn held_back(scenario: &Scenario) -> Option<String> {
     })
 }
 
+/// Part of the thickness beyond which a plate that dishes is more and more a membrane, which is left out.
+const LARGE_DISHING: f64 = 0.5;
+
+/// Whether a plate lets go a plug rests on the width and the failure of the shear band.
+fn warn_of_plug(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<String>) {
+    let detail = |name: &str| {
+        let found = result.details.iter().find(|detail| detail.name == name);
+        found.map(|detail| detail.value)
+    };
+    let Some(width) = detail(plug::WIDTH) else {
+        return;
+    };
+    warnings.push(format!(
+        "perforation rests on the shear band, {} mm wide, and on when it fails: compare with half and twice `chain.shear_band.width`, \
+         and with failure = \"never\"",
+        significant(width, 3)
+    ));
+    if let (Some(dishing), Some(thickness)) = (detail(plug::DISHING), scenario.target_thickness())
+        && dishing * 1e-3 > LARGE_DISHING * thickness
+    {
+        warnings.push(
+            "the plate dished by more than half its thickness: its resistance as a membrane is left out".to_owned(),
+        );
+    }
+}
+
 /// A column of target resists by its constraint factor and its border shear: both are closures, not results.
 fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<String>) {
     let (TargetBody::Layers { layers, .. }, Some(depth)) =
@@ -101,7 +129,9 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
         );
     } else if scenario.options.chain.target_closure() != TargetClosure::Column {
         warn_of_cone(scenario, layers, depth, warnings);
-    } else if scenario.options.chain.border_shear() > 0.0 {
+    } else if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction
+        && scenario.options.chain.border_shear() > 0.0
+    {
         warnings.push(format!(
             "the depth rests on the target closure (constraint factor and border shear C = {}): `chain.border_shear = 0.0` \
              gives the other end of the range",

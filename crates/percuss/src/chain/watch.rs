@@ -89,7 +89,8 @@ impl Watch {
             + books.friction_work
             + books.viscous_work
             + books.fracture_work
-            + books.eroded_energy;
+            + books.eroded_energy
+            + state.plug_dissipation();
         let flow = (dissipation - self.window_dissipation) / books.initial_energy;
         let deepening = self.largest_depth > self.window_depth * (1.0 + 1e-9);
         // Where the target is free to fly, its pieces count as well.
@@ -109,6 +110,16 @@ impl Watch {
         if !touched {
             return flow <= PARTED_FRACTION && !meets(0);
         }
+        if state.left_the_plate()
+            && let (Some(tip), Some(face)) = (state.tip_segment(), state.face_segment())
+        {
+            // Projectile and plug may fly on together; pieces of one of them that meet among themselves change nothing.
+            let [tip_speed, face_speed] =
+                [tip, face].map(|s| state.mean_velocity(state.segments[s]));
+            let together = (tip_speed - face_speed).abs() <= REST_FRACTION * scenario.impact_speed;
+            let parted = !state.joints[tip].closed && !meets(0);
+            return flow <= PARTED_FRACTION && (parted || together && !meets(face));
+        }
         // A projectile that is still being pushed back has not got its rebound speed yet.
         let still = (momentum / mass).abs() <= REST_FRACTION * scenario.impact_speed;
         let layers_rest = || state.tip_segment().is_none_or(|tip| !meets(tip + 1));
@@ -123,7 +134,7 @@ impl Watch {
         impact_speed: f64,
     ) -> (Outcome, String) {
         let (mass, momentum) = state.projectile_motion();
-        if let Some(time) = self.passed_back_face {
+        if let Some(time) = self.passed_back_face.filter(|_| state.hold.is_none()) {
             let words = format!(
                 "the crater floor passed the original back face at {} us",
                 significant(time * 1e6, 4)
@@ -141,24 +152,37 @@ impl Watch {
             _ => {}
         }
         let ratio = momentum / (mass * impact_speed);
+        let percent = REST_FRACTION * 100.0;
+        let speed = format!(
+            "the projectile's mean speed at the end is {} % of the impact speed",
+            significant(100.0 * ratio, 3)
+        );
+        // What flies free is held no more, however the run was ended.
+        if ratio > REST_FRACTION && state.left_the_plate() {
+            let words = match state.plug_free_since() {
+                Some(time) => format!(
+                    "the whole shear band had failed at {} us, and {speed}, above {percent} %",
+                    significant(time * 1e6, 4)
+                ),
+                None => format!(
+                    "{speed}, above {percent} %, and no border shear holds what is ahead of it"
+                ),
+            };
+            return (Outcome::Perforated, words);
+        }
         let unfinished = matches!(termination, Termination::EndTime | Termination::StepLimit);
         if unfinished && self.at_rest.is_none() && ratio > REST_FRACTION {
             let words = "the projectile still moved forward when the run was ended";
             return (Outcome::OutOfTime, words.to_owned());
         }
-        let speed = format!(
-            "the projectile's mean speed at the end is {} % of the impact speed",
-            significant(100.0 * ratio, 3)
-        );
-        let percent = REST_FRACTION * 100.0;
+        // What a plate still holds does not move away for good.
+        if state.plug_is_held() && ratio > REST_FRACTION {
+            let words = format!("the shear band still holds the plug, although {speed}");
+            return (Outcome::AtRest, words);
+        }
         if ratio < -REST_FRACTION {
             let words = format!("{speed}, below -{percent} %");
             (Outcome::Rebounded, words)
-        } else if ratio > REST_FRACTION && state.left_the_plate() {
-            let words = format!(
-                "{speed}, above {percent} %, and no border shear holds what is ahead of it"
-            );
-            (Outcome::Perforated, words)
         } else if ratio > REST_FRACTION {
             let words = format!("{speed}, above {percent} %, and it touches the target no more");
             (Outcome::Separated, words)
@@ -180,11 +204,12 @@ fn approaches(state: &State, from: usize, horizon: f64, impact_speed: f64) -> bo
         let (behind, ahead) = (state.segments[s], state.segments[s + 1]);
         let gap = state.nodes[ahead.first_node].position - state.nodes[behind.last_node].position;
         // A target that is held vibrates about its place; anything else flies at its mean speed.
-        let is_held = state.end != End::Free;
+        let back_is_held = state.end != End::Free;
+        let is_held = back_is_held || state.plug_is_held();
         if is_held && s > tip && behind.part == ahead.part {
             return false;
         }
-        let ahead_is_held = is_held && (s == tip || s + 2 == state.segments.len());
+        let ahead_is_held = is_held && s == tip || back_is_held && s + 2 == state.segments.len();
         let away = if ahead_is_held {
             0.0
         } else {
@@ -213,7 +238,10 @@ pub(super) fn event(state: &State, scenario: &Scenario) -> Result<Option<Termina
     match (finite, state.face_segment()) {
         (false, None) => Err(state.depth()),
         (true, None) => Ok(Some(Termination::PassedBackFace)),
-        (true, Some(_)) if state.passed_back_face() && !state.flies_free() => {
+        // A plug that is still held, or that the projectile still pushes, is no end.
+        (true, Some(_))
+            if state.hold.is_none() && state.passed_back_face() && !state.flies_free() =>
+        {
             Ok(Some(Termination::PassedBackFace))
         }
         _ => Ok(None),
@@ -229,6 +257,7 @@ impl State {
     /// Whether neither a back face nor border shear holds any of the target.
     fn flies_free(&self) -> bool {
         self.end == End::Free
+            && !self.plug_is_held()
             && self.segments.iter().all(|segment| {
                 self.parts[segment.part].role == Role::Projectile
                     || self.nodes[segment.first_node..=segment.last_node]
@@ -237,8 +266,9 @@ impl State {
             })
     }
 
-    /// Whether the target was held by border shear and flies free now: a plug.
-    fn left_the_plate(&self) -> bool {
-        self.parts.iter().any(|part| part.friction_per_length > 0.0) && self.flies_free()
+    /// Whether the target was held by border shear, friction or a band, and flies free now: a plug.
+    pub(super) fn left_the_plate(&self) -> bool {
+        let rubbed = || self.parts.iter().any(|part| part.friction_per_length > 0.0);
+        (self.hold.is_some() || rubbed()) && self.flies_free()
     }
 }

@@ -128,12 +128,16 @@ impl Ground {
     }
 
     pub(super) fn momentum(&self) -> f64 {
-        self.nodes.iter().map(|node| node.mass * node.velocity).sum()
+        self.nodes
+            .iter()
+            .map(|node| node.mass * node.velocity)
+            .sum()
     }
 
     /// Kinetic and elastic energy [J].
     pub(super) fn energies(&self) -> [f64; 2] {
-        let elastic = |spring: &Spring| spring.force[0] * spring.force[1] / (2.0 * spring.stiffness);
+        let elastic =
+            |spring: &Spring| spring.force[0] * spring.force[1] / (2.0 * spring.stiffness);
         [
             self.nodes.iter().map(Node::kinetic_energy).sum(),
             self.springs.iter().map(elastic).sum(),
@@ -141,13 +145,16 @@ impl Ground {
     }
 
     pub(super) fn strained(&self) -> impl Iterator<Item = Strained> + '_ {
-        self.springs.iter().zip(self.nodes.windows(2)).map(|(spring, pair)| Strained {
-            middle: spring.middle,
-            displacement: 0.5 * (pair[0].position + pair[1].position),
-            length: spring.length,
-            strain: (pair[0].position - pair[1].position) / spring.length,
-            stress: spring.force[1] / spring.area,
-            area: spring.area,
-        })
+        self.springs
+            .iter()
+            .zip(self.nodes.windows(2))
+            .map(|(spring, pair)| Strained {
+                middle: spring.middle,
+                displacement: 0.5 * (pair[0].position + pair[1].position),
+                length: spring.length,
+                strain: (pair[0].position - pair[1].position) / spring.length,
+                stress: spring.force[1] / spring.area,
+                area: spring.area,
+            })
     }
 }

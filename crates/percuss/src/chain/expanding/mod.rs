@@ -53,10 +53,14 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
             "the target closure `expanding-cavity` needs a target of one material".to_owned(),
         );
     };
-    let yields = plate.material.strength.law().initial_yield_stress(&plate.material);
-    yields.is_none().then(|| {
-        "the target closure `expanding-cavity` needs a target that yields".to_owned()
-    })
+    let yields = plate
+        .material
+        .strength
+        .law()
+        .initial_yield_stress(&plate.material);
+    yields
+        .is_none()
+        .then(|| "the target closure `expanding-cavity` needs a target that yields".to_owned())
 }
 
 fn struck(scenario: &Scenario) -> Option<&Plate> {
@@ -82,13 +86,18 @@ impl<'a> Expanding<'a> {
     /// # Errors
     /// [`Error::NotApplicable`] when [`not_applicable`] has a reason; [`Error::Numerical`] when a slice is crushed or the books do not balance;
     /// [`Error::Cancelled`].
-    pub(super) fn run(scenario: &'a Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
+    pub(super) fn run(
+        scenario: &'a Scenario,
+        control: &mut Control<'_>,
+    ) -> Result<RunResult, Error> {
         let given = scenario.options.chain.courant;
         let mut courant = given.unwrap_or(DEFAULT_COURANT);
         loop {
             let mut run = Self::new(scenario, courant)?;
             match run.attempt(control) {
-                Err(Error::Numerical(_)) if given.is_none() && 0.5 * courant >= SMALLEST_COURANT => {
+                Err(Error::Numerical(_))
+                    if given.is_none() && 0.5 * courant >= SMALLEST_COURANT =>
+                {
                     courant *= 0.5;
                 }
                 result => return result,
@@ -120,9 +129,12 @@ impl<'a> Expanding<'a> {
         let rod = Rod::new(metal, count, projectile.length, area, temperature, speed);
         let radius = (area / std::f64::consts::PI).sqrt();
         // The floor advances at about half the impact speed, and the flow under it is as deep as the projectile is thick.
-        let rate = if rate_effects { speed / (2.0 * radius) } else { 0.0 };
-        let resistance =
-            Resistance::new(&plate.material, radius, rate, heat).ok_or_else(refuse)?;
+        let rate = if rate_effects {
+            speed / (2.0 * radius)
+        } else {
+            0.0
+        };
+        let resistance = Resistance::new(&plate.material, radius, rate, heat).ok_or_else(refuse)?;
         let floor = Floor::new(resistance, area, plate.material.density.si());
         let (ground, ground_step) = ground(scenario, plate, area, count);
         let mut state = State {
@@ -170,7 +182,11 @@ impl<'a> Expanding<'a> {
                 self.audit()?;
                 control.report(self.progress(end_time))?;
             }
-            if self.plate.thickness.is_some_and(|h| self.state.position() >= h) {
+            if self
+                .plate
+                .thickness
+                .is_some_and(|h| self.state.position() >= h)
+            {
                 break Termination::PassedBackFace;
             }
             if self.state.time >= end_time {
@@ -226,7 +242,9 @@ impl<'a> Expanding<'a> {
         Progress {
             step: self.state.step,
             time: self.state.time,
-            fraction: (self.state.time / end_time).max(0.95 * slowed).clamp(0.0, 1.0),
+            fraction: (self.state.time / end_time)
+                .max(0.95 * slowed)
+                .clamp(0.0, 1.0),
             depth: self.watch.largest_depth,
         }
     }

@@ -200,7 +200,11 @@ pub(super) fn sample(state: &State) -> Sample {
         mean_velocity: momentum / mass,
         tip_position: place(tip) + state.floor.lost_length,
         depth: state.position(),
-        projectile_length: if mass > 0.0 { place(tip) - place(tail) } else { 0.0 },
+        projectile_length: if mass > 0.0 {
+            place(tip) - place(tail)
+        } else {
+            0.0
+        },
         contact_force: state.contact_force,
         back_force: state.ground.back_force,
         energy: state.energy(),

@@ -43,9 +43,16 @@ pub(super) struct State {
 
 impl State {
     /// Advances by one step.
-    pub(super) fn advance(&mut self, courant: f64, erosion_strain: f64) -> Result<(), NumericalError> {
+    pub(super) fn advance(
+        &mut self,
+        courant: f64,
+        erosion_strain: f64,
+    ) -> Result<(), NumericalError> {
         let previous = self.time_step;
-        let stable = self.rod.stable_step(LARGEST_STRAIN_STEP).min(self.ground_step);
+        let stable = self
+            .rod
+            .stable_step(LARGEST_STRAIN_STEP)
+            .min(self.ground_step);
         let time_step = choose_time_step(previous, courant * stable);
         let kick = 0.5 * (previous + time_step);
         self.rod.collect();
@@ -183,7 +190,12 @@ impl State {
     }
 
     fn erode(&mut self, limit: f64) {
-        while self.rod.slices.last().is_some_and(|slice| slice.strain() >= limit) {
+        while self
+            .rod
+            .slices
+            .last()
+            .is_some_and(|slice| slice.strain() >= limit)
+        {
             let loss = self.rod.erode_tip();
             self.books.eroded_energy += loss.energy;
             self.books.eroded_momentum += loss.momentum;
@@ -216,8 +228,7 @@ impl State {
             contact: self.books.contact_loss,
             boundary: self.ground.boundary_work,
             eroded: self.books.eroded_energy,
-            fracture: 0.0,
-            transfer: 0.0,
+            ..EnergyLedger::default()
         }
     }
 
@@ -229,7 +240,7 @@ impl State {
             support: self.ground.support_impulse,
             border_shear: 0.0,
             eroded: self.books.eroded_momentum,
-            damping: 0.0,
+            ..MomentumLedger::default()
         }
     }
 
