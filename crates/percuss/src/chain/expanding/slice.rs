@@ -3,7 +3,7 @@
 //! Bar theory lets a bar widen at once. A slice has its radius as a second degree of freedom: points move outwards in proportion to
 //! their radius, so that the slice has the kinetic energy `¼ m Ṙ²` of it \[love1927\], and starts in uniaxial strain before it comes to
 //! uniaxial stress. Neighbours that widen at different rates shear each other, as in the theory of Mindlin and Herrmann
-//! \[mindlin1951\]: that keeps a head from running away from the rod behind it.
+//! \[mindlin1952\]: that keeps a head from running away from the rod behind it.
 
 use std::f64::consts::PI;
 

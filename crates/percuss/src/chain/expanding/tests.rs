@@ -1,1 +1,220 @@
+//! Exact answers that the parts of the closure and their interplay must give.
 
+use std::f64::consts::PI;
+
+use super::{Expanding, resistance::Resistance, rod::Rod, slice::Metal};
+use crate::{
+    Scenario, case,
+    model::Control,
+    outcome::{Outcome, RunResult},
+};
+
+fn scenario(projectile: &str, target: &str, length: f64, speed: f64, more: &str) -> Scenario {
+    let text = format!(
+        "[projectile]\nmaterial = \"{projectile}\"\nlength = \"{length} mm\"\ndiameter = \"5 mm\"\nvelocity = \"{speed} m/s\"\n\
+         [target]\nmaterial = \"{target}\"\nthickness = \"semi-infinite\"\n\
+         [chain]\ntarget_closure = \"expanding-cavity\"\n{more}"
+    );
+    case::load_str("shot", &text).unwrap()
+}
+
+fn run(scenario: &Scenario) -> RunResult {
+    Expanding::run(scenario, &mut Control::default()).unwrap()
+}
+
+const RADIUS: f64 = 2.5e-3;
+const LENGTH: f64 = 50e-3;
+
+/// A rod that does not flow, long against its radius.
+fn elastic_rod(slices: usize) -> Rod {
+    let steel = toml::from_str(
+        "name = 'a'\ndensity = '7850 kg/m3'\nyoungs_modulus = '205 GPa'\npoissons_ratio = 0.3\n\
+         strength.perfectly_plastic = { flow_stress = '1e4 GPa' }",
+    );
+    let metal = Metal::new(&steel.unwrap(), 0.0, false);
+    Rod::new(metal, slices, LENGTH, PI * RADIUS * RADIUS, 293.0, 0.0)
+}
+
+fn advance(rod: &mut Rod, step: f64) {
+    rod.collect();
+    rod.kick(step);
+    if let Some(tip) = rod.nodes.last_mut() {
+        tip.kick(tip.force * step);
+    }
+    rod.drift(step).unwrap();
+}
+
+/// Square of the circular frequency of waves of a wave number, over ρ: the lower root of
+/// `[(λ + 2G)k² − ρω²] [4(λ + G) + ½R²(Gk² − ρω²)] = 4λ²k²`, which follows from axial and radial balance \[mindlin1952\].
+fn dispersion(metal: &Metal, wave_number: f64) -> f64 {
+    let shear = metal.shear_modulus;
+    let lame = metal.bulk_modulus - shear / 1.5;
+    let square = wave_number * wave_number;
+    let half = 0.5 * RADIUS * RADIUS;
+    let axial = (lame + 2.0 * shear) * square;
+    let radial = 4.0 * (lame + shear) + half * shear * square;
+    // half x² − (radial + half axial) x + axial radial − 4λ²k² = 0
+    let linear = radial + half * axial;
+    let constant = axial * radial - 4.0 * lame * lame * square;
+    2.0 * constant / (linear + (linear * linear - 4.0 * half * constant).sqrt())
+}
+
+#[test]
+fn long_waves_travel_as_in_loves_bar_with_its_shear() {
+    // Love's bar has the inertia of its widening only: E k² (1 − ½ν²R²k²) for long waves [love1927]. Shear between slices takes the
+    // part G/E of that back.
+    let (modulus, ratio, wave_number): (f64, f64, f64) = (205e9, 0.3, 40.0);
+    let shear = 0.5 / (1.0 + ratio);
+    let delay = 0.5 * (ratio * RADIUS * wave_number).powi(2) * (1.0 - shear);
+    let expected = modulus * wave_number * wave_number * (1.0 - delay);
+    let found = dispersion(&elastic_rod(1).metal, wave_number);
+    assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+}
+
+#[test]
+fn a_bar_vibrates_as_mindlin_and_herrmann_have_it() {
+    // The ends are free of shear, which a wave of one shape is not: that leaves a little of an end effect.
+    for mode in [1.0, 3.0] {
+        let mut rod = elastic_rod(200);
+        let wave_number = mode * PI / LENGTH;
+        for node in &mut rod.nodes {
+            node.velocity = (wave_number * (node.position + LENGTH)).cos();
+        }
+        let exact = 2.0 * PI / (dispersion(&rod.metal, wave_number) / rod.metal.density).sqrt();
+        let step = 0.5 * rod.stable_step(1.0);
+        // Quarter periods of the tail: its velocity passes zero at 1/4 and at 17/4 of a period.
+        let (mut crossings, mut time, mut before) = (Vec::new(), 0.0, 1.0_f64);
+        while crossings.len() < 9 {
+            advance(&mut rod, step);
+            time += step;
+            // The widening rings by itself, much faster and weaker: the mode is what is left on the mean over the bar.
+            let after: f64 = rod
+                .nodes
+                .iter()
+                .map(|n| n.mass * n.velocity * (wave_number * (n.position + LENGTH)).cos())
+                .sum();
+            if before.signum() != after.signum() && time > step {
+                crossings.push(time - step * after / (after - before));
+            }
+            before = after;
+        }
+        let period = (crossings[8] - crossings[0]) / 4.0;
+        assert!(
+            (period / exact - 1.0).abs() < 6e-4,
+            "mode {mode}: {period} {exact}"
+        );
+    }
+}
+
+#[test]
+fn an_impact_begins_in_uniaxial_strain() {
+    // Before a wave from the side arrives, the end of a rod that is stopped is under ρ c_p V.
+    let mut rod = elastic_rod(800);
+    let speed = 1.0;
+    for node in &mut rod.nodes {
+        node.velocity = speed;
+    }
+    rod.nodes.last_mut().unwrap().velocity = 0.0;
+    let wave_speed = ((rod.metal.bulk_modulus + rod.metal.shear_modulus / 0.75) / 7850.0).sqrt();
+    let step = 0.2 * rod.stable_step(1.0);
+    let mut stresses = Vec::new();
+    let until = 0.15 * RADIUS / wave_speed;
+    for i in 0..(until / step) as usize {
+        rod.collect();
+        rod.kick(step);
+        rod.drift(step).unwrap();
+        if i as f64 * step > 0.3 * until {
+            stresses.push(rod.slices.last().unwrap().axial_stress());
+        }
+    }
+    let mean = stresses.iter().sum::<f64>() / stresses.len() as f64;
+    let exact = 7850.0 * wave_speed * speed;
+    assert!((mean / exact - 1.0).abs() < 0.02, "{mean} {exact}");
+}
+
+#[test]
+fn a_slow_rod_only_dents_the_target_elastically() {
+    let result = run(&scenario("s-7-tool-steel", "4340", 25.0, 5.0, ""));
+    assert_eq!(result.depth_of_penetration, Some(0.0));
+    assert_eq!(result.outcome, Outcome::Rebounded);
+    assert!(
+        result.warnings.iter().any(|w| w.contains("stays elastic")),
+        "{:?}",
+        result.warnings
+    );
+}
+
+#[test]
+fn a_rigid_rod_is_stopped_by_the_resistance_alone() {
+    // Nothing of the rod flows and the ground is stiff against the resistance: (M + m_a) dv/dt = −A [p(δ) + ½ρv²].
+    let (speed, length) = (150.0, 50e-3);
+    let text = "[projectile]\nmaterial = \"rigid\"\nlength = \"50 mm\"\ndiameter = \"5 mm\"\nvelocity = \"150 m/s\"\n\
+                [target]\nmaterial = \"soft\"\nthickness = \"semi-infinite\"\n\
+                [chain]\ntarget_closure = \"expanding-cavity\"\nprojectile_elements = 100\n\
+                [materials.rigid]\nname = \"rigid\"\ndensity = \"7850 kg/m3\"\nyoungs_modulus = \"1500 GPa\"\npoissons_ratio = 0.3\n\
+                strength.perfectly_plastic = { flow_stress = \"20 GPa\" }\n\
+                [materials.soft]\nname = \"soft\"\ndensity = \"2700 kg/m3\"\nyoungs_modulus = \"70 GPa\"\npoissons_ratio = 0.33\n\
+                strength.perfectly_plastic = { flow_stress = \"20 MPa\" }\n";
+    let scenario = case::load_str("shot", text).unwrap();
+    let result = run(&scenario);
+    let struck = &super::struck(&scenario).unwrap().material;
+    let resistance = Resistance::new(struck, RADIUS, 0.0, 0.0).unwrap();
+    let area = PI * RADIUS * RADIUS;
+    let mass = 7850.0 * area * length + 4.0 / 3.0 * 2700.0 * RADIUS.powi(3);
+    // The added mass is set in motion by the rod when they meet.
+    let mut velocity = speed * 7850.0 * area * length / mass;
+    let (mut depth, step) = (0.0, 1e-9);
+    while velocity > 0.0 {
+        let drag = 0.5 * 2700.0 * velocity * velocity;
+        velocity -= area * (resistance.at(depth) + drag) / mass * step;
+        depth += velocity * step;
+    }
+    let found = result.depth_of_penetration.unwrap();
+    assert!((found / depth - 1.0).abs() < 0.01, "{found} {depth}");
+}
+
+#[test]
+fn the_books_balance_and_the_depth_grows_with_speed() {
+    for (projectile, target) in [
+        ("copper-woodward", "aluminium-2024-t351-woodward"),
+        ("4340-johnson-cook", "6061-t6-lesuer"),
+        ("tungsten-alloy-steinberg", "4340-johnson-cook"),
+    ] {
+        let mut deepest = 0.0;
+        for speed in [50.0, 150.0, 400.0, 900.0, 1500.0] {
+            let result = run(&scenario(projectile, target, 15.0, speed, ""));
+            let numerics = result.numerics.as_ref().unwrap();
+            assert!(numerics.energy_residual < 1e-3, "{projectile} {speed}");
+            assert!(numerics.momentum_residual < 1e-12, "{projectile} {speed}");
+            let depth = result.depth_of_penetration.unwrap();
+            assert!(depth >= deepest, "{projectile} {speed}: {depth} {deepest}");
+            deepest = depth;
+        }
+    }
+}
+
+#[test]
+fn the_depth_converges_with_the_mesh() {
+    let depth = |elements: u32, courant: f64| {
+        let options = format!("projectile_elements = {elements}\ncourant = {courant}\n");
+        let shot = scenario(
+            "4340-johnson-cook",
+            "weldox-460-e-borvik",
+            15.0,
+            300.0,
+            &options,
+        );
+        run(&shot).depth_of_penetration.unwrap()
+    };
+    let (coarse, medium, fine) = (depth(20, 0.3), depth(40, 0.3), depth(80, 0.3));
+    assert!(
+        (medium / fine - 1.0).abs() < 0.03,
+        "{coarse} {medium} {fine}"
+    );
+    assert!(
+        (coarse / fine - 1.0).abs() < 0.06,
+        "{coarse} {medium} {fine}"
+    );
+    // Halving the step changes next to nothing.
+    assert!((depth(40, 0.15) / medium - 1.0).abs() < 0.01);
+}
