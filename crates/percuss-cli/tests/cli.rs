@@ -355,6 +355,7 @@ fn models_as_json_hold_their_whole_guard() {
                 "projectile_materials",
                 "ranges",
                 "sees_back_face",
+                "separate_layers",
                 "start_temperature",
                 "target_materials",
                 "targets",

@@ -28,6 +28,7 @@ mod control;
 pub mod converge;
 mod error;
 pub mod fdm;
+pub mod fragments;
 pub mod frames;
 pub mod guard;
 pub mod history;

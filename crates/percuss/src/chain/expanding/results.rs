@@ -9,6 +9,7 @@ use crate::{
     history::{ElementState, Profile, Recorder, Sample},
     outcome::{Numerics, Outcome, RunResult, Termination},
     scenario::Scenario,
+    units::significant,
 };
 
 /// Part of the impact speed below which a projectile counts as stopped.
@@ -30,6 +31,8 @@ pub(super) struct Watch {
     window_start: f64,
     window_depth: f64,
     touched: bool,
+    /// Time during which the projectile touched the floor [s].
+    contact_time: f64,
 }
 
 impl Watch {
@@ -41,7 +44,10 @@ impl Watch {
             self.smallest_time_step = state.time_step;
         }
         self.smallest_time_step = self.smallest_time_step.min(state.time_step);
-        self.touched |= !parted(state);
+        if !parted(state) {
+            self.touched = true;
+            self.contact_time += state.time_step;
+        }
         if self.at_rest.is_none() && state.rod.motion().1 <= 0.0 {
             self.at_rest = Some(state.time);
         }
@@ -75,21 +81,45 @@ impl Watch {
         (still && touched).then_some(Termination::Quiescent)
     }
 
-    fn outcome(&self, termination: Termination, state: &State, impact_speed: f64) -> Outcome {
+    /// How a run ended that was ended for a reason, and what that was told by.
+    fn outcome(
+        &self,
+        termination: Termination,
+        state: &State,
+        impact_speed: f64,
+    ) -> (Outcome, String) {
         let (mass, momentum) = state.rod.motion();
         match termination {
-            Termination::PassedBackFace => return Outcome::Perforated,
-            Termination::NothingMoves => return Outcome::AtRest,
-            _ if mass == 0.0 => return Outcome::ProjectileEroded,
+            Termination::PassedBackFace => {
+                let words = format!(
+                    "the crater floor passed the original back face at {} us",
+                    significant(state.time * 1e6, 4)
+                );
+                return (Outcome::Perforated, words);
+            }
+            Termination::NothingMoves => {
+                return (Outcome::AtRest, "the impact speed is zero".to_owned());
+            }
+            _ if mass == 0.0 => {
+                let words = "no element of the projectile is left".to_owned();
+                return (Outcome::ProjectileEroded, words);
+            }
             Termination::EndTime | Termination::StepLimit if self.at_rest.is_none() => {
-                return Outcome::OutOfTime;
+                let words = "the projectile still moved forward when the run was ended";
+                return (Outcome::OutOfTime, words.to_owned());
             }
             _ => {}
         }
-        if momentum < -REST_FRACTION * mass * impact_speed {
-            Outcome::Rebounded
+        let ratio = momentum / (mass * impact_speed);
+        let speed = format!(
+            "the projectile's mean speed at the end is {} % of the impact speed",
+            significant(100.0 * ratio, 3)
+        );
+        let percent = REST_FRACTION * 100.0;
+        if ratio < -REST_FRACTION {
+            (Outcome::Rebounded, format!("{speed}, below -{percent} %"))
         } else {
-            Outcome::AtRest
+            (Outcome::AtRest, format!("{speed}, not below -{percent} %"))
         }
     }
 }
@@ -102,8 +132,9 @@ pub(super) fn sum_up(
     recorder: Option<Recorder>,
     erosion_strain: f64,
 ) -> RunResult {
-    let outcome = watch.outcome(termination, state, scenario.impact_speed);
+    let (outcome, criterion) = watch.outcome(termination, state, scenario.impact_speed);
     let mut result = RunResult::new("chain", "conservative", outcome, termination);
+    result.criterion = criterion;
     let (mass, momentum) = state.rod.motion();
     let unloaded = state.rod.slices.iter().map(|slice| slice.unloaded());
     let (length, radius) = unloaded.fold((0.0, 0.0), |(length, widest), (own, radius)| {
@@ -118,6 +149,7 @@ pub(super) fn sum_up(
     result.projectile_final_mass = Some(mass);
     result.time_to_rest = watch.at_rest;
     result.peak_force = Some(watch.peak_force);
+    result.contact_time = Some(watch.contact_time);
     result.end_time = Some(state.time);
     let [plastic_strain, strain_rate, temperature] = state.rod.reached();
     let reached = Reached {
@@ -155,6 +187,7 @@ pub(super) fn sample(state: &State) -> Sample {
         tip_velocity: velocity(tip),
         tail_velocity: velocity(tail),
         interface_velocity: state.ground.nodes[0].velocity + state.floor.speed,
+        back_velocity: velocity(state.ground.nodes.last()),
         mean_velocity: momentum / mass,
         tip_position: place(tip) + state.floor.lost_length,
         depth: state.position(),
