@@ -4,6 +4,7 @@ mod cli;
 mod commands;
 mod diagnostic;
 mod failure;
+mod fragment_table;
 mod judgement_table;
 mod material_card;
 mod progress;

@@ -1,7 +1,7 @@
 //! A material as text for people.
 
 use percuss::{
-    material::{Library, Material, MaterialEntry, references},
+    material::{Library, Material, MaterialEntry, TulerButcher, references},
     units::{Pressure, Velocity, significant},
 };
 
@@ -94,6 +94,15 @@ fn constants(material: &Material, text: &mut String) {
     }
     if let Some(stress) = material.spall_strength {
         row("spall strength", &stress.to_string(), text);
+    }
+    if let Some(TulerButcher {
+        threshold: Some(threshold),
+        exponent: Some(exponent),
+        time_at_twice_threshold: Some(time),
+    }) = material.tuler_butcher
+    {
+        let words = format!("{time} at twice {threshold}, exponent {exponent}");
+        row("Tuler-Butcher failure", &words, text);
     }
     let known = [
         (

@@ -7,7 +7,10 @@ use percuss::{
     units::{Velocity, significant},
 };
 
-use crate::terminal::{bold, width, wrap, yellow};
+use crate::{
+    fragment_table,
+    terminal::{bold, width, wrap, yellow},
+};
 
 /// Least width of a column of labels.
 const LABEL: usize = 28;
@@ -21,9 +24,10 @@ const NEGLIGIBLE: f64 = 1e-9;
 /// Table, energy shares, books and warnings.
 pub fn text(scenario: &Scenario, result: &RunResult, record: &ResultRecord) -> String {
     let mut text = String::new();
-    head(scenario, result, &mut text);
+    head(scenario, result, record, &mut text);
     outcome(scenario, result, record, &mut text);
     details(result, &mut text);
+    text += &fragment_table::text(&record.fragments);
     if let Some(numerics) = &result.numerics {
         energy(numerics, &mut text);
         books(numerics, result.end_time.unwrap_or(0.0), &mut text);
@@ -32,7 +36,7 @@ pub fn text(scenario: &Scenario, result: &RunResult, record: &ResultRecord) -> S
     text
 }
 
-fn head(scenario: &Scenario, result: &RunResult, text: &mut String) {
+fn head(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text: &mut String) {
     let title = if scenario.title.is_empty() {
         &scenario.name
     } else {
@@ -48,12 +52,18 @@ fn head(scenario: &Scenario, result: &RunResult, text: &mut String) {
     if !result.scheme.is_empty() {
         line += &format!(", scheme {}", result.scheme);
     }
+    if let Some(closure) = record.target_closure {
+        line += &format!(", target closure {closure}");
+    }
     *text += &format!("{}\n\n", wrap(&line, width(), 0));
 }
 
 fn outcome(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text: &mut String) {
     let mut rows = Rows::default();
     rows.add("outcome", bold(result.outcome.in_words()));
+    if let Some(criterion) = &record.criterion {
+        rows.add("told by", criterion.as_str());
+    }
     rows.add("run ended because", result.termination.in_words());
     let mut present = |label: &str, value: Option<f64>, unit: &str| {
         if let Some(value) = value {
@@ -99,6 +109,10 @@ fn outcome(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text:
         };
         rows.add("residual velocity", number(velocity, "m/s") + direction);
     }
+    if let (Some(mass), Some(velocity)) = (record.plug_mass_g, record.plug_velocity_m_s) {
+        let flight = format!("{} at {}", number(mass, "g"), number(velocity, "m/s"));
+        rows.add("plug", flight);
+    }
     let rod = &scenario.projectile;
     let remains = [
         (
@@ -129,6 +143,9 @@ fn outcome(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text:
     }
     if let Some(force) = record.peak_force_kn {
         rows.add("peak force", number(force, "kN"));
+    }
+    if let Some(time) = record.contact_time_us {
+        rows.add("contact time", number(time, "us"));
     }
     *text += &rows.text();
 }

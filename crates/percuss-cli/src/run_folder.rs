@@ -88,6 +88,8 @@ impl RunFolder {
         progress: &mut Progress,
     ) -> Result<Vec<PathBuf>, Failure> {
         self.put("result.json", terminal::json(results)?.as_bytes())?;
+        self.written
+            .extend(percuss_report::write_fragments(&self.path, result)?);
         if !has_history(result) {
             return Ok(self.written);
         }

@@ -46,7 +46,7 @@ fn a_run_prints_its_results() {
     let text = ok(folder.path(), &["run", "shot.toml"]);
     for part in [
         "Copper on aluminium\n",
-        "case shot, impact at 230 m/s, model chain, scheme conservative\n",
+        "case shot, impact at 230 m/s, model chain, scheme conservative, target closure\nexpanding-cavity\n",
         "outcome  ",
         "run ended because  ",
         "depth of penetration  ",
@@ -355,6 +355,7 @@ fn models_as_json_hold_their_whole_guard() {
                 "projectile_materials",
                 "ranges",
                 "sees_back_face",
+                "separate_layers",
                 "start_temperature",
                 "target_materials",
                 "targets",

@@ -84,9 +84,10 @@ pub(crate) fn strain(history: &History, along: Along, caption: &str) -> Option<F
 pub(crate) fn stress(history: &History, along: Along, caption: &str) -> Option<Figure> {
     let grid = StressGrid::resample(&history.profiles, CELLS)?;
     let note = if grid.rows.iter().flatten().any(|stress| stress.is_nan()) {
+        let gap = grid.rows[0].iter().any(|stress| stress.is_nan());
         match along {
-            Along::Initial => "; grey: eroded",
-            Along::Space => "; grey: no material",
+            Along::Initial if !gap => "; grey: eroded",
+            _ => "; grey: no material",
         }
     } else {
         ""

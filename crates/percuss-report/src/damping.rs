@@ -115,7 +115,7 @@ pub fn damping_study(progress: OnProgress<'_>) -> Result<DampingStudy, Error> {
 fn run(speed: f64, elements: u32, options: &str) -> Result<(f64, f64, f64), Error> {
     let target = 2 * elements;
     let options = format!(
-        "[chain]\nprojectile_elements = {elements}\ntarget_elements = {target}\n{options}\n"
+        "[chain]\ntarget_closure = \"column\"\nprojectile_elements = {elements}\ntarget_elements = {target}\n{options}\n"
     );
     let scenario = study::scenario(speed, &options)?;
     let result = model::run(model::model("chain")?, &scenario, &mut Control::default())?;

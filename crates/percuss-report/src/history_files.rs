@@ -67,6 +67,7 @@ fn sample_columns() -> Vec<Column<Sample>> {
         Column::float("tip_velocity_m_s", |s: &Sample| s.tip_velocity),
         Column::float("tail_velocity_m_s", |s: &Sample| s.tail_velocity),
         Column::float("interface_velocity_m_s", |s: &Sample| s.interface_velocity),
+        Column::float("back_velocity_m_s", |s: &Sample| s.back_velocity),
         Column::float("mean_velocity_m_s", |s: &Sample| s.mean_velocity),
         Column::float("tip_position_mm", |s: &Sample| s.tip_position * 1e3),
         Column::float("depth_mm", |s: &Sample| s.depth * 1e3),

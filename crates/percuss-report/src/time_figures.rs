@@ -8,7 +8,7 @@ use percuss::{
 use crate::{AreaChart, Axis, Figure, LineChart, Mark, Series, Style, run_figures::significant};
 
 /// Colours of the lines of the energy book, in its order: dark for the projectile, light for the target.
-const ENERGY_COLORS: [&str; 11] = [
+const ENERGY_COLORS: [&str; 15] = [
     "#0072b2", "#56b4e9", // kinetic
     "#00664b", "#66d1b0", // elastic
     "#b34700", "#f2a65a", // plastic
@@ -17,6 +17,8 @@ const ENERGY_COLORS: [&str; 11] = [
     "#3b3b3b", // contact
     "#f0e442", // through back face
     "#7a4a9e", // eroded
+    "#d7301f", // fracture
+    "#9ecae9", "#b8e0c8", "#d98c5f", // plate around a plug: kinetic, elastic, plastic
 ];
 /// Lines of the energy book that never exceed this part of the initial energy are added up.
 const MINOR_ENERGY: f64 = 0.005;

@@ -22,6 +22,7 @@ target = { rigid_wall = true }
 const EROSION: &str = r#"
 projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "800 m/s" }
 target = { material = "aluminium-2024-t351", thickness = "50 mm" }
+chain.target_closure = "column"
 "#;
 
 fn run(text: &str) -> (Scenario, RunResult) {
@@ -160,7 +161,7 @@ fn csv_and_parquet_hold_the_same_columns_and_values() {
     assert_eq!(files, expected.map(|name| folder.path().join(name)));
 
     let (header, rows) = read_csv(&files[0]);
-    assert_eq!(header.len(), 30);
+    assert_eq!(header.len(), 37);
     assert_eq!(header[..3], ["time_us", "step", "tip_velocity_m_s"]);
     for name in [
         "energy_kinetic_projectile_j",

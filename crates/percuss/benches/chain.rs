@@ -8,6 +8,8 @@ use percuss::{
     model::{self, Control},
 };
 
+const COLUMN: &str = "target_closure = \"column\"";
+
 fn paper(velocity: f64, elements: (u32, u32), options: &str) -> Scenario {
     let text = format!(
         "projectile = {{ material = \"copper\", length = \"12.74 mm\", diameter = \"4.8 mm\", velocity = \"{velocity} m/s\" }}\n\
@@ -22,9 +24,19 @@ fn runs(criterion: &mut Criterion) {
     let chain = model::model("chain").unwrap_or_else(|error| panic!("{error}"));
     let mut group = criterion.benchmark_group("chain");
     for (name, scenario) in [
-        ("paper case to rest, 40-80", paper(230.0, (40, 80), "")),
-        ("paper case to rest, 160-320", paper(230.0, (160, 320), "")),
-        ("600 m/s with erosion, 40-80", paper(600.0, (40, 80), "")),
+        ("paper case to rest, 40-80", paper(230.0, (40, 80), COLUMN)),
+        (
+            "paper case to rest, 160-320",
+            paper(230.0, (160, 320), COLUMN),
+        ),
+        (
+            "600 m/s with erosion, 40-80",
+            paper(600.0, (40, 80), COLUMN),
+        ),
+        (
+            "expanding cavity to rest, 40-80",
+            paper(230.0, (40, 80), ""),
+        ),
         (
             "published, chain, 40-80",
             paper(230.0, (40, 80), "scheme = \"published\""),

@@ -117,6 +117,8 @@ pub mod limits {
 
     /// Length of a projectile or a layer [m].
     pub const LENGTH: Limits = limits(1e-5, 100.0);
+    /// Distance between two layers [m].
+    pub const GAP: Limits = limits(0.0, 100.0);
     /// Diameter [m].
     pub const DIAMETER: Limits = limits(1e-5, 10.0);
     /// Mass [kg].
@@ -167,8 +169,20 @@ pub mod limits {
     pub const CONSTRAINT_FACTOR: Limits = limits(0.1, 20.0);
     /// Border-shear coefficient C.
     pub const BORDER_SHEAR: Limits = limits(0.0, 10.0);
+    /// Width of a shear band [m].
+    pub const BAND_WIDTH: Limits = limits(1e-6, 0.1);
+    /// Plastic shear strain at which a band fails.
+    pub const BAND_STRAIN: Limits = limits(0.01, 1000.0);
     /// Courant number.
     pub const COURANT: Limits = limits(1e-4, 1.0);
+    /// Exponent of a cumulative failure law.
+    pub const FAILURE_EXPONENT: Limits = limits(0.1, 20.0);
+    /// Time to failure under a constant tension [s].
+    pub const FAILURE_TIME: Limits = limits(1e-12, 1.0);
+    /// Energy that opens a crack, per area [J/m2]; 0 parts at once.
+    pub const FRACTURE_ENERGY: Limits = limits(0.0, 1e7);
+    /// Fraction of the unbalanced force; at 1 nothing would move.
+    pub const LOCAL_DAMPING: Limits = limits(0.0, 0.95);
     /// Failure strains D₁ and D₂ of a Johnson–Cook damage law; D₁ alone may be negative.
     pub const DAMAGE_STRAIN: Limits = limits(-10.0, 100.0);
     /// Its exponent D₃ of the stress triaxiality; tension is positive, and makes the material fail earlier.

@@ -44,6 +44,8 @@ pub struct Guard {
     pub oblique_noses: &'static [NoseKind],
     /// Whether it follows a projectile that is not at the temperature its material was measured at.
     pub start_temperature: bool,
+    /// Whether it takes gaps between layers, bonded interfaces and layers of different diameter.
+    pub separate_layers: bool,
     /// Whether it sees the back face of a plate: one that does not gives no depth close to the thickness.
     pub sees_back_face: bool,
     /// Cases for which it is the first choice.
@@ -73,6 +75,7 @@ impl Guard {
         ],
         oblique_noses: &[],
         start_temperature: false,
+        separate_layers: false,
         sees_back_face: true,
         first_choice: &[],
         fitted_to: &[],
@@ -105,6 +108,17 @@ impl Guard {
         }
         if let Some(reason) = temperature::reason(self, scenario) {
             return Verdict::Outside(reason);
+        }
+        if !self.separate_layers
+            && let TargetBody::Layers {
+                separate_layers: true,
+                ..
+            } = scenario.target
+        {
+            return Verdict::Outside(
+                "it takes layers that lie on each other, without a gap, an `interface` or a `column_diameter` of their own"
+                    .to_owned(),
+            );
         }
         let neighbour = regime
             .neighbour

@@ -17,6 +17,8 @@ pub struct Sample {
     pub tail_velocity: f64,
     /// Speed of the target's struck face, the crater floor [m/s].
     pub interface_velocity: f64,
+    /// Speed of the target's back face [m/s]; no number where there is none.
+    pub back_velocity: f64,
     /// Mean speed of the projectile [m/s].
     pub mean_velocity: f64,
     /// Position of the projectile's front end below the original face [m].

@@ -17,7 +17,7 @@ pub struct EnergyLedger {
     pub plastic_projectile: f64,
     /// Plastic work done in the target.
     pub plastic_target: f64,
-    /// Work against border shear, or against the pressure of a constant-pressure target.
+    /// Work against border shear, plastic work of a shear band, or work against the pressure of a constant-pressure target.
     pub border_shear: f64,
     /// Work against artificial viscosity and damping.
     pub viscous: f64,
@@ -28,13 +28,24 @@ pub struct EnergyLedger {
     pub boundary: f64,
     /// Energy that eroded elements and target that was turned aside carried away.
     pub eroded: f64,
+    /// Work that opened cracks: their fracture energy.
+    pub fracture: f64,
     /// Lost between particles and grid: motion finer than the grid; it vanishes with the cell size.
     pub transfer: f64,
+    /// Kinetic energy of the plate around a plug.
+    #[serde(default)]
+    pub kinetic_plate: f64,
+    /// Recoverable elastic energy of the plate around a plug.
+    #[serde(default)]
+    pub elastic_plate: f64,
+    /// Plastic work of bending the plate around a plug.
+    #[serde(default)]
+    pub plastic_plate: f64,
 }
 
 impl EnergyLedger {
     /// Labels and values of all lines but the initial energy, in reading order.
-    pub fn lines(&self) -> [(&'static str, f64); 12] {
+    pub fn lines(&self) -> [(&'static str, f64); 16] {
         [
             ("kinetic, projectile", self.kinetic_projectile),
             ("kinetic, target", self.kinetic_target),
@@ -47,6 +58,10 @@ impl EnergyLedger {
             ("contact", self.contact),
             ("through back face", self.boundary),
             ("eroded", self.eroded),
+            ("fracture", self.fracture),
+            ("kinetic, plate", self.kinetic_plate),
+            ("elastic, plate", self.elastic_plate),
+            ("plastic, plate", self.plastic_plate),
             ("particles to grid", self.transfer),
         ]
     }
@@ -74,23 +89,30 @@ pub struct MomentumLedger {
     pub projectile: f64,
     /// Momentum of the target.
     pub target: f64,
-    /// Impulse taken by a fixed back face, a wall or a non-reflecting boundary.
+    /// Impulse taken by a fixed back face, a wall, a non-reflecting boundary or the support of a plate.
     pub support: f64,
     /// Impulse taken by border shear, or by a constant-pressure target.
     pub border_shear: f64,
     /// Momentum that eroded elements and target that was turned aside carried away.
     pub eroded: f64,
+    /// Impulse taken by local damping, which pushes against every node by itself.
+    pub damping: f64,
+    /// Momentum of the plate around a plug.
+    #[serde(default)]
+    pub plate: f64,
 }
 
 impl MomentumLedger {
     /// Labels and values of all lines but the initial momentum, in reading order.
-    pub fn lines(&self) -> [(&'static str, f64); 5] {
+    pub fn lines(&self) -> [(&'static str, f64); 7] {
         [
             ("projectile", self.projectile),
             ("target", self.target),
             ("support", self.support),
             ("border shear", self.border_shear),
             ("eroded", self.eroded),
+            ("local damping", self.damping),
+            ("plate", self.plate),
         ]
     }
 

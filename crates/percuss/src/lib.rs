@@ -12,7 +12,7 @@
 //! "#)?;
 //! let result = model::run(model::model("chain")?, &scenario, &mut Control::default())?;
 //! let depth_mm = result.depth_of_penetration.unwrap() * 1e3;
-//! assert!(depth_mm > 0.03 && depth_mm < 0.05);
+//! assert!(depth_mm > 0.2 && depth_mm < 0.25);
 //! assert!(result.numerics().energy_residual < 1e-3 && result.numerics().momentum_residual < 1e-12);
 //! # Ok::<(), percuss::Error>(())
 //! ```
@@ -28,6 +28,7 @@ mod control;
 pub mod converge;
 mod error;
 pub mod fdm;
+pub mod fragments;
 pub mod frames;
 pub mod guard;
 pub mod history;

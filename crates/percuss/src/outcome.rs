@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::{
+    fragments::Fragment,
     history::History,
     judge::Expectation,
     ledger::{EnergyLedger, MomentumLedger},
@@ -59,6 +60,8 @@ pub enum Termination {
     TipStopped,
     /// The crater floor passed the original back face.
     PassedBackFace,
+    /// No border shear holds the plug any more, and projectile and plug fly at their final speeds.
+    PlugFree,
     /// The last of the projectile eroded.
     ProjectileConsumed,
     /// The resistance of the target holds what is left of the projectile.
@@ -85,6 +88,7 @@ impl Termination {
             Self::Parted => "projectile and target have parted and will not meet again",
             Self::TipStopped => "the tip's speed reached zero",
             Self::PassedBackFace => "crater floor passed the original back face",
+            Self::PlugFree => "no border shear is left; projectile and plug fly freely",
             Self::ProjectileConsumed => "the last of the projectile eroded",
             Self::PenetrationStopped => {
                 "the target's resistance holds what is left of the projectile"
@@ -107,6 +111,8 @@ pub struct RunResult {
     pub scheme: &'static str,
     /// How the shot ended.
     pub outcome: Outcome,
+    /// What the outcome was told by, in words; empty where the model names nothing beyond its termination.
+    pub criterion: String,
     /// Why the run was ended.
     pub termination: Termination,
     /// Depth of the crater floor below the original face when the projectile's momentum is used up [m].
@@ -131,12 +137,20 @@ pub struct RunResult {
     pub projectile_final_diameter: Option<f64>,
     /// Mass left of the projectile [kg].
     pub projectile_final_mass: Option<f64>,
+    /// Mass of the plug that a plate let go [kg].
+    pub plug_mass: Option<f64>,
+    /// Its speed [m/s].
+    pub plug_velocity: Option<f64>,
     /// Time at which the projectile's momentum was used up [s].
     pub time_to_rest: Option<f64>,
     /// Largest force between projectile and target [N].
     pub peak_force: Option<f64>,
+    /// Time during which projectile and target touched [s].
+    pub contact_time: Option<f64>,
     /// Time at the end [s].
     pub end_time: Option<f64>,
+    /// Pieces that fly free at the end, from the projectile's tail to the target's back; empty from a model that follows none.
+    pub fragments: Vec<Fragment>,
     /// Numbers that this model alone has, in its own order.
     pub details: Vec<Detail>,
     /// Steps and books of a model that steps through time on a mesh.
@@ -265,6 +279,7 @@ impl RunResult {
             model,
             scheme,
             outcome,
+            criterion: String::new(),
             termination,
             depth_of_penetration: None,
             expected_error: None,
@@ -276,9 +291,13 @@ impl RunResult {
             projectile_final_length: None,
             projectile_final_diameter: None,
             projectile_final_mass: None,
+            plug_mass: None,
+            plug_velocity: None,
             time_to_rest: None,
             peak_force: None,
+            contact_time: None,
             end_time: None,
+            fragments: Vec::new(),
             details: Vec::new(),
             numerics: None,
             shapes: None,

@@ -80,6 +80,21 @@ impl TargetKind {
     /// Targets of one layer with a back.
     pub const PLATES: &'static [Self] = &[Self::ThickPlate, Self::Plate, Self::ThinPlate];
 
+    /// The kind of target of a case.
+    pub fn of(scenario: &Scenario) -> Self {
+        match &scenario.target {
+            TargetBody::RigidWall => Self::RigidWall,
+            TargetBody::ConstantPressure(_) => Self::ConstantPressure,
+            TargetBody::Layers { layers, .. } if layers.len() > 1 => Self::Layered,
+            TargetBody::Layers { .. } => match scenario.target_thickness() {
+                None => Self::SemiInfinite,
+                Some(h) if h >= THICK * scenario.projectile.diameter => Self::ThickPlate,
+                Some(h) if h < THIN * scenario.projectile.diameter => Self::ThinPlate,
+                Some(_) => Self::Plate,
+            },
+        }
+    }
+
     /// The kind in words.
     pub fn in_words(self) -> &'static str {
         match self {
@@ -128,7 +143,7 @@ impl Regime {
     /// `√(2(Y − R)/ρ_t)` when it is stronger than the target; otherwise it deforms \[tate1967\].
     pub fn of(scenario: &Scenario) -> Self {
         let rod = &scenario.projectile;
-        let target = kind(scenario);
+        let target = TargetKind::of(scenario);
         let speed = scenario.impact_speed;
         let Some(strength) = rod.material.flow_stress(STRENGTH_STRAIN) else {
             return Self {
@@ -276,20 +291,6 @@ impl Regime {
 /// A value to three digits: more would promise more than the judgement holds.
 fn rounded(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
-}
-
-fn kind(scenario: &Scenario) -> TargetKind {
-    match &scenario.target {
-        TargetBody::RigidWall => TargetKind::RigidWall,
-        TargetBody::ConstantPressure(_) => TargetKind::ConstantPressure,
-        TargetBody::Layers { layers, .. } if layers.len() > 1 => TargetKind::Layered,
-        TargetBody::Layers { .. } => match scenario.target_thickness() {
-            None => TargetKind::SemiInfinite,
-            Some(h) if h >= THICK * scenario.projectile.diameter => TargetKind::ThickPlate,
-            Some(h) if h < THIN * scenario.projectile.diameter => TargetKind::ThinPlate,
-            Some(_) => TargetKind::Plate,
-        },
-    }
 }
 
 /// Pressure that a target opposes to slow penetration [Pa]: of concrete `S f_c` \[forrestal1994\], of a metal the expansion of a

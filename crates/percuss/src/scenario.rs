@@ -3,7 +3,11 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
-    case::{BackFace, Case, Experiment, Layer, ModelOptions, Nose, Scheme, Thickness, Uncertainty},
+    case::{
+        BackFace, Case, Experiment, Layer, LayerInterface, ModelOptions, Nose, Scheme, Support,
+        Thickness, Uncertainty,
+    },
+    chain,
     check::{Check, limits},
     material::{Library, Material, MaterialEntry},
     outcome::BandQuantity,
@@ -99,13 +103,26 @@ pub enum TargetBody {
         layers: Vec<Plate>,
         /// What holds the back face.
         back_face: BackFace,
-        /// Diameter of the column that is modelled [m].
+        /// Diameter of the column that is modelled [m], where a layer has none of its own.
         column_diameter: f64,
+        /// Whether a layer has a gap, an interface or a diameter of its own.
+        separate_layers: bool,
+        /// Where the plate ends; `None` where the case does not say.
+        edge: Option<PlateEdge>,
     },
     /// A rigid, frictionless wall.
     RigidWall,
     /// A constant pressure on the projectile's face [Pa].
     ConstantPressure(f64),
+}
+
+/// Edge of a plate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlateEdge {
+    /// Diameter inside the support [m].
+    pub diameter: f64,
+    /// How it is held there.
+    pub support: Support,
 }
 
 /// A layer of a target.
@@ -117,6 +134,12 @@ pub struct Plate {
     pub material_id: String,
     /// Thickness [m]; `None` for a semi-infinite layer.
     pub thickness: Option<f64>,
+    /// Distance to the layer before it [m].
+    pub gap: f64,
+    /// How it is joined to the layer before it.
+    pub interface: LayerInterface,
+    /// Diameter of the column that is modelled [m]; that of the target where `None`.
+    pub column_diameter: Option<f64>,
 }
 
 impl Scenario {
@@ -181,6 +204,11 @@ impl Scenario {
         let chain = &mut scenario.options.chain;
         if chain.target_elements.is_none() && chain.scheme == Scheme::Conservative {
             scenario.options.chain.target_elements = scenario.thin_target_elements();
+        }
+        if scenario.options.chain.target_closure.is_none() {
+            let column_diameter = case.target.column_diameter.is_some();
+            let closure = chain::default_closure(&scenario, column_diameter);
+            scenario.options.chain.target_closure = Some(closure);
         }
         Some(scenario)
     }
@@ -307,6 +335,9 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
                     Thickness::Finite(thickness) => Some(thickness.si()),
                     Thickness::SemiInfinite => None,
                 },
+                gap: layer.gap.map_or(0.0, Length::si),
+                interface: layer.interface.unwrap_or_default(),
+                column_diameter: layer.column_diameter.map(Length::si),
             })
         })
         .collect();
@@ -315,11 +346,32 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
     } else {
         BackFace::Fixed
     };
+    let column_diameter = target
+        .column_diameter
+        .map_or(case.projectile.diameter.si(), Length::si);
+    if let Some(diameter) = target.plate_diameter
+        && diameter.si() <= 2.0 * column_diameter
+    {
+        check.fail(
+            "target.plate_diameter",
+            format!("{diameter} leaves no plate around what is struck"),
+            format!(
+                "give more than twice the diameter of what is struck, {}",
+                Length::new(column_diameter)
+            ),
+        );
+        return None;
+    }
     Some(TargetBody::Layers {
         layers: layers?,
         back_face: target.back_face.unwrap_or(natural),
         column_diameter: target
             .column_diameter
             .map_or(case.projectile.diameter.si(), Length::si),
+        separate_layers: target.has_separate_layers(),
+        edge: target.plate_diameter.map(|diameter| PlateEdge {
+            diameter: diameter.si(),
+            support: target.support.unwrap_or_default(),
+        }),
     })
 }

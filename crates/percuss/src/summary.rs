@@ -4,6 +4,9 @@ use serde::Serialize;
 
 use crate::{
     Error,
+    case::TargetClosure,
+    chain::closure_in_use,
+    fragments::FragmentRecord,
     judge::Expectation,
     outcome::{Band, Detail, Outcome, RunResult, Termination},
     scenario::Scenario,
@@ -27,8 +30,12 @@ pub struct ResultRecord {
     pub model: &'static str,
     /// Scheme of the model.
     pub scheme: &'static str,
+    /// What stood for the target: `chain.target_closure`, where there is a choice of it.
+    pub target_closure: Option<&'static str>,
     /// How the shot ended.
     pub outcome: Outcome,
+    /// What the outcome was told by, in words; null where the model names nothing beyond its termination.
+    pub criterion: Option<String>,
     /// Why the run was ended.
     pub termination: Option<Termination>,
     /// Why there is no result, if there is none.
@@ -55,10 +62,16 @@ pub struct ResultRecord {
     pub projectile_final_diameter_mm: Option<f64>,
     /// Mass left of the projectile [g].
     pub projectile_final_mass_g: Option<f64>,
+    /// Mass of the plug that a plate let go [g].
+    pub plug_mass_g: Option<f64>,
+    /// Its speed [m/s].
+    pub plug_velocity_m_s: Option<f64>,
     /// Time at which the projectile's momentum was used up [us].
     pub time_to_rest_us: Option<f64>,
     /// Largest force between projectile and target [kN].
     pub peak_force_kn: Option<f64>,
+    /// Time during which projectile and target touched [us].
+    pub contact_time_us: Option<f64>,
     /// Time at the end of the run [us].
     pub end_time_us: Option<f64>,
     /// Time steps taken.
@@ -85,6 +98,8 @@ pub struct ResultRecord {
     pub energy_residual: Option<f64>,
     /// Largest part of the initial momentum that no line of the book accounted for.
     pub momentum_residual: Option<f64>,
+    /// Pieces that fly free at the end, from the projectile's tail to the target's back.
+    pub fragments: Vec<FragmentRecord>,
     /// Numbers that this model alone has.
     pub details: Vec<Detail>,
     /// What a user should know before relying on the numbers.
@@ -98,6 +113,7 @@ impl ResultRecord {
         let us = |time: Option<f64>| time.map(|time| time * 1e6);
         let numerics = result.numerics.as_ref();
         Self {
+            criterion: (!result.criterion.is_empty()).then(|| result.criterion.clone()),
             termination: Some(result.termination),
             depth_of_penetration_mm: mm(result.depth_of_penetration),
             expected_error: result.expected_error.clone(),
@@ -109,8 +125,11 @@ impl ResultRecord {
             projectile_final_length_mm: mm(result.projectile_final_length),
             projectile_final_diameter_mm: mm(result.projectile_final_diameter),
             projectile_final_mass_g: mm(result.projectile_final_mass),
+            plug_mass_g: mm(result.plug_mass),
+            plug_velocity_m_s: result.plug_velocity,
             time_to_rest_us: us(result.time_to_rest),
             peak_force_kn: result.peak_force.map(|force| force * 1e-3),
+            contact_time_us: us(result.contact_time),
             end_time_us: us(result.end_time),
             steps: numerics.map(|n| n.steps),
             time_step_ns: numerics.map(|n| n.first_time_step * 1e9),
@@ -123,6 +142,7 @@ impl ResultRecord {
             target_temperature_k: numerics.map(|n| n.largest_temperature.1),
             energy_residual: numerics.map(|n| n.energy_residual),
             momentum_residual: numerics.map(|n| n.momentum_residual),
+            fragments: result.fragments.iter().map(FragmentRecord::from).collect(),
             details: result.details.clone(),
             warnings: result.warnings.clone(),
             ..Self::empty(scenario, result.model, result.scheme, result.outcome)
@@ -149,10 +169,13 @@ impl ResultRecord {
         scheme: &'static str,
         outcome: Outcome,
     ) -> Self {
+        let closure = closure_in_use(scenario).filter(|_| model == "chain");
         Self {
             model,
             scheme,
+            target_closure: closure.map(TargetClosure::name),
             outcome,
+            criterion: None,
             termination: None,
             reason: None,
             impact_velocity_m_s: scenario.impact_speed,
@@ -166,8 +189,11 @@ impl ResultRecord {
             projectile_final_length_mm: None,
             projectile_final_diameter_mm: None,
             projectile_final_mass_g: None,
+            plug_mass_g: None,
+            plug_velocity_m_s: None,
             time_to_rest_us: None,
             peak_force_kn: None,
+            contact_time_us: None,
             end_time_us: None,
             steps: None,
             time_step_ns: None,
@@ -181,6 +207,7 @@ impl ResultRecord {
             impact_energy_j: 0.5 * scenario.projectile.mass * scenario.impact_speed.powi(2),
             energy_residual: None,
             momentum_residual: None,
+            fragments: Vec::new(),
             details: Vec::new(),
             warnings: Vec::new(),
         }

@@ -79,14 +79,19 @@ fn check(folder: &str) {
             (Some(from), Some(to), "interface_velocity_m_s") => {
                 common::mean(&result, from.si(), to.si(), |s| s.interface_velocity)
             }
+            (Some(from), Some(to), "back_velocity_m_s") => {
+                common::mean(&result, from.si(), to.si(), |s| s.back_velocity)
+            }
             (Some(from), Some(to), "contact_force_kn") => {
                 common::mean(&result, from.si(), to.si(), |s| s.contact_force * 1e-3)
             }
             (None, None, "projectile_mass_g") => scenario.projectile.mass * 1e3,
             (None, None, quantity) => {
                 let record = serde_json::to_value(ResultRecord::new(&scenario, &result)).unwrap();
-                record[quantity]
-                    .as_f64()
+                // A name, or a path such as `/fragments/2/velocity_m_s`.
+                let number = record.pointer(quantity).or_else(|| record.get(quantity));
+                number
+                    .and_then(serde_json::Value::as_f64)
                     .unwrap_or_else(|| panic!("{folder}: no number is named {quantity}"))
             }
             other => panic!("{folder}: {other:?} is not understood"),
@@ -137,6 +142,9 @@ cases! {
     copper_on_aluminium_800: "copper-on-aluminium-800",
     taylor_copper_wilkins: "taylor-copper-wilkins",
     elastic_bars: "elastic-bars",
+    spall_two_plates: "spall-two-plates",
+    spall_delayed: "spall-delayed",
+    layered_with_gap: "layered-with-gap",
     concrete_forrestal_1994: "concrete-forrestal-1994",
-    weldox_borvik_2002: "weldox-borvik-2002",
+    weldox_460e_12mm_blunt: "weldox-460e-12mm-blunt",
 }

@@ -260,7 +260,11 @@ fn strain_levels_travel_at_their_own_speeds() {
 fn the_chain_and_finite_differences_agree() {
     for (mesh, tolerance) in [((10, 20), 0.025), ((40, 80), 0.015)] {
         for velocity in [150.0, 230.0, 300.0, 400.0, 600.0, 800.0, 1000.0] {
-            let case = paper(velocity, mesh, "erosion_strain = \"never\"");
+            let case = paper(
+                velocity,
+                mesh,
+                "target_closure = \"column\"\nerosion_strain = \"never\"",
+            );
             let (chain, here) = (run(&case), fdm(&case));
             let depth = |result: &RunResult| result.depth_of_penetration.unwrap() * 1e3;
             println!(
@@ -285,7 +289,11 @@ fn the_chain_and_finite_differences_agree() {
 #[test]
 fn finer_meshes_agree_better() {
     let difference = |factor: u32| {
-        let case = paper(230.0, (10 * factor, 20 * factor), "");
+        let case = paper(
+            230.0,
+            (10 * factor, 20 * factor),
+            "target_closure = \"column\"",
+        );
         let (chain, here) = (run(&case), fdm(&case));
         here.depth_of_penetration.unwrap() / chain.depth_of_penetration.unwrap() - 1.0
     };

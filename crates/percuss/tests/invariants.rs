@@ -20,6 +20,46 @@ fn material() -> impl Strategy<Value = String> {
     proptest::sample::select(ids)
 }
 
+/// Layers with gaps, bonded interfaces and diameters of their own.
+fn separate_layers() -> impl Strategy<Value = String> {
+    let layer = (
+        material(),
+        0.5..10.0_f64,
+        2.0..20.0_f64,
+        0..4_u32,
+        0.0..2.0_f64,
+    );
+    (proptest::collection::vec(layer, 2..5), proptest::sample::select(vec!["fixed", "free"])).prop_map(
+        |(layers, back)| {
+            let layers: Vec<String> = layers
+                .iter()
+                .enumerate()
+                .map(|(i, (material, mm, diameter, joint, gap))| {
+                    let joint = match joint {
+                        _ if i == 0 => String::new(),
+                        0 => String::new(),
+                        1 => ", interface = \"bonded\"".to_owned(),
+                        _ => format!(", gap = \"{gap} mm\""),
+                    };
+                    format!("{{ material = \"{material}\", thickness = \"{mm} mm\", column_diameter = \"{diameter} mm\"{joint} }}")
+                })
+                .collect();
+            format!("layers = [{}]\nback_face = \"{back}\"", layers.join(", "))
+        },
+    )
+}
+
+fn failure() -> impl Strategy<Value = String> {
+    (0..5_u32, 50.0..2000.0_f64, 0.0..20.0_f64, 0.0..0.5_f64).prop_map(|(law, mpa, energy, damping)| {
+        let law = match law {
+            0 | 1 => format!("{{ spall = {{ strength = \"{mpa} MPa\" }} }}"),
+            2 => format!("{{ tuler_butcher = {{ threshold = \"{mpa} MPa\", exponent = 1.5, time_at_twice_threshold = \"0.2 us\" }} }}"),
+            _ => return String::new(),
+        };
+        format!("failure = {law}\nfracture_energy = \"{} kJ/m2\"\nlocal_damping = {}", energy.max(5.0) - 5.0, damping.max(0.25) - 0.25)
+    })
+}
+
 fn target() -> impl Strategy<Value = String> {
     prop_oneof![
         (material(), 0.5..60.0_f64, proptest::sample::select(vec!["fixed", "free", "non-reflecting"])).prop_map(
@@ -30,6 +70,7 @@ fn target() -> impl Strategy<Value = String> {
         (material(), material(), 0.5..20.0_f64).prop_map(|(a, b, mm)| format!(
             "layers = [{{ material = \"{a}\", thickness = \"{mm} mm\" }}, {{ material = \"{b}\", thickness = \"semi-infinite\" }}]"
         )),
+        separate_layers(),
         Just("rigid_wall = true".to_owned()),
         (1.0..3000.0_f64).prop_map(|mpa| format!("constant_pressure = \"{mpa} MPa\"")),
     ]
@@ -85,15 +126,20 @@ prop_compose! {
         target in target(),
         elements in (1..30_u32, 1..40_u32),
         options in options(),
+        failure in failure(),
     ) -> String {
         let text = format!(
             "[projectile]\nmaterial = \"{rod}\"\nlength = \"{length} mm\"\ndiameter = \"{diameter} mm\"\nvelocity = \"{velocity} m/s\"\n\
-             [target]\n{target}\n[chain]\nmax_steps = 20000\nprojectile_elements = {}\ntarget_elements = {}\n{options}\n",
-            elements.0, elements.1
+             [target]\n{target}\n[chain]\nmax_steps = 20000\nprojectile_elements = {}\ntarget_elements = {}\n{}\n{options}\n",
+            elements.0,
+            elements.1,
+            if options.contains("published") { "" } else { &failure }
         );
         // A wall or a pressure has no column: the options of one would be refused.
         let solid = !target.starts_with("rigid_wall") && !target.starts_with("constant_pressure");
         let column = ["target_elements", "border_shear", "constraint_factor", "target_closure"];
+        let separate = target.contains("column_diameter");
+        let text: String = text.lines().filter(|line| !(separate && line.starts_with("target_closure"))).map(|line| format!("{line}\n")).collect();
         let text = if target.starts_with("layers") { text.replace("diverging-penetrable", "diverging") } else { text };
         text.lines()
             .filter(|line| solid || !column.iter().any(|key| line.starts_with(key)))
@@ -139,9 +185,11 @@ proptest! {
                         prop_assert_ne!(result.outcome, Outcome::Separated);
                     }
                     let dissipated = [result.numerics().energy.plastic_projectile, result.numerics().energy.plastic_target,
-                        result.numerics().energy.border_shear, result.numerics().energy.contact];
+                        result.numerics().energy.border_shear, result.numerics().energy.contact, result.numerics().energy.fracture];
+                    // The traction of a crack is integrated over steps that change, which a coarse mesh shows.
+                    let allowed = if text.contains("failure") { 1e-4 } else { 1e-6 };
                     for line in dissipated {
-                        prop_assert!(line >= -1e-6 * result.numerics().energy.initial, "a dissipative line gives energy back: {line}");
+                        prop_assert!(line >= -allowed * result.numerics().energy.initial, "a dissipative line gives energy back: {line}");
                     }
                 }
             }

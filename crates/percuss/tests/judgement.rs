@@ -83,7 +83,7 @@ fn the_stored_judgement_is_what_judging_gives() {
 #[test]
 fn every_variant_of_the_ablation_answers() {
     let lines = ablation::ablation(&[]).unwrap();
-    assert_eq!(lines.len(), 7 * study::SPEEDS.len(), "{lines:?}");
+    assert_eq!(lines.len(), 8 * study::SPEEDS.len(), "{lines:?}");
     assert!(
         lines.iter().all(|line| line.depth_of_penetration_mm > 0.0),
         "{lines:?}"

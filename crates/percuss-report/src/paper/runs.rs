@@ -32,10 +32,11 @@ pub(super) const PAPER_SPEED: f64 = 230.0;
 /// The paper's mesh.
 pub(super) const PAPER_MESH: (u32, u32) = (40, 80);
 
-/// Table 1 as a case file.
+/// Table 1 as a case file, with the paper's closure of the target.
 const TABLE_1: &str = r#"
 projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
 target = { material = "aluminium-2024-t351", thickness = "25 mm" }
+chain.target_closure = "column"
 "#;
 
 /// A scheme with its reading.

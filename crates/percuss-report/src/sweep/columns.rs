@@ -17,7 +17,7 @@ pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
     columns.push(text("outcome", |r| word(&r.outcome), "failed"));
     columns.push(text("termination", |r| word(&r.termination), ""));
     columns.push(text("scheme", |r| r.scheme.to_owned(), ""));
-    let numbers: [(&str, ReadNumber); 29] = [
+    let numbers: [(&str, ReadNumber); 31] = [
         ("impact_velocity_m_s", |r| Some(r.impact_velocity_m_s)),
         ("impact_energy_j", |r| Some(r.impact_energy_j)),
         ("depth_of_penetration_mm", |r| r.depth_of_penetration_mm),
@@ -43,6 +43,8 @@ pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
             r.projectile_final_diameter_mm
         }),
         ("projectile_final_mass_g", |r| r.projectile_final_mass_g),
+        ("plug_mass_g", |r| r.plug_mass_g),
+        ("plug_velocity_m_s", |r| r.plug_velocity_m_s),
         ("time_to_rest_us", |r| r.time_to_rest_us),
         ("peak_force_kn", |r| r.peak_force_kn),
         ("end_time_us", |r| r.end_time_us),

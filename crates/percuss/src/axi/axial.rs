@@ -22,6 +22,7 @@ pub(super) fn sample(solver: &Solver, watch: &Watch) -> Sample {
         tip_velocity: axis_velocity(rod, tip, cell),
         tail_velocity: axis_velocity(rod, tail, cell),
         interface_velocity: target.map_or(0.0, |body| axis_velocity(body, watch.depth, cell)),
+        back_velocity: back_velocity(solver),
         mean_velocity: if sums.mass > 0.0 {
             sums.momentum / sums.mass
         } else {
@@ -35,6 +36,13 @@ pub(super) fn sample(solver: &Solver, watch: &Watch) -> Sample {
         energy: solver.energy(),
         momentum: solver.momentum(),
     }
+}
+
+/// Speed on the axis at the back of the last layer [m/s]; 0 without a target.
+fn back_velocity(solver: &Solver) -> f64 {
+    let layer = solver.bodies[1..].last();
+    let back = layer.and_then(|layer| Some((layer, ends(layer, solver.cell)?.1)));
+    back.map_or(0.0, |(layer, back)| axis_velocity(layer, back, solver.cell))
 }
 
 /// Means over the particles within a cell of the axis, a row of cells at a time; the diameter is that of a circle with the area of

@@ -27,12 +27,12 @@ impl Solver {
             elastic_target: elastic(1),
             plastic_projectile: books.work[0][1],
             plastic_target: books.work[1][1],
-            border_shear: 0.0,
             viscous: books.work[0][2] + books.work[1][2],
             contact: books.contact,
             boundary: books.boundary,
             eroded: books.lost_energy + books.work[0][3] + books.work[1][3],
             transfer: books.transfer,
+            ..EnergyLedger::default()
         }
     }
 
@@ -43,8 +43,8 @@ impl Solver {
             projectile: self.sums[0].momentum,
             target: self.sums[1..].iter().map(|sums| sums.momentum).sum(),
             support: self.books.support_impulse,
-            border_shear: 0.0,
             eroded: self.books.lost_momentum,
+            ..MomentumLedger::default()
         }
     }
 }

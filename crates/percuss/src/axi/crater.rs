@@ -5,6 +5,9 @@ use super::{
     field::{Field, VOLUME, full_volume},
 };
 
+/// Part of a cell from which it counts as inside a body.
+const FILLED: f64 = 0.9;
+
 /// Part of the cell at a node of the axis that bodies fill; the axis and the column beside it count together.
 fn axis_filling(fields: &[&Field], row: isize, cell: f64) -> f64 {
     let volume: f64 = fields
@@ -83,6 +86,11 @@ pub(super) fn profile(targets: &[Body], cell: f64) -> Vec<[f64; 2]> {
                 .sum();
             volume / (ring * full_volume(column))
         };
+        let fullest = rows(&fields).map(filling).fold(0.0, f64::max);
+        if fullest < FILLED {
+            // A column on the rim is filled in part all the way down, and one through a hole not at all: neither has a floor.
+            continue;
+        }
         let mut below: Option<(isize, f64)> = None;
         for row in rows(&fields).rev() {
             let here = (row, filling(row));

@@ -2,6 +2,7 @@
 
 mod document;
 mod experiment;
+mod failure_options;
 mod load;
 mod model_options;
 mod number_or_word;
@@ -9,6 +10,7 @@ mod options;
 mod projectile;
 mod published_options;
 mod reword;
+mod shear_band;
 mod target;
 mod template;
 #[cfg(test)]
@@ -24,5 +26,6 @@ pub use number_or_word::{ConstraintFactor, ErosionStrain};
 pub use options::*;
 pub use projectile::{Nose, Projectile};
 pub use published_options::*;
-pub use target::{BackFace, Layer, Target, Thickness};
+pub use shear_band::{BandFailure, BorderShearLaw, ShearBandOptions};
+pub use target::{BackFace, Layer, LayerInterface, Support, Target, Thickness};
 pub(crate) use template::Template;

@@ -6,11 +6,13 @@ use serde::{Deserialize, Serialize};
 use super::{
     number_or_word::{ConstraintFactor, ErosionStrain, NumberOrWord},
     published_options::PublishedOptions,
+    shear_band::{BorderShearLaw, ShearBandOptions},
     target::Target,
 };
 use crate::{
     check::{Check, limits},
-    units::Time,
+    material::Failure,
+    units::{EnergyPerArea, Time},
 };
 
 /// Options of the model `chain`; a key that is not given has the default that the scheme states.
@@ -24,12 +26,21 @@ pub struct ChainOptions {
     /// Elements through the target, shared among its layers by thickness; 80 when not given, and fewer in a target thinner than
     /// half the projectile's length, a fourth as long as the projectile's but at least 24; always 80 in scheme `published`.
     pub target_elements: Option<u32>,
-    /// What stands for the target; `column` when not given; scheme `conservative` only.
+    /// What stands for the target; scheme `conservative` only. When not given, `expanding-cavity` for a flat-ended projectile on one
+    /// plate that yields, semi-infinite or at least 5 projectile diameters thick, unless `constraint_factor`, `border_shear`,
+    /// `border_shear_law`, `shear_band`, `dishing`, `kinematics`, `artificial_viscosity`, `damping_ratio`, `local_damping`, `failure`,
+    /// `fracture_energy`, `erosion_closure = "tate"` or `target.column_diameter` is given, which it does not have; `column` otherwise.
     pub target_closure: Option<TargetClosure>,
     /// Factor on the target's flow stress for the lateral constraint; 2.7 \[woodward1982\] when not given.
     pub constraint_factor: Option<ConstraintFactor>,
     /// Border-shear coefficient C in `Fy = C π d h σ_f` \[paper, eq. 24\]; 0.577 when not given.
     pub border_shear: Option<f64>,
+    /// What holds the column of target to the plate around it; `friction` when not given; scheme `conservative` only.
+    pub border_shear_law: Option<BorderShearLaw>,
+    /// The shear band, with `border_shear_law = "shear-band"`.
+    pub shear_band: Option<ShearBandOptions>,
+    /// Whether the plate around the column dishes, with a shear band and `target.plate_diameter`; false when not given.
+    pub dishing: Option<bool>,
     /// Strain measure and area change; `logarithmic` when not given; scheme `conservative` only.
     pub kinematics: Option<Kinematics>,
     /// Courant number on the current smallest transit time; scheme `conservative` only.
@@ -42,6 +53,13 @@ pub struct ChainOptions {
     pub artificial_viscosity: Option<ArtificialViscosity>,
     /// Viscous damping of every spring as a fraction of critical; 0 when not given; scheme `conservative` only.
     pub damping_ratio: Option<f64>,
+    /// Local damping: part of the unbalanced force on every node that acts against its motion; 0 when not given; scheme
+    /// `conservative` only.
+    pub local_damping: Option<f64>,
+    /// When material in tension parts; never when not given; scheme `conservative` only.
+    pub failure: Option<Failure>,
+    /// Energy that a crack takes to open, per area [J/m2]; none when not given.
+    pub fracture_energy: Option<EnergyPerArea>,
     /// Whether strength laws see the strain rate; true when not given; scheme `conservative` only.
     pub rate_effects: Option<bool>,
     /// Whether plastic work heats the material; true when not given; scheme `conservative` only.
@@ -163,9 +181,41 @@ impl ChainOptions {
             .unwrap_or(ConstraintFactor::Value(2.7))
     }
 
-    /// What stands for the target.
+    /// What stands for the target: of a [`Scenario`](crate::Scenario), where the default of its case is worked out.
     pub fn target_closure(&self) -> TargetClosure {
         self.target_closure.unwrap_or_default()
+    }
+
+    /// Keys that only a column has, and whether they are given.
+    fn column_keys(&self) -> [(&'static str, bool); 3] {
+        [
+            ("constraint_factor", self.constraint_factor.is_some()),
+            ("border_shear", self.border_shear.is_some()),
+            (
+                "erosion_closure",
+                self.erosion_closure() == ErosionClosure::Tate,
+            ),
+        ]
+    }
+
+    /// Keys of a chain of springs through the target that an expanding cavity has no use for, and whether they are given.
+    fn spring_keys(&self) -> [(&'static str, bool); 6] {
+        [
+            ("kinematics", self.kinematics.is_some()),
+            ("artificial_viscosity", self.artificial_viscosity.is_some()),
+            ("damping_ratio", self.damping_ratio.is_some()),
+            ("local_damping", self.local_damping.is_some()),
+            ("failure", self.failure.is_some()),
+            ("fracture_energy", self.fracture_energy.is_some()),
+        ]
+    }
+
+    /// Whether an option is given that an expanding cavity does not have.
+    pub(crate) fn asks_for_a_column(&self) -> bool {
+        let perforates =
+            self.border_shear_law.is_some() || self.shear_band.is_some() || self.dishing.is_some();
+        let given = |(_, given): &(&str, bool)| *given;
+        perforates || self.column_keys().iter().any(given) || self.spring_keys().iter().any(given)
     }
 
     /// How what erodes leaves the tip.
@@ -190,6 +240,7 @@ impl ChainOptions {
         let target_is_solid = target.is_solid();
         self.check_target(check, target_is_solid);
         self.check_closure(check, target);
+        self.check_border_shear(check, target);
         for (key, elements) in [
             ("projectile_elements", self.projectile_elements),
             ("target_elements", self.target_elements),
@@ -215,6 +266,7 @@ impl ChainOptions {
             ("border_shear", self.border_shear, limits::BORDER_SHEAR),
             ("courant", self.courant, limits::COURANT),
             ("damping_ratio", self.damping_ratio, limits::DAMPING),
+            ("local_damping", self.local_damping, limits::LOCAL_DAMPING),
             ("heat_fraction", self.heat_fraction, limits::HEAT_FRACTION),
             (
                 "constraint_factor",
@@ -246,6 +298,8 @@ impl ChainOptions {
         if let Some(mass) = self.published().target_mass {
             check.quantity("published.target_mass", mass, limits::MASS);
         }
+        self.check_failure(check);
+        self.check_layers(check, target);
         self.check_scheme(check);
     }
 
@@ -298,12 +352,7 @@ impl ChainOptions {
         if closure == TargetClosure::Column {
             return;
         }
-        let tate = self.erosion_closure() == ErosionClosure::Tate;
-        for (key, given) in [
-            ("constraint_factor", self.constraint_factor.is_some()),
-            ("border_shear", self.border_shear.is_some()),
-            ("erosion_closure", tate),
-        ] {
+        for (key, given) in self.column_keys() {
             if given {
                 check.fail(
                     key,
@@ -340,11 +389,7 @@ impl ChainOptions {
             );
         }
         if closure == TargetClosure::ExpandingCavity {
-            for (key, given) in [
-                ("kinematics", self.kinematics.is_some()),
-                ("artificial_viscosity", self.artificial_viscosity.is_some()),
-                ("damping_ratio", self.damping_ratio.is_some()),
-            ] {
+            for (key, given) in self.spring_keys() {
                 if given {
                     check.fail(
                         key,
@@ -366,6 +411,9 @@ impl ChainOptions {
             ("target_closure", self.target_closure.is_some()),
             ("artificial_viscosity", self.artificial_viscosity.is_some()),
             ("damping_ratio", self.damping_ratio.is_some()),
+            ("local_damping", self.local_damping.is_some()),
+            ("failure", self.failure.is_some()),
+            ("fracture_energy", self.fracture_energy.is_some()),
             ("rate_effects", self.rate_effects.is_some()),
             ("adiabatic_heating", self.adiabatic_heating.is_some()),
             ("heat_fraction", self.heat_fraction.is_some()),

@@ -27,6 +27,12 @@ pub struct Target {
     /// Diameter of the column of target that is modelled [m]; the projectile's when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column_diameter: Option<Length>,
+    /// Diameter of the plate inside its support [m]: how far it can dish.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plate_diameter: Option<Length>,
+    /// How the plate is held there; `clamped` when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub support: Option<Support>,
     /// `true` for a rigid, frictionless wall: a Taylor test.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub rigid_wall: bool,
@@ -43,6 +49,26 @@ pub struct Layer {
     pub material: String,
     /// Thickness, or `"semi-infinite"` for the last layer.
     pub thickness: Thickness,
+    /// Distance to the layer before it [m]; 0 when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gap: Option<Length>,
+    /// How it is joined to the layer before it; `sliding` when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interface: Option<LayerInterface>,
+    /// Diameter of the column that is modelled [m]; `column_diameter` of the target when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column_diameter: Option<Length>,
+}
+
+/// How a layer is joined to the one before it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LayerInterface {
+    /// Carries compression only: it opens in tension and may close again.
+    #[default]
+    Sliding,
+    /// Carries tension too, until the material on either side fails.
+    Bonded,
 }
 
 /// What holds the back face of a target.
@@ -67,6 +93,17 @@ impl BackFace {
             Self::NonReflecting => "non-reflecting",
         }
     }
+}
+
+/// How the edge of a plate is held.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Support {
+    /// It neither moves nor turns.
+    #[default]
+    Clamped,
+    /// It turns freely.
+    SimplySupported,
 }
 
 /// Thickness of a layer.
@@ -141,6 +178,43 @@ impl JsonSchema for Thickness {
     }
 }
 
+impl Layer {
+    /// Whether anything is given that only a model with separate layers can take.
+    fn is_separate(&self) -> bool {
+        self.gap.is_some() || self.interface.is_some() || self.column_diameter.is_some()
+    }
+
+    fn check_joint(&self, is_first: bool, check: &mut Check<'_>) {
+        if is_first {
+            for (key, given) in [
+                ("gap", self.gap.is_some()),
+                ("interface", self.interface.is_some()),
+            ] {
+                if given {
+                    check.fail(
+                        key,
+                        format!("the first layer has no layer before it: `{key}` has no effect"),
+                        "remove the key, or move it to the layer behind the gap or interface",
+                    );
+                }
+            }
+        }
+        if let Some(gap) = self.gap {
+            check.quantity("gap", gap, limits::GAP);
+            if self.interface == Some(LayerInterface::Bonded) && gap.si() > 0.0 {
+                check.fail(
+                    "interface",
+                    "a layer behind a gap is bonded to nothing",
+                    "remove `gap`, or use interface = \"sliding\"",
+                );
+            }
+        }
+        if let Some(diameter) = self.column_diameter {
+            check.quantity("column_diameter", diameter, limits::DIAMETER);
+        }
+    }
+}
+
 impl Target {
     /// The layers, whether the target is written as one plate or as several layers, with the keys they stand under.
     pub(crate) fn layers_with_keys(&self) -> Vec<(String, Layer)> {
@@ -149,6 +223,9 @@ impl Target {
                 let layer = Layer {
                     material: material.clone(),
                     thickness,
+                    gap: None,
+                    interface: None,
+                    column_diameter: None,
                 };
                 vec![("target".to_owned(), layer)]
             }
@@ -159,6 +236,11 @@ impl Target {
                 .map(|(i, layer)| (format!("target.layers.{i}"), layer.clone()))
                 .collect(),
         }
+    }
+
+    /// Whether a layer has a gap, an interface or a diameter of its own.
+    pub(crate) fn has_separate_layers(&self) -> bool {
+        self.layers.iter().any(Layer::is_separate)
     }
 
     /// Whether there is a column of material, rather than a wall or a pressure.
@@ -242,9 +324,19 @@ impl Target {
                 ),
                 Thickness::SemiInfinite => {}
             }
+            layer.check_joint(i == 0, &mut check);
         }
         if let Some(diameter) = self.column_diameter {
             check.quantity("column_diameter", diameter, limits::DIAMETER);
+        }
+        if let Some(diameter) = self.plate_diameter {
+            check.quantity("plate_diameter", diameter, limits::DIAMETER);
+        } else if self.support.is_some() {
+            check.fail(
+                "support",
+                "a support has no effect without the diameter of the plate",
+                "add `plate_diameter`, or remove `support`",
+            );
         }
         if let Some(pressure) = self.constant_pressure {
             check.quantity("constant_pressure", pressure, limits::CONTACT_PRESSURE);
@@ -261,6 +353,13 @@ impl Target {
             );
         }
         let solid = self.is_solid();
+        if self.plate_diameter.is_some() && !solid {
+            check.fail(
+                "plate_diameter",
+                "a rigid wall or a constant pressure is no plate",
+                "remove `plate_diameter`",
+            );
+        }
         if self.back_face.is_some() && !solid {
             check.fail(
                 "back_face",

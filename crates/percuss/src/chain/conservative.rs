@@ -89,7 +89,9 @@ impl<'a> Conservative<'a> {
             courant,
             viscosity: options.artificial_viscosity.unwrap_or_default(),
             damping_ratio: options.damping_ratio.unwrap_or(0.0),
+            local_damping: options.local_damping.unwrap_or(0.0),
             erosion_strain,
+            fails: options.failure.is_some(),
             longest_step,
         };
         state.stable_step *= control.first_step_factor(&state, scenario.impact_speed);
@@ -145,7 +147,7 @@ impl<'a> Conservative<'a> {
         } else {
             loop {
                 self.state.advance(&self.control)?;
-                self.watch.follow(&self.state, self.scenario.impact_speed);
+                self.watch.follow(&self.state, self.scenario);
                 self.record(&mut recorder);
                 match event(&self.state, self.scenario) {
                     Ok(None) => {}
@@ -165,8 +167,9 @@ impl<'a> Conservative<'a> {
                 }
                 if self.watch.is_quiet(&self.state, self.scenario, end_time) {
                     let state = &self.state;
-                    break match state.tip_segment().map(|tip| state.closed.get(tip)) {
-                        Some(Some(false)) => Termination::Parted,
+                    break match state.tip_segment().map(|tip| state.joints.get(tip)) {
+                        Some(_) if state.left_the_plate() => Termination::PlugFree,
+                        Some(Some(joint)) if !joint.closed => Termination::Parted,
                         Some(_) => Termination::Quiescent,
                         None => Termination::ProjectileConsumed,
                     };
@@ -195,8 +198,8 @@ impl<'a> Conservative<'a> {
             TargetBody::Layers { layers, .. } => {
                 for plate in layers {
                     let thickness = mesh::modelled_thickness(plate, self.scenario);
-                    time +=
-                        2.0 * thickness / plate.material.bar_wave_speed() + 2.0 * thickness / speed;
+                    time += 2.0 * thickness / plate.material.bar_wave_speed()
+                        + 2.0 * (thickness + plate.gap) / speed;
                 }
             }
             TargetBody::RigidWall => {}

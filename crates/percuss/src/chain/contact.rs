@@ -1,4 +1,4 @@
-//! Contact between the ends of two segments: closing, moving as one, parting.
+//! Contact between the ends of two segments: closing, moving as one, parting, and what holds across a gap.
 
 use super::{friction::rub, state::State};
 
@@ -45,8 +45,10 @@ impl State {
             );
             self.nodes[a].force + own_friction - self.nodes[a].mass * (after - before) / kick
         };
-        if contact_force < 0.0 {
-            self.closed[s] = false;
+        if contact_force < -self.joints[s].bond.holds() {
+            let pull = self.joints[s].part();
+            self.nodes[a].force += pull;
+            self.nodes[b].force -= pull;
             self.nodes[a].velocity = before;
             self.nodes[b].velocity = before;
             self.kick_free(a, kick);
@@ -69,6 +71,30 @@ impl State {
         }
     }
 
+    /// Lets what still holds across the gaps pull their ends together.
+    pub(super) fn pull_gaps(&mut self) {
+        for s in 0..self.joints.len() {
+            let (a, b) = (self.segments[s].last_node, self.segments[s + 1].first_node);
+            let gap = self.nodes[b].position - self.nodes[a].position;
+            let pull = self.joints[s].pull_at(gap);
+            self.nodes[a].force += pull;
+            self.nodes[b].force -= pull;
+        }
+    }
+
+    /// Books the work of the kick against what holds across the gaps.
+    pub(super) fn book_fracture(&mut self, kick: f64) {
+        for (s, joint) in self.joints.iter().enumerate() {
+            if joint.pull > 0.0 {
+                let a = &self.nodes[self.segments[s].last_node];
+                let b = &self.nodes[self.segments[s + 1].first_node];
+                let before = b.velocity_before - a.velocity_before;
+                let after = b.velocity - a.velocity;
+                self.books.fracture_work += joint.pull * 0.5 * (before + after) * kick;
+            }
+        }
+    }
+
     /// Books the energy of a sudden change of a node's velocity.
     ///
     /// A kick does its work at the mean of the velocities before and after it, the springs do theirs at the velocities of
@@ -82,8 +108,8 @@ impl State {
 
     /// Closes every gap that would overlap at the end of the step, so that it is zero then.
     pub(super) fn close_gaps(&mut self, time_step: f64) {
-        for s in 0..self.closed.len() {
-            if self.closed[s] {
+        for s in 0..self.joints.len() {
+            if self.joints[s].closed {
                 continue;
             }
             let (a, b) = (self.segments[s].last_node, self.segments[s + 1].first_node);
@@ -107,7 +133,13 @@ impl State {
             if self.is_fixed(b) {
                 self.books.support_impulse += self.nodes[a].mass * change;
             }
-            self.closed[s] = true;
+            // What holds across the gap pulls over the way that is left, and no more at its end: the half drift before the kick
+            // was booked at the speed before the jump, the one before the next kick will not be.
+            let pulled = 0.5 * self.joints[s].pull * (time_step * change - gap.max(0.0));
+            self.books.fracture_work += pulled;
+            self.books.contact_loss -= pulled;
+            self.joints[s].closed = true;
+            self.meetings += 1;
         }
     }
 }

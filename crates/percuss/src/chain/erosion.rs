@@ -1,6 +1,7 @@
 //! Erosion: elements that leave the chain, with everything that leaves with them.
 
 use super::{
+    joint::Joint,
     part::Role,
     state::{End, Segment, State},
 };
@@ -44,7 +45,7 @@ impl State {
         let masses = self.elements[e].end_masses;
         let half_friction = 0.5 * part.friction_per_length * self.elements[e].rest_length;
         self.books.eroded_energy += self.elastic_energy(e, part);
-        let left = e + segment.part;
+        let left = e + segment.shift;
         // The closure of Tate has a column: both halves are alike.
         let leaving = self.leave_tip(s, left, masses[0]);
         for (i, mass) in [left, left + 1].into_iter().zip(masses) {
@@ -56,6 +57,9 @@ impl State {
             self.books.eroded_momentum += mass * velocity;
             self.nodes[i].mass -= mass;
             self.nodes[i].friction = (self.nodes[i].friction - half_friction).max(0.0);
+            if let Some(hold) = &mut self.hold {
+                hold.bands.erode(i, 0.5 * self.elements[e].rest_length);
+            }
         }
         self.elements[e].eroded = true;
         self.move_tip(s, left);
@@ -74,7 +78,7 @@ impl State {
             .filter(|piece| !piece.elements().is_empty())
             .collect();
         match kept.len() {
-            2 => self.closed.insert(s, false),
+            2 => self.joints.insert(s, Joint::OPEN),
             1 => {
                 // The contact on the side of the lost node is open now.
                 let lost_front = before.elements().is_empty();
@@ -83,8 +87,8 @@ impl State {
                 } else {
                     Some(s)
                 };
-                if let Some(contact) = contact.filter(|&c| c < self.closed.len()) {
-                    self.closed[contact] = false;
+                if let Some(contact) = contact.filter(|&c| c < self.joints.len()) {
+                    self.joints[contact] = Joint::OPEN;
                 }
                 if !lost_front && is_last {
                     self.end = End::Free;
@@ -93,12 +97,12 @@ impl State {
             _ => {
                 // The whole segment is gone: its two contacts become one, open.
                 if is_last {
-                    self.closed.pop();
+                    self.joints.pop();
                     self.end = End::Free;
                 } else {
-                    self.closed.remove(s);
+                    self.joints.remove(s);
                     if s > 0 {
-                        self.closed[s - 1] = false;
+                        self.joints[s - 1] = Joint::OPEN;
                     }
                 }
             }

@@ -4,12 +4,13 @@ use std::f64::consts::PI;
 
 use super::{
     cone::{Cone, Grading},
+    joint::Joint,
     part::{Part, Role, constraint_factor},
     solver::LARGEST_STRAIN_STEP,
     state::{Books, Element, End, Node, Segment, State},
 };
 use crate::{
-    case::{BackFace, ErosionClosure, Kinematics, TargetClosure},
+    case::{BackFace, ErosionClosure, Kinematics, LayerInterface, TargetClosure},
     material::{FlowState, YieldPoint},
     scenario::{Plate, Scenario, TargetBody},
 };
@@ -73,6 +74,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     }
     let mut parts = vec![projectile];
     let mut lengths = vec![rod.length];
+    let mut joints = vec![Before::TOUCHING];
     let mut cone = None;
     let mut struck_material = None;
     let mut end = End::Free;
@@ -81,15 +83,22 @@ pub(super) fn build(scenario: &Scenario) -> State {
             layers,
             back_face,
             column_diameter,
+            ..
         } => {
-            let area = match options.erosion_closure() {
-                ErosionClosure::Strain => PI * column_diameter * column_diameter / 4.0,
+            let diameter = |plate: &Plate| plate.column_diameter.unwrap_or(*column_diameter);
+            let area = |plate: &Plate| match options.erosion_closure() {
+                ErosionClosure::Strain => PI * diameter(plate) * diameter(plate) / 4.0,
                 ErosionClosure::Tate => parts[0].area,
             };
+            let areas: Vec<f64> = layers.iter().map(area).collect();
             struck_material = layers.first().map(|plate| &plate.material);
             cone = cone_and_grading(layers, scenario, parts[0].area);
             let grading = cone.map(|(_, grading)| grading);
-            for (plate, elements) in layers.iter().zip(layer_elements(layers, scenario, grading)) {
+            for ((plate, elements), &area) in layers
+                .iter()
+                .zip(layer_elements(layers, scenario, grading))
+                .zip(&areas)
+            {
                 let material = &plate.material;
                 let factor = match cone {
                     Some(_) => 1.0,
@@ -98,14 +107,19 @@ pub(super) fn build(scenario: &Scenario) -> State {
                 let mut part = Part::new(Role::Target, material, area, elements, factor, options);
                 let flow_stress = material.strength.law().flow_stress_at_unit_strain(material);
                 part.friction_per_length =
-                    options.border_shear() * PI * column_diameter * flow_stress.unwrap_or(0.0);
+                    options.border_shear() * PI * diameter(plate) * flow_stress.unwrap_or(0.0);
                 if options.erosion_closure() == ErosionClosure::Tate || cone.is_some() {
                     // What holds the target ahead of the tip stands in the place of border shear; a cone widens instead.
                     part.friction_per_length = 0.0;
                 }
                 parts.push(part);
                 lengths.push(modelled_thickness(plate, scenario));
+                joints.push(Before {
+                    gap: plate.gap,
+                    bonded: plate.interface == LayerInterface::Bonded,
+                });
             }
+            let area = areas.last().copied().unwrap_or_default();
             end = match (back_face, layers.last()) {
                 (BackFace::Fixed, _) => End::Fixed,
                 (BackFace::NonReflecting, Some(last)) => {
@@ -124,12 +138,13 @@ pub(super) fn build(scenario: &Scenario) -> State {
         }
         TargetBody::RigidWall => {
             parts.push(Part::new(Role::Target, &rod.material, 0.0, 0, 1.0, options));
+            joints.push(Before::TOUCHING);
             lengths.push(0.0);
             end = End::Fixed;
         }
         TargetBody::ConstantPressure(_) => {}
     }
-    let mut state = assemble(parts, &lengths, end, cone);
+    let mut state = assemble(parts, &lengths, &joints, end, cone);
     if let TargetBody::ConstantPressure(pressure) = scenario.target {
         state.tip_friction = pressure * state.parts[0].area;
         state.nodes[rod_elements].friction = state.tip_friction;
@@ -142,6 +157,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     {
         state.let_penetrate(material);
     }
+    state.hold_plug(scenario);
     for node in &mut state.nodes[..=rod_elements] {
         node.velocity = scenario.impact_speed;
     }
@@ -157,17 +173,49 @@ pub(super) fn build(scenario: &Scenario) -> State {
     state
 }
 
+/// How a part is joined to the one before it.
+#[derive(Debug, Clone, Copy)]
+struct Before {
+    /// [m].
+    gap: f64,
+    bonded: bool,
+}
+
+impl Before {
+    const TOUCHING: Self = Self {
+        gap: 0.0,
+        bonded: false,
+    };
+
+    fn joint(&self) -> Joint {
+        if self.bonded {
+            Joint::BONDED
+        } else if self.gap > 0.0 {
+            Joint::OPEN
+        } else {
+            Joint::TOUCHING
+        }
+    }
+}
+
 /// Lines the parts up, the first one ending and the second one starting at 0.
-fn assemble(parts: Vec<Part>, lengths: &[f64], end: End, cone: Option<(Cone, Grading)>) -> State {
+fn assemble(
+    parts: Vec<Part>,
+    lengths: &[f64],
+    before: &[Before],
+    end: End,
+    cone: Option<(Cone, Grading)>,
+) -> State {
     let elements: usize = parts.iter().map(|part| part.elements).sum();
     let nodes = elements + parts.len();
     let mut state = State {
         segments: Vec::new(),
-        closed: vec![true; parts.len() - 1],
+        joints: before[1..].iter().map(Before::joint).collect(),
         end,
         tip_friction: 0.0,
         tip: None,
         penetration: None,
+        hold: None,
         drag: 0.0,
         back_position: 0.0,
         nodes: vec![Node::default(); nodes],
@@ -176,6 +224,8 @@ fn assemble(parts: Vec<Part>, lengths: &[f64], end: End, cone: Option<(Cone, Gra
         step: 0,
         time_step: 0.0,
         stable_step: f64::INFINITY,
+        partings: Vec::new(),
+        meetings: 0,
         contact_force: 0.0,
         back_force: 0.0,
         books: Books::default(),
@@ -185,12 +235,14 @@ fn assemble(parts: Vec<Part>, lengths: &[f64], end: End, cone: Option<(Cone, Gra
     let mut start = -lengths[0];
     for (p, &length) in lengths.iter().enumerate() {
         let part = &state.parts[p];
+        start += before[p].gap;
         let count = part.elements;
         let first_node = first_element + p;
         state.segments.push(Segment {
             part: p,
             first_node,
             last_node: first_node + count,
+            shift: p,
         });
         let size = length / count.max(1) as f64;
         let widens = cone.filter(|_| part.role == Role::Target);

@@ -1,17 +1,29 @@
 //! Model `chain`: the 1-D discrete element model, point masses joined by normal springs.
 
+mod closure;
 mod cone;
 mod conservative;
 mod contact;
+mod damping;
+mod dishing;
 mod element;
 mod erosion;
 mod expanding;
+mod fracture;
+mod fragments;
 mod friction;
+mod joint;
 mod mesh;
 mod part;
 mod penetration;
+mod plate_section;
+mod plug;
 mod published;
 mod results;
+#[cfg(test)]
+mod separation_tests;
+mod shear_band;
+mod shear_zone;
 mod snapshot;
 mod solver;
 mod state;
@@ -21,7 +33,9 @@ mod tests;
 mod warnings;
 mod watch;
 
-pub use conservative::{Conservative, ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
+pub(crate) use closure::{closure_in_use, default_closure};
+use conservative::Conservative;
+pub use conservative::{ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
 pub(crate) use mesh::modelled_thickness;
 pub(crate) use part::constraint_factor;
 pub use published::Published;
@@ -29,7 +43,7 @@ pub(crate) use warnings::held_back;
 
 use crate::{
     Error, Scenario,
-    case::{Scheme, TargetClosure},
+    case::{BorderShearLaw, Scheme, TargetClosure},
     guard::{FirstChoice, Guard, NoseKind, Range},
     material::MaterialClass,
     model::{Control, Model},
@@ -55,7 +69,7 @@ impl Model for Chain {
             &Guard {
                 noses: &[NoseKind::Flat],
                 start_temperature: true,
-                ranges: &[Range::COLUMN],
+                separate_layers: true,
                 first_choice: &[FirstChoice {
                     projectile: ProjectileRegime::Deforming,
                     targets: &[
@@ -72,8 +86,12 @@ impl Model for Chain {
                 }],
                 notes: &[
                     "normal impact of a flat-ended rod",
-                    "the column of target in line with the rod stands for the target: the depth is only as good as the constraint \
-                     factor and the border shear that close it",
+                    "a thick target of one metal is an expanding cavity under the rod, unless the case says otherwise: the depth is only \
+                     as good as the theory of cavities",
+                    "every other target is the column in line with the rod: the depth is only as good as the constraint factor and \
+                     the border shear that close it",
+                    "a plate is perforated by a plug with `border_shear_law = \"shear-band\"`; without it a column can neither let go a \
+                     plug nor bend",
                 ],
                 ..Guard::OPEN
             }
@@ -83,19 +101,26 @@ impl Model for Chain {
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
         match scenario.options.chain.scheme {
             Scheme::Conservative if is_expanding(scenario) => expanding::not_applicable(scenario),
-            Scheme::Conservative => None,
+            Scheme::Conservative => {
+                fracture::not_applicable(scenario).or_else(|| plug::band_laws(scenario).err())
+            }
             Scheme::Published => Published::not_applicable(scenario),
         }
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        match scenario.options.chain.scheme {
+        let mut result = match scenario.options.chain.scheme {
             Scheme::Conservative if is_expanding(scenario) => {
-                expanding::Expanding::run(scenario, control)
+                expanding::Expanding::run(scenario, control)?
             }
-            Scheme::Conservative => Conservative::new(scenario).run(control),
-            Scheme::Published => Published::new(scenario)?.run(control),
+            Scheme::Conservative => Conservative::new(scenario).run(control)?,
+            Scheme::Published => Published::new(scenario)?.run(control)?,
+        };
+        if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction {
+            let thin = Range::COLUMN.finding(scenario);
+            result.warnings.splice(0..0, thin);
         }
+        Ok(result)
     }
 }
 

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use super::tate::USED_UP_STRAIN;
 use crate::{
     case::{ChainOptions, ConstraintFactor, ErosionClosure, Kinematics},
-    material::{Material, PreparedStrength, cavity_expansion_pressure},
+    material::{Material, PreparedFailure, PreparedStrength, cavity_expansion_pressure},
+    units::Quantity,
 };
 
 /// What a part is.
@@ -33,6 +34,12 @@ pub(super) struct Part {
     pub(super) start_temperature: f64,
     pub(super) rate_effects: bool,
     pub(super) kinematics: Kinematics,
+    /// Factor on the flow stress.
+    pub(super) constraint: f64,
+    /// When it parts in tension; `None` when it does not.
+    pub(super) failure: Option<Box<dyn PreparedFailure>>,
+    /// Energy that a crack takes to open, per area [J/m2].
+    pub(super) fracture_energy: f64,
     /// Border shear per length of element [N/m]; 0 for a projectile.
     pub(super) friction_per_length: f64,
 }
@@ -47,14 +54,8 @@ impl Part {
         factor: f64,
         options: &ChainOptions,
     ) -> Self {
-        let heat_fraction = options.heat_fraction.unwrap_or(0.9);
-        let heating = match material.specific_heat {
-            Some(heat) if options.adiabatic_heating.unwrap_or(true) => {
-                // What the constraint adds to the stress is work against the material around the column, not heat in it.
-                heat_fraction / (factor * material.density.si() * heat.si())
-            }
-            _ => 0.0,
-        };
+        // What the constraint adds to the stress is work against the material around the column, not heat in it.
+        let heating = heating(material, options, factor);
         let factor = match options.erosion_closure() {
             ErosionClosure::Strain => factor,
             // An element's force over the part of its length that is used up does the work of its flow stress over all of it.
@@ -73,6 +74,12 @@ impl Part {
             start_temperature: material.room_temperature.si(),
             rate_effects: options.rate_effects.unwrap_or(true),
             kinematics: options.kinematics(),
+            constraint: factor,
+            failure: options
+                .failure
+                .as_ref()
+                .and_then(|failure| failure.law().prepare(material)),
+            fracture_energy: options.fracture_energy.map_or(0.0, Quantity::si),
             friction_per_length: 0.0,
         }
     }
@@ -92,6 +99,16 @@ impl Part {
             Kinematics::Logarithmic => rest_length * (-strain).exp(),
             Kinematics::SmallStrain => rest_length * (1.0 - strain),
         }
+    }
+}
+
+/// Temperature rise per work per volume of a flow stress with a factor on it [K m3/J]; 0 without heating.
+pub(super) fn heating(material: &Material, options: &ChainOptions, factor: f64) -> f64 {
+    match material.specific_heat {
+        Some(heat) if options.adiabatic_heating.unwrap_or(true) => {
+            options.heat_fraction.unwrap_or(0.9) / (factor * material.density.si() * heat.si())
+        }
+        _ => 0.0,
     }
 }
 

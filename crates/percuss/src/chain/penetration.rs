@@ -71,7 +71,7 @@ impl State {
     /// It presses with the flow stress of the tip. What a tip that upsets brings to rest on the axis, `½ρ_p w²`, is part of the
     /// same force and not spread; once the projectile erodes, that part arrives element by element and comes on top of it.
     fn spread_load(&self, penetration: &Penetration) -> f64 {
-        let Some(tip) = self.tip_segment().filter(|&tip| self.closed[tip]) else {
+        let Some(tip) = self.tip_segment().filter(|&tip| self.joints[tip].closed) else {
             return 0.0;
         };
         let segment = self.segments[tip];

@@ -7,8 +7,9 @@ use super::{
     watch::Watch,
 };
 use crate::{
+    fragments::Fragment,
     history::Recorder,
-    outcome::{Numerics, RunResult, Termination},
+    outcome::{Detail, Numerics, RunResult, Termination},
     scenario::{Scenario, TargetBody},
 };
 
@@ -44,6 +45,8 @@ impl Results<'_> {
         let (mass, momentum) = state.projectile_motion();
         let depth = match scenario.target {
             TargetBody::RigidWall => None,
+            // What flies has no depth.
+            _ if state.left_the_plate() => None,
             // A crater floor that sprang back beyond the original face is no depth.
             _ => Some(
                 watch
@@ -51,15 +54,14 @@ impl Results<'_> {
                     .map_or(watch.largest_depth, |(_, depth)| depth.max(0.0)),
             ),
         };
-        let mut result = RunResult::new(
-            "chain",
-            "conservative",
-            watch.outcome(termination, state, scenario.impact_speed),
-            termination,
-        );
+        let (outcome, criterion) = watch.outcome(termination, state, scenario.impact_speed);
+        let mut result = RunResult::new("chain", "conservative", outcome, termination);
+        result.criterion = criterion;
         result.depth_of_penetration = depth;
         result.largest_depth = depth.map(|_| watch.largest_depth);
         result.permanent_depth = match scenario.target {
+            // The compression of a plug is not its depth.
+            _ if state.hold.is_some() => None,
             TargetBody::Layers { .. } => Some(remains.permanent_depth),
             TargetBody::ConstantPressure(_) => Some(watch.largest_depth),
             TargetBody::RigidWall => None,
@@ -70,6 +72,15 @@ impl Results<'_> {
         result.projectile_final_mass = Some(mass);
         result.time_to_rest = watch.at_rest.map(|(time, _)| time);
         result.peak_force = Some(watch.peak_force);
+        if state.left_the_plate() {
+            let (mass, velocity) = state.plug_motion();
+            result.plug_mass = Some(mass);
+            result.plug_velocity = Some(velocity);
+        }
+        result.contact_time = Some(watch.contact_time);
+        result.fragments = state.fragments();
+        result.details = self.details(&result.fragments);
+        result.details.extend(state.plug_details());
         result.end_time = Some(state.time);
         result.numerics = Some(Numerics {
             steps: state.step,
@@ -96,6 +107,26 @@ impl Results<'_> {
         result.history = recorder.map(|recorder| recorder.finish(state.sample(), state.profile()));
         result.warnings = warnings(scenario, &result, &reached, self.erosion_strain);
         result
+    }
+
+    /// What a run with pieces that fly has to say beyond the common numbers.
+    fn details(&self, fragments: &[Fragment]) -> Vec<Detail> {
+        let mut details = Vec::new();
+        let mut add = |name, unit, value| details.push(Detail { name, unit, value });
+        if let Some(first) = self.state.partings.first() {
+            add("cracks", "", self.state.partings.len() as f64);
+            add("first crack, initial position", "mm", first.position * 1e3);
+            add("first crack, time", "us", first.time * 1e6);
+        }
+        if fragments.len() > 1 {
+            let energy = self.state.energy();
+            let moving = energy.kinetic_projectile + energy.kinetic_target;
+            let elastic = energy.elastic_projectile + energy.elastic_target;
+            let flight: f64 = fragments.iter().map(Fragment::kinetic_energy).sum();
+            add("kinetic energy of free pieces", "J", flight);
+            add("energy of elastic waves", "J", moving + elastic - flight);
+        }
+        details
     }
 
     /// Extremes of every part, eroded elements included.

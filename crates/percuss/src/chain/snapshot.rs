@@ -24,6 +24,11 @@ impl State {
         let face = self
             .face_segment()
             .map(|face| self.nodes[self.segments[face].first_node]);
+        let back = self
+            .segments
+            .last()
+            .filter(|segment| self.parts[segment.part].role == Role::Target)
+            .map(|segment| self.nodes[segment.last_node]);
         let (mass, momentum) = self.projectile_motion();
         let length: f64 = projectile()
             .map(|segment| {
@@ -37,6 +42,7 @@ impl State {
             tip_velocity: tip.map_or(f64::NAN, |node| node.velocity),
             tail_velocity: tail.map_or(f64::NAN, |node| node.velocity),
             interface_velocity: face.map_or(f64::NAN, |node| node.velocity),
+            back_velocity: back.map_or(f64::NAN, |node| node.velocity),
             mean_velocity: momentum / mass,
             tip_position: tip.map_or(f64::NAN, |node| node.position),
             depth: self.depth(),
@@ -55,7 +61,7 @@ impl State {
         for segment in &self.segments {
             let part = &self.parts[segment.part];
             for e in segment.elements().step_by(stride) {
-                let node = e + segment.part;
+                let node = e + segment.shift;
                 elements.push(ElementState {
                     part: segment.part,
                     initial_position: self.elements[e].initial_position,

@@ -24,7 +24,10 @@ pub(super) struct StepControl {
     pub(super) courant: f64,
     pub(super) viscosity: ArtificialViscosity,
     pub(super) damping_ratio: f64,
+    pub(super) local_damping: f64,
     pub(super) erosion_strain: f64,
+    /// Whether anything may part in tension.
+    pub(super) fails: bool,
     /// Longest time step [s].
     pub(super) longest_step: f64,
 }
@@ -73,15 +76,29 @@ impl State {
             (control.courant * self.stable_step).min(control.longest_step),
         );
         self.collect_forces();
+        self.collect_band_forces();
+        self.pull_gaps();
         self.meet_target();
+        if control.local_damping > 0.0 {
+            self.damp_locally(control.local_damping);
+        }
         // Velocities live half a step behind positions: the kick spans the two half steps around the current time.
-        self.kick(0.5 * (previous + time_step), control.is_viscous());
+        let kick = 0.5 * (previous + time_step);
+        self.kick(kick, control.is_viscous());
+        if control.local_damping > 0.0 {
+            self.book_local_damping(kick);
+        }
         self.close_gaps(time_step);
         self.drift(control, time_step)?;
+        self.drift_plate(time_step);
         self.time += time_step;
         self.time_step = time_step;
         self.step += 1;
         self.erode(control.erosion_strain);
+        if control.fails {
+            self.damage(time_step);
+            self.part_where_failed();
+        }
         Ok(())
     }
 
@@ -117,7 +134,7 @@ impl State {
                 ..
             } = self.segments[s];
             let from = first_node + usize::from(joined_ahead);
-            let joined_behind = s < last_segment && self.closed[s];
+            let joined_behind = s < last_segment && self.joints[s].closed;
             let is_boundary = s == last_segment && self.end != End::Free;
             let to = last_node + 1 - usize::from(joined_behind || is_boundary);
             for i in from..to {
@@ -134,14 +151,16 @@ impl State {
         if viscous {
             self.book_viscous_work(kick);
         }
+        self.book_fracture(kick);
         self.book_target_turned_aside(kick);
+        self.kick_plate(kick);
     }
 
     fn book_viscous_work(&mut self, kick: f64) {
         let mut work = 0.0;
         for segment in &self.segments {
             for e in segment.elements() {
-                let (a, b) = (e + segment.part, e + segment.part + 1);
+                let (a, b) = (e + segment.shift, e + segment.shift + 1);
                 let before = self.nodes[a].velocity_before - self.nodes[b].velocity_before;
                 let after = self.nodes[a].velocity - self.nodes[b].velocity;
                 work += self.elements[e].viscous_force * 0.5 * (before + after) * kick;

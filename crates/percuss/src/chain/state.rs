@@ -1,11 +1,16 @@
 //! State of the chain: nodes joined by elements, in segments that touch, part or meet again.
 //!
 //! Position is measured from the struck face, positive into the target; force and stress are positive in compression.
-//! Part `p` has one node more than it has elements, so element `e` of part `p` joins the nodes `e + p` and `e + p + 1`.
+//! Every segment has one node more than it has elements, so element `e` joins the nodes `e + shift` and `e + shift + 1`, where the
+//! shift of the first segment is 0 and grows by one at every place where ends meet.
 
 use super::{
+    dishing::Dishing,
+    joint::Joint,
     part::{Part, Role},
     penetration::Penetration,
+    plug::Hold,
+    shear_band::Bands,
     tate::Tip,
 };
 use crate::{
@@ -34,11 +39,13 @@ pub(super) struct Segment {
     pub(super) part: usize,
     pub(super) first_node: usize,
     pub(super) last_node: usize,
+    /// Number of its first node less that of its first element.
+    pub(super) shift: usize,
 }
 
 impl Segment {
     pub(super) fn elements(self) -> std::ops::Range<usize> {
-        self.first_node - self.part..self.last_node - self.part
+        self.first_node - self.shift..self.last_node - self.shift
     }
 }
 
@@ -54,6 +61,8 @@ pub(super) struct Node {
     pub(super) force: f64,
     /// Force of the elements without viscosity [N].
     pub(super) spring_force: f64,
+    /// Force of local damping in this step, part of `force` [N].
+    pub(super) damping: f64,
     /// Largest friction force [N].
     pub(super) friction: f64,
 }
@@ -85,9 +94,22 @@ pub(super) struct Element {
     /// Initial position of its middle.
     pub(super) initial_position: f64,
     pub(super) eroded: bool,
+    /// Damage by the failure law; 1 is failed.
+    pub(super) damage: f64,
+    /// Whether its failure has parted it from a neighbour.
+    pub(super) parted: bool,
     /// Length of target that the tip has gone through [m], and its part in the last step.
     pub(super) advance: f64,
     pub(super) advance_step: f64,
+}
+
+/// A place where a body or a bonded interface has parted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Parting {
+    /// Initial position, struck face at 0 [m].
+    pub(super) position: f64,
+    /// [s].
+    pub(super) time: f64,
 }
 
 /// Work and impulse that have gone where the state itself does not show them.
@@ -101,9 +123,11 @@ pub(super) struct Books {
     pub(super) contact_loss: f64,
     pub(super) boundary_work: f64,
     pub(super) eroded_energy: f64,
+    pub(super) fracture_work: f64,
     pub(super) support_impulse: f64,
     pub(super) friction_impulse: f64,
     pub(super) eroded_momentum: f64,
+    pub(super) damping_impulse: f64,
 }
 
 /// Nodes, elements and books at one time. Node velocities stand half a step behind the positions.
@@ -112,8 +136,8 @@ pub(super) struct State {
     pub(super) parts: Vec<Part>,
     /// From the projectile's tail to the target's back.
     pub(super) segments: Vec<Segment>,
-    /// `closed[s]`: whether segments `s` and `s + 1` touch.
-    pub(super) closed: Vec<bool>,
+    /// `joints[s]`: what is between segments `s` and `s + 1`.
+    pub(super) joints: Vec<Joint>,
     pub(super) end: End,
     /// Force of a constant-pressure target on the projectile's tip [N]; 0 with any other target.
     pub(super) tip_friction: f64,
@@ -121,6 +145,8 @@ pub(super) struct State {
     pub(super) tip: Option<Tip>,
     /// What the tip has to overcome to penetrate a cone.
     pub(super) penetration: Option<Penetration>,
+    /// What holds a plug, in the place of friction.
+    pub(super) hold: Option<Hold>,
     /// Force of the target that is turned aside on the tip [N].
     pub(super) drag: f64,
     /// Initial position of the last node [m].
@@ -135,6 +161,10 @@ pub(super) struct State {
     pub(super) time_step: f64,
     /// Largest stable time step of the current state.
     pub(super) stable_step: f64,
+    /// Places where bodies and bonded interfaces have parted, in the order of time.
+    pub(super) partings: Vec<Parting>,
+    /// How often two ends have met.
+    pub(super) meetings: u64,
     pub(super) contact_force: f64,
     pub(super) back_force: f64,
     pub(super) books: Books,
@@ -219,20 +249,26 @@ impl State {
             }
         }
         let books = &self.books;
+        let bands = self.hold.as_ref().map(|hold| &hold.bands);
+        let plate = self.hold.as_ref().and_then(|hold| hold.plate.as_ref());
         EnergyLedger {
             initial: books.initial_energy,
             kinetic_projectile: kinetic[0],
             kinetic_target: kinetic[1],
             elastic_projectile: elastic[0],
-            elastic_target: elastic[1],
+            elastic_target: elastic[1] + bands.map_or(0.0, Bands::elastic_energy),
             plastic_projectile: books.plastic[0],
             plastic_target: books.plastic[1],
-            border_shear: books.friction_work,
+            border_shear: books.friction_work + bands.map_or(0.0, |bands| bands.books.work),
             viscous: books.viscous_work,
             contact: books.contact_loss,
             boundary: books.boundary_work,
             eroded: books.eroded_energy,
+            fracture: books.fracture_work,
             transfer: 0.0,
+            kinetic_plate: plate.map_or(0.0, Dishing::kinetic_energy),
+            elastic_plate: plate.map_or(0.0, Dishing::elastic_energy),
+            plastic_plate: plate.map_or(0.0, |plate| plate.plastic_work),
         }
     }
 
@@ -245,13 +281,21 @@ impl State {
             }
         }
         let books = &self.books;
+        let plate = self.hold.as_ref().and_then(|hold| hold.plate.as_ref());
+        // A plate that does not move hands the impulse of the bands on; one that does keeps what its support does not take.
+        let held_still = match (&self.hold, plate) {
+            (Some(hold), None) => hold.bands.books.impulse,
+            _ => 0.0,
+        };
         MomentumLedger {
             initial: books.initial_momentum,
             projectile: momentum[0],
             target: momentum[1],
-            support: books.support_impulse,
-            border_shear: books.friction_impulse,
+            support: books.support_impulse + plate.map_or(0.0, |plate| plate.support_impulse),
+            border_shear: books.friction_impulse + held_still,
             eroded: books.eroded_momentum,
+            plate: plate.map_or(0.0, Dishing::momentum),
+            damping: books.damping_impulse,
         }
     }
 }

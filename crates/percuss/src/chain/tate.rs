@@ -72,14 +72,15 @@ impl State {
             // Nothing is left to arrive.
             return None;
         }
-        let (node, other, partner) =
-            if left + 1 == segment.last_node && self.closed.get(s) == Some(&true) {
-                (left + 1, left, self.segments[s + 1].first_node)
-            } else if left == segment.first_node && s > 0 && self.closed[s - 1] {
-                (left, left + 1, self.segments[s - 1].last_node)
-            } else {
-                return None;
-            };
+        let (node, other, partner) = if left + 1 == segment.last_node
+            && self.joints.get(s).is_some_and(|joint| joint.closed)
+        {
+            (left + 1, left, self.segments[s + 1].first_node)
+        } else if left == segment.first_node && s > 0 && self.joints[s - 1].closed {
+            (left, left + 1, self.segments[s - 1].last_node)
+        } else {
+            return None;
+        };
         if tip.node != node && tip.node != partner {
             return None;
         }

@@ -20,6 +20,7 @@ fn scenario(projectile: &str, target: &str, velocity: f64, back_face: &str) -> S
             r#"
             projectile = {{ material = "{projectile}", length = "12.74 mm", diameter = "4.8 mm", velocity = "{velocity} m/s" }}
             target = {{ material = "{target}", thickness = "25 mm", back_face = "{back_face}" }}
+            chain.target_closure = "column"
             "#
         ),
     )
@@ -33,14 +34,16 @@ const CONTROL: StepControl = StepControl {
         quadratic: 1.5,
     },
     damping_ratio: 0.01,
+    local_damping: 0.0,
     erosion_strain: 2.0,
+    fails: false,
     longest_step: f64::INFINITY,
 };
 
 /// The same state seen in a mirror at the struck face.
 fn mirror(mut state: State) -> State {
     state.parts.reverse();
-    state.closed.reverse();
+    state.joints.reverse();
     state.nodes.reverse();
     state.elements.reverse();
     for node in &mut state.nodes {
@@ -58,6 +61,7 @@ fn mirror(mut state: State) -> State {
             part,
             first_node,
             last_node,
+            shift: part,
         });
         first_node = last_node + 1;
     }
@@ -147,6 +151,7 @@ fn depth_closing_gaps(velocity: f64, close: fn(&mut State, usize, usize)) -> f64
             r#"
             projectile = {{ material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "{velocity} m/s" }}
             target = {{ material = "aluminium-2024-t351", thickness = "50 mm" }}
+            chain.target_closure = "column"
             "#
         ),
     )
@@ -163,7 +168,7 @@ fn depth_closing_gaps(velocity: f64, close: fn(&mut State, usize, usize)) -> f64
             );
             if touching.is_some_and(|before| before != ends) {
                 close(&mut state, ends.0, ends.1);
-                state.closed[tip] = true;
+                state.joints[tip].closed = true;
             }
             touching = Some(ends);
             if state.projectile_motion().1 <= 0.0 {

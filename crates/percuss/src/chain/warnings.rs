@@ -2,15 +2,20 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::mesh;
+use super::{mesh, plug};
 use crate::{
-    case::{BackFace, ErosionClosure, TargetClosure},
+    case::{BackFace, BorderShearLaw, ErosionClosure, TargetClosure},
     material::{Material, Strength, cavity_expansion_pressure},
     outcome::{Outcome, RunResult},
     regime::THICK,
     scenario::{Plate, Scenario, TargetBody},
     units::{StrainRate, Temperature, Velocity, significant},
 };
+
+const OUT_OF_TIME: &str =
+    "the run was ended before the shot was over: raise `chain.end_time` or `chain.max_steps`";
+/// Part of the thickness of a plate that a crater may take before its back face has a say in an expanding cavity.
+const FREE_OF_BACK_FACE: f64 = 0.5;
 
 /// Warnings of a run, the weightiest first.
 pub(super) fn warnings(
@@ -21,9 +26,8 @@ pub(super) fn warnings(
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     match result.outcome {
-        Outcome::OutOfTime => warnings.push(
-            "the run was ended before the shot was over: raise `chain.end_time` or `chain.max_steps`".to_owned(),
-        ),
+        Outcome::OutOfTime => warnings.push(OUT_OF_TIME.to_owned()),
+        Outcome::Perforated if result.plug_mass.is_some() => {}
         Outcome::Perforated if result.numerics().eroded_elements.1 == scenario.options.chain.target_elements() => {
             warnings.push("the whole column of target eroded before the projectile did: give a thicker target".to_owned());
         }
@@ -35,8 +39,10 @@ pub(super) fn warnings(
         _ => {}
     }
     warnings.extend(held_back(scenario));
+    warn_of_plug(scenario, result, &mut warnings);
     warn_of_closure(scenario, result, &mut warnings);
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
+    warn_of_failure(scenario, result, &mut warnings);
     let heated = scenario.options.chain.adiabatic_heating.unwrap_or(true);
     let mut warn = |what: &str, material: &Material, reached: Option<&Reached>| {
         if let Some(reached) = reached {
@@ -56,6 +62,42 @@ pub(super) fn warnings(
     warnings
 }
 
+/// Warnings of a run with an expanding cavity for a target, the weightiest first.
+pub(super) fn warnings_of_cavity(
+    scenario: &Scenario,
+    result: &RunResult,
+    reached: &Reached,
+    erosion_strain: f64,
+) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if result.outcome == Outcome::OutOfTime {
+        warnings.push(OUT_OF_TIME.to_owned());
+    }
+    let depth = result.depth_of_penetration.unwrap_or(0.0);
+    if depth == 0.0 && scenario.impact_speed > 0.0 {
+        warnings.push("the target stays elastic: it keeps no dent".to_owned());
+    }
+    if depth > 0.0 {
+        warnings.push(
+            "the depth rests on the target closure `expanding-cavity`: nothing of it was fitted, but its forms were chosen on the shots \
+             that its expected error is of"
+                .to_owned(),
+        );
+    }
+    if let Some(thickness) = scenario.target_thickness()
+        && depth > FREE_OF_BACK_FACE * thickness
+    {
+        warnings.push(
+            "the crater is more than half as deep as the plate: the resistance is that of a target without a back face".to_owned(),
+        );
+    }
+    warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
+    let heated = scenario.options.chain.adiabatic_heating.unwrap_or(true);
+    let material = &scenario.projectile.material;
+    warn_of_material("projectile", material, reached, heated, &mut warnings);
+    warnings
+}
+
 /// What a held back face does to a plate that is not thick.
 pub(crate) fn held_back(scenario: &Scenario) -> Option<String> {
     let TargetBody::Layers {
@@ -71,6 +113,32 @@ pub(crate) fn held_back(scenario: &Scenario) -> Option<String> {
          \"free\" for a plate that the projectile may perforate"
             .to_owned()
     })
+}
+
+/// Part of the thickness beyond which a plate that dishes is more and more a membrane, which is left out.
+const LARGE_DISHING: f64 = 0.5;
+
+/// Whether a plate lets go a plug rests on the width and the failure of the shear band.
+fn warn_of_plug(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<String>) {
+    let detail = |name: &str| {
+        let found = result.details.iter().find(|detail| detail.name == name);
+        found.map(|detail| detail.value)
+    };
+    let Some(width) = detail(plug::WIDTH) else {
+        return;
+    };
+    warnings.push(format!(
+        "perforation rests on the shear band, {} mm wide, and on when it fails: compare with half and twice `chain.shear_band.width`, \
+         and with failure = \"never\"",
+        significant(width, 3)
+    ));
+    if let (Some(dishing), Some(thickness)) = (detail(plug::DISHING), scenario.target_thickness())
+        && dishing * 1e-3 > LARGE_DISHING * thickness
+    {
+        warnings.push(
+            "the plate dished by more than half its thickness: its resistance as a membrane is left out".to_owned(),
+        );
+    }
 }
 
 /// A column of target resists by its constraint factor and its border shear: both are closures, not results.
@@ -100,7 +168,9 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
         );
     } else if scenario.options.chain.target_closure() != TargetClosure::Column {
         warn_of_cone(scenario, layers, depth, warnings);
-    } else if scenario.options.chain.border_shear() > 0.0 {
+    } else if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction
+        && scenario.options.chain.border_shear() > 0.0
+    {
         warnings.push(format!(
             "the depth rests on the target closure (constraint factor and border shear C = {}): `chain.border_shear = 0.0` \
              gives the other end of the range",
@@ -193,6 +263,40 @@ fn warn_of_erosion(
     }
 }
 
+/// Bodies that cannot fail for want of numbers, and pieces that depend on the mesh.
+fn warn_of_failure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<String>) {
+    let Some(failure) = &scenario.options.chain.failure else {
+        return;
+    };
+    let mut without: Vec<&str> = Vec::new();
+    let mut look_at = |material: &Material, id| {
+        if failure.law().prepare(material).is_none() && !without.contains(&id) {
+            without.push(id);
+        }
+    };
+    let rod = &scenario.projectile;
+    look_at(&rod.material, &rod.material_id);
+    if let TargetBody::Layers { layers, .. } = &scenario.target {
+        for plate in layers {
+            look_at(&plate.material, &plate.material_id);
+        }
+    }
+    for id in without {
+        warnings.push(format!(
+            "`{id}` has no `{}`: it does not part",
+            failure.law().record_key()
+        ));
+    }
+    let energy = scenario.options.chain.fracture_energy;
+    if energy.is_none_or(|energy| energy.si() == 0.0) && result.fragments.len() > 3 {
+        warnings.push(
+            "cracks open at once: the first one is a result, the number of pieces and the smallest of them depend on the mesh; \
+             give `chain.fracture_energy`"
+                .to_owned(),
+        );
+    }
+}
+
 /// Extremes of a part.
 pub(super) struct Reached {
     pub(super) plastic_strain: f64,
@@ -201,6 +305,10 @@ pub(super) struct Reached {
     /// [K].
     pub(super) temperature: f64,
 }
+
+/// Part of the way from room temperature to melting that may be left: the strength goes with it, and with the strength the heat,
+/// so that nothing quite gets there.
+const NEARLY_MOLTEN: f64 = 0.01;
 
 fn warn_of_material(
     what: &str,
@@ -211,7 +319,8 @@ fn warn_of_material(
 ) {
     let flowed = reached.plastic_strain > 0.0;
     if let Some(melting) = material.melting_temperature
-        && reached.temperature >= melting.si()
+        && reached.temperature
+            >= melting.si() - NEARLY_MOLTEN * (melting.si() - material.room_temperature.si())
     {
         warnings.push(format!(
             "the {what} reached its melting point ({melting}): there the law has no strength"

@@ -1,9 +1,13 @@
 //! When a shot is over, and how it ended.
 
-use super::state::{End, State};
+use super::{
+    part::Role,
+    state::{End, State},
+};
 use crate::{
     outcome::{Outcome, Termination},
     scenario::{Scenario, TargetBody},
+    units::significant,
 };
 
 /// Part of the impact speed below which a projectile counts as stopped.
@@ -24,8 +28,14 @@ pub(super) struct Watch {
     pub(super) momentum_residual: f64,
     /// Time and depth at which the projectile's momentum was first used up.
     pub(super) at_rest: Option<(f64, f64)>,
+    /// Time at which the crater floor passed the original back face.
+    passed_back_face: Option<f64>,
+    /// Time during which the projectile touched the target [s].
+    pub(super) contact_time: f64,
     /// Whether the projectile touched the target at any time since the window began.
     touched: bool,
+    /// How often ends had met when the window began.
+    window_meetings: u64,
     window_start: f64,
     window_dissipation: f64,
     window_depth: f64,
@@ -33,7 +43,7 @@ pub(super) struct Watch {
 
 impl Watch {
     /// Keeps up extremes and the state of the projectile after a step.
-    pub(super) fn follow(&mut self, state: &State, impact_speed: f64) {
+    pub(super) fn follow(&mut self, state: &State, scenario: &Scenario) {
         let depth = state.depth();
         self.largest_depth = self.largest_depth.max(depth);
         self.peak_force = self.peak_force.max(state.contact_force);
@@ -42,14 +52,24 @@ impl Watch {
             self.smallest_time_step = state.time_step;
         }
         self.smallest_time_step = self.smallest_time_step.min(state.time_step);
+        if self.passed_back_face.is_none()
+            && scenario.target_thickness().is_some()
+            && state.passed_back_face()
+        {
+            self.passed_back_face = Some(state.time);
+        }
         let Some(tip) = state.tip_segment() else {
             return;
         };
-        self.touched |= state.tip_friction > 0.0 || state.closed.get(tip) == Some(&true);
+        let touches = state.tip_friction > 0.0 || state.joints.get(tip).is_some_and(|j| j.closed);
+        self.touched |= touches;
+        if touches {
+            self.contact_time += state.time_step;
+        }
         // The tail is the last to hear of the impact: no need to sum up before it slows down.
         let tail = state.segments[0].first_node;
         if self.at_rest.is_none()
-            && state.nodes[tail].velocity < 0.5 * impact_speed
+            && state.nodes[tail].velocity < 0.5 * scenario.impact_speed
             && state.projectile_motion().1 <= 0.0
         {
             self.at_rest = Some((state.time, depth));
@@ -68,10 +88,15 @@ impl Watch {
             + books.plastic[1]
             + books.friction_work
             + books.viscous_work
-            + books.eroded_energy;
+            + books.fracture_work
+            + books.eroded_energy
+            + state.plug_dissipation();
         let flow = (dissipation - self.window_dissipation) / books.initial_energy;
         let deepening = self.largest_depth > self.window_depth * (1.0 + 1e-9);
-        let touched = self.touched;
+        // Where the target is free to fly, its pieces count as well.
+        let met = state.end == End::Free && state.meetings != self.window_meetings;
+        let touched = self.touched || met;
+        self.window_meetings = state.meetings;
         self.window_start = state.time;
         self.window_dissipation = dissipation;
         self.window_depth = self.largest_depth;
@@ -80,81 +105,170 @@ impl Watch {
         if mass == 0.0 {
             return flow <= QUIET_FRACTION && !deepening;
         }
+        let meets =
+            |from: usize| approaches(state, from, end_time - state.time, scenario.impact_speed);
         if !touched {
-            return flow <= PARTED_FRACTION && !approaches(state, end_time - state.time);
+            return flow <= PARTED_FRACTION && !meets(0);
+        }
+        if state.left_the_plate()
+            && let (Some(tip), Some(face)) = (state.tip_segment(), state.face_segment())
+        {
+            // Projectile and plug may fly on together; pieces of one of them that meet among themselves change nothing.
+            let [tip_speed, face_speed] =
+                [tip, face].map(|s| state.mean_velocity(state.segments[s]));
+            let together = (tip_speed - face_speed).abs() <= REST_FRACTION * scenario.impact_speed;
+            let parted = !state.joints[tip].closed && !meets(0);
+            return flow <= PARTED_FRACTION && (parted || together && !meets(face));
         }
         // A projectile that is still being pushed back has not got its rebound speed yet.
         let still = (momentum / mass).abs() <= REST_FRACTION * scenario.impact_speed;
-        self.at_rest.is_some() && !deepening && still && flow <= QUIET_FRACTION
+        let layers_rest = || state.tip_segment().is_none_or(|tip| !meets(tip + 1));
+        self.at_rest.is_some() && !deepening && still && flow <= QUIET_FRACTION && layers_rest()
     }
 
-    /// How a run ended that was ended for a reason.
+    /// How a run ended that was ended for a reason, and what that was told by.
     pub(super) fn outcome(
         &self,
         termination: Termination,
         state: &State,
         impact_speed: f64,
-    ) -> Outcome {
+    ) -> (Outcome, String) {
         let (mass, momentum) = state.projectile_motion();
+        if let Some(time) = self.passed_back_face.filter(|_| state.hold.is_none()) {
+            let words = format!(
+                "the crater floor passed the original back face at {} us",
+                significant(time * 1e6, 4)
+            );
+            return (Outcome::Perforated, words);
+        }
         match termination {
-            Termination::PassedBackFace => return Outcome::Perforated,
-            Termination::NothingMoves => return Outcome::AtRest,
-            _ if mass == 0.0 => return Outcome::ProjectileEroded,
-            Termination::EndTime | Termination::StepLimit if self.at_rest.is_none() => {
-                return Outcome::OutOfTime;
+            Termination::NothingMoves => {
+                return (Outcome::AtRest, "the impact speed is zero".to_owned());
+            }
+            _ if mass == 0.0 => {
+                let words = "no element of the projectile is left".to_owned();
+                return (Outcome::ProjectileEroded, words);
             }
             _ => {}
         }
         let ratio = momentum / (mass * impact_speed);
+        let percent = REST_FRACTION * 100.0;
+        let speed = format!(
+            "the projectile's mean speed at the end is {} % of the impact speed",
+            significant(100.0 * ratio, 3)
+        );
+        // What flies free is held no more, however the run was ended.
+        if ratio > REST_FRACTION && state.left_the_plate() {
+            let words = match state.plug_free_since() {
+                Some(time) => format!(
+                    "the whole shear band had failed at {} us, and {speed}, above {percent} %",
+                    significant(time * 1e6, 4)
+                ),
+                None => format!(
+                    "{speed}, above {percent} %, and no border shear holds what is ahead of it"
+                ),
+            };
+            return (Outcome::Perforated, words);
+        }
+        let unfinished = matches!(termination, Termination::EndTime | Termination::StepLimit);
+        if unfinished && self.at_rest.is_none() && ratio > REST_FRACTION {
+            let words = "the projectile still moved forward when the run was ended";
+            return (Outcome::OutOfTime, words.to_owned());
+        }
+        // What a plate still holds does not move away for good.
+        if state.plug_is_held() && ratio > REST_FRACTION {
+            let words = format!("the shear band still holds the plug, although {speed}");
+            return (Outcome::AtRest, words);
+        }
         if ratio < -REST_FRACTION {
-            Outcome::Rebounded
+            let words = format!("{speed}, below -{percent} %");
+            (Outcome::Rebounded, words)
         } else if ratio > REST_FRACTION {
-            Outcome::Separated
+            let words = format!("{speed}, above {percent} %, and it touches the target no more");
+            (Outcome::Separated, words)
         } else {
-            Outcome::AtRest
+            (Outcome::AtRest, format!("{speed}, within {percent} %"))
         }
     }
 }
 
-/// Whether a piece of the projectile in free flight will meet what is ahead of it within a time.
-fn approaches(state: &State, horizon: f64) -> bool {
+/// Whether pieces in free flight will meet within a time at one of the joints from a given one on.
+///
+/// A target whose back face is held rings without end: there only layers that approach by a hundredth of the impact speed count.
+fn approaches(state: &State, from: usize, horizon: f64, impact_speed: f64) -> bool {
     let Some(tip) = state.tip_segment() else {
         return false;
     };
-    state
-        .closed
-        .iter()
-        .enumerate()
-        .take(tip + 1)
-        .any(|(s, closed)| {
-            let (behind, ahead) = (state.segments[s], state.segments[s + 1]);
-            let gap =
-                state.nodes[ahead.first_node].position - state.nodes[behind.last_node].position;
-            // A target that is held vibrates about its place; anything else flies at its mean speed.
-            let held = s == tip && state.end != End::Free;
-            let away = if held {
-                0.0
-            } else {
-                state.mean_velocity(ahead)
-            };
-            let approach = state.mean_velocity(behind) - away;
-            !closed && approach > 0.0 && gap < approach * horizon
-        })
+    let joints = state.joints.iter().enumerate().skip(from);
+    joints.filter(|(_, joint)| !joint.closed).any(|(s, _)| {
+        let (behind, ahead) = (state.segments[s], state.segments[s + 1]);
+        let gap = state.nodes[ahead.first_node].position - state.nodes[behind.last_node].position;
+        // A target that is held vibrates about its place; anything else flies at its mean speed.
+        let back_is_held = state.end != End::Free;
+        let is_held = back_is_held || state.plug_is_held();
+        if is_held && s > tip && behind.part == ahead.part {
+            return false;
+        }
+        let ahead_is_held = is_held && s == tip || back_is_held && s + 2 == state.segments.len();
+        let away = if ahead_is_held {
+            0.0
+        } else {
+            state.mean_velocity(ahead)
+        };
+        let least = if is_held && s > tip {
+            REST_FRACTION * impact_speed
+        } else {
+            0.0
+        };
+        let approach = state.mean_velocity(behind) - away;
+        approach > least && gap < approach * horizon
+    })
 }
 
 /// What ends a run at once; an error when the modelled part of a semi-infinite target is used up.
+///
+/// A crater floor that passes the back face ends a run only while border shear still acts on the column, which has left the plate then.
+/// What nothing holds flies on until its pieces have parted for good.
 pub(super) fn event(state: &State, scenario: &Scenario) -> Result<Option<Termination>, f64> {
     let TargetBody::Layers { layers, .. } = &scenario.target else {
         let gone = state.tip_segment().is_none();
         return Ok(gone.then_some(Termination::ProjectileConsumed));
     };
-    let thickness: Option<f64> = layers.iter().map(|plate| plate.thickness).sum();
-    match (thickness, state.face_segment()) {
-        (None, None) => Err(state.depth()),
-        (Some(_), None) => Ok(Some(Termination::PassedBackFace)),
-        (Some(thickness), Some(_)) if state.depth() >= thickness => {
+    let finite = layers.iter().all(|plate| plate.thickness.is_some());
+    match (finite, state.face_segment()) {
+        (false, None) => Err(state.depth()),
+        (true, None) => Ok(Some(Termination::PassedBackFace)),
+        // A plug that is still held, or that the projectile still pushes, is no end.
+        (true, Some(_))
+            if state.hold.is_none() && state.passed_back_face() && !state.flies_free() =>
+        {
             Ok(Some(Termination::PassedBackFace))
         }
         _ => Ok(None),
+    }
+}
+
+impl State {
+    /// Whether the crater floor has passed the original back face.
+    fn passed_back_face(&self) -> bool {
+        self.face_segment().is_none() || self.depth() >= self.back_position
+    }
+
+    /// Whether neither a back face nor border shear holds any of the target.
+    fn flies_free(&self) -> bool {
+        self.end == End::Free
+            && !self.plug_is_held()
+            && self.segments.iter().all(|segment| {
+                self.parts[segment.part].role == Role::Projectile
+                    || self.nodes[segment.first_node..=segment.last_node]
+                        .iter()
+                        .all(|node| node.friction == 0.0)
+            })
+    }
+
+    /// Whether the target was held by border shear, friction or a band, and flies free now: a plug.
+    pub(super) fn left_the_plate(&self) -> bool {
+        let rubbed = || self.parts.iter().any(|part| part.friction_per_length > 0.0);
+        (self.hold.is_some() || rubbed()) && self.flies_free()
     }
 }

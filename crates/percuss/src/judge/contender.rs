@@ -168,10 +168,15 @@ mod tests {
         let shot = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '900 m/s' }\n\
                     target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n";
         for (name, options, expected) in [
-            ("chain", "", Some("chain: column")),
+            ("chain", "", Some("chain: expanding-cavity")),
             (
                 "chain",
                 "chain.projectile_elements = 80",
+                Some("chain: expanding-cavity"),
+            ),
+            (
+                "chain",
+                "chain.target_closure = 'column'",
                 Some("chain: column"),
             ),
             (

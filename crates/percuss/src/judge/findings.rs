@@ -10,6 +10,8 @@ use crate::regime::ProjectileRegime;
 
 /// The paper's closure.
 const PAPER: &str = "chain: column";
+/// The closure whose forms were chosen with the reference in view.
+const NOT_BLIND: &str = "chain: expanding-cavity";
 
 /// Sentences that answer whether one dimension is enough: who errs least, how the paper's closure does, and where a one-dimensional
 /// closure has a median error of at most [`CLOSE`], either way.
@@ -30,6 +32,12 @@ pub fn findings(verdicts: &[Verdict]) -> Vec<String> {
             words(&errors)
         ));
         sentences.push(where_close(verdicts, closure.name));
+    }
+    if errors_of(verdicts, NOT_BLIND, all).is_some() {
+        sentences.push(format!(
+            "No constant of any model was fitted to the reference, but the forms of the parts of `{NOT_BLIND}` were chosen with it in \
+             view: its errors are not blind."
+        ));
     }
     if let Some(errors) = errors_of(verdicts, PAPER, all) {
         sentences.push(format!(

@@ -302,3 +302,29 @@ fn a_caller_can_stop_it() {
     let stopped = limits(&models, &scenario(BLUNT), &Search::default(), &mut watch);
     assert!(matches!(stopped, Err(Error::Cancelled { .. })));
 }
+
+/// The chain says by its shear band whether the plug is free: its limit is where it begins to be.
+#[test]
+fn the_chain_finds_the_limit_of_a_plug() {
+    let blunt = |chain: &str| {
+        scenario(&format!(
+            r#"
+            projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "300 m/s" }}
+            target = {{ material = "weldox-460-e", thickness = "12 mm", back_face = "free", plate_diameter = "500 mm" }}
+            chain = {{ projectile_elements = 20, target_elements = 12{chain} }}
+            "#
+        ))
+    };
+    let plug = blunt(", border_shear_law = \"shear-band\", dishing = true");
+    let found = one(&Chain, &plug, &search(40.0, 300.0, 4));
+    assert_eq!(found.outcome, LimitOutcome::Found, "{found:?}");
+    let limit = found.ballistic_limit_m_s.unwrap();
+    // By bracketing with a loop of its own, tests/plugging.rs has 108.2 m/s on this mesh.
+    assert!((limit - 108.2).abs() < 0.6, "{limit}");
+    let through = &found.curve;
+    assert!(
+        through
+            .windows(2)
+            .all(|pair| pair[0].residual_velocity_m_s < pair[1].residual_velocity_m_s)
+    );
+}

@@ -3,6 +3,7 @@
 mod cavity;
 mod damage;
 mod equation_of_state;
+mod failure;
 mod library;
 mod references;
 mod sanity;
@@ -22,6 +23,7 @@ use crate::units::{Density, Pressure, SpecificHeat, StrainRate, Temperature};
 pub use cavity::{cavity_expansion_pressure, cylindrical_cavity_pressure};
 pub use damage::{Damage, DamageState, PreparedDamage};
 pub use equation_of_state::EquationOfState;
+pub use failure::*;
 pub use library::{Library, MaterialEntry};
 pub use references::{Reference, references};
 pub use strength::*;
@@ -72,6 +74,9 @@ pub struct Material {
     /// Tensile stress at which the material spalls [Pa].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spall_strength: Option<Pressure>,
+    /// Cumulative failure in tension by the law of Tuler and Butcher.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tuler_butcher: Option<TulerButcher>,
     /// Specific heat [J/(kg K)]; needed for adiabatic heating.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub specific_heat: Option<SpecificHeat>,

@@ -96,6 +96,9 @@ impl Material {
         ] {
             self.check_ratio(check, key, what, stress.map(Pressure::si));
         }
+        if let Some(law) = &self.tuler_butcher {
+            law.check_numbers(&mut check.within("tuler_butcher"));
+        }
     }
 
     /// Whether the stress is a fraction of Young's modulus that a solid can have.

@@ -168,6 +168,7 @@ impl Properties {
             ultimate_strength: self.ultimate_strength.map(Pressure::new),
             brinell_hardness: self.brinell_hardness,
             spall_strength: None,
+            tuler_butcher: None,
             specific_heat: None,
             melting_temperature: None,
             room_temperature: Temperature::new(293.0),

@@ -143,6 +143,11 @@ dimensions! {
         unit("J/(kg K)", 1.0, &["J/kg/K", "J/kg K", "J/(kgK)", "J/kgK"]),
         unit("kJ/(kg K)", 1e3, &["kJ/kg/K", "kJ/kg K"]),
     ];
+    /// An energy per area [J/m2].
+    EnergyPerArea, OfEnergyPerArea, "energy per area", "an energy per area", "10 kJ/m2", show ["kJ/m2", "J/m2"], [
+        unit("J/m2", 1.0, &["N/m"]),
+        unit("kJ/m2", 1e3, &["N/mm"]),
+    ];
     /// A change per pressure [1/Pa].
     InversePressure, OfInversePressure, "change per stress", "a change per stress", "0.028 1/GPa", show ["1/GPa"], [
         unit("1/Pa", 1.0, &["/Pa"]),

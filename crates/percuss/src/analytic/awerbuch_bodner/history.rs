@@ -39,6 +39,7 @@ fn sample(
         tip_velocity: moment.speed,
         tail_velocity: moment.speed,
         interface_velocity: moment.speed,
+        back_velocity: f64::NAN,
         mean_velocity: moment.speed,
         tip_position: moment.depth,
         depth: moment.depth,

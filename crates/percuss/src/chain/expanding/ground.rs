@@ -12,6 +12,8 @@ pub(super) struct Ground {
     pub(super) nodes: Vec<Node>,
     springs: Vec<Spring>,
     pub(super) end: End,
+    /// It stays elastic, so it stays as cold as it is [K].
+    pub(super) temperature: f64,
     /// Force on what holds it [N], and its impulse [N s] and work [J].
     pub(super) back_force: f64,
     pub(super) support_impulse: f64,
@@ -48,7 +50,7 @@ impl Ground {
         grading: Grading,
         thickness: f64,
         count: usize,
-        (density, modulus): (f64, f64),
+        [density, modulus, temperature]: [f64; 3],
         end: End,
     ) -> Self {
         let depths = grading.nodes(0.0, thickness, count);
@@ -71,6 +73,7 @@ impl Ground {
             nodes,
             springs,
             end,
+            temperature,
             back_force: 0.0,
             support_impulse: 0.0,
             boundary_work: 0.0,

@@ -206,6 +206,7 @@ impl<'a> Expanding<'a> {
             &self.watch,
             termination,
             recorder,
+            self.erosion_strain,
         ))
     }
 
@@ -281,7 +282,11 @@ fn ground(scenario: &Scenario, plate: &Plate, area: f64, rod_elements: usize) ->
             stiffness: modulus * cone.stiffness_beyond(thickness),
         },
     };
-    let constants = (material.density.si(), modulus);
+    let constants = [
+        material.density.si(),
+        modulus,
+        material.room_temperature.si(),
+    ];
     let ground = Ground::new(cone, grading, thickness, count, constants, end);
     let smallest = grading.nodes(0.0, thickness, count);
     let smallest = smallest.windows(2).map(|pair| pair[1] - pair[0]);

@@ -1,10 +1,15 @@
 //! When a shot is over, and what comes of it.
 
-use super::{parted, state::State};
+use super::{
+    super::warnings::{Reached, warnings_of_cavity},
+    parted,
+    state::State,
+};
 use crate::{
     history::{ElementState, Profile, Recorder, Sample},
     outcome::{Numerics, Outcome, RunResult, Termination},
     scenario::Scenario,
+    units::significant,
 };
 
 /// Part of the impact speed below which a projectile counts as stopped.
@@ -26,6 +31,8 @@ pub(super) struct Watch {
     window_start: f64,
     window_depth: f64,
     touched: bool,
+    /// Time during which the projectile touched the floor [s].
+    contact_time: f64,
 }
 
 impl Watch {
@@ -37,7 +44,10 @@ impl Watch {
             self.smallest_time_step = state.time_step;
         }
         self.smallest_time_step = self.smallest_time_step.min(state.time_step);
-        self.touched |= !parted(state);
+        if !parted(state) {
+            self.touched = true;
+            self.contact_time += state.time_step;
+        }
         if self.at_rest.is_none() && state.rod.motion().1 <= 0.0 {
             self.at_rest = Some(state.time);
         }
@@ -71,21 +81,45 @@ impl Watch {
         (still && touched).then_some(Termination::Quiescent)
     }
 
-    fn outcome(&self, termination: Termination, state: &State, impact_speed: f64) -> Outcome {
+    /// How a run ended that was ended for a reason, and what that was told by.
+    fn outcome(
+        &self,
+        termination: Termination,
+        state: &State,
+        impact_speed: f64,
+    ) -> (Outcome, String) {
         let (mass, momentum) = state.rod.motion();
         match termination {
-            Termination::PassedBackFace => return Outcome::Perforated,
-            Termination::NothingMoves => return Outcome::AtRest,
-            _ if mass == 0.0 => return Outcome::ProjectileEroded,
+            Termination::PassedBackFace => {
+                let words = format!(
+                    "the crater floor passed the original back face at {} us",
+                    significant(state.time * 1e6, 4)
+                );
+                return (Outcome::Perforated, words);
+            }
+            Termination::NothingMoves => {
+                return (Outcome::AtRest, "the impact speed is zero".to_owned());
+            }
+            _ if mass == 0.0 => {
+                let words = "no element of the projectile is left".to_owned();
+                return (Outcome::ProjectileEroded, words);
+            }
             Termination::EndTime | Termination::StepLimit if self.at_rest.is_none() => {
-                return Outcome::OutOfTime;
+                let words = "the projectile still moved forward when the run was ended";
+                return (Outcome::OutOfTime, words.to_owned());
             }
             _ => {}
         }
-        if momentum < -REST_FRACTION * mass * impact_speed {
-            Outcome::Rebounded
+        let ratio = momentum / (mass * impact_speed);
+        let speed = format!(
+            "the projectile's mean speed at the end is {} % of the impact speed",
+            significant(100.0 * ratio, 3)
+        );
+        let percent = REST_FRACTION * 100.0;
+        if ratio < -REST_FRACTION {
+            (Outcome::Rebounded, format!("{speed}, below -{percent} %"))
         } else {
-            Outcome::AtRest
+            (Outcome::AtRest, format!("{speed}, not below -{percent} %"))
         }
     }
 }
@@ -96,9 +130,11 @@ pub(super) fn sum_up(
     watch: &Watch,
     termination: Termination,
     recorder: Option<Recorder>,
+    erosion_strain: f64,
 ) -> RunResult {
-    let outcome = watch.outcome(termination, state, scenario.impact_speed);
+    let (outcome, criterion) = watch.outcome(termination, state, scenario.impact_speed);
     let mut result = RunResult::new("chain", "conservative", outcome, termination);
+    result.criterion = criterion;
     let (mass, momentum) = state.rod.motion();
     let unloaded = state.rod.slices.iter().map(|slice| slice.unloaded());
     let (length, radius) = unloaded.fold((0.0, 0.0), |(length, widest), (own, radius)| {
@@ -113,8 +149,14 @@ pub(super) fn sum_up(
     result.projectile_final_mass = Some(mass);
     result.time_to_rest = watch.at_rest;
     result.peak_force = Some(watch.peak_force);
+    result.contact_time = Some(watch.contact_time);
     result.end_time = Some(state.time);
-    let [plastic_strain, _, temperature] = state.rod.reached();
+    let [plastic_strain, strain_rate, temperature] = state.rod.reached();
+    let reached = Reached {
+        plastic_strain,
+        strain_rate,
+        temperature,
+    };
     let options = &scenario.options.chain;
     result.numerics = Some(Numerics {
         steps: state.step,
@@ -123,34 +165,15 @@ pub(super) fn sum_up(
         elements: (options.projectile_elements(), options.target_elements()),
         eroded_elements: (state.eroded, 0),
         largest_plastic_strain: (plastic_strain, 0.0),
-        largest_temperature: (temperature, 0.0),
+        largest_temperature: (temperature, state.ground.temperature),
         energy: state.energy(),
         momentum: state.momentum(),
         energy_residual: watch.residuals[0],
         momentum_residual: watch.residuals[1],
     });
     result.history = recorder.map(|recorder| recorder.finish(sample(state), profile(state)));
-    result.warnings = warnings(scenario, state);
+    result.warnings = warnings_of_cavity(scenario, &result, &reached, erosion_strain);
     result
-}
-
-/// Parts of the depth of a plate within which its back face would have a say.
-const FREE_OF_BACK_FACE: f64 = 0.5;
-
-fn warnings(scenario: &Scenario, state: &State) -> Vec<String> {
-    let mut warnings = Vec::new();
-    let depth = state.floor.depth;
-    if depth == 0.0 && scenario.impact_speed > 0.0 {
-        warnings.push("the target stays elastic: it keeps no dent".to_owned());
-    }
-    if let Some(thickness) = scenario.target_thickness()
-        && depth > FREE_OF_BACK_FACE * thickness
-    {
-        warnings.push(
-            "the crater is more than half as deep as the plate: the resistance is that of a target without a back face".to_owned(),
-        );
-    }
-    warnings
 }
 
 pub(super) fn sample(state: &State) -> Sample {
@@ -164,6 +187,7 @@ pub(super) fn sample(state: &State) -> Sample {
         tip_velocity: velocity(tip),
         tail_velocity: velocity(tail),
         interface_velocity: state.ground.nodes[0].velocity + state.floor.speed,
+        back_velocity: velocity(state.ground.nodes.last()),
         mean_velocity: momentum / mass,
         tip_position: place(tip) + state.floor.lost_length,
         depth: state.position(),
@@ -203,7 +227,7 @@ pub(super) fn profile(state: &State) -> Profile {
         strain: spring.strain,
         plastic_strain: 0.0,
         diameter: 2.0 * (spring.area / std::f64::consts::PI).sqrt(),
-        temperature: f64::NAN,
+        temperature: state.ground.temperature,
     });
     Profile {
         time: state.time,

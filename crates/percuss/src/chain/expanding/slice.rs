@@ -243,18 +243,19 @@ impl Shear {
         time_step: f64,
     ) -> f64 {
         let length = 0.5 * (behind.length + ahead.length);
-        let area = 0.25 * PI * (behind.radius + ahead.radius).powi(2);
         let strain = (ahead.radial_velocity - behind.radial_velocity) * time_step / length;
         let trial = self.stress[1] + metal.shear_modulus * strain;
         // A slice that flows in shear all over turns as much work into heat as this stress at its outer radius would.
         let yield_stress = 0.5 * (behind.yield_stress() + ahead.yield_stress());
-        let limit = 4.0 / 3.0 * yield_stress / 3.0_f64.sqrt();
+        // A metal that melts has no strength, but for rounding to either side.
+        let limit = 4.0 / 3.0 * yield_stress.max(0.0) / 3.0_f64.sqrt();
         let stress = trial.clamp(-limit, limit);
         let step_before = self.plastic_step;
         self.plastic_step = (trial - stress) / metal.shear_modulus;
         self.stress = [self.stress[1], stress];
-        self.volume = area * length;
-        self.force = 0.5 * area * stress;
+        // Per volume at rest, as in the slices: the energy of a stress that stays must not change with the volume.
+        self.volume = 0.5 * (behind.rest_volume() + ahead.rest_volume());
+        self.force = 0.5 * self.volume / length * stress;
         0.25 * self.volume * self.stress[0] * (step_before + self.plastic_step)
     }
 }

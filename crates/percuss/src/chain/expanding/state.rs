@@ -228,7 +228,7 @@ impl State {
             contact: self.books.contact_loss,
             boundary: self.ground.boundary_work,
             eroded: self.books.eroded_energy,
-            transfer: 0.0,
+            ..EnergyLedger::default()
         }
     }
 
@@ -240,6 +240,7 @@ impl State {
             support: self.ground.support_impulse,
             border_shear: 0.0,
             eroded: self.books.eroded_momentum,
+            ..MomentumLedger::default()
         }
     }
 

@@ -33,7 +33,7 @@ impl Published<'_> {
             target: momentum(&self.target_velocity, self.target.mass),
             support: self.support_impulse,
             border_shear: self.friction_impulse,
-            eroded: 0.0,
+            ..MomentumLedger::default()
         };
         (energy, momentum)
     }
@@ -62,6 +62,7 @@ impl Published<'_> {
             tip_velocity: self.rod_velocity[0],
             tail_velocity: self.rod_velocity[count - 1],
             interface_velocity: self.target_velocity[0],
+            back_velocity: 0.0,
             mean_velocity: self.rod_velocity.iter().sum::<f64>() / count as f64,
             tip_position: self.rod_displacement[0],
             depth: self.target_displacement[0],

@@ -51,6 +51,8 @@ pub(super) fn single_plate(scenario: &Scenario) -> Option<(&Plate, f64, f64)> {
             layers,
             back_face: BackFace::Fixed,
             column_diameter,
+            separate_layers: false,
+            ..
         } => match layers.as_slice() {
             [plate] => Some((plate, plate.thickness?, *column_diameter)),
             _ => None,

@@ -74,8 +74,7 @@ impl<L: Law> Grid<L> {
             viscous: projectile.viscous + target.viscous,
             contact: self.books.contact_loss,
             boundary: self.books.boundary_work,
-            eroded: 0.0,
-            transfer: 0.0,
+            ..EnergyLedger::default()
         }
     }
 
@@ -102,7 +101,7 @@ impl<L: Law> Grid<L> {
             target: self.motion(1).1,
             support: self.books.support_impulse,
             border_shear: self.books.friction_impulse,
-            eroded: 0.0,
+            ..MomentumLedger::default()
         }
     }
 }

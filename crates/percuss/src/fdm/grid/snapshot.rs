@@ -52,6 +52,9 @@ impl<L: Law> Grid<L> {
             interface_velocity: self
                 .floor()
                 .map_or(f64::NAN, |floor| self.nodes[floor].velocity),
+            back_velocity: self
+                .floor()
+                .map_or(f64::NAN, |_| self.nodes[self.nodes.len() - 1].velocity),
             mean_velocity: momentum / mass,
             tip_position: tip.position,
             depth: self.depth(),

@@ -69,6 +69,7 @@ pub(super) fn build(scenario: &Scenario, options: &FdmOptions) -> Grid<RodLaw> {
             layers,
             back_face,
             column_diameter,
+            ..
         } => {
             let area = PI * column_diameter * column_diameter / 4.0;
             let factor = options

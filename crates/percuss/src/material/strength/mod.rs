@@ -19,6 +19,7 @@ pub use concrete::Concrete;
 pub use elastic::Elastic;
 pub use johnson_cook::{JohnsonCook, RateForm};
 pub use perfectly_plastic::PerfectlyPlastic;
+pub(crate) use perfectly_plastic::perfectly_plastic;
 pub use power_law::PowerLaw;
 pub use steinberg_guinan::SteinbergGuinan;
 

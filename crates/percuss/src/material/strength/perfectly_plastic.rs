@@ -35,11 +35,14 @@ impl PreparedStrength for Prepared {
     }
 }
 
+/// A law of one flow stress [Pa].
+pub(crate) fn perfectly_plastic(flow_stress: f64) -> Box<dyn PreparedStrength> {
+    Box::new(Prepared { flow_stress })
+}
+
 impl StrengthLaw for PerfectlyPlastic {
     fn prepare(&self, _: &Material, factor: f64) -> Box<dyn PreparedStrength> {
-        Box::new(Prepared {
-            flow_stress: factor * self.flow_stress.si(),
-        })
+        perfectly_plastic(factor * self.flow_stress.si())
     }
 
     fn flow_stress_at_unit_strain(&self, _: &Material) -> Option<f64> {

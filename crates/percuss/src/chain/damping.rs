@@ -1,0 +1,63 @@
+//! Local non-viscous damping: a force against the motion of every node, in proportion to the force that accelerates it
+//! \[cundall1987\].
+
+use super::state::State;
+
+impl State {
+    /// Adds the damping forces of a fraction of the unbalanced forces. Two ends in contact are one node.
+    pub(super) fn damp_locally(&mut self, fraction: f64) {
+        for node in &mut self.nodes {
+            node.damping = 0.0;
+        }
+        for segment in &self.segments {
+            for node in &mut self.nodes[segment.first_node..=segment.last_node] {
+                node.damping = against(fraction, node.force, node.velocity);
+            }
+        }
+        for s in 0..self.joints.len() {
+            if !self.joints[s].closed {
+                continue;
+            }
+            let (a, b) = (self.segments[s].last_node, self.segments[s + 1].first_node);
+            if self.is_fixed(b) {
+                // What stands still has nothing to damp.
+                self.nodes[a].damping = 0.0;
+                continue;
+            }
+            let mass = self.nodes[a].mass + self.nodes[b].mass;
+            let velocity = (self.nodes[a].mass * self.nodes[a].velocity
+                + self.nodes[b].mass * self.nodes[b].velocity)
+                / mass;
+            let force = self.nodes[a].force + self.nodes[b].force;
+            // Shared by mass, it leaves the force between the two as it is.
+            let damping = against(fraction, force, velocity) / mass;
+            self.nodes[a].damping = self.nodes[a].mass * damping;
+            self.nodes[b].damping = self.nodes[b].mass * damping;
+        }
+        let back = self.nodes.len() - 1;
+        if self.is_fixed(back) {
+            self.nodes[back].damping = 0.0;
+        }
+        for node in &mut self.nodes {
+            node.force += node.damping;
+        }
+    }
+
+    /// Books work and impulse of the damping forces over a kick.
+    pub(super) fn book_local_damping(&mut self, kick: f64) {
+        for node in &self.nodes {
+            let impulse = -node.damping * kick;
+            self.books.damping_impulse += impulse;
+            self.books.viscous_work += impulse * 0.5 * (node.velocity_before + node.velocity);
+        }
+    }
+}
+
+/// Force of damping on a node [N].
+fn against(fraction: f64, force: f64, velocity: f64) -> f64 {
+    if velocity == 0.0 {
+        0.0
+    } else {
+        -fraction * force.abs() * velocity.signum()
+    }
+}

@@ -1,0 +1,167 @@
+//! Fracture: bodies and bonded interfaces that part where their failure law says so.
+//!
+//! A body parts at a node, whose mass goes to its two elements: mass, momentum and energy stay what they are. The two ends touch
+//! until the next kick pulls them apart. An element parts from one of its neighbours only.
+
+use super::{
+    joint::{Bond, Joint},
+    state::{Element, Parting, Segment, State},
+};
+use crate::{
+    material::FailureState,
+    scenario::{Scenario, TargetBody},
+};
+
+/// Why the failure law of a case cannot be applied, if it cannot.
+pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
+    let failure = scenario.options.chain.failure.as_ref()?;
+    let mut materials = vec![&scenario.projectile.material];
+    if let TargetBody::Layers { layers, .. } = &scenario.target {
+        materials.extend(layers.iter().map(|plate| &plate.material));
+    }
+    let law = failure.law();
+    let has_none = materials
+        .iter()
+        .all(|material| law.prepare(material).is_none());
+    has_none.then(|| {
+        format!(
+            "the failure law `{}` has no numbers: give them in `chain.failure.{}`, or `{}` in the record of a material",
+            failure.key(),
+            failure.key(),
+            law.record_key()
+        )
+    })
+}
+
+impl State {
+    /// Brings the damage of every element up to the end of the step.
+    pub(super) fn damage(&mut self, time_step: f64) {
+        for segment in &self.segments {
+            let part = &self.parts[segment.part];
+            let Some(law) = &part.failure else { continue };
+            // The column is held sideways: σ = k Y and σ − σ_r = Y give a mean stress of (k − 2/3) Y.
+            let triaxiality = part.constraint - 2.0 / 3.0;
+            for element in &mut self.elements[segment.elements()] {
+                element.damage = law.damage(
+                    element.damage,
+                    &FailureState {
+                        tension: -element.stress,
+                        triaxiality: triaxiality.copysign(-element.stress),
+                        plastic_strain_increment: element.plastic_step.abs(),
+                        temperature: element.temperature,
+                    },
+                    time_step,
+                );
+            }
+        }
+    }
+
+    /// Parts segments and bonded interfaces where elements have failed and something pulls.
+    ///
+    /// One node a segment and step, the one whose two elements are damaged most: the new ends unload their neighbours.
+    pub(super) fn part_where_failed(&mut self) {
+        for s in 0..self.joints.len() {
+            if self.joints[s].bond == Bond::Unbroken {
+                let ahead = self.segments[s + 1].elements().start;
+                let behind = self.segments[s].elements().end;
+                if behind > self.segments[s].elements().start && self.fails(behind - 1, ahead) {
+                    self.joints[s].bond = self.part(s, behind - 1, ahead);
+                }
+            }
+        }
+        let mut s = 0;
+        while s < self.segments.len() {
+            if self.parts[self.segments[s].part].failure.is_some()
+                && let Some(element) = self.weakest(s)
+            {
+                self.split(s, element);
+                s += 1;
+            }
+            s += 1;
+        }
+    }
+
+    /// Mean damage of two neighbouring elements.
+    fn damage_between(&self, behind: usize, ahead: usize) -> f64 {
+        0.5 * (self.elements[behind].damage + self.elements[ahead].damage)
+    }
+
+    /// Whether the node between two elements parts: one of them has failed, and something pulls.
+    fn fails(&self, behind: usize, ahead: usize) -> bool {
+        let pull = self.elements[behind].axial_force + self.elements[ahead].axial_force;
+        pull < 0.0
+            && [behind, ahead]
+                .iter()
+                .any(|&e| self.elements[e].has_failed())
+    }
+
+    /// The element ahead of the node of a segment that has failed most, if one has.
+    fn weakest(&self, s: usize) -> Option<usize> {
+        let elements = self.segments[s].elements();
+        (elements.start + 1..elements.end)
+            .filter(|&e| self.fails(e - 1, e))
+            .max_by(|&a, &b| {
+                self.damage_between(a - 1, a)
+                    .total_cmp(&self.damage_between(b - 1, b))
+            })
+    }
+
+    /// Books a parting between two elements and returns the crack that opens there.
+    fn part(&mut self, s: usize, behind: usize, ahead: usize) -> Bond {
+        let after = &self.elements[ahead];
+        self.partings.push(Parting {
+            position: after.initial_position - 0.5 * after.rest_length,
+            time: self.time,
+        });
+        for e in [behind, ahead] {
+            self.elements[e].parted |= self.elements[e].has_failed();
+        }
+        let part = &self.parts[self.segments[s].part];
+        let (behind, ahead) = (&self.elements[behind], &self.elements[ahead]);
+        let strength = -0.5 * (behind.axial_force + ahead.axial_force);
+        let area = behind.rest_area.min(ahead.rest_area);
+        Bond::crack(strength, part.fracture_energy * area)
+    }
+
+    /// Parts segment `s` before an element.
+    fn split(&mut self, s: usize, element: usize) {
+        let segment = self.segments[s];
+        let friction_per_length = self.parts[segment.part].friction_per_length;
+        let bond = self.part(s, element - 1, element);
+        let node = element + segment.shift;
+        let mut ahead = self.nodes[node];
+        ahead.mass = self.elements[element].end_masses[0];
+        let share = 0.5 * friction_per_length * self.elements[element].rest_length;
+        ahead.friction = ahead.friction.min(share);
+        let behind = &mut self.nodes[node];
+        behind.mass -= ahead.mass;
+        behind.friction -= ahead.friction;
+        self.nodes.insert(node + 1, ahead);
+        if let Some(hold) = &mut self.hold {
+            hold.bands.part(node);
+        }
+        self.segments[s].last_node = node;
+        for later in &mut self.segments[s + 1..] {
+            later.first_node += 1;
+            later.last_node += 1;
+            later.shift += 1;
+        }
+        self.segments.insert(
+            s + 1,
+            Segment {
+                first_node: node + 1,
+                last_node: segment.last_node + 1,
+                shift: segment.shift + 1,
+                ..segment
+            },
+        );
+        self.joints.insert(s, Joint::new(true, bond));
+    }
+}
+
+impl Element {
+    /// Whether it has failed and not yet parted from a neighbour.
+    fn has_failed(&self) -> bool {
+        self.damage >= 1.0 && !self.parted
+    }
+}

@@ -1,0 +1,255 @@
+//! Section of a plate that bends: moments from curvatures, inside a yield surface.
+
+use std::f64::consts::PI;
+
+use crate::{
+    case::ChainOptions,
+    material::{FlowState, Material, PreparedStrength},
+};
+
+/// Part of the transverse shear stiffness that a rectangular section has \[mindlin1951\].
+const SHEAR_CORRECTION: f64 = 5.0 / 6.0;
+/// Part of the moment to which the yield surface is met.
+const TOLERANCE: f64 = 1e-10;
+/// Steps of a secant that is kept in its bracket; far more than it needs.
+const MOST_ITERATIONS: u32 = 100;
+
+/// What is the same for all rings of a plate.
+#[derive(Debug)]
+pub(super) struct PlateSection {
+    thickness: f64,
+    poissons_ratio: f64,
+    density: f64,
+    /// Bending stiffness D [N m].
+    bending: f64,
+    /// Transverse shear stiffness [N/m].
+    shear: f64,
+    strength: Box<dyn PreparedStrength>,
+    /// Temperature rise per plastic work per volume [K m3/J].
+    heating: f64,
+    rate_effects: bool,
+    start_temperature: f64,
+}
+
+impl PlateSection {
+    pub(super) fn new(material: &Material, thickness: f64, options: &ChainOptions) -> Self {
+        let nu = material.poissons_ratio;
+        Self {
+            thickness,
+            poissons_ratio: nu,
+            density: material.density.si(),
+            bending: material.youngs_modulus.si() * thickness.powi(3) / (12.0 * (1.0 - nu * nu)),
+            shear: SHEAR_CORRECTION * material.shear_modulus() * thickness,
+            strength: material.strength.law().prepare(material, 1.0),
+            heating: super::part::heating(material, options, 1.0),
+            rate_effects: options.rate_effects.unwrap_or(true),
+            start_temperature: material.room_temperature.si(),
+        }
+    }
+
+    /// Longest stable time step with rings of a width at a radius and beyond [s].
+    ///
+    /// The energy of a ring is at most that of its bending and twice those of its slope and of its rotation in shear.
+    pub(super) fn stable_step(&self, width: f64, radius: f64) -> f64 {
+        let areal = self.density * self.thickness;
+        let rotary = areal * self.thickness * self.thickness / 12.0;
+        let slope = 8.0 * self.shear / (areal * width * width);
+        let curvature = 4.0 / (width * width) + 1.0 / (radius * radius);
+        let bending = (1.0 + self.poissons_ratio) * self.bending * curvature;
+        let turn = (bending + 2.0 * self.shear) / rotary;
+        2.0 / slope.max(turn).sqrt()
+    }
+
+    /// Fully plastic moment of a flow stress, times the stress.
+    fn modulus(&self) -> f64 {
+        0.25 * self.thickness * self.thickness
+    }
+}
+
+/// A ring of a plate. Moments are kept as their sum and their difference, which the elastic law does not mix.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ring {
+    /// Of its middle [m].
+    pub(super) radius: f64,
+    /// [m].
+    pub(super) width: f64,
+    sum: f64,
+    difference: f64,
+    shear: f64,
+    sum_before: f64,
+    difference_before: f64,
+    shear_before: f64,
+    /// Plastic curvatures: sum and difference, and those of the last step.
+    plastic: [f64; 2],
+    plastic_step: [f64; 2],
+    /// Mean equivalent plastic strain of the section.
+    plastic_strain: f64,
+    temperature: f64,
+}
+
+impl Ring {
+    pub(super) fn new(section: &PlateSection, radius: f64, width: f64) -> Self {
+        Self {
+            radius,
+            width,
+            sum: 0.0,
+            difference: 0.0,
+            shear: 0.0,
+            sum_before: 0.0,
+            difference_before: 0.0,
+            shear_before: 0.0,
+            plastic: [0.0; 2],
+            plastic_step: [0.0; 2],
+            plastic_strain: 0.0,
+            temperature: section.start_temperature,
+        }
+    }
+
+    /// Area of the ring in the plane of the plate [m2].
+    fn area(&self) -> f64 {
+        2.0 * PI * self.radius * self.width
+    }
+
+    /// Force on its inner circle, the opposite of that on its outer one, and the moments on both.
+    pub(super) fn loads(&self) -> (f64, [f64; 2]) {
+        let radial = 0.5 * (self.sum + self.difference);
+        let hoop = 0.5 * (self.sum - self.difference);
+        let common = 0.5 * hoop / self.radius + 0.5 * self.shear;
+        let ends = radial / self.width;
+        (
+            self.shear * self.area() / self.width,
+            [
+                (ends - common) * self.area(),
+                (-ends - common) * self.area(),
+            ],
+        )
+    }
+
+    /// Whether an update without motion would change nothing.
+    pub(super) fn is_settled(&self) -> bool {
+        self.plastic_step == [0.0; 2]
+            && self.sum == self.sum_before
+            && self.difference == self.difference_before
+            && self.shear == self.shear_before
+    }
+
+    /// Brings the ring to new deflections and rotations of its circles and returns the plastic work between the half steps around
+    /// the current time [J].
+    pub(super) fn deform(
+        &mut self,
+        section: &PlateSection,
+        deflections: [f64; 2],
+        rotations: [f64; 2],
+        time_step: f64,
+    ) -> f64 {
+        let radial = (rotations[1] - rotations[0]) / self.width;
+        let hoop = 0.5 * (rotations[0] + rotations[1]) / self.radius;
+        let slope = (deflections[1] - deflections[0]) / self.width;
+        self.sum_before = self.sum;
+        self.difference_before = self.difference;
+        self.shear_before = self.shear;
+        self.shear = section.shear * (slope + 0.5 * (rotations[0] + rotations[1]));
+        let stiffness = section.bending;
+        let nu = section.poissons_ratio;
+        self.sum = stiffness * (1.0 + nu) * (radial + hoop - self.plastic[0]);
+        self.difference = stiffness * (1.0 - nu) * (radial - hoop - self.plastic[1]);
+        let before = self.plastic_step;
+        self.plastic_step = [0.0; 2];
+        self.flow(section, time_step);
+        let steps = [
+            before[0] + self.plastic_step[0],
+            before[1] + self.plastic_step[1],
+        ];
+        // M_r κ_r + M_θ κ_θ is half of what sums and differences give; half of the two steps belongs to this time.
+        0.25 * (self.sum_before * steps[0] + self.difference_before * steps[1]) * self.area()
+    }
+
+    /// Returns trial moments to the yield surface.
+    fn flow(&mut self, section: &PlateSection, time_step: f64) {
+        let (sum, difference) = (self.sum, self.difference);
+        let nu = section.poissons_ratio;
+        let returned = |multiplier: f64| {
+            (
+                sum / (1.0 + multiplier * (1.0 + nu)),
+                difference / (1.0 + 3.0 * multiplier * (1.0 - nu)),
+            )
+        };
+        let equivalent = |(sum, difference): (f64, f64)| {
+            0.5 * (sum * sum + 3.0 * difference * difference).sqrt()
+        };
+        // Work per area is σ h Δε with σ = 4M/h²: a curvature Δκ has the mean strain h Δκ/4.
+        let strain = |multiplier: f64| {
+            let moment = equivalent(returned(multiplier));
+            0.5 * section.thickness * multiplier * moment / section.bending
+        };
+        let excess = |multiplier: f64| {
+            let increment = strain(multiplier);
+            let state = FlowState {
+                plastic_strain: self.plastic_strain + increment,
+                strain_rate: match section.rate_effects {
+                    true => increment / time_step,
+                    false => 0.0,
+                },
+                temperature: self.temperature,
+                pressure: 0.0,
+            };
+            let limit = section.modulus() * section.strength.flow_stress(&state).stress;
+            equivalent(returned(multiplier)) - limit
+        };
+        let scale = equivalent((sum, difference));
+        let slow = excess(0.0);
+        if slow <= 0.0 {
+            return;
+        }
+        let (mut low, mut over) = (0.0, slow);
+        let mut high = 2.0 * slow / (scale * (1.0 - nu));
+        let mut under = excess(high);
+        while under > 0.0 {
+            (low, over) = (high, under);
+            high *= 2.0;
+            under = excess(high);
+        }
+        let mut multiplier = high;
+        let mut kept = 0;
+        for _ in 0..MOST_ITERATIONS {
+            multiplier = (low * under - high * over) / (under - over);
+            let value = excess(multiplier);
+            if value.abs() <= TOLERANCE * scale {
+                break;
+            }
+            if value > 0.0 {
+                (low, over) = (multiplier, value);
+                if kept == 1 {
+                    under *= 0.5;
+                }
+                kept = 1;
+            } else {
+                (high, under) = (multiplier, value);
+                if kept == -1 {
+                    over *= 0.5;
+                }
+                kept = -1;
+            }
+        }
+        let increment = strain(multiplier);
+        (self.sum, self.difference) = returned(multiplier);
+        self.plastic_step = [
+            (sum - self.sum) / (section.bending * (1.0 + nu)),
+            (difference - self.difference) / (section.bending * (1.0 - nu)),
+        ];
+        self.plastic[0] += self.plastic_step[0];
+        self.plastic[1] += self.plastic_step[1];
+        self.plastic_strain += increment;
+        let stress = equivalent((self.sum, self.difference)) / section.modulus();
+        self.temperature += section.heating * stress * increment;
+    }
+
+    /// Elastic energy between two steps [J]: the form that central differences conserve.
+    pub(super) fn elastic_energy(&self, section: &PlateSection) -> f64 {
+        let nu = section.poissons_ratio;
+        let bending = self.sum_before * self.sum / (section.bending * (1.0 + nu))
+            + self.difference_before * self.difference / (section.bending * (1.0 - nu));
+        let shear = self.shear_before * self.shear / section.shear;
+        (0.25 * bending + 0.5 * shear) * self.area()
+    }
+}

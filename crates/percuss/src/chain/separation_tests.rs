@@ -1,0 +1,146 @@
+//! What only the state of the chain can show of bodies that part and meet again.
+
+use super::{mesh, solver::StepControl, state::State};
+use crate::{
+    Scenario,
+    case::{self, ArtificialViscosity},
+};
+
+const CONTROL: StepControl = StepControl {
+    courant: 0.5,
+    viscosity: ArtificialViscosity {
+        linear: 0.0,
+        quadratic: 0.0,
+    },
+    damping_ratio: 0.0,
+    local_damping: 0.0,
+    erosion_strain: 1.0,
+    fails: true,
+    longest_step: f64::INFINITY,
+};
+
+fn scenario(failure: &str, layers: &str, speed: f64) -> Scenario {
+    case::load_str(
+        "test",
+        &format!(
+            r#"
+            projectile = {{ material = "4340", length = "15 mm", diameter = "8 mm", velocity = "{speed} m/s" }}
+            target = {{ layers = [{layers}], back_face = "free" }}
+            [chain]
+            border_shear = 0.0
+            projectile_elements = 30
+            target_elements = 60
+            {failure}
+            [materials.brittle]
+            name = "brittle"
+            density = "2700 kg/m3"
+            youngs_modulus = "70 GPa"
+            poissons_ratio = 0.33
+            strength.perfectly_plastic = {{ flow_stress = "300 MPa" }}
+            damage = {{ d1 = 0.02, d2 = 0.02, d3 = -1.5 }}
+            "#
+        ),
+    )
+    .unwrap_or_else(|error| panic!("{error}"))
+}
+
+const LAYERS: &str = r#"
+    { material = "aluminium-2024-t351", thickness = "6 mm" },
+    { material = "4340", thickness = "4 mm", gap = "0.3 mm", column_diameter = "12 mm" },
+    { material = "brittle", thickness = "3 mm", interface = "bonded" },
+    { material = "copper", thickness = "6 mm", gap = "0.1 mm" }"#;
+
+/// How often ends had met, bodies had parted and elements had eroded when a time was over; the books are looked at in every step.
+fn run(scenario: &Scenario, control: &StepControl, until: f64) -> (State, usize) {
+    let mut state = mesh::build(scenario);
+    let mass: f64 = state.nodes.iter().map(|node| node.mass).sum();
+    while state.time < until {
+        state.advance(control).unwrap();
+        let (energy, momentum) = (state.energy(), state.momentum());
+        assert!(
+            energy.residual().abs() <= 1e-3,
+            "{} at {}",
+            energy.residual(),
+            state.time
+        );
+        assert!(
+            momentum.residual().abs() <= 1e-12,
+            "{}",
+            momentum.residual()
+        );
+        for work in [
+            energy.contact,
+            energy.fracture,
+            energy.plastic_target,
+            energy.viscous,
+        ] {
+            assert!(
+                work >= -1e-6 * energy.initial,
+                "a dissipative line gives energy back: {energy:?}"
+            );
+        }
+    }
+    let eroded = state
+        .elements
+        .iter()
+        .filter(|element| element.eroded)
+        .count();
+    let left: f64 = state
+        .segments
+        .iter()
+        .flat_map(|s| &state.nodes[s.first_node..=s.last_node])
+        .map(|node| node.mass)
+        .sum();
+    let gone: f64 = state
+        .elements
+        .iter()
+        .filter(|element| element.eroded)
+        .map(|element| element.end_masses[0] + element.end_masses[1])
+        .sum();
+    assert!(((left + gone) / mass - 1.0).abs() < 1e-12);
+    (state, eroded)
+}
+
+#[test]
+fn the_books_close_through_partings_erosion_and_meetings() {
+    for (failure, speed) in [
+        ("failure = { spall = { strength = \"0.6 GPa\" } }", 250.0),
+        (
+            "failure = { spall = { strength = \"0.6 GPa\" } }\nfracture_energy = \"2 kJ/m2\"",
+            250.0,
+        ),
+        (
+            "failure = { tuler_butcher = { threshold = \"0.3 GPa\", exponent = 2.0, time_at_twice_threshold = \"0.2 us\" } }",
+            250.0,
+        ),
+        ("failure = { johnson_cook = {} }", 700.0),
+        ("failure = { spall = { strength = \"0.6 GPa\" } }", 900.0),
+    ] {
+        let (state, eroded) = run(&scenario(failure, LAYERS, speed), &CONTROL, 60e-6);
+        println!(
+            "{failure} at {speed} m/s: {} meetings, {} partings, {eroded} eroded, {} pieces, energy off by {:.1e}",
+            state.meetings,
+            state.partings.len(),
+            state.fragments().len(),
+            state.energy().residual()
+        );
+        assert!(state.meetings >= 5 && !state.partings.is_empty());
+        assert!(speed < 800.0 || eroded > 0);
+        // What is listed is all that is left.
+        let momentum = state.momentum();
+        let listed: f64 = state.fragments().iter().map(|f| f.mass * f.velocity).sum();
+        let off = listed - momentum.projectile - momentum.target;
+        assert!(off.abs() < 1e-12 * momentum.initial);
+    }
+}
+
+#[test]
+fn local_damping_keeps_the_books() {
+    let control = StepControl {
+        local_damping: 0.4,
+        ..CONTROL
+    };
+    let failure = "failure = { spall = { strength = \"0.6 GPa\" } }";
+    let (state, _) = run(&scenario(failure, LAYERS, 250.0), &control, 40e-6);
+    assert!(state.momentum().damping != 0.0 && state.energy().viscous > 0.0);
+}

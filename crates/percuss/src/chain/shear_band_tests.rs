@@ -1,0 +1,164 @@
+//! One band that is driven by hand.
+
+use super::*;
+use crate::{case, scenario::TargetBody};
+
+const SPEED: f64 = 100.0;
+const LENGTH: f64 = 0.002;
+const PERIMETER: f64 = 0.06;
+
+fn law(chain: &str) -> Result<BandLaw, String> {
+    let scenario = case::load_str(
+        "band",
+        &format!(
+            r#"
+            projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "{SPEED} m/s" }}
+            target = {{ material = "weldox-460-e", thickness = "12 mm", back_face = "free" }}
+            [chain]
+            border_shear_law = "shear-band"
+            {chain}
+            "#
+        ),
+    )
+    .unwrap_or_else(|error| panic!("{error}"));
+    let TargetBody::Layers { layers, .. } = &scenario.target else {
+        panic!("no plate");
+    };
+    BandLaw::new(&layers[0], 0.01, SPEED, &scenario.options.chain)
+}
+
+/// Slides a node at a constant speed until its band has ended; returns the bands, the work of the force, and stresses against strains.
+fn slide(law: BandLaw, back: f64) -> (Bands, f64, Vec<[f64; 2]>) {
+    let width = law.width;
+    let mut bands = Bands::new(vec![law], PERIMETER, back);
+    bands.hold(0, 0.0, [0.0, LENGTH], 0);
+    let mut nodes = vec![Node {
+        mass: 1.0,
+        velocity: SPEED,
+        ..Node::default()
+    }];
+    let step = 2e-9;
+    let (mut work, mut time, mut curve) = (0.0, 0.0, Vec::new());
+    while bands.hold_any() && time < 1e-3 {
+        nodes[0].force = 0.0;
+        let force = bands.pull(&mut nodes);
+        assert_eq!(nodes[0].force, -force);
+        work += force * SPEED * step;
+        let stress = bands.bands[0].stress;
+        curve.push([nodes[0].position / width, stress]);
+        nodes[0].position += SPEED * step;
+        time += step;
+        bands.update(&nodes, 0.0, step, time);
+    }
+    (bands, work, curve)
+}
+
+#[test]
+fn its_energy_is_the_integral_of_its_stress_over_slip_and_area() {
+    for (chain, back) in [
+        ("", 0.1),
+        ("shear_band = { failure = \"instability\" }", 0.1),
+        ("shear_band = { failure = \"never\" }", LENGTH),
+        (
+            "shear_band = { width = \"0.2 mm\", failure_strain = 3.0 }",
+            0.1,
+        ),
+    ] {
+        let law = law(chain).unwrap();
+        let width = law.width;
+        let (bands, work, curve) = slide(law, back);
+        let integral: f64 = curve
+            .windows(2)
+            .map(|pair| {
+                let slip = 0.5 * (pair[0][0] + pair[1][0]) * width;
+                let held = if back < 0.1 { LENGTH - slip } else { LENGTH };
+                let stress = 0.5 * (pair[0][1] + pair[1][1]);
+                stress * PERIMETER * held * (pair[1][0] - pair[0][0]) * width
+            })
+            .sum();
+        println!(
+            "{chain}: {:.5} J, integral {integral:.5}, by force {work:.5}",
+            bands.books.work
+        );
+        assert!((bands.books.work / integral - 1.0).abs() < 1e-3);
+        assert!((work / integral - 1.0).abs() < 1e-3);
+        assert!(bands.books.last_end.is_some());
+    }
+}
+
+/// At a constant rate the band follows the adiabatic curve by which its width was found, and is strongest where that curve is.
+#[test]
+fn its_stress_is_largest_at_the_instability() {
+    let law = law("shear_band = { failure = \"never\" }").unwrap();
+    let sheared = Sheared {
+        strength: &*law.strength,
+        heating: law.heating,
+        temperature: law.start_temperature,
+        rate_effects: true,
+    };
+    let strain = SQRT_3 * sheared.instability(law.width, SPEED).unwrap();
+    let (_, _, curve) = slide(law, LENGTH);
+    let largest = curve.iter().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
+    println!(
+        "largest {:.1} MPa at {:.4}, instability {strain:.4}",
+        largest[1] * 1e-6,
+        largest[0]
+    );
+    assert!(
+        (largest[0] / strain - 1.0).abs() < 0.01,
+        "{largest:?} {strain}"
+    );
+}
+
+/// Perfectly plastic and of one strength: the work is τ A γ w whatever the width, so that the width is the length scale.
+#[test]
+fn a_constant_strength_takes_its_work() {
+    for width in [0.1e-3, 1e-3] {
+        let chain = format!(
+            "shear_band = {{ width = \"{} mm\", shear_strength = \"400 MPa\", failure_strain = 1.5 }}",
+            width * 1e3
+        );
+        let (bands, ..) = slide(law(&chain).unwrap(), 0.1);
+        let exact = 400e6 * PERIMETER * LENGTH * 1.5 * width;
+        // What the band stores before it fails comes on top.
+        assert!((bands.books.work / exact - 1.0).abs() < 5e-3, "{width}");
+    }
+}
+
+/// Where a plug parts, both ends together hold what the node held; the end ahead has left the plate first.
+#[test]
+fn a_band_is_shared_where_the_plug_parts() {
+    let layer = law("shear_band = { failure = \"never\" }").unwrap();
+    let mut bands = Bands::new(vec![layer], PERIMETER, 0.004);
+    bands.hold(3, 0.0, [0.0, 0.0005], 0);
+    bands.hold(4, 0.001, [0.0005, 0.002], 0);
+    bands.hold(5, 0.004, [0.002, 0.004], 0);
+    // The whole plug has slid by 2.4 mm: 0.4 mm of what belongs to the node in the middle has left the plate.
+    let mut nodes = vec![Node::default(); 6];
+    for (node, rest) in nodes[3..].iter_mut().zip([0.0, 0.001, 0.004]) {
+        node.position = rest + 0.0024;
+    }
+    // Energy is that between two steps.
+    bands.update(&nodes, 0.0, 1e-6, 1e-6);
+    bands.update(&nodes, 0.0, 1e-6, 2e-6);
+    let (energy, work) = (bands.elastic_energy(), bands.books.work);
+    let force = bands.pull(&mut nodes);
+    bands.part(4);
+    nodes.insert(5, nodes[4]);
+
+    let keys: Vec<usize> = bands.bands.iter().map(|band| band.node).collect();
+    assert_eq!(keys, [3, 4, 5, 6]);
+    let close = |a: f64, b: f64| (a - b).abs() < 1e-12;
+    let [behind, ahead] = [1, 2].map(|i| bands.bands[i]);
+    assert!(close(behind.length, 0.0005) && close(behind.held, 0.0005));
+    assert!(close(ahead.length, 0.001) && close(ahead.held, 0.0006));
+    assert!(close(behind.offset, -0.00025) && close(ahead.offset, 0.0005));
+    assert!((bands.elastic_energy() / energy - 1.0).abs() < 1e-12);
+    assert!(energy > 0.0);
+    assert!((bands.pull(&mut nodes) / force - 1.0).abs() < 1e-12);
+    // Nothing is let go that was not about to leave anyway.
+    bands.update(&nodes, 0.0, 1e-6, 3e-6);
+    assert!(close(bands.bands[1].held + bands.bands[2].held, 0.0011));
+    assert!(close(bands.bands[2].held, 0.0006));
+    assert!(bands.books.work >= work);
+}
