@@ -15,20 +15,36 @@ impl Stencil {
     /// Stencil of a particle at a place counted in cells.
     #[inline(always)]
     pub(super) fn at(place: f64) -> Self {
-        let first = (place - 0.5).floor();
-        let from_first = place - first;
+        let first = floor(place - 0.5);
+        let from_first = place - first as f64;
         let (a, b, c) = (1.5 - from_first, from_first - 1.0, from_first - 0.5);
         Self {
-            first: first as isize,
+            first,
             weights: [0.5 * a * a, 0.75 - b * b, 0.5 * c * c],
             offset: -from_first,
         }
     }
 }
 
+/// Largest whole number that is not above `x`; without the call to a library that `f64::floor` is on the oldest processors.
+#[inline(always)]
+pub(super) fn floor(x: f64) -> isize {
+    let towards_zero = x as isize;
+    towards_zero - isize::from(towards_zero as f64 > x)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn floor_is_that_of_the_standard_library() {
+        for x in [
+            -3.0, -2.5, -1.0, -1e-300, -0.0, 0.0, 1e-300, 0.5, 1.0, 2.999, 1e9,
+        ] {
+            assert_eq!(floor(x), f64::floor(x) as isize, "{x}");
+        }
+    }
 
     #[test]
     fn the_weights_reproduce_constant_and_linear_fields_and_the_second_moment_is_a_quarter() {
