@@ -12,7 +12,7 @@ use kuva::render::{
 
 use crate::{
     Axis, Figure,
-    frame::{Frame, HEIGHT, tick_label},
+    frame::{Frame, HEIGHT, text, tick_label},
     palette,
 };
 
@@ -282,22 +282,5 @@ fn line(from: (f64, f64), to: (f64, f64), width: f64) -> Primitive {
         stroke: Color::from("black"),
         stroke_width: width,
         stroke_dasharray: None,
-    }
-}
-
-fn text(
-    place: (f64, f64),
-    content: &str,
-    (size, anchor, rotate): (u32, TextAnchor, Option<f64>),
-) -> Primitive {
-    Primitive::Text {
-        x: place.0,
-        y: place.1,
-        content: content.to_owned(),
-        size,
-        anchor,
-        rotate,
-        bold: false,
-        color: None,
     }
 }
