@@ -1,5 +1,8 @@
 //! Model `chain`: the 1-D discrete element model, point masses joined by normal springs.
 
+mod adiabatic;
+mod band;
+mod band_law;
 mod closure;
 mod cone;
 mod conservative;
