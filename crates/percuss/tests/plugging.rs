@@ -80,6 +80,31 @@ fn with_its_shear_work_lumped_it_is_recht_and_ipson() {
     }
 }
 
+/// A light projectile bounces off the plug that it drives out: the hole is open all the same.
+#[test]
+fn a_plug_that_leaves_alone_leaves_a_hole() {
+    let chain =
+        "shear_band = { width = \"0.1 mm\", shear_strength = \"100 MPa\", failure_strain = 1.0 }";
+    let mut light = scenario(100.0, "", chain);
+    let mut material = (*light.projectile.material).clone();
+    material.density = percuss::units::Density::new(1000.0);
+    light.projectile.material = material.into();
+    light.projectile.mass *= 1000.0 / 7850.0;
+    light.projectile.length *= 0.2;
+    light.projectile.mass *= 0.2;
+    let result = run(&light);
+    balanced(&result);
+    println!("{} {:?}", result.criterion, result.residual_velocity);
+    assert_eq!(result.outcome, Outcome::Perforated);
+    assert!(result.residual_velocity.unwrap() < 0.0);
+    assert!(result.plug_velocity.unwrap() > 1.0);
+    assert!(
+        result.criterion.contains("open hole"),
+        "{}",
+        result.criterion
+    );
+}
+
 #[test]
 fn a_plug_that_is_free_keeps_its_momentum() {
     let chain =

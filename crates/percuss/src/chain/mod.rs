@@ -3,6 +3,7 @@
 mod adiabatic;
 mod band;
 mod band_law;
+mod between;
 mod closure;
 mod cone;
 mod conservative;
@@ -36,9 +37,9 @@ mod tests;
 mod warnings;
 mod watch;
 
+pub use between::{ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
 pub(crate) use closure::{closure_in_use, default_closure};
 use conservative::Conservative;
-pub use conservative::{ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
 pub(crate) use mesh::modelled_thickness;
 pub(crate) use part::constraint_factor;
 pub use published::Published;
