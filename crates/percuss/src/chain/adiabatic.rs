@@ -3,9 +3,9 @@
 use crate::material::{FlowState, PreparedStrength};
 
 /// Step of equivalent plastic strain along the curve.
-const STRAIN_STEP: f64 = 2e-4;
+const STRAIN_STEP: f64 = 1e-3;
 /// Strain up to which the curve is followed.
-pub(super) const LARGEST_STRAIN: f64 = 10.0;
+const LARGEST_STRAIN: f64 = 10.0;
 
 /// What is sheared.
 #[derive(Debug, Clone, Copy)]

@@ -9,16 +9,17 @@ use super::adiabatic::{AdiabaticCurve, Sheared};
 
 pub(super) const SQRT_3: f64 = 1.732_050_807_568_877_2;
 /// Step of the rim's strain.
-const STRAIN_STEP: f64 = 5e-3;
+const STRAIN_STEP: f64 = 0.01;
 /// Rings on each side of the rim, and the width of the first as a part of the radius.
-const RINGS: usize = 60;
+const RINGS: usize = 50;
 const FIRST_RING: f64 = 1e-4;
 /// Outer radius of the zone over that of the plug: there the stress is a third of the rim's.
 const OUTER_RADIUS: f64 = 3.0;
 /// Smallest rate sensitivity that the rings resolve.
 const LEAST_SENSITIVITY: f64 = 1e-4;
-/// Part of a step to which the strain of a ring is found, as a number of halvings.
-const HALVINGS: u32 = 26;
+/// Part of a step to which the strain of a ring is found, and the most steps of a secant that is kept in its bracket.
+const FOUND: f64 = 1e-7;
+const MOST_ITERATIONS: u32 = 60;
 /// Beyond it an exponential is nothing.
 const LEAST_EXPONENT: f64 = -30.0;
 /// The zone ends where it is narrower than this part of its width at the maximum: there heat conduction, left out here, would hold it apart.
@@ -49,6 +50,14 @@ pub(super) struct ShearZone {
     widths: Vec<f64>,
     /// Slip over shear strain of the rim where the rim's stress is largest [m], or at unit strain where it has no maximum.
     mean_width: f64,
+}
+
+/// How far the rim is strained.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Extent {
+    /// To its largest stress, which tells the mean width.
+    ToMaximum,
+    Whole,
 }
 
 /// A ring of the zone.
@@ -94,22 +103,25 @@ impl Sheared<'_> {
     /// The zone around a plug of a radius that starts with a speed, and the strain at which its rim is strongest; `None` where
     /// neither hardening nor the rate spreads it.
     pub(super) fn zone(&self, radius: f64, speed: f64) -> Option<(ShearZone, Option<f64>)> {
-        let mut width = 0.1 * radius;
-        let mut rounds = 0;
-        loop {
+        let at = |width: f64, extent: Extent| {
             let rate = speed / (SQRT_3 * width);
             let curve = self.curve(rate);
-            let zone = ShearZone::new(radius, &curve, self.rate_sensitivity(rate));
-            let settled = (zone.mean_width / width - 1.0).abs() < SETTLED;
-            width = zone.mean_width;
-            rounds += 1;
-            if width < LEAST_WIDTH * radius {
-                return None;
-            }
-            if settled || !self.rate_effects || rounds == MOST_ROUNDS {
-                return Some((zone, curve.instability()));
+            let zone = ShearZone::new(radius, &curve, self.rate_sensitivity(rate), extent);
+            (zone, curve.instability())
+        };
+        let mut width = 0.1 * radius;
+        if self.rate_effects {
+            for _ in 0..MOST_ROUNDS {
+                let (zone, _) = at(width, Extent::ToMaximum);
+                let settled = (zone.mean_width / width - 1.0).abs() < SETTLED;
+                width = zone.mean_width.max(LEAST_WIDTH * radius);
+                if settled {
+                    break;
+                }
             }
         }
+        let (zone, instability) = at(width, Extent::Whole);
+        (zone.mean_width > LEAST_WIDTH * radius).then_some((zone, instability))
     }
 
     /// Strain at which the shear stress of an even band is largest.
@@ -119,7 +131,7 @@ impl Sheared<'_> {
 }
 
 impl ShearZone {
-    fn new(radius: f64, curve: &AdiabaticCurve, sensitivity: f64) -> Self {
+    fn new(radius: f64, curve: &AdiabaticCurve, sensitivity: f64, extent: Extent) -> Self {
         let sensitivity = sensitivity.max(LEAST_SENSITIVITY);
         let mut rings = rings(radius);
         let judged = curve
@@ -141,6 +153,9 @@ impl ShearZone {
                 mean_width = Some(slip / (SQRT_3 * rim));
             }
             widths.push(width);
+            if mean_width.is_some() && extent == Extent::ToMaximum {
+                break;
+            }
             if let Some(mean) = mean_width.filter(|mean| width < NARROWEST * mean) {
                 widths[i - 1] = NARROWEST * mean;
                 break;
@@ -165,16 +180,37 @@ impl Ring {
         if share(self.strain) < LEAST_EXPONENT {
             return;
         }
-        let (mut low, mut high) = (0.0, 1.0);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if middle < share(self.strain + middle * STRAIN_STEP).exp() {
-                low = middle;
+        let lag = |part: f64| part - share(self.strain + part * STRAIN_STEP).exp();
+        let (mut low, mut below) = (0.0, lag(0.0));
+        let (mut high, mut above) = (1.0, lag(1.0));
+        let mut kept = 0;
+        for _ in 0..MOST_ITERATIONS {
+            if high - low < FOUND || below == 0.0 || above == 0.0 {
+                break;
+            }
+            let part = (low * above - high * below) / (above - below);
+            let value = lag(part);
+            if value.abs() < FOUND {
+                (low, below, high, above) = (part, value, part, value);
+            } else if value < 0.0 {
+                (low, below) = (part, value);
+                if kept == -1 {
+                    above *= 0.5;
+                }
+                kept = -1;
             } else {
-                high = middle;
+                (high, above) = (part, value);
+                if kept == 1 {
+                    below *= 0.5;
+                }
+                kept = 1;
             }
         }
-        self.strain += 0.5 * (low + high) * STRAIN_STEP;
+        let part = match above.abs() < below.abs() {
+            true => high,
+            false => low,
+        };
+        self.strain += part * STRAIN_STEP;
     }
 }
 
