@@ -7,6 +7,8 @@ mod columns;
 mod folder;
 mod manifest;
 mod merge;
+mod parts;
+mod seal;
 
 pub use folder::{Status, SweepFolder, status};
 pub use manifest::{ColumnName, Manifest};
