@@ -102,7 +102,7 @@ fn text(
 }
 
 /// The name that a value has in JSON; empty when there is none.
-fn word(value: &impl Serialize) -> String {
+pub(super) fn word(value: &impl Serialize) -> String {
     json(value).trim_matches('"').replace("null", "")
 }
 
