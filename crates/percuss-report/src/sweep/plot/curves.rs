@@ -13,6 +13,8 @@ const POINTS: usize = 4000;
 const INTERVALS: usize = 60;
 /// Most curves.
 const MOST: usize = 24;
+/// How far below zero, or the least value, shots without a value stand, as a part of the range.
+const FOOT: f64 = 0.05;
 /// Symbols of shots that have no value.
 const CROSS: usize = 4;
 const PLUS: usize = 6;
@@ -80,8 +82,12 @@ pub(super) fn draw(data: &Data<'_>, x: usize, family: Option<usize>) -> Figure {
         chart = chart.series(series.style(style).symbol(symbol));
     }
     // What has no value stands at the foot of the chart, where its parameter was.
-    let lowest = curves.iter().flatten().map(|(_, group)| group.low);
-    let foot = lowest.fold(0.0, f64::min);
+    let all = data.all();
+    let lowest = all.low.min(0.0);
+    let foot = match all.high > lowest {
+        true => lowest - FOOT * (all.high - lowest),
+        false => lowest,
+    };
     let marks: [(&str, usize, &str, fn(&Group) -> u32); 2] = [
         ("failed", CROSS, palette::FAILED, |group| group.failed),
         ("without this number", PLUS, palette::MARK, |group| {

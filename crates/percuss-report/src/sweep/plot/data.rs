@@ -170,7 +170,7 @@ impl<'a> Data<'a> {
 
     pub(super) fn title(&self) -> String {
         match self.manifest.title.as_str() {
-            "" => format!("{}, model {}", self.manifest.case, self.manifest.model),
+            "" => quantity::label(self.quantity),
             title => title.to_owned(),
         }
     }

@@ -18,6 +18,8 @@ const LINES: usize = 1200;
 const APART: f64 = 128.0;
 /// Space around the axes: left, right, top, bottom [px].
 const MARGINS: [f64; 4] = [78.0, 92.0, 118.0, 62.0];
+/// Width of the bar of colours [px].
+const BAR: f64 = 14.0;
 /// Places of shots that have no number, below the axis of numbers [px].
 const BELOW: [f64; 2] = [20.0, 36.0];
 
@@ -46,7 +48,11 @@ pub(super) fn draw(data: &Data<'_>) -> Figure {
             let mut path = String::new();
             for (axis, (i, scale)) in varied.iter().zip(&scales).enumerate() {
                 let letter = if axis == 0 { 'M' } else { 'L' };
-                let y = scale.y(data.rows.inputs[*i][shot]);
+                let mut value = data.rows.inputs[*i][shot];
+                if !data.is_numeric(*i) {
+                    value += spread(shot);
+                }
+                let y = scale.y(value);
                 let _ = write!(path, "{letter}{:.1} {y:.1}", at(axis));
             }
             let (color, end) = match (wanted, data.rows.failed[shot]) {
@@ -82,6 +88,7 @@ pub(super) fn draw(data: &Data<'_>) -> Figure {
             at(axis),
             &[&name[0], &name[1], &unit],
             &scale.ticks(data, *i),
+            false,
         );
     }
     let place = at(varied.len());
@@ -94,7 +101,7 @@ pub(super) fn draw(data: &Data<'_>) -> Figure {
     };
     let (first, second) = halves(name);
     svg += &bar(place);
-    svg += &axis_of(place, &[&first, &second, &unit], &number.numbers());
+    svg += &axis_of(place, &[&first, &second, &unit], &number.numbers(), true);
     let all = data.all();
     for (count, what, color, below) in [
         (all.failed, "failed", palette::FAILED, BELOW[0]),
@@ -143,6 +150,12 @@ pub(super) fn draw(data: &Data<'_>) -> Figure {
     }
 }
 
+/// Where in the room of its word a line runs, so that not all run through one point.
+fn spread(shot: usize) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_895;
+    0.6 * ((shot as f64 * GOLDEN).fract() - 0.5)
+}
+
 /// Height of the foot of the axes.
 const fn bottom() -> f64 {
     HEIGHT - MARGINS[3]
@@ -181,7 +194,8 @@ impl Scale {
         let varied = &data.parameters()[parameter];
         match varied.words.len() {
             0 => Self::new(data.values(parameter).into_iter(), varied.kind == "log"),
-            words => Self::new([0.0, words as f64 - 1.0].into_iter(), false),
+            // Room for the lines of a word beside each other.
+            words => Self::new([-0.5, words as f64 - 0.5].into_iter(), false),
         }
     }
 
@@ -223,8 +237,8 @@ impl Scale {
     }
 }
 
-/// An axis with its name above it and its ticks at the left of it, on a white ground that lines pass behind.
-fn axis_of(x: f64, name: &[&str], ticks: &[(f64, String)]) -> String {
+/// An axis with its name above it and its ticks at the left of it, or at the right of the bar of colours.
+fn axis_of(x: f64, name: &[&str], ticks: &[(f64, String)], right: bool) -> String {
     let mut svg = format!(
         r#"<path d="M{x:.1} {}V{}" stroke="black" stroke-width="1.2"/>"#,
         MARGINS[2],
@@ -236,13 +250,15 @@ fn axis_of(x: f64, name: &[&str], ticks: &[(f64, String)]) -> String {
         svg += &label_at(x, y, "middle", 12, "black", &shorten(line, 19));
     }
     for (y, text) in ticks {
-        let _ = write!(svg, r#"<path d="M{:.1} {y:.1}h-5" stroke="black"/>"#, x);
+        let (tick, place, anchor) = match right {
+            true => (x + BAR, x + BAR + 8.0, "start"),
+            false => (x - 5.0, x - 8.0, "end"),
+        };
         let halo = r#"paint-order="stroke" stroke="white" stroke-width="3" "#;
-        let text = escape(&shorten(text, 16));
+        let text = escape(&shorten(text, 20));
         let _ = write!(
             svg,
-            r#"<text x="{:.1}" y="{:.1}" font-size="11" text-anchor="end" {halo}>{text}</text>"#,
-            x - 8.0,
+            r#"<path d="M{tick:.1} {y:.1}h5" stroke="black"/><text x="{place:.1}" y="{:.1}" font-size="11" text-anchor="{anchor}" {halo}>{text}</text>"#,
             y + 4.0
         );
     }
@@ -258,7 +274,7 @@ fn bar(x: f64) -> String {
             let color = hex((f64::from(i) + 0.5) / f64::from(STEPS));
             let y = bottom() - height * f64::from(i + 1);
             format!(
-                r#"<rect x="{x:.1}" y="{y:.2}" width="14" height="{:.2}" fill="{color}"/>"#,
+                r#"<rect x="{x:.1}" y="{y:.2}" width="{BAR}" height="{:.2}" fill="{color}"/>"#,
                 height + 0.3
             )
         })
