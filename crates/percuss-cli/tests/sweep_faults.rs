@@ -158,6 +158,9 @@ fn a_sweep_that_is_killed_at_random_moments_loses_and_doubles_no_row() {
     );
     assert!(3 * midway >= 2 * kills, "{midway} of {kills}");
     resume(&folder, "killed");
+    let left = fs::read_dir(&out).unwrap();
+    let mut left = left.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    assert!(left.all(|name| !name.ends_with(".tmp")));
     assert!(merged(&folder, &["killed"]) == whole, "rows differ");
     let reader = SerializedFileReader::new(File::open(folder.path().join("rows.parquet")).unwrap());
     let rows = reader.unwrap();
