@@ -42,6 +42,7 @@ mkdir "$dir/state" "$dir/spool"
 (umask 077 && head -c 1024 /dev/urandom >"$dir/munge.key")
 host=$(hostname -s)
 cpus=$(nproc)
+memory=$(awk '/^MemTotal/ { print int($2 / 1024) }' /proc/meminfo)
 cat >"$dir/slurm.conf" <<EOF
 ClusterName=percuss
 SlurmctldHost=$host(127.0.0.1)
@@ -66,7 +67,7 @@ AccountingStorageType=accounting_storage/none
 SchedulerType=sched/builtin
 MpiDefault=none
 ReturnToService=2
-NodeName=$host NodeAddr=127.0.0.1 CPUs=$cpus RealMemory=4096 State=UNKNOWN
+NodeName=$host NodeAddr=127.0.0.1 CPUs=$cpus RealMemory=$memory State=UNKNOWN
 PartitionName=all Nodes=$host Default=YES MaxTime=INFINITE State=UP
 EOF
 export SLURM_CONF="$dir/slurm.conf"
