@@ -15,6 +15,9 @@ const INTERVALS: usize = 60;
 const MOST: usize = 24;
 /// How far below zero, or the least value, shots without a value stand, as a part of the range.
 const FOOT: f64 = 0.05;
+/// Counts shots of one kind.
+type CountOf = fn(&Group) -> u32;
+
 /// Symbols of shots that have no value.
 const CROSS: usize = 4;
 const PLUS: usize = 6;
@@ -88,7 +91,7 @@ pub(super) fn draw(data: &Data<'_>, x: usize, family: Option<usize>) -> Figure {
         true => lowest - FOOT * (all.high - lowest),
         false => lowest,
     };
-    let marks: [(&str, usize, &str, fn(&Group) -> u32); 2] = [
+    let marks: [(&str, usize, &str, CountOf); 2] = [
         ("failed", CROSS, palette::FAILED, |group| group.failed),
         ("without this number", PLUS, palette::MARK, |group| {
             group.without
