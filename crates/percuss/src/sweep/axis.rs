@@ -11,15 +11,15 @@ pub struct Axis {
     pub key: String,
     /// Unit of the values; empty for plain numbers.
     pub unit: String,
-    pub(super) values: Values,
+    pub(crate) values: Values,
     /// Whether the values are whole numbers.
     pub(super) whole: bool,
     /// Values that have to be possible by themselves, each with the key that it is written under.
-    pub(super) samples: Vec<(String, f64)>,
+    pub(crate) samples: Vec<(String, f64)>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Values {
+pub(crate) enum Values {
     List(Vec<f64>),
     Distribution(Distribution),
 }
@@ -56,7 +56,7 @@ impl Axis {
     }
 
     /// A value as the case file would have it; a float's text reads back as the same number.
-    pub(super) fn written(&self, value: f64) -> Value {
+    pub(crate) fn written(&self, value: f64) -> Value {
         if !self.unit.is_empty() {
             Value::String(format!("{value:?} {}", self.unit))
         } else if self.whole {
