@@ -9,7 +9,7 @@ use super::{
 use crate::{Figure, frame::WIDTH, palette};
 
 /// Height of a panel and of what stands above and below all [px].
-const PANEL: f64 = 120.0;
+const PANEL: f64 = 170.0;
 const ABOVE: f64 = 62.0;
 const BELOW: f64 = 52.0;
 const GAP: f64 = 14.0;
@@ -18,7 +18,7 @@ const BURN_IN: &str = "#ececec";
 /// Most points of a line.
 const POINTS: usize = 800;
 
-/// Draws the mean of each ensemble and its first walker over the steps, as `trace`.
+/// Draws the first walker of each ensemble over the steps, as `trace`.
 pub(super) fn figure(sample: &Sample, columns: &[Column]) -> Figure {
     let count = columns.len() as f64;
     let height = ABOVE + count * PANEL + (count - 1.0) * GAP + BELOW;

@@ -56,6 +56,7 @@ pub(super) fn least_squares(problem: &Problem, seed: u64, watch: Watch<'_>) -> R
     let solver = Solver { problem, counter };
     let failed = |unable: Unable| match unable {
         Unable::Stopped => cancelled(problem),
+        Unable::Failed if problem.stop.load(Ordering::Relaxed) => cancelled(problem),
         Unable::Failed => refuse(
             format!(
                 "the model `{}` fails in every part of the ranges that was tried",

@@ -19,9 +19,9 @@ use crate::{
     sweep::{self, Cut, Distribution},
 };
 
-/// How much wider than the estimated posterior the walkers start: R-hat sees chains that have not met.
+/// How much wider than the estimated posterior the walkers start: R-hat sees ensembles that have not met.
 const SPREAD: f64 = 2.0;
-/// Split R-hat from which chains have not mixed, and the effective size that intervals need \[vehtari2021\].
+/// Split R-hat from which ensembles have not mixed, and the effective size that intervals need \[vehtari2021\].
 const R_HAT: f64 = 1.01;
 const SIZE: f64 = 400.0;
 /// What random numbers are drawn for.
@@ -36,7 +36,7 @@ pub struct Marginal {
     pub standard_deviation: f64,
     /// 2.5 %, 50 % and 97.5 %.
     pub quantiles: [f64; 3],
-    /// Split R-hat over all walkers: 1 where they agree.
+    /// Split R-hat over the ensembles: 1 where they agree.
     pub r_hat: f64,
     /// Effective sample size.
     pub effective_size: f64,
@@ -181,7 +181,7 @@ pub(super) fn warnings(parameters: &[ParameterRecord], scatter: &ScatterRecord) 
         let Some(marginal) = marginal else { continue };
         if marginal.r_hat > R_HAT {
             warnings.push(format!(
-                "the walkers do not agree on {name}: split R-hat is {:.3}, more than {R_HAT}; sample more steps",
+                "the ensembles do not agree on {name}: split R-hat is {:.3}, more than {R_HAT}; sample more steps",
                 marginal.r_hat
             ));
         }

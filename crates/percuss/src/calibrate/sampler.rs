@@ -159,15 +159,13 @@ impl Sample {
             .collect()
     }
 
-    /// Split R-hat over all walkers of all ensembles.
+    /// Split R-hat over the ensembles, all walkers of an ensemble together: they depend on each other, ensembles do not.
     pub fn r_hat(&self, parameter: usize) -> f64 {
-        let mut chains = Vec::new();
-        for ensemble in 0..self.states.len() {
-            let steps = &self.steps(ensemble, parameter)[self.sampling.burn_in..];
-            for walker in 0..self.sampling.walkers {
-                chains.push(steps.iter().map(|step| step[walker]).collect());
-            }
-        }
+        let pooled = |ensemble: usize| {
+            let steps = self.steps(ensemble, parameter);
+            steps[self.sampling.burn_in..].concat()
+        };
+        let chains: Vec<Vec<f64>> = (0..self.states.len()).map(pooled).collect();
         split_r_hat(&chains)
     }
 

@@ -19,6 +19,9 @@ pub fn text(calibration: &Calibration) -> String {
             calibration.model, calibration.runs
         ))
     );
+    for parameter in &calibration.parameters {
+        text += &format!("  {}\n", parameter.key);
+    }
     text += &parameters(calibration);
     text += &quality(calibration);
     text += &sample(calibration);
@@ -70,16 +73,13 @@ fn parameters(calibration: &Calibration) -> String {
             format!("{:.0}", m.effective_size),
         ]
     };
-    for parameter in &calibration.parameters {
-        let name = match parameter.unit.as_str() {
-            "" => parameter.key.clone(),
-            unit => format!("{} [{unit}]", parameter.key),
-        };
+    let names = names(&calibration.parameters);
+    for (parameter, name) in calibration.parameters.iter().zip(names) {
         let error = parameter
             .standard_error
             .map_or_else(|| "?".to_owned(), |error| significant(error, 2));
         let mut row = vec![
-            breakable(&name),
+            name,
             from_to(parameter.prior[0], parameter.prior[2]),
             format!("{} ± {error}", rounded(parameter.best)),
         ];
@@ -105,37 +105,39 @@ fn parameters(calibration: &Calibration) -> String {
     text_of(&table)
 }
 
-/// A dotted key with places to break it at.
-fn breakable(key: &str) -> String {
-    match key.chars().count() > 24 {
-        true => key.replace('.', ". ").replace(". strength", ".strength"),
-        false => key.to_owned(),
-    }
+/// Names for a table: the last part of each key, unless two keys end alike.
+fn names(parameters: &[ParameterRecord]) -> Vec<String> {
+    let last = |key: &str| key.rsplit('.').next().unwrap_or(key).to_owned();
+    let short: Vec<String> = parameters.iter().map(|p| last(&p.key)).collect();
+    let twice = |name: &String| short.iter().filter(|other| *other == name).count() > 1;
+    let whole = short.iter().any(twice);
+    let of = |(parameter, short): (&ParameterRecord, &String)| {
+        let name = if whole { &parameter.key } else { short };
+        match parameter.unit.as_str() {
+            "" => name.clone(),
+            unit => format!("{name} [{unit}]"),
+        }
+    };
+    parameters.iter().zip(&short).map(of).collect()
 }
 
 fn quality(calibration: &Calibration) -> String {
-    let mut table = table(
-        [
-            "values",
-            "count",
-            "RMS before",
-            "RMS",
-            "bias",
-            "in the 95 % band",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
-    );
+    let mut header = vec!["values", "count", "RMS before", "RMS", "bias"];
+    if calibration.sampling.is_some() {
+        header.push("in the 95 % band");
+    }
+    let mut table = table(header.into_iter().map(str::to_owned).collect());
     let percent = |value: f64| format!("{:.1} %", 100.0 * value);
     let mut row = |name: &str, quality: &Quality| {
-        table.add_row([
+        let mut cells = vec![
             name.to_owned(),
             quality.count.to_string(),
             quality.rms_before.map_or_else(String::new, percent),
             percent(quality.rms),
             percent(quality.bias),
-            quality.inside.map_or_else(String::new, |n| n.to_string()),
-        ]);
+        ];
+        cells.extend(quality.inside.map(|count| count.to_string()));
+        table.add_row(cells);
     };
     row("fitted to", &calibration.training);
     if let Some(quality) = &calibration.hold_out {
