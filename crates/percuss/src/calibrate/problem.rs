@@ -83,7 +83,7 @@ impl Problem {
         if training == 0 {
             return Err(refuse(
                 "there is no measured value to fit to".to_owned(),
-                match problem.left_out.first() {
+                match problem.left_out.last() {
                     Some(left) => format!("`{}`, for example, is left out: {}", left.id, left.reason),
                     None => "give cases with [[experiments]], or --data with shots of the material that is fitted".to_owned(),
                 },
