@@ -218,8 +218,10 @@ pub fn run(problem: &Problem, settings: &Settings, watch: Watch<'_>) -> Result<C
     let scatter = ScatterRecord {
         estimated,
         best: fit.scatter,
-        posterior: marginal(problem.fitted.len())
-            .filter(|_| estimated)
+        // The last number of a state, where it is one.
+        posterior: estimated
+            .then(|| marginal(problem.fitted.len()))
+            .flatten()
             .map(Marginal::exponential),
     };
     let mut warnings = fit.warnings.clone();

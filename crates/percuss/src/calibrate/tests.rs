@@ -137,7 +137,7 @@ fn intervals_cover_the_truth_and_the_hold_out() {
         sampling: Some(Sampling {
             ensembles: 2,
             walkers: 8,
-            steps: 600,
+            steps: 400,
             burn_in: 100,
         }),
         seed: 7,
