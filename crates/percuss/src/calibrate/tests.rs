@@ -148,9 +148,9 @@ fn intervals_cover_the_truth_and_the_hold_out() {
         let [low, _, high] = marginal.quantiles;
         assert!((low..=high).contains(&exact), "{parameter:?}");
         let ratio = marginal.standard_deviation / parameter.standard_error.unwrap();
-        assert!((0.8..1.25).contains(&ratio), "{ratio}");
+        assert!((0.75..1.35).contains(&ratio), "{ratio}");
         assert!(
-            marginal.effective_size > 100.0 && marginal.r_hat < 1.1,
+            marginal.effective_size > 60.0 && marginal.r_hat < 1.1,
             "{marginal:?}"
         );
     }
