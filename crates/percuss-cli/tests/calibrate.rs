@@ -119,10 +119,9 @@ target = { rigid_wall = true }
         .unwrap();
     let table = fs::read_to_string(folder.path().join("one/calibration.json")).unwrap();
     let found: Value = serde_json::from_str(&table).unwrap();
-    let fitted = found["predictions"].as_array().unwrap().iter();
+    let mut fitted = found["predictions"].as_array().unwrap().iter();
     let fitted = fitted
-        .filter(|value| value["impact_velocity_m_s"] == 183.0)
-        .next()
+        .find(|value| value["impact_velocity_m_s"] == 183.0)
         .unwrap();
     let best = fitted["best"].as_f64().unwrap();
     assert!((length / best - 1.0).abs() < 1e-5, "{length} {best}");

@@ -126,15 +126,15 @@ pub(super) fn of_posterior(
                 ),
             });
         }
-        for j in 0..i {
+        for (j, other) in keys[..i].iter().enumerate() {
             let correlation = correlations[(i, j)];
-            if correlation.abs() > CORRELATED && !named(&[keys[i], keys[j]]) {
+            if correlation.abs() > CORRELATED && !named(&[keys[i], other]) {
                 findings.push(Finding {
                     weakness: Weakness::Correlated,
-                    parameters: vec![keys[j].to_owned(), keys[i].to_owned()],
+                    parameters: vec![(*other).to_owned(), keys[i].to_owned()],
                     words: format!(
                         "{} and {} are known as a combination only: their correlation is {correlation:.3}",
-                        keys[j], keys[i]
+                        other, keys[i]
                     ),
                 });
             }

@@ -210,7 +210,7 @@ impl Fitted {
             let finding = findings.into_iter().next().map(|finding| {
                 let of = match finding.key.as_str() {
                     "" => key,
-                    key => key,
+                    found => found,
                 };
                 Finding {
                     message: format!(
