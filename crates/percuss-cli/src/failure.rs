@@ -35,6 +35,8 @@ pub enum Failure {
     Stopped { time_us: f64 },
     /// The user stopped a sweep.
     SweepStopped { done: u64, shots: u64 },
+    /// The user stopped a calibration.
+    CalibrationStopped { runs: u64 },
     /// The command line asks for something that does not exist.
     Usage { message: String, help: String },
 }
@@ -74,7 +76,9 @@ impl Failure {
         ExitCode::from(match self {
             Self::Usage { .. } | Self::NoResult(_) => 2,
             // What shells report of a program that Ctrl-C ended.
-            Self::Stopped { .. } | Self::SweepStopped { .. } => 130,
+            Self::Stopped { .. } | Self::SweepStopped { .. } | Self::CalibrationStopped { .. } => {
+                130
+            }
             Self::Library(Error::Numerical(_) | Error::Cancelled { .. }) | Self::Report(_) => 3,
             Self::Library(Error::Read { .. }) | Self::Write { .. } | Self::Output(_) => 4,
             Self::Library(_) => 2,
@@ -131,6 +135,9 @@ impl Failure {
             Self::Library(error @ Error::Checkpoint { remedy, .. }) => {
                 diagnostic::message(&error.to_string(), remedy)
             }
+            Self::Library(Error::Calibration { reason, remedy }) => {
+                diagnostic::message(reason, remedy)
+            }
             Self::Library(error) => diagnostic::message(&error.to_string(), ""),
             Self::Report(error) => diagnostic::message(&error.to_string(), ""),
             Self::Write { path, reason, help } => {
@@ -158,6 +165,10 @@ impl Failure {
             Self::SweepStopped { done, shots } => diagnostic::message(
                 &format!("the sweep was stopped with {done} of {shots} shots done"),
                 "the same command with `--resume` goes on from there",
+            ),
+            Self::CalibrationStopped { runs } => diagnostic::message(
+                &format!("the calibration was stopped after {runs} runs of the model"),
+                "nothing was written; fewer --steps take less time",
             ),
             Self::Usage { message, help } => diagnostic::message(message, help),
         };

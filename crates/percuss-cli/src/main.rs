@@ -10,6 +10,7 @@ mod material_card;
 mod progress;
 mod result_table;
 mod run_folder;
+mod shot_data;
 mod table;
 mod terminal;
 mod validation_table;

@@ -763,6 +763,7 @@ fn help_fits_and_is_as_approved() {
         &["run"],
         &["compare"],
         &["limit"],
+        &["calibrate"],
         &["judge"],
         &["new"],
         &["models"],

@@ -27,6 +27,7 @@
 mod area_chart;
 mod axial_figures;
 mod axis;
+pub mod calibration;
 mod chart;
 mod column;
 mod compare_figure;

@@ -49,6 +49,14 @@ pub enum Error {
         /// What to do.
         remedy: String,
     },
+    /// A calibration cannot be set up, or finds nothing.
+    #[error("{reason}; {remedy}")]
+    Calibration {
+        /// Why, in words.
+        reason: String,
+        /// What to do.
+        remedy: String,
+    },
     /// A file could not be read.
     #[error("cannot read `{}`: {reason}", .path.display())]
     Read {

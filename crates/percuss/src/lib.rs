@@ -19,6 +19,7 @@
 
 pub mod analytic;
 pub mod axi;
+pub mod calibrate;
 pub mod case;
 pub mod chain;
 pub mod check;

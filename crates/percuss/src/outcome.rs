@@ -307,6 +307,16 @@ impl RunResult {
         }
     }
 
+    /// A quantity that can be measured, in SI units, if the model gives it.
+    pub fn measurable(&self, quantity: BandQuantity) -> Option<f64> {
+        match quantity {
+            BandQuantity::DepthOfPenetration => self.depth_of_penetration,
+            BandQuantity::ResidualVelocity => self.residual_velocity,
+            BandQuantity::BallisticLimit => self.ballistic_limit,
+            BandQuantity::ProjectileFinalLength => self.projectile_final_length,
+        }
+    }
+
     /// Steps and books of a model that steps through time on a mesh.
     ///
     /// # Panics

@@ -1,5 +1,6 @@
 //! One file a command: its arguments, its help and what it does.
 
+mod calibrate;
 mod compare;
 mod completions;
 mod converge;
@@ -15,6 +16,7 @@ mod schema;
 mod sweep;
 mod validate;
 
+pub use calibrate::Calibrate;
 pub use compare::Compare;
 pub use completions::Completions;
 pub use converge::Converge;

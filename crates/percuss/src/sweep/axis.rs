@@ -13,15 +13,15 @@ pub struct Axis {
     pub unit: String,
     /// Key of the sweep file that gives the values, such as `linear` or `normal`.
     pub kind: &'static str,
-    pub(super) values: Values,
+    pub(crate) values: Values,
     /// Whether the values are whole numbers.
     pub(super) whole: bool,
     /// Values that have to be possible by themselves, each with the key that it is written under.
-    pub(super) samples: Vec<(String, f64)>,
+    pub(crate) samples: Vec<(String, f64)>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Values {
+pub(crate) enum Values {
     List(Vec<f64>),
     /// Words and switches, which stand for their places in the list.
     Options(Vec<Value>),
@@ -72,7 +72,7 @@ impl Axis {
     }
 
     /// A value as the case file would have it; a float's text reads back as the same number.
-    pub(super) fn written(&self, value: f64) -> Value {
+    pub(crate) fn written(&self, value: f64) -> Value {
         if let Values::Options(options) = &self.values {
             options[value as usize].clone()
         } else if !self.unit.is_empty() {

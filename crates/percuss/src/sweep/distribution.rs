@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// A distribution of a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Distribution {
+pub(crate) enum Distribution {
     Normal {
         mean: f64,
         deviation: f64,
@@ -29,14 +29,14 @@ pub(super) enum Distribution {
 
 /// Where a distribution is cut off.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Cut {
-    pub(super) min: f64,
-    pub(super) max: f64,
+pub(crate) struct Cut {
+    pub(crate) min: f64,
+    pub(crate) max: f64,
 }
 
 impl Distribution {
     /// The value that a number stays below with chance `u`, between 0 and 1.
-    pub(super) fn quantile(&self, u: f64) -> f64 {
+    pub(crate) fn quantile(&self, u: f64) -> f64 {
         match *self {
             Self::Normal {
                 mean,
@@ -86,6 +86,67 @@ impl Distribution {
                 between(score(cut.min), score(cut.max))
             }
             Self::Uniform { .. } | Self::Triangular { .. } => 1.0,
+        }
+    }
+}
+
+/// Standard deviations beyond which a normal distribution has next to nothing.
+const FARTHEST: f64 = 8.0;
+
+impl Distribution {
+    /// Logarithm of the density, up to a constant; minus infinity outside.
+    pub(crate) fn ln_density(&self, x: f64) -> f64 {
+        let (low, high) = self.support();
+        if !(low..=high).contains(&x) {
+            return f64::NEG_INFINITY;
+        }
+        match *self {
+            Self::Normal { .. } => -0.5 * self.score(x).powi(2),
+            Self::Lognormal { .. } => -0.5 * self.score(x).powi(2) - libm::log(x),
+            Self::Uniform { .. } => 0.0,
+            Self::Triangular { from, mode, to } if x < mode => {
+                libm::log((x - from) / (mode - from)) - libm::log(to - from)
+            }
+            Self::Triangular { mode, to, from } if x > mode => {
+                libm::log((to - x) / (to - mode)) - libm::log(to - from)
+            }
+            Self::Triangular { from, to, .. } => -libm::log(to - from),
+        }
+    }
+
+    /// Standard deviations of a normal distribution, or of the logarithm of a lognormal one, from its middle; 0 for others.
+    pub(crate) fn score(&self, x: f64) -> f64 {
+        match *self {
+            Self::Normal {
+                mean, deviation, ..
+            } => (x - mean) / deviation,
+            Self::Lognormal {
+                median, deviation, ..
+            } => libm::log(x / median) / deviation,
+            Self::Uniform { .. } | Self::Triangular { .. } => 0.0,
+        }
+    }
+
+    /// Where it is, but for next to nothing.
+    pub(crate) fn support(&self) -> (f64, f64) {
+        match *self {
+            Self::Normal {
+                mean,
+                deviation,
+                cut,
+            } => (
+                cut.min.max(mean - FARTHEST * deviation),
+                cut.max.min(mean + FARTHEST * deviation),
+            ),
+            Self::Lognormal {
+                median,
+                deviation,
+                cut,
+            } => (
+                cut.min.max(median * libm::exp(-FARTHEST * deviation)),
+                cut.max.min(median * libm::exp(FARTHEST * deviation)),
+            ),
+            Self::Uniform { from, to } | Self::Triangular { from, to, .. } => (from, to),
         }
     }
 }
@@ -217,6 +278,42 @@ mod tests {
         };
         assert!((lognormal.part_left() - 0.5).abs() < 1e-15);
         assert!((lognormal.quantile(0.5) - 2.0 * (0.5 * score(0.25)).exp()).abs() < 1e-14);
+    }
+
+    /// The density is the slope of the distribution function, which is to say one over the slope of the quantile.
+    #[test]
+    fn densities_are_slopes_of_their_distribution_functions() {
+        let cut = Cut { min: 1.0, max: 3.5 };
+        for distribution in [
+            Distribution::Normal {
+                mean: 2.0,
+                deviation: 0.5,
+                cut,
+            },
+            Distribution::Lognormal {
+                median: 2.0,
+                deviation: 0.3,
+                cut,
+            },
+            Distribution::Uniform { from: 1.0, to: 4.0 },
+            Distribution::Triangular {
+                from: 1.0,
+                mode: 2.0,
+                to: 5.0,
+            },
+        ] {
+            let slope = |u: f64| {
+                let h = 1e-5;
+                libm::log(2.0 * h / (distribution.quantile(u + h) - distribution.quantile(u - h)))
+            };
+            let density = |u: f64| distribution.ln_density(distribution.quantile(u));
+            for u in [0.05, 0.2, 0.3, 0.6, 0.95] {
+                let found = density(u) - density(0.4);
+                assert!((found - (slope(u) - slope(0.4))).abs() < 1e-6, "{u}");
+            }
+            assert_eq!(distribution.ln_density(0.99), f64::NEG_INFINITY);
+            assert_eq!(distribution.ln_density(5.01), f64::NEG_INFINITY);
+        }
     }
 
     /// Mean and variance by the midpoint rule against their closed forms.

@@ -8,7 +8,7 @@ use crate::units::{is_unit, split_number};
 
 /// One of the values of a list.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Entry {
+pub(crate) enum Entry {
     Amount(Amount),
     /// A text or `true` or `false`, for the case to say whether it can be that.
     Option(Value),

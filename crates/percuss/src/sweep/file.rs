@@ -53,67 +53,67 @@ impl Design {
 /// A number or an option of the case and the values it takes: just one of the other keys.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Parameter {
-    pub(super) key: String,
-    pub(super) values: Option<Vec<Entry>>,
-    pub(super) linear: Option<Steps>,
-    pub(super) log: Option<Steps>,
-    pub(super) normal: Option<Normal>,
-    pub(super) lognormal: Option<Lognormal>,
-    pub(super) uniform: Option<Uniform>,
-    pub(super) triangular: Option<Triangular>,
+pub(crate) struct Parameter {
+    pub(crate) key: String,
+    pub(crate) values: Option<Vec<Entry>>,
+    pub(crate) linear: Option<Steps>,
+    pub(crate) log: Option<Steps>,
+    pub(crate) normal: Option<Normal>,
+    pub(crate) lognormal: Option<Lognormal>,
+    pub(crate) uniform: Option<Uniform>,
+    pub(crate) triangular: Option<Triangular>,
 }
 
 /// Values at even steps, both ends included.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Steps {
-    pub(super) from: Amount,
-    pub(super) to: Amount,
-    pub(super) count: u64,
+pub(crate) struct Steps {
+    pub(crate) from: Amount,
+    pub(crate) to: Amount,
+    pub(crate) count: u64,
 }
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Normal {
-    pub(super) mean: Amount,
-    pub(super) standard_deviation: Amount,
-    pub(super) min: Option<Amount>,
-    pub(super) max: Option<Amount>,
+pub(crate) struct Normal {
+    pub(crate) mean: Amount,
+    pub(crate) standard_deviation: Amount,
+    pub(crate) min: Option<Amount>,
+    pub(crate) max: Option<Amount>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Lognormal {
-    pub(super) median: Amount,
+pub(crate) struct Lognormal {
+    pub(crate) median: Amount,
     /// Standard deviation of the natural logarithm.
-    pub(super) log_standard_deviation: f64,
-    pub(super) min: Option<Amount>,
-    pub(super) max: Option<Amount>,
+    pub(crate) log_standard_deviation: f64,
+    pub(crate) min: Option<Amount>,
+    pub(crate) max: Option<Amount>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Uniform {
-    pub(super) from: Amount,
-    pub(super) to: Amount,
+pub(crate) struct Uniform {
+    pub(crate) from: Amount,
+    pub(crate) to: Amount,
 }
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Triangular {
-    pub(super) from: Amount,
-    pub(super) mode: Amount,
-    pub(super) to: Amount,
+pub(crate) struct Triangular {
+    pub(crate) from: Amount,
+    pub(crate) mode: Amount,
+    pub(crate) to: Amount,
 }
 
 /// A number, or a number with a unit in quotes. Whether the unit fits is for the case to say.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Amount {
-    pub(super) value: f64,
-    pub(super) unit: String,
+pub(crate) struct Amount {
+    pub(crate) value: f64,
+    pub(crate) unit: String,
     /// Whether it is written as a whole number.
-    pub(super) whole: bool,
+    pub(crate) whole: bool,
 }
 
 impl<'de> Deserialize<'de> for Amount {

@@ -24,9 +24,13 @@ use std::{
 
 pub use axis::Axis;
 use caught::caught;
+pub(crate) use axis::Values;
+pub(crate) use distribution::{Cut, Distribution};
 pub use file::Design;
+pub(crate) use file::{Amount, Parameter, Uniform};
 pub use kernel::{Kernel, Row, ScalarKernel, Shot, Stopped};
 use points::Points;
+pub(crate) use random::{bits, permuted, stream};
 
 use crate::{Error, case::Template, model::Model};
 

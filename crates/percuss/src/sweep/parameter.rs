@@ -136,7 +136,7 @@ impl Parameter {
     }
 
     /// Checks the parameter; `None` when something is wrong with it.
-    pub(super) fn resolve(&self, check: &mut Check<'_>, design: Design) -> Option<Axis> {
+    pub(crate) fn resolve(&self, check: &mut Check<'_>, design: Design) -> Option<Axis> {
         const WAYS: &str =
             "give one of values, linear, log, normal, lognormal, uniform and triangular";
         let kind = match self.kinds().as_slice() {

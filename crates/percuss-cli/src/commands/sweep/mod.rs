@@ -210,7 +210,7 @@ impl Board {
 }
 
 /// Becomes true on the first Ctrl-C, or request of the system to end; the second one ends the program at once.
-fn stop_on_request() -> Arc<AtomicBool> {
+pub(super) fn stop_on_request() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
     // Without a handler Ctrl-C just ends the program, which loses no block that is written.
