@@ -2,7 +2,7 @@
 
 use toml::Value;
 
-use super::distribution::Distribution;
+use super::{amount::Amount, copula::Copula, distribution::Distribution};
 
 /// A number of the case with the values that it takes.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +22,15 @@ pub struct Axis {
 pub(super) enum Values {
     List(Vec<f64>),
     Distribution(Distribution),
+}
+
+/// The values of all axes that numbers drawn evenly between 0 and 1 stand for.
+pub(crate) fn values(axes: &[Axis], copula: Option<&Copula>, u: &[f64]) -> Vec<f64> {
+    let mut values: Vec<f64> = axes.iter().zip(u).map(|(axis, u)| axis.at(*u)).collect();
+    if let Some(copula) = copula {
+        copula.join(axes, u, &mut values);
+    }
+    values
 }
 
 impl Axis {
@@ -45,8 +54,16 @@ impl Axis {
         }
     }
 
+    /// Its distribution, unless it takes the values of a list.
+    pub(super) fn distribution(&self) -> Option<&Distribution> {
+        match &self.values {
+            Values::List(_) => None,
+            Values::Distribution(distribution) => Some(distribution),
+        }
+    }
+
     /// The value that a number drawn evenly between 0 and 1 stands for: of a list all are equally likely.
-    pub(super) fn at(&self, u: f64) -> f64 {
+    pub(crate) fn at(&self, u: f64) -> f64 {
         match &self.values {
             Values::List(values) => {
                 values[((u * values.len() as f64) as usize).min(values.len() - 1)]
@@ -55,14 +72,8 @@ impl Axis {
         }
     }
 
-    /// A value as the case file would have it; a float's text reads back as the same number.
+    /// A value as the case file would have it.
     pub(super) fn written(&self, value: f64) -> Value {
-        if !self.unit.is_empty() {
-            Value::String(format!("{value:?} {}", self.unit))
-        } else if self.whole {
-            Value::Integer(value as i64)
-        } else {
-            Value::Float(value)
-        }
+        Amount::written(value, &self.unit, self.whole)
     }
 }

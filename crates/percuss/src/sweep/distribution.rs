@@ -34,6 +34,14 @@ pub(super) struct Cut {
     pub(super) max: f64,
 }
 
+impl Cut {
+    /// None at all.
+    pub(super) const NONE: Self = Self {
+        min: f64::NEG_INFINITY,
+        max: f64::INFINITY,
+    };
+}
+
 impl Distribution {
     /// The value that a number stays below with chance `u`, between 0 and 1.
     pub(super) fn quantile(&self, u: f64) -> f64 {
@@ -65,6 +73,37 @@ impl Distribution {
                     to - ((1.0 - u) * (to - from) * (to - mode)).sqrt()
                 }
             }
+        }
+    }
+
+    /// The value at a normal score: the quantile at the chance of staying below that score.
+    pub(super) fn at_score(&self, z: f64) -> f64 {
+        match *self {
+            // Straight, so that normal parameters of normal scores are exactly normal.
+            Self::Normal {
+                mean,
+                deviation,
+                cut: Cut::NONE,
+            } => mean + deviation * z,
+            Self::Lognormal {
+                median,
+                deviation,
+                cut: Cut::NONE,
+            } => median * libm::exp(deviation * z),
+            // The chance of a high score rounds to 1, which has no finite quantile.
+            _ => self.quantile(chance(z).clamp(f64::MIN_POSITIVE, 1.0 - 0.5 * f64::EPSILON)),
+        }
+    }
+
+    /// Standard deviation of a normal distribution that is not cut off.
+    pub(super) fn normal_deviation(&self) -> Option<f64> {
+        match *self {
+            Self::Normal {
+                deviation,
+                cut: Cut::NONE,
+                ..
+            } => Some(deviation),
+            _ => None,
         }
     }
 
@@ -103,7 +142,7 @@ fn chance(z: f64) -> f64 {
 
 /// Quantile of the standard normal distribution: the rational estimate 26.2.23 of Abramowitz and Stegun, made exact by three of
 /// Halley's steps.
-fn score(u: f64) -> f64 {
+pub(super) fn score(u: f64) -> f64 {
     let tail = u.min(1.0 - u);
     if tail <= 0.0 {
         return if u < 0.5 {
@@ -127,10 +166,7 @@ fn score(u: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const UNCUT: Cut = Cut {
-        min: f64::NEG_INFINITY,
-        max: f64::INFINITY,
-    };
+    const UNCUT: Cut = Cut::NONE;
 
     #[test]
     fn normal_scores_are_the_tabled_ones() {

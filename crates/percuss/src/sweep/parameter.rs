@@ -1,9 +1,10 @@
 //! Checking a parameter of a sweep file and turning it into an axis.
 
 use super::{
+    amount::Amount,
     axis::{Axis, Values},
     distribution::{Cut, Distribution},
-    file::{Amount, Design, Parameter, Steps},
+    file::{Design, Parameter, Steps},
 };
 use crate::check::Check;
 

@@ -8,12 +8,12 @@ fn mix(z: u64) -> u64 {
 }
 
 /// Bits drawn for an index of a stream.
-pub(super) fn bits(stream: u64, index: u64) -> u64 {
+pub(crate) fn bits(stream: u64, index: u64) -> u64 {
     mix(stream ^ mix(index.wrapping_add(0x9e37_79b9_7f4a_7c15)))
 }
 
 /// A stream of its own for every purpose and dimension.
-pub(super) fn stream(seed: u64, purpose: u64, dimension: usize) -> u64 {
+pub(crate) fn stream(seed: u64, purpose: u64, dimension: usize) -> u64 {
     bits(bits(seed, purpose), dimension as u64)
 }
 
