@@ -5,7 +5,7 @@ use clap::{Parser, Subcommand};
 use crate::{
     commands::{
         Compare, Completions, Converge, Judge, Limit, Man, Materials, Models, New, Reproduce, Run,
-        Schema, Sweep, Validate,
+        Schema, Sweep, Uncertainty, Validate,
     },
     failure::Failure,
 };
@@ -59,6 +59,7 @@ pub enum Command {
     Compare(Compare),
     Limit(Limit),
     Sweep(Sweep),
+    Uncertainty(Uncertainty),
     Converge(Converge),
     Validate(Validate),
     Judge(Judge),
@@ -78,6 +79,7 @@ impl Command {
             Self::Compare(command) => command.run(),
             Self::Limit(command) => command.run(),
             Self::Sweep(command) => command.run(),
+            Self::Uncertainty(command) => command.run(),
             Self::Converge(command) => command.run(),
             Self::Validate(command) => command.run(),
             Self::Judge(command) => command.run(),

@@ -13,6 +13,7 @@ mod reproduce;
 mod run;
 mod schema;
 mod sweep;
+mod uncertainty;
 mod validate;
 
 pub use compare::Compare;
@@ -28,4 +29,5 @@ pub use reproduce::Reproduce;
 pub use run::Run;
 pub use schema::Schema;
 pub use sweep::Sweep;
+pub use uncertainty::Uncertainty;
 pub use validate::Validate;

@@ -46,6 +46,15 @@ impl Axis {
         name
     }
 
+    /// Its values in words, such as `normal, 230 ± 3 m/s`.
+    pub fn in_words(&self) -> String {
+        let words = match &self.values {
+            Values::List(values) => format!("one of {} values", values.len()),
+            Values::Distribution(distribution) => distribution.to_string(),
+        };
+        format!("{words} {}", self.unit).trim_end().to_owned()
+    }
+
     /// Number of values of a list.
     pub(super) fn count(&self) -> Option<u64> {
         match &self.values {

@@ -1,6 +1,11 @@
 //! Distributions by their quantile functions.
 
-use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::{
+    f64::consts::{FRAC_1_SQRT_2, PI},
+    fmt,
+};
+
+use crate::units::significant;
 
 /// A distribution of a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,6 +130,50 @@ impl Distribution {
                 between(score(cut.min), score(cut.max))
             }
             Self::Uniform { .. } | Self::Triangular { .. } => 1.0,
+        }
+    }
+}
+
+impl fmt::Display for Distribution {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let number = |value: f64| significant(value, 6);
+        match *self {
+            Self::Normal {
+                mean,
+                deviation,
+                cut,
+            } => write!(f, "normal{cut}, {} ± {}", number(mean), number(deviation)),
+            Self::Lognormal {
+                median,
+                deviation,
+                cut,
+            } => write!(
+                f,
+                "lognormal{cut}, {} ± {} %",
+                number(median),
+                // The factor of one standard deviation.
+                significant(100.0 * libm::expm1(deviation), 3)
+            ),
+            Self::Uniform { from, to } => write!(f, "uniform, {} … {}", number(from), number(to)),
+            Self::Triangular { from, mode, to } => write!(
+                f,
+                "triangular, {} … {} … {}",
+                number(from),
+                number(mode),
+                number(to)
+            ),
+        }
+    }
+}
+
+impl fmt::Display for Cut {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let number = |value: f64| significant(value, 6);
+        match (self.min.is_finite(), self.max.is_finite()) {
+            (false, false) => Ok(()),
+            (true, false) => write!(f, " from {} up", number(self.min)),
+            (false, true) => write!(f, " up to {}", number(self.max)),
+            (true, true) => write!(f, " from {} to {}", number(self.min), number(self.max)),
         }
     }
 }

@@ -33,7 +33,7 @@ pub use file::{Design, Lognormal, Normal, Parameter, Steps, Triangular, Uniform}
 pub use inputs::UncertainInputs;
 pub(crate) use inputs::check_values;
 pub use kernel::{Kernel, Row, ScalarKernel, Shot, Stopped};
-pub(crate) use points::{MAX_SHOTS, Points};
+pub(crate) use points::Points;
 pub(crate) use random::{bits, stream};
 pub(crate) use sobol::MAX_DIMENSIONS;
 

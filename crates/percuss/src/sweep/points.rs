@@ -9,7 +9,7 @@ use super::{
 };
 
 /// Most shots of a sweep.
-pub(crate) const MAX_SHOTS: u64 = 1 << 30;
+pub(super) const MAX_SHOTS: u64 = 1 << 30;
 /// Bits of the place of a Latin hypercube's shot in its interval: with 30 bits for the interval a 64-bit float holds both.
 const PLACE_BITS: u32 = 20;
 
