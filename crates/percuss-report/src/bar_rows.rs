@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// Most characters of a name.
-const NAME_CHARS: usize = 36;
+const NAME_CHARS: usize = 46;
 /// Height of a row, and of what surrounds the rows [px].
 const ROW: f64 = 42.0;
 const SURROUNDINGS: f64 = 150.0;

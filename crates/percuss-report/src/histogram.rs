@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// Fewest and most bins.
-const BINS: (f64, f64) = (8.0, 60.0);
+const BINS: (f64, f64) = (12.0, 60.0);
 /// Gap between bars [px].
 const GAP: f64 = 1.0;
 

@@ -72,7 +72,7 @@ pub(super) fn tornado(
     let name = format!("tornado-{}", stem(quantity.quantity));
     let mut chart = BarRows::new(
         name,
-        title("One at a time:", quantity, found),
+        title("What moves the", quantity, found),
         axis(quantity),
         1,
     )
@@ -105,7 +105,7 @@ pub(super) fn tornado(
             bar(*at_low, input.low, low_color),
             bar(*at_high, input.high, high_color),
         ];
-        chart = chart.row(key.as_str(), bars.into_iter().flatten());
+        chart = chart.row(found.label(key), bars.into_iter().flatten());
     }
     chart.draw()
 }
@@ -122,7 +122,7 @@ pub(super) fn indices(
     let x = Axis::new("part of the variance");
     let mut chart = BarRows::new(name, title("Sobol' indices of the", quantity, found), x, 2)
         .caption(format!(
-            "{}; {} rows of points, intervals of 95 % by bootstrap",
+            "{}; {} rows of points, with 95 % intervals",
             caption(scenario, None),
             indices.rows
         ))
@@ -143,7 +143,7 @@ pub(super) fn indices(
             bar(0, index.first_order, first_color),
             bar(1, index.total, total_color),
         ];
-        chart = chart.row(index.key.as_str(), bars);
+        chart = chart.row(found.label(&index.key), bars);
     }
     Some(chart.draw())
 }

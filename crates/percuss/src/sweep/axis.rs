@@ -48,11 +48,10 @@ impl Axis {
 
     /// Its values in words, such as `normal, 230 ± 3 m/s`.
     pub fn in_words(&self) -> String {
-        let words = match &self.values {
+        match &self.values {
             Values::List(values) => format!("one of {} values", values.len()),
-            Values::Distribution(distribution) => distribution.to_string(),
-        };
-        format!("{words} {}", self.unit).trim_end().to_owned()
+            Values::Distribution(distribution) => distribution.in_words(&self.unit),
+        }
     }
 
     /// Number of values of a list.

@@ -21,6 +21,8 @@ use crate::{
     sweep::{Axis, Kernel, Shot, Stopped, values},
 };
 
+/// Longest key that is not shortened.
+const LONGEST_LABEL: usize = 30;
 /// Most reasons of failed shots that are kept.
 const REASONS: usize = 3;
 
@@ -103,7 +105,7 @@ pub fn analyse(
         samples: settings.samples,
         seed: settings.seed,
         shots: runner.total + 1,
-        inputs: study.axes.iter().map(input).collect(),
+        inputs: inputs_of(&study.axes),
         correlated: study.is_correlated(),
         nominal,
         failures: failures(&draws),
@@ -200,15 +202,36 @@ fn complete_rows(shots: &[Draw], width: usize, quantity: &Quantity) -> Vec<Vec<f
     shots.chunks(width).filter_map(row).collect()
 }
 
-fn input(axis: &Axis) -> Input {
-    Input {
+fn inputs_of(axes: &[Axis]) -> Vec<Input> {
+    let short: Vec<String> = axes.iter().map(|axis| without_middle(&axis.key)).collect();
+    let label = |axis: &Axis| {
+        let label = without_middle(&axis.key);
+        match short.iter().filter(|other| **other == label).count() {
+            1 => label,
+            _ => axis.key.clone(),
+        }
+    };
+    let input = |axis: &Axis| Input {
         key: axis.key.clone(),
         unit: axis.unit.clone(),
         distribution: axis.in_words(),
         low: axis.at(ENDS[0]),
         median: axis.at(0.5),
         high: axis.at(ENDS[1]),
+        label: label(axis),
         column: axis.column(),
+    };
+    axes.iter().map(input).collect()
+}
+
+/// A long key by its first two parts and its last one.
+fn without_middle(key: &str) -> String {
+    let parts: Vec<&str> = key.split('.').collect();
+    match parts.as_slice() {
+        [first, second, _, .., last] if key.len() > LONGEST_LABEL => {
+            format!("{first}.{second} … {last}")
+        }
+        _ => key.to_owned(),
     }
 }
 

@@ -63,6 +63,9 @@ pub struct Input {
     pub median: f64,
     /// A twentieth lies above.
     pub high: f64,
+    /// Its key, without the middle where that is long.
+    #[serde(skip)]
+    pub label: String,
     /// Name of its column in tables.
     #[serde(skip)]
     pub column: String,
@@ -107,6 +110,14 @@ pub struct QuantityResult {
     pub indices: Option<SobolIndices>,
     /// Why this quantity has no indices where others may have some.
     pub no_indices: Option<String>,
+}
+
+impl Uncertainty {
+    /// What tables and figures call a parameter.
+    pub fn label<'a>(&'a self, key: &'a str) -> &'a str {
+        let input = self.inputs.iter().find(|input| input.key == key);
+        input.map_or(key, |input| &input.label)
+    }
 }
 
 impl QuantityResult {

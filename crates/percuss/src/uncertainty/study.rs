@@ -6,7 +6,7 @@ use super::quantity::Quantity;
 use crate::{
     Error, Scenario,
     case::{self, Case, Document, Template, read_text},
-    check::Check,
+    check::{Check, Finding},
     sweep::{Axis, Copula, MAX_DIMENSIONS, check_values},
 };
 
@@ -56,13 +56,16 @@ impl Study {
             text: read_text(path)?,
         };
         let case: Case = document.parse()?;
+        let Some(inputs) = case.uncertainty else {
+            let finding = Finding {
+                key: String::new(),
+                message: "the case says nothing of what is uncertain".to_owned(),
+                help: EXAMPLE.to_owned(),
+            };
+            return Err(document.place(finding).into());
+        };
         let mut findings = Vec::new();
         let mut check = Check::new(&mut findings);
-        let Some(inputs) = case.uncertainty else {
-            check.fail("", "the case says nothing of what is uncertain", EXAMPLE);
-            document.report(findings)?;
-            unreachable!("a finding is an error");
-        };
         let mut check = check.within("uncertainty");
         let (axes, copula) = inputs.resolve(&mut check);
         if axes.len() > MAX_DIMENSIONS {

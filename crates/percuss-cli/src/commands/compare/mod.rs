@@ -17,7 +17,9 @@ use percuss::{
     model::{self, MODELS, Model},
 };
 
-use crate::{diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, terminal speeds::Speeds,
+use crate::{
+    diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, speeds::Speeds,
+    terminal,
 };
 
 const LONG_ABOUT: &str = "\

@@ -2,7 +2,7 @@
 
 use percuss::{
     Scenario,
-    uncertainty::{Estimate, Perforation, QuantityResult, Statistics, Uncertainty},
+    uncertainty::{Band, Estimate, Index, Perforation, QuantityResult, TornadoBar, Uncertainty},
     units::significant,
 };
 
@@ -77,20 +77,17 @@ fn names(heading: &str, cells: Vec<String>) -> Column {
 }
 
 fn inputs(found: &Uncertainty) -> String {
-    let each =
-        |of: &dyn Fn(&percuss::uncertainty::Input) -> String| found.inputs.iter().map(of).collect();
+    let inputs = found.inputs.iter();
     let heading = match found.correlated {
         true => "uncertain (correlated)",
         false => "uncertain",
     };
-    let first = names(heading, each(&|input| input.key.clone()));
-    let columns = vec![
-        names("distribution", each(&|input| input.distribution.clone())),
-        column("5 %", each(&|input| significant(input.low, 4))),
-        column("median", each(&|input| significant(input.median, 4))),
-        column("95 %", each(&|input| significant(input.high, 4))),
-    ];
-    blocks(&first, columns)
+    let first = names(
+        heading,
+        inputs.clone().map(|input| input.label.clone()).collect(),
+    );
+    let words = inputs.map(|input| input.distribution.clone()).collect();
+    blocks(&first, vec![names("distribution", words)])
 }
 
 fn outcome(found: &Uncertainty) -> String {
@@ -126,71 +123,82 @@ fn chance(p: &Perforation) -> String {
     )
 }
 
+/// A row a statistic, a column a quantity.
 fn spread(found: &Uncertainty) -> String {
     if found.quantities.is_empty() {
         return String::new();
     }
-    let each = |of: &dyn Fn(&QuantityResult) -> String| found.quantities.iter().map(of).collect();
-    let number =
-        |of: &'static dyn Fn(&Statistics) -> f64| each(&|q| significant(of(&q.statistics), 4));
-    let at = |percent: f64| each(&|q| significant(q.statistics.percentile(percent).value, 4));
-    let first = names(
-        "",
-        each(&|q| format!("{} [{}]", q.what().in_words, q.what().unit)),
-    );
-    let columns = vec![
-        column(
-            "at\nmedians",
-            each(&|q| {
-                q.nominal
-                    .map_or_else(|| "–".to_owned(), |v| significant(v, 4))
-            }),
-        ),
-        column("mean", number(&|s| s.mean)),
-        column("standard\ndeviation", number(&|s| s.standard_deviation)),
-        column("5 %", at(5.0)),
-        column("50 %", at(50.0)),
-        column("95 %", at(95.0)),
-        column("shots", each(&|q| q.statistics.shots.to_string())),
+    let rows = [
+        "all at their medians",
+        "mean",
+        "its standard error",
+        "standard deviation",
+        "5 % lie below",
+        "50 %",
+        "95 %",
+        "shots",
     ];
-    blocks(&first, columns)
+    let of = |quantity: &QuantityResult| {
+        let s = &quantity.statistics;
+        let at = |percent: f64| significant(s.percentile(percent).value, 4);
+        let cells = vec![
+            value(quantity.nominal),
+            significant(s.mean, 4),
+            significant(s.standard_error, 2),
+            significant(s.standard_deviation, 3),
+            at(5.0),
+            at(50.0),
+            at(95.0),
+            s.shots.to_string(),
+        ];
+        column(&heading(quantity), cells)
+    };
+    let first = names("", rows.map(str::to_owned).to_vec());
+    blocks(&first, found.quantities.iter().map(of).collect())
+}
+
+/// Name and unit of a quantity in narrow lines.
+fn heading(quantity: &QuantityResult) -> String {
+    let what = quantity.what();
+    let words = match what.in_words.rsplit_once(' ') {
+        Some((start, end)) => format!("{start}\n{end}"),
+        None => what.in_words.to_owned(),
+    };
+    format!("{words}\n[{}]", what.unit)
+}
+
+fn value(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".to_owned(), |v| significant(v, 4))
 }
 
 fn influence(found: &Uncertainty, quantity: &QuantityResult) -> String {
-    let bars = &quantity.tornado;
-    let each =
-        |of: &dyn Fn(&percuss::uncertainty::TornadoBar) -> String| bars.iter().map(of).collect();
-    let value = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| significant(v, 4));
-    let what = quantity.what();
-    let first = names("parameter", each(&|bar| bar.key.clone()));
+    let bars = quantity.tornado.iter();
+    let each = |of: &dyn Fn(&TornadoBar) -> String| bars.clone().map(of).collect();
+    let unit = quantity.what().unit;
+    let first = names("parameter", each(&|bar| found.label(&bar.key).to_owned()));
     let mut columns = vec![
+        column(&format!("at 5 %\n[{unit}]"), each(&|bar| value(bar.at_low))),
         column(
-            &format!("at 5 %\n[{}]", what.unit),
-            each(&|bar| value(bar.at_low)),
-        ),
-        column(
-            &format!("at 95 %\n[{}]", what.unit),
+            &format!("at 95 %\n[{unit}]"),
             each(&|bar| value(bar.at_high)),
         ),
     ];
     if let Some(indices) = &quantity.indices {
-        let index = |key: &str, total: bool| {
+        let index = |key: &str, of: fn(&Index) -> Estimate| {
             let found = indices.parameters.iter().find(|index| index.key == key);
-            found.map_or_else(String::new, |i| {
-                interval(if total { i.total } else { i.first_order })
-            })
+            found.map_or_else(String::new, |index| with_error(of(index)))
         };
         columns.push(column(
-            "first-order index",
-            each(&|bar| index(&bar.key, false)),
+            "index,\nfirst order",
+            each(&|bar| index(&bar.key, |i| i.first_order)),
         ));
-        columns.push(column("total index", each(&|bar| index(&bar.key, true))));
+        columns.push(column(
+            "index,\ntotal",
+            each(&|bar| index(&bar.key, |i| i.total)),
+        ));
     }
-    let mut text = format!(
-        "{}\n{}",
-        bold(format!("what moves the {}", what.in_words)),
-        blocks(&first, columns)
-    );
+    let title = format!("what moves the {}", quantity.what().in_words);
+    let mut text = format!("{}\n{}", bold(title), blocks(&first, columns));
     if let (Some(why), None) = (&quantity.no_indices, &found.no_indices) {
         text += &format!(
             "{}\n\n",
@@ -200,14 +208,14 @@ fn influence(found: &Uncertainty, quantity: &QuantityResult) -> String {
     text
 }
 
-fn interval(estimate: Estimate) -> String {
+/// An estimate and half the length of its interval.
+fn with_error(estimate: Estimate) -> String {
     // A zero is never negative.
     let number = |value: f64| format!("{:.2}", (100.0 * value).round() / 100.0 + 0.0);
     format!(
-        "{} ({} … {})",
+        "{} ± {}",
         number(estimate.value),
-        number(estimate.low),
-        number(estimate.high)
+        number(0.5 * (estimate.high - estimate.low))
     )
 }
 
@@ -228,23 +236,22 @@ fn bands(found: &Uncertainty) -> String {
         .iter()
         .any(|band| band.perforation.is_some_and(|p| p.perforated > 0))
     {
-        let cell = |band: &percuss::uncertainty::Band| {
+        let cell = |band: &Band| {
             band.perforation
                 .map_or_else(|| "–".to_owned(), |p| percent(p.probability))
         };
         columns.push(column("perforation\n[%]", bands.iter().map(cell).collect()));
     }
     for (i, quantity) in found.quantities.iter().enumerate() {
-        let what = quantity.what();
         for at in [5.0, 50.0, 95.0] {
-            let cell = |band: &percuss::uncertainty::Band| {
+            let cell = |band: &Band| {
                 let statistics = band.quantities[i].statistics.as_ref();
                 statistics.map_or_else(
                     || "–".to_owned(),
                     |s| significant(s.percentile(at).value, 4),
                 )
             };
-            let heading = format!("{}\n{at} % [{}]", what.in_words, what.unit);
+            let heading = format!("{}\n{at} %", heading(quantity));
             columns.push(column(&heading, bands.iter().map(cell).collect()));
         }
     }
