@@ -173,14 +173,10 @@ fn a_folder_holds_numbers_and_figures() {
         .collect();
     names.sort();
     let figures = [
-        "bands-ballistic-limit",
         "bands-residual-velocity",
-        "histogram-ballistic-limit",
         "histogram-residual-velocity",
-        "indices-ballistic-limit",
         "indices-residual-velocity",
         "perforation",
-        "tornado-ballistic-limit",
         "tornado-residual-velocity",
     ];
     let mut expected: Vec<String> = figures
