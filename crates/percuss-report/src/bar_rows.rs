@@ -166,7 +166,7 @@ impl BarRows {
     /// Part of the width that texts take at the left and at the right of the bars.
     fn space_for_texts(&self) -> (f64, f64) {
         // What names, legend and margins leave of the canvas, near enough [px].
-        const PLOT_WIDTH: f64 = 400.0;
+        const PLOT_WIDTH: f64 = 320.0;
         let bars = || self.rows.iter().flat_map(|row| &row.1);
         let longest = |left: bool| {
             let texts = bars().filter(|bar| (bar.ends.1 < bar.ends.0) == left);
