@@ -4,7 +4,7 @@ use kuva::plot::legend::{LegendEntry, LegendShape};
 use kuva::render::{
     color::Color,
     layout::ComputedLayout,
-    render::{PathData, Primitive, TextAnchor},
+    render::{PathData, Primitive},
 };
 
 use crate::{frame::plain, palette};
@@ -50,24 +50,6 @@ pub(crate) fn line(from: (f64, f64), to: (f64, f64), width: f64) -> Primitive {
         stroke: Color::from("black"),
         stroke_width: width,
         stroke_dasharray: None,
-    }
-}
-
-/// A text at a place: its size, what of it stands there, and its turn in degrees.
-pub(crate) fn text(
-    place: (f64, f64),
-    content: &str,
-    (size, anchor, rotate): (u32, TextAnchor, Option<f64>),
-) -> Primitive {
-    Primitive::Text {
-        x: place.0,
-        y: place.1,
-        content: content.to_owned(),
-        size,
-        anchor,
-        rotate,
-        bold: false,
-        color: None,
     }
 }
 

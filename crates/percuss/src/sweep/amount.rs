@@ -24,7 +24,7 @@ impl<'de> Deserialize<'de> for Amount {
     }
 }
 
-struct AmountVisitor;
+pub(super) struct AmountVisitor;
 
 impl serde::de::Visitor<'_> for AmountVisitor {
     type Value = Amount;

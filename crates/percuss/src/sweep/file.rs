@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{amount::Amount, correlation::Correlation};
+use super::{amount::Amount, correlation::Correlation, entry::Entry};
 
 /// A sweep as its TOML file holds it.
 #[derive(Debug, Clone, Deserialize)]
@@ -51,7 +51,7 @@ impl Design {
     }
 }
 
-/// A number of the case and the values it takes: just one of the other keys.
+/// A number or an option of the case and the values it takes: just one of the other keys.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Parameter {
@@ -59,7 +59,7 @@ pub struct Parameter {
     pub key: String,
     /// A list.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub values: Option<Vec<Amount>>,
+    pub values: Option<Vec<Entry>>,
     /// Values at even steps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub linear: Option<Steps>,

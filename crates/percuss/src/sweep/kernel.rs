@@ -5,7 +5,7 @@ use std::{
     sync::atomic::{AtomicBool, Ordering},
 };
 
-use super::Axis;
+use super::{Axis, caught::caught};
 use crate::{
     Error, Scenario,
     case::Template,
@@ -39,15 +39,18 @@ impl Shot {
             .map(|(axis, value)| (axis.key.as_str(), axis.written(*value)))
             .chain(more.iter().cloned())
             .collect();
-        let scenario = template.scenario(&changes).map_err(|findings| {
-            let words = |finding: &Finding| {
-                let mut text = format!("{}: {}", finding.key, finding.message);
-                if !finding.help.is_empty() {
-                    text += &format!(" ({})", finding.help);
-                }
-                text.trim_start_matches(": ").to_owned()
-            };
-            findings.iter().map(words).collect::<Vec<_>>().join("; ")
+        let made = caught(|| template.scenario(&changes));
+        let scenario = made.and_then(|made| {
+            made.map_err(|findings| {
+                let words = |finding: &Finding| {
+                    let mut text = format!("{}: {}", finding.key, finding.message);
+                    if !finding.help.is_empty() {
+                        text += &format!(" ({})", finding.help);
+                    }
+                    text.trim_start_matches(": ").to_owned()
+                };
+                findings.iter().map(words).collect::<Vec<_>>().join("; ")
+            })
         });
         Self {
             index,
@@ -102,7 +105,10 @@ impl ScalarKernel {
             progress: Some(&mut watch),
             ..Control::default()
         };
-        match model::run(self.model, scenario, &mut control) {
+        // One shot is what a panic may cost: the other shots of the block, the block and the sweep go on.
+        let result = caught(|| model::run(self.model, scenario, &mut control));
+        let result = result.unwrap_or_else(|said| Err(Error::Fault(said)));
+        match result {
             Ok(result) => Ok(ResultRecord::new(scenario, &result)),
             Err(Error::Cancelled { .. }) => Err(Stopped),
             Err(error) => Ok(ResultRecord::without_result(

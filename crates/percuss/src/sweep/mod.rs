@@ -5,9 +5,11 @@
 
 mod amount;
 mod axis;
+mod caught;
 mod copula;
 mod correlation;
 mod distribution;
+mod entry;
 mod file;
 mod inputs;
 mod kernel;
@@ -29,6 +31,7 @@ pub use axis::Axis;
 pub(crate) use axis::values;
 pub(crate) use copula::Copula;
 pub use correlation::Correlation;
+pub use entry::Entry;
 pub use file::{Design, Lognormal, Normal, Parameter, Steps, Triangular, Uniform};
 pub use inputs::UncertainInputs;
 pub(crate) use inputs::check_values;
