@@ -29,8 +29,7 @@ impl Copula {
                 entries.push((row[j] - sum) / factor[j][j]);
             }
             let pivot = row[i] - entries.iter().map(|entry| entry * entry).sum::<f64>();
-            // Written so that NaN is refused too.
-            if !(pivot > LEAST_PIVOT) {
+            if pivot.is_nan() || pivot <= LEAST_PIVOT {
                 return None;
             }
             entries.push(pivot.sqrt());

@@ -60,8 +60,8 @@ pub(super) fn indices(rows: &[Vec<f64>], keys: &[&str], seed: u64) -> Result<Sob
         .iter()
         .flatten()
         .fold(0.0_f64, |size, v| size.max(v.abs()));
-    // Written so that NaN is refused too.
-    if !(variance(&sums(&terms, 0..rows.len())) > ROUNDING * size * size) {
+    let spread = variance(&sums(&terms, 0..rows.len()));
+    if spread.is_nan() || spread <= ROUNDING * size * size {
         return Err("the value is the same in all shots".to_owned());
     }
     let resampled: Vec<Vec<f64>> = (0..RESAMPLES)
