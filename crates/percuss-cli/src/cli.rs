@@ -5,7 +5,7 @@ use clap::{Parser, Subcommand};
 use crate::{
     commands::{
         Calibrate, Compare, Completions, Converge, Judge, Limit, Man, Materials, Models, New,
-        Reproduce, Run, Schema, Sweep, Validate,
+        Reproduce, Run, Schema, Sweep, Uncertainty, Validate,
     },
     failure::Failure,
 };
@@ -60,6 +60,7 @@ pub enum Command {
     Limit(Limit),
     Sweep(Sweep),
     Calibrate(Calibrate),
+    Uncertainty(Uncertainty),
     Converge(Converge),
     Validate(Validate),
     Judge(Judge),
@@ -80,6 +81,7 @@ impl Command {
             Self::Limit(command) => command.run(),
             Self::Sweep(command) => command.run(),
             Self::Calibrate(command) => command.run(),
+            Self::Uncertainty(command) => command.run(),
             Self::Converge(command) => command.run(),
             Self::Validate(command) => command.run(),
             Self::Judge(command) => command.run(),

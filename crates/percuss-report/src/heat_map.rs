@@ -6,7 +6,7 @@ use kuva::plot::LinePlot;
 use kuva::render::{
     color::Color,
     layout::ComputedLayout,
-    render::{PathData, Primitive, Scene, TextAnchor},
+    render::{Primitive, Scene, TextAnchor},
     render_utils::generate_ticks,
 };
 
@@ -14,6 +14,7 @@ use crate::{
     Axis, Figure,
     frame::{Frame, HEIGHT, text, tick_label},
     palette,
+    primitives::{border, filled, line},
 };
 
 /// Steps of colour.
@@ -297,41 +298,5 @@ impl HeatMap {
             &self.value_label,
             (14, TextAnchor::Middle, Some(-90.0)),
         ));
-    }
-}
-
-fn filled(path: String, color: &str) -> Primitive {
-    Primitive::Path(Box::new(PathData {
-        d: path,
-        fill: Some(Color::from(color)),
-        stroke: Color::None,
-        stroke_width: 0.0,
-        opacity: None,
-        stroke_dasharray: None,
-    }))
-}
-
-fn border(x: f64, y: f64, width: f64, height: f64) -> Primitive {
-    Primitive::Rect {
-        x,
-        y,
-        width,
-        height,
-        fill: Color::None,
-        stroke: Some(Color::from("black")),
-        stroke_width: Some(1.0),
-        opacity: None,
-    }
-}
-
-fn line(from: (f64, f64), to: (f64, f64), width: f64) -> Primitive {
-    Primitive::Line {
-        x1: from.0,
-        y1: from.1,
-        x2: to.0,
-        y2: to.1,
-        stroke: Color::from("black"),
-        stroke_width: width,
-        stroke_dasharray: None,
     }
 }

@@ -45,6 +45,7 @@ pub mod shapes;
 pub mod shots;
 pub mod summary;
 pub mod sweep;
+pub mod uncertainty;
 pub mod units;
 pub mod v50;
 pub mod validate;

@@ -34,6 +34,15 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    /// Whether the target was perforated, where that can be said.
+    pub fn perforated(self) -> Option<bool> {
+        match self {
+            Self::Perforated => Some(true),
+            Self::AtRest | Self::Rebounded | Self::ProjectileEroded => Some(false),
+            Self::Separated | Self::OutOfTime | Self::NotApplicable | Self::Failed => None,
+        }
+    }
+
     /// The outcome in words.
     pub fn in_words(self) -> &'static str {
         match self {

@@ -14,6 +14,7 @@ mod reproduce;
 mod run;
 mod schema;
 mod sweep;
+mod uncertainty;
 mod validate;
 
 pub use calibrate::Calibrate;
@@ -30,4 +31,5 @@ pub use reproduce::Reproduce;
 pub use run::Run;
 pub use schema::Schema;
 pub use sweep::Sweep;
+pub use uncertainty::Uncertainty;
 pub use validate::Validate;

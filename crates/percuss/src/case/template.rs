@@ -31,7 +31,9 @@ impl Template {
             file: path.display().to_string(),
             text: load::read_text(path)?,
         };
-        let table: Table = document.parse()?;
+        let mut table: Table = document.parse()?;
+        // No shot depends on what is uncertain.
+        table.remove("uncertainty");
         let mut case: Case = document.parse()?;
         // Its own materials are among the numbers that can be changed: only those of other files are looked up beforehand.
         case.materials.clear();

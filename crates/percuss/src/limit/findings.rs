@@ -63,16 +63,18 @@ pub(super) fn unsuited(model: &dyn Model, scenario: &Scenario) -> Option<String>
 
 /// Whether a shot went through.
 pub(super) fn passage(result: &RunResult) -> Passage {
-    let undecided = |reason: &str| Passage::Undecided(reason.to_owned());
-    match result.outcome {
-        Outcome::Perforated => Passage::Perforated,
-        Outcome::AtRest | Outcome::Rebounded | Outcome::ProjectileEroded => Passage::Stopped,
+    let why = match result.outcome {
         Outcome::Separated => {
-            undecided("the target runs away from the projectile, and whether it opens is not said")
+            "the target runs away from the projectile, and whether it opens is not said"
         }
-        Outcome::OutOfTime => undecided("the run ended before the shot did"),
-        Outcome::NotApplicable => undecided("the model does not apply"),
-        Outcome::Failed => undecided("the model failed"),
+        Outcome::OutOfTime => "the run ended before the shot did",
+        Outcome::NotApplicable => "the model does not apply",
+        _ => "the model failed",
+    };
+    match result.outcome.perforated() {
+        Some(true) => Passage::Perforated,
+        Some(false) => Passage::Stopped,
+        None => Passage::Undecided(why.to_owned()),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use toml::Value;
 
-use super::distribution::Distribution;
+use super::{amount::Amount, copula::Copula, distribution::Distribution};
 
 /// A number or an option of the case with the values that it takes.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +28,15 @@ pub(crate) enum Values {
     Distribution(Distribution),
 }
 
+/// The values of all axes that numbers drawn evenly between 0 and 1 stand for.
+pub(crate) fn values(axes: &[Axis], copula: Option<&Copula>, u: &[f64]) -> Vec<f64> {
+    let mut values: Vec<f64> = axes.iter().zip(u).map(|(axis, u)| axis.at(*u)).collect();
+    if let Some(copula) = copula {
+        copula.join(axes, u, &mut values);
+    }
+    values
+}
+
 impl Axis {
     /// Name of its column: the key, and the unit in the manner of the other columns.
     pub fn column(&self) -> String {
@@ -41,12 +50,29 @@ impl Axis {
         name
     }
 
+    /// Its values in words, such as `normal, 230 ± 3 m/s`.
+    pub fn in_words(&self) -> String {
+        match &self.values {
+            Values::List(values) => format!("one of {} values", values.len()),
+            Values::Options(options) => format!("one of {} options", options.len()),
+            Values::Distribution(distribution) => distribution.in_words(&self.unit),
+        }
+    }
+
     /// Number of values of a list; a distribution has none.
     pub fn count(&self) -> Option<u64> {
         match &self.values {
             Values::List(values) => Some(values.len() as u64),
             Values::Options(options) => Some(options.len() as u64),
             Values::Distribution(_) => None,
+        }
+    }
+
+    /// Its distribution, unless it takes the values of a list.
+    pub(super) fn distribution(&self) -> Option<&Distribution> {
+        match &self.values {
+            Values::List(_) | Values::Options(_) => None,
+            Values::Distribution(distribution) => Some(distribution),
         }
     }
 
@@ -63,7 +89,7 @@ impl Axis {
     }
 
     /// The value that a number drawn evenly between 0 and 1 stands for: of a list all are equally likely.
-    pub(super) fn at(&self, u: f64) -> f64 {
+    pub(crate) fn at(&self, u: f64) -> f64 {
         match &self.values {
             Values::List(values) => values[drawn(u, values.len())],
             Values::Options(options) => drawn(u, options.len()) as f64,
@@ -71,16 +97,11 @@ impl Axis {
         }
     }
 
-    /// A value as the case file would have it; a float's text reads back as the same number.
+    /// A value as the case file would have it.
     pub(crate) fn written(&self, value: f64) -> Value {
-        if let Values::Options(options) = &self.values {
-            options[value as usize].clone()
-        } else if !self.unit.is_empty() {
-            Value::String(format!("{value:?} {}", self.unit))
-        } else if self.whole {
-            Value::Integer(value as i64)
-        } else {
-            Value::Float(value)
+        match &self.values {
+            Values::Options(options) => options[value as usize].clone(),
+            _ => Amount::written(value, &self.unit, self.whole),
         }
     }
 }

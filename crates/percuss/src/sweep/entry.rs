@@ -1,14 +1,18 @@
 //! Entries of a list of values: amounts, or the words and switches that an option of the case can be.
 
-use serde::{Deserialize, Deserializer, de};
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use toml::Value;
 
-use super::file::{Amount, AmountVisitor};
+use super::amount::{Amount, AmountVisitor};
 use crate::units::{is_unit, split_number};
 
 /// One of the values of a list.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Entry {
+pub enum Entry {
+    /// A number, which may have a unit.
     Amount(Amount),
     /// A text or `true` or `false`, for the case to say whether it can be that.
     Option(Value),
@@ -46,6 +50,31 @@ impl de::Visitor<'_> for EntryVisitor {
             true => AmountVisitor.visit_str(text).map(Entry::Amount),
             false => Ok(Entry::Option(Value::String(text.to_owned()))),
         }
+    }
+}
+
+impl Serialize for Entry {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Amount(amount) => amount.serialize(serializer),
+            Self::Option(value) => value.serialize(serializer),
+        }
+    }
+}
+
+impl JsonSchema for Entry {
+    fn schema_name() -> Cow<'static, str> {
+        "Entry".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "anyOf": [
+                generator.subschema_for::<Amount>(),
+                { "type": "string" },
+                { "type": "boolean" },
+            ],
+        })
     }
 }
 

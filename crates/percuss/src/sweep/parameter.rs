@@ -1,10 +1,11 @@
 //! Checking a parameter of a sweep file and turning it into an axis.
 
 use super::{
+    amount::Amount,
     axis::{Axis, Values},
     distribution::{Cut, Distribution},
     entry::Entry,
-    file::{Amount, Design, Parameter, Steps},
+    file::{Design, Parameter, Steps},
 };
 use crate::check::Check;
 

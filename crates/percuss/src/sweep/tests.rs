@@ -23,7 +23,7 @@ fn load(name: &str, text: &str) -> Result<Sweep, Error> {
     sweep
 }
 
-fn sweep(name: &str, head: &str, parameters: &str) -> Sweep {
+pub(super) fn sweep(name: &str, head: &str, parameters: &str) -> Sweep {
     let text = format!("base = 'scenario.toml'\nmodel = 'taylor'\n{head}\n{parameters}");
     load(name, &text).unwrap_or_else(|error| panic!("{name}: {error}"))
 }

@@ -18,9 +18,9 @@ use percuss::{
     shots::Kind,
 };
 
-use super::sweep::stop_on_request;
 use crate::{
     diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, shot_data, terminal,
+    workers,
 };
 
 const LONG_ABOUT: &str = "\
@@ -211,7 +211,7 @@ impl Calibrate {
     }
 
     fn solve(&self, problem: &Problem, settings: &Settings) -> Result<Calibration, Failure> {
-        let stop = stop_on_request();
+        let stop = workers::stop_on_request();
         let board = Mutex::new((Stage::LeastSquares, Progress::new(!self.quiet)));
         let watch = |stage: Stage, part: f64, runs: u64| {
             // A bar that another thread is drawing has no need of this one.
@@ -237,7 +237,7 @@ impl Calibrate {
         let board = board.into_inner().unwrap_or_else(PoisonError::into_inner);
         board.1.finish();
         match result {
-            Err(Error::Cancelled { step, .. }) => Err(Failure::CalibrationStopped { runs: step }),
+            Err(Error::Cancelled { .. }) => Err(Failure::Interrupted("the calibration")),
             other => Ok(other?),
         }
     }

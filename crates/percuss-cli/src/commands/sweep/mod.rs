@@ -3,11 +3,7 @@ mod plot;
 use std::{
     collections::BTreeMap,
     path::{Path, PathBuf},
-    process,
-    sync::{
-        Arc, Mutex, PoisonError,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::{Mutex, PoisonError},
     time::Instant,
 };
 
@@ -22,6 +18,7 @@ use crate::{
     failure::Failure,
     progress::Progress,
     terminal::{self, bold},
+    workers,
 };
 
 const LONG_ABOUT: &str = "\
@@ -141,15 +138,8 @@ impl Sweep {
             board.progress.update(fraction, &words);
         };
         hear(&[]);
-        let mut pool = rayon::ThreadPoolBuilder::new();
-        if let Some(threads) = self.threads {
-            pool = pool.num_threads(usize::from(threads));
-        }
-        let pool = pool.build().map_err(|error| Failure::Usage {
-            message: format!("cannot start the threads: {error}"),
-            help: "ask for fewer with --threads".to_owned(),
-        })?;
-        let stop = stop_on_request();
+        let pool = workers::pool(self.threads)?;
+        let stop = workers::stop_on_request();
         let kernel = ScalarKernel::new(sweep.model);
         let complete = pool.install(|| folder.compute(&sweep, &kernel, &missing, &stop, &hear));
         let board = board.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -207,19 +197,6 @@ impl Board {
             *self.outcomes.entry(outcome.in_words()).or_default() += 1;
         }
     }
-}
-
-/// Becomes true on the first Ctrl-C, or request of the system to end; the second one ends the program at once.
-pub(super) fn stop_on_request() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    // Without a handler Ctrl-C just ends the program, which loses no block that is written.
-    let _ = ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            process::exit(130);
-        }
-    });
-    stop
 }
 
 fn print_status(folder: &Path) -> Result<(), Failure> {
