@@ -7,8 +7,9 @@ use std::{
     sync::atomic::{AtomicBool, Ordering},
 };
 
-use parquet::file::reader::{FileReader, SerializedFileReader};
-use percuss::sweep::{Kernel, Row, Stopped, Sweep};
+use bytes::Bytes;
+use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
+use percuss::sweep::{Kernel, Row, Sweep};
 use rayon::prelude::*;
 
 use super::{
@@ -157,14 +158,55 @@ impl SweepFolder {
         if stop.load(Ordering::Relaxed) {
             return Err(None);
         }
-        let shots = sweep.block(block).map(|shot| sweep.shot(shot)).collect();
-        let rows = kernel.rows(shots, stop).map_err(|Stopped| None)?;
-        let name = block_file(block);
-        let content = column::parquet(&name, &columns(sweep), &rows)?;
-        replace_file_durably(&self.path, &name, |file| file.write_all(&content))?;
+        let (content, rows) = block_content(sweep, kernel, block, stop)?.ok_or(None)?;
+        self.write(block, &content)?;
         done(&rows);
         Ok(())
     }
+
+    /// Takes the file of a block that was computed elsewhere.
+    ///
+    /// # Errors
+    /// [`ReportError::Sweep`] when it is not the whole of this block of this sweep; [`ReportError::Write`].
+    pub fn put(&self, block: u64, content: &[u8]) -> Result<(), ReportError> {
+        let found = match block < self.manifest.blocks() {
+            true => state_of(Bytes::copy_from_slice(content), &self.manifest, block),
+            false => State::Missing,
+        };
+        if found != State::Done {
+            return Err(ReportError::Sweep {
+                path: self.path.join(block_file(block)),
+                reason: "what was computed elsewhere is not this block of this sweep".to_owned(),
+                remedy: "compute it with the same version of the program".to_owned(),
+            });
+        }
+        self.write(block, content)
+    }
+
+    fn write(&self, block: u64, content: &[u8]) -> Result<(), ReportError> {
+        replace_file_durably(&self.path, &block_file(block), |file| {
+            file.write_all(content)
+        })?;
+        Ok(())
+    }
+}
+
+/// Computes a block: what its file holds, and its rows; `None` when `stop` ended it.
+///
+/// # Errors
+/// [`ReportError::Table`].
+pub fn block_content(
+    sweep: &Sweep,
+    kernel: &dyn Kernel,
+    block: u64,
+    stop: &AtomicBool,
+) -> Result<Option<(Vec<u8>, Vec<Row>)>, ReportError> {
+    let shots = sweep.block(block).map(|shot| sweep.shot(shot)).collect();
+    let Ok(rows) = kernel.rows(shots, stop) else {
+        return Ok(None);
+    };
+    let content = column::parquet(&block_file(block), &columns(sweep), &rows)?;
+    Ok(Some((content, rows)))
 }
 
 /// How far a folder has come.
@@ -212,6 +254,10 @@ pub(super) fn state(folder: &Path, manifest: &Manifest, block: u64) -> State {
     let Ok(file) = File::open(folder.join(block_file(block))) else {
         return State::Missing;
     };
+    state_of(file, manifest, block)
+}
+
+fn state_of(file: impl ChunkReader + 'static, manifest: &Manifest, block: u64) -> State {
     let Ok(reader) = SerializedFileReader::new(file) else {
         return State::Damaged;
     };

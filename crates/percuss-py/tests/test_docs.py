@@ -1,0 +1,45 @@
+"""The examples of the documentation do what they say."""
+
+from __future__ import annotations
+
+import doctest
+from pathlib import Path
+
+import pytest
+from conftest import ROOT
+
+PAGES = [ROOT / "docs/python.md", ROOT / "README.md"]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_the_examples_of_a_page_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Blocks of Python run in their order, in a folder that has the cases; lines after ``>>>`` show what is printed."""
+    (tmp_path / "cases").symlink_to(ROOT / "cases")
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {}
+    blocks = python_blocks(page.read_text(encoding="utf-8"))
+    assert blocks
+    for i, block in enumerate(blocks):
+        if ">>>" not in block:
+            exec(compile(block, f"{page.name}, block {i}", "exec"), names)
+            continue
+        test = doctest.DocTestParser().get_doctest(block, names, f"{page.name}, block {i}", str(page), 0)
+        runner = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS)
+        said: list[str] = []
+        runner.run(test, out=said.append, clear_globs=False)
+        names = test.globs
+        assert not runner.failures, "".join(said)
+
+
+def python_blocks(text: str) -> list[str]:
+    """Blocks marked as Python; those marked ``python no-run`` need what a test does not have."""
+    blocks: list[str] = []
+    inside = False
+    for line in text.splitlines():
+        if line.startswith("```"):
+            inside = line == "```python"
+            if inside:
+                blocks.append("")
+        elif inside:
+            blocks[-1] += line + "\n"
+    return blocks
