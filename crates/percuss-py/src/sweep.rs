@@ -3,7 +3,10 @@
 use std::{
     collections::BTreeMap,
     path::{Path, PathBuf},
-    sync::atomic::{AtomicBool, AtomicU64, Ordering},
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicBool, AtomicU64, Ordering},
+    },
 };
 
 use percuss::sweep::{Row, ScalarKernel, Sweep as Loaded};
@@ -67,9 +70,17 @@ impl Sweep {
     }
 }
 
-/// A folder that this process alone writes results to, until it is dropped.
+/// A folder that this process alone writes results to, until it is closed.
 #[pyclass(frozen, module = "percuss._percuss")]
-pub struct SweepFolder(Folder);
+pub struct SweepFolder(Mutex<Option<Arc<Folder>>>);
+
+impl SweepFolder {
+    fn folder(&self) -> PyResult<Arc<Folder>> {
+        let folder = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let closed = || PyValueError::new_err("the folder is closed");
+        folder.as_ref().map(Arc::clone).ok_or_else(closed)
+    }
+}
 
 #[pymethods]
 impl SweepFolder {
@@ -82,21 +93,28 @@ impl SweepFolder {
         resume: bool,
     ) -> PyResult<Self> {
         let folder = Folder::open(&path, &sweep.get().sweep, resume);
-        Ok(Self(folder.map_err(|error| raise(py, error))?))
+        let folder = folder.map_err(|error| raise(py, error))?;
+        Ok(Self(Mutex::new(Some(Arc::new(folder)))))
+    }
+
+    /// Lets other processes write to it: what refers to this object, such as the traceback of an error, may live long.
+    fn close(&self) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = None;
     }
 
     /// The blocks that are missing of part `part` of `parts`, counted from 1.
-    fn missing(&self, part: u64, parts: u64) -> Vec<u64> {
-        self.0.missing(part, parts)
+    fn missing(&self, part: u64, parts: u64) -> PyResult<Vec<u64>> {
+        Ok(self.folder()?.missing(part, parts))
     }
 
     /// Takes the file of a block that was computed elsewhere.
     fn put(&self, py: Python<'_>, block: u64, content: &[u8]) -> PyResult<()> {
-        self.0.put(block, content).map_err(|error| raise(py, error))
+        let folder = self.folder()?;
+        folder.put(block, content).map_err(|error| raise(py, error))
     }
 }
 
-/// Computes what a folder lacks of part `part` of `parts`. Returns the number of shots that were computed and how they ended.
+/// Computes what a folder lacks of part `part` of `parts`. Returns whether all of it was computed.
 #[pyfunction]
 #[pyo3(signature = (sweep, folder, part, parts, threads=None, progress=None))]
 pub fn compute_sweep(
@@ -108,7 +126,7 @@ pub fn compute_sweep(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<bool> {
-    let (sweep, folder) = (&sweep.get().sweep, &folder.get().0);
+    let (sweep, folder) = (&sweep.get().sweep, folder.get().folder()?);
     let blocks = folder.missing(part, parts);
     let due: u64 = blocks
         .iter()

@@ -32,7 +32,7 @@ def test_the_tables_of_a_case_make_the_same_case(case: str) -> None:
 
 def test_numbers_are_in_si_units_where_a_quantity_is_due() -> None:
     with_units = percuss.Case(
-        projectile={**COPPER, "temperature": "300 K"},
+        projectile={**COPPER, "temperature": "293 K"},
         target=PLATE,
         chain={"constraint_factor": 2.7, "courant": 0.5, "end_time": "50 us"},
         experiments=[{"velocity": "230 m/s", "depth_of_penetration": "0.25 mm", "source": "user"}],
@@ -40,7 +40,7 @@ def test_numbers_are_in_si_units_where_a_quantity_is_due() -> None:
                             "strength": {"perfectly_plastic": {"flow_stress": "300 MPa"}}}},
     )
     numbers = percuss.Case(
-        projectile={"material": "copper", "length": 12.74e-3, "diameter": 4.8e-3, "velocity": 230, "temperature": 300},
+        projectile={"material": "copper", "length": 12.74e-3, "diameter": 4.8e-3, "velocity": 230, "temperature": 293},
         target={"material": "aluminium-2024-t351", "thickness": numpy.float64(25e-3)},
         chain={"constraint_factor": numpy.float32(2.7).item(), "courant": 0.5, "end_time": 50e-6},
         experiments=[{"velocity": 230.0, "depth_of_penetration": 0.25e-3, "source": "user"}],

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import doctest
+import importlib
+import pkgutil
 from pathlib import Path
 
+import percuss
 import pytest
 from conftest import ROOT
 
+MODULES = [module.name for module in pkgutil.iter_modules(percuss.__path__) if not module.name.startswith("_")]
 PAGES = [ROOT / "docs/python.md", ROOT / "README.md"]
 
 
@@ -43,3 +47,20 @@ def python_blocks(text: str) -> list[str]:
         elif inside:
             blocks[-1] += line + "\n"
     return blocks
+
+
+@pytest.mark.parametrize("module", ["", *MODULES])
+def test_the_examples_of_a_module_run(module: str) -> None:
+    said: list[str] = []
+    runner = doctest.DocTestRunner()
+    name = f"percuss.{module}".rstrip(".")
+    for test in doctest.DocTestFinder().find(importlib.import_module(name), name, extraglobs={"percuss": percuss}):
+        runner.run(test, out=said.append)
+    assert not runner.failures, "".join(said)
+
+
+def test_every_function_has_an_example() -> None:
+    lacking = [name for name in percuss.__all__ if name.islower() and not name.startswith("__")]
+    lacking = [name for name in lacking if ">>>" not in (getattr(percuss, name).__doc__ or "")]
+    # Its example is that of a sweep's parts, on the page about Python.
+    assert lacking == ["merge"]

@@ -15,12 +15,13 @@ CASE = "cases/paper-table1/scenario.toml"
 @pytest.fixture(scope="module")
 def records() -> dict[type[Record], list[Record]]:
     case = Path(__file__).resolve().parents[3] / CASE
+    wall = case.parents[1] / "taylor-copper-wilkins/scenario.toml"
     plate = case.parents[1] / "weldox-460e-12mm-blunt/scenario.toml"
     return {
-        percuss.RunResult: [percuss.run(case), percuss.run(case, "tate", history=False)],
+        percuss.RunResult: [percuss.run(case), percuss.run(wall, "taylor", history=False)],
         percuss.Comparison: [percuss.compare(case), percuss.compare(case, velocity="200..400:3")],
         percuss.Limits: [percuss.limit(plate, model=["plugging", "recht_ipson", "tate"])],
-        percuss.Convergence: [percuss.converge(case.parents[1] / "taylor-copper-wilkins/scenario.toml", levels=3)],
+        percuss.Convergence: [percuss.converge(wall, levels=3)],
         percuss.Validation: [percuss.validate(model="taylor", kind="taylor")],
         percuss.Material: [percuss.material("copper"), *percuss.materials()],
         percuss.Model: list(percuss.models()),

@@ -69,7 +69,7 @@ def test_parts_resume_and_merge(program: Program, tmp_path: Path) -> None:
     (tmp_path / "whole/block-000002.parquet").unlink()
     (tmp_path / "whole/block-000003.parquet").write_bytes(b"PAR1")
     assert not whole.complete and whole.status.blocks_damaged == [3]
-    with pytest.raises(percuss.UsageError, match="holds this sweep already") as refused:
+    with pytest.raises(percuss.UsageError, match="the folder holds this") as refused:
         percuss.sweep(path, tmp_path / "whole")
     printed = program("sweep", path, "--out", tmp_path / "whole")
     assert str(refused.value) == printed.stderr.rstrip()
@@ -105,3 +105,10 @@ def test_a_block_of_another_sweep_is_refused(tmp_path: Path) -> None:
             folder.put(wrong, content)
     folder.put(0, block)
     assert folder.missing(1, 1) == [1, 2, 3, 4, 5]
+    # Nobody else writes to the folder before it is closed.
+    with pytest.raises(percuss.UsageError, match="another process"):
+        percuss._percuss.SweepFolder(tmp_path / "rows", sweep, True)
+    folder.close()
+    with pytest.raises(ValueError, match="closed"):
+        folder.put(0, block)
+    assert percuss.sweep(path, tmp_path / "rows", resume=True).complete

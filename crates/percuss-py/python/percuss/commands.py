@@ -278,7 +278,7 @@ def materials(
 
     Examples
     --------
-    >>> "ofhc-copper" in [material.id for material in percuss.materials()]
+    >>> "copper-woodward" in [material.id for material in percuss.materials()]
     True
     """
     return [Material(record) for record in _answer("materials", case=case, file=file)]
@@ -300,7 +300,7 @@ def material(
     Examples
     --------
     >>> percuss.material("copper").id
-    'ofhc-copper'
+    'copper-woodward'
     """
     return Material(_answer("materials show", name, case=case, file=file))
 

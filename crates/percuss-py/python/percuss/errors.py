@@ -78,12 +78,20 @@ class UsageError(PercussError, ValueError):
     """An argument asks for something that does not exist."""
 
 
-class ReadError(PercussError, OSError):
-    """A file could not be read; ``filename`` names it."""
+class _FileError(PercussError, OSError):
+    message: str = ""
+
+    def __str__(self) -> str:
+        # An OSError with the name of a file would write its own text.
+        return str(self.args[0])
 
 
-class WriteError(PercussError, OSError):
-    """A file or folder could not be written; ``filename`` names it."""
+class ReadError(_FileError):
+    """A file could not be read; ``filename`` names it, ``message`` says why."""
+
+
+class WriteError(_FileError):
+    """A file or folder could not be written; ``filename`` names it, ``message`` says why."""
 
 
 class ClusterError(PercussError, RuntimeError):

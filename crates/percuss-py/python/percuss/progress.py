@@ -26,17 +26,25 @@ class _Bar:
         if self.bar is None:
             if time.monotonic() - self.start < PATIENCE:
                 return
-            from tqdm.auto import tqdm
-
-            self.bar = tqdm(total=1.0, leave=False, bar_format="{l_bar}{bar}| {postfix}")
+            self.bar = _tqdm()(total=1.0, leave=False, bar_format="{percentage:3.0f} %|{bar}| {desc}")
         # An estimate that falls back would only puzzle.
         self.bar.n = max(self.bar.n, min(fraction, 1.0))
-        self.bar.set_postfix_str(words, refresh=False)
+        self.bar.set_description_str(words, refresh=False)
         self.bar.refresh()
 
     def close(self) -> None:
         if self.bar is not None:
             self.bar.close()
+
+
+def _tqdm() -> Any:
+    """The bar of a notebook where it can be drawn, otherwise that of a terminal."""
+    try:
+        import ipywidgets  # noqa: F401
+        from tqdm.auto import tqdm
+    except ImportError:
+        from tqdm import tqdm
+    return tqdm
 
 
 def _is_watched() -> bool:

@@ -97,29 +97,43 @@ def shown(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def flat(data: dict[str, Any], prefix: str = "") -> dict[str, Any]:
-    """One level of names, joined by points; lists stay as they are."""
-    row: dict[str, Any] = {}
-    for name, value in data.items():
+def columns(rows: list[dict[str, Any]]) -> dict[str, list[Any]]:
+    """Columns of records: tables within become columns with joined names; what a record lacks is ``None``.
+
+    Examples
+    --------
+    >>> columns([{"model": "a", "band": None}, {"model": "b", "band": {"low": 1.0}}])
+    {'model': ['a', 'b'], 'band.low': [None, 1.0]}
+    """
+    tables = {name for row in rows for name, value in row.items() if isinstance(value, dict)}
+    flat = [_flat(row, tables) for row in rows]
+    names = dict.fromkeys(name for row in flat for name in row)
+    return {name: [row.get(name) for row in flat] for name in names}
+
+
+def _flat(row: dict[str, Any], tables: set[str]) -> dict[str, Any]:
+    """One level of names, joined by points. A table that is missing leaves nothing, not even its name."""
+    values: dict[str, Any] = {}
+    for name, value in row.items():
         if isinstance(value, dict):
-            row.update(flat(value, f"{prefix}{name}."))
-        else:
-            row[prefix + name] = value
-    return row
+            values |= {f"{name}.{inner}": item for inner, item in _flat(value, set()).items()}
+        elif name not in tables:
+            values[name] = value
+    return values
 
 
 def frame(rows: list[dict[str, Any]]) -> pandas.DataFrame:
     """A table of pandas, a row a record."""
     import pandas
 
-    return pandas.DataFrame([flat(row) for row in rows])
+    return pandas.DataFrame(columns(rows))
 
 
 def table(rows: list[dict[str, Any]]) -> pyarrow.Table:
     """A table of Arrow, a row a record."""
     import pyarrow
 
-    return pyarrow.Table.from_pylist([flat(row) for row in rows])
+    return pyarrow.table(columns(rows))
 
 
 def table_html(head: list[str], rows: list[list[str]], caption: str = "") -> str:

@@ -135,14 +135,14 @@ def sweep(
     >>> rows = percuss.sweep(
     ...     {
     ...         "base": percuss.load("cases/paper-table1/scenario.toml"),
-    ...         "model": "tate",
+    ...         "model": "chain",
     ...         "design": "grid",
-    ...         "parameter": [{"key": "projectile.velocity", "values": ["1000 m/s", "1500 m/s"]}],
+    ...         "parameter": [{"key": "projectile.velocity", "values": ["200 m/s", "230 m/s"]}],
     ...     },
     ...     tempfile.mkdtemp(),
     ... )
     >>> rows.complete, rows.to_pandas()["impact_velocity_m_s"].tolist()
-    (True, [1000.0, 1500.0])
+    (True, [200.0, 230.0])
     """
     part, parts = shard
     if not 1 <= part <= parts:
@@ -150,11 +150,14 @@ def sweep(
     path = _written(sweep, Path(out)) if isinstance(sweep, Mapping) else Path(sweep)
     native = _percuss.Sweep(path)
     folder = _percuss.SweepFolder(out, native, resume)
-    with watching(progress) as hear:
-        if client is None:
-            _percuss.compute_sweep(native, folder, part, parts, threads, hear)
-        else:
-            cluster.compute(native, folder, folder.missing(part, parts), client, hear)
+    try:
+        with watching(progress) as hear:
+            if client is None:
+                _percuss.compute_sweep(native, folder, part, parts, threads, hear)
+            else:
+                cluster.compute(native, folder, folder.missing(part, parts), client, hear)
+    finally:
+        folder.close()
     return SweepResult(out)
 
 
