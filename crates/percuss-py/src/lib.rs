@@ -6,6 +6,7 @@ mod case;
 mod command;
 mod errors;
 mod history;
+mod law;
 mod run;
 mod si;
 mod sweep;

@@ -15,6 +15,7 @@ use crate::{
     case::Case,
     errors::raise,
     history::{self, Column},
+    law::Laws,
     watch::Asker,
 };
 
@@ -27,19 +28,23 @@ pub struct RunResult {
 
 /// Computes a case by a model.
 #[pyfunction]
-#[pyo3(signature = (case, model, record, progress=None))]
+#[pyo3(signature = (case, model, record, progress=None, projectile_law=None, target_law=None))]
 pub fn run(
     py: Python<'_>,
     case: &Bound<'_, Case>,
     model: &str,
     record: bool,
     progress: Option<Py<PyAny>>,
+    projectile_law: Option<Py<PyAny>>,
+    target_law: Option<Py<PyAny>>,
 ) -> PyResult<RunResult> {
-    let scenario = case.get().scenario.clone();
+    let laws = Laws::new(projectile_law, target_law);
+    let scenario = laws.put_into(py, &case.get().scenario);
     let model = model::model(model).map_err(|error| raise(py, error))?;
     let mut asker = Asker::new(progress.as_ref());
     let result = py.detach(|| {
         let mut hear = |now: Progress| -> ControlFlow<()> {
+            laws.flow()?;
             asker.ask(now.fraction, || {
                 format!("{:.1} us, depth {:.3} mm", now.time * 1e6, now.depth * 1e3)
             })
@@ -51,6 +56,9 @@ pub fn run(
         };
         model::run(model, &scenario, &mut control).map_err(Failure::from)
     });
+    if let Some(error) = laws.into_error() {
+        return Err(error);
+    }
     let result = Arc::new(asker.finish(py, result)?);
     Ok(RunResult { scenario, result })
 }

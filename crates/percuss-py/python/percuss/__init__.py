@@ -17,7 +17,7 @@ Examples
 
 from ._percuss import VERSION as __version__
 from .case import Case, load
-from .commands import compare, converge, limit, material, materials, models, run, validate
+from .commands import StrengthLaw, compare, converge, limit, material, materials, models, run, validate
 from .errors import (
     CaseError,
     ClusterError,
@@ -54,6 +54,7 @@ __all__ = [
     "ReadError",
     "Record",
     "RunResult",
+    "StrengthLaw",
     "SweepResult",
     "UsageError",
     "Validation",

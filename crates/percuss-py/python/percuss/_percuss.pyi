@@ -1,12 +1,14 @@
 """The native half of the package."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from os import PathLike
 from typing import Any, TypeAlias
 
 from .progress import Progress
 
 Path: TypeAlias = str | PathLike[str]
+
+StrengthLaw: TypeAlias = Callable[[float, float, float], float]
 
 VERSION: str
 
@@ -57,7 +59,14 @@ class SweepFolder:
     def put(self, block: int, content: bytes) -> None: ...
     def close(self) -> None: ...
 
-def run(case: Case, model: str, record: bool, progress: Progress | None = None) -> RunResult: ...
+def run(
+    case: Case,
+    model: str,
+    record: bool,
+    progress: Progress | None = None,
+    projectile_law: StrengthLaw | None = None,
+    target_law: StrengthLaw | None = None,
+) -> RunResult: ...
 def answer(words: Sequence[str], case: Case | None = None, progress: Progress | None = None) -> str: ...
 def command(words: Sequence[str]) -> int: ...
 def toml_text(tables: dict[str, Any]) -> str: ...

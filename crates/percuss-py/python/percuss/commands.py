@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
 from . import _percuss
@@ -16,6 +16,8 @@ from .results import Comparison, Convergence, Limits, Material, Model, RunResult
 Path: TypeAlias = str | os.PathLike[str]
 #: A case, or the path of a case file.
 CaseLike: TypeAlias = Case | Path
+#: Flow stress [Pa] from plastic strain, strain rate [1/s] and temperature [K].
+StrengthLaw: TypeAlias = Callable[[float, float, float], float]
 #: A speed in m/s, or a text with its unit.
 Speed: TypeAlias = float | str
 
@@ -68,6 +70,8 @@ def run(
     *,
     history: bool = True,
     progress: Progress | bool | None = None,
+    projectile_law: StrengthLaw | None = None,
+    target_law: StrengthLaw | None = None,
 ) -> RunResult:
     """Runs a case by a model.
 
@@ -82,6 +86,10 @@ def run(
     progress : callable or bool, optional
         Called with the part done, 0 to 1, and a few words; ``True`` and ``False`` show a bar or none. When not given, a bar of tqdm
         is shown after a second, where tqdm is installed and somebody sees it.
+    projectile_law, target_law : callable, optional
+        A strength law in Python that takes the place of the material's own: flow stress [Pa] from plastic strain, strain rate [1/s] and
+        temperature [K]. Slow: the solver calls it for every flowing element and step, three times for the slopes, so a run takes
+        hundreds of times as long. What it raises ends the run.
 
     Returns
     -------
@@ -103,9 +111,9 @@ def run(
     """
     at_hand = case._native if isinstance(case, Case) else native(case)
     if progress is False or callable(progress):
-        return RunResult(_percuss.run(at_hand, model, history, progress or None))
+        return RunResult(_percuss.run(at_hand, model, history, progress or None, projectile_law, target_law))
     with watching(progress) as hear:
-        return RunResult(_percuss.run(at_hand, model, history, hear))
+        return RunResult(_percuss.run(at_hand, model, history, hear, projectile_law, target_law))
 
 
 def compare(
