@@ -199,7 +199,7 @@ class Limits(Record):
     experiments : list of Record
         What was measured.
     results : list of Record
-        An entry a model: ``ballistic_limit_m_s``, ``bracket``, ``curve`` of residual velocities, ``lambert_jonas``.
+        An entry a model: ``ballistic_limit_m_s``, ``bracket``, ``curve`` of residual velocities and the ``fit`` to it.
     v50 : Record or None
         V50 of shots that scatter, when a file of them was given.
     """
