@@ -1,6 +1,10 @@
 //! One run of one model.
 
-use std::{ops::ControlFlow, sync::Arc};
+use std::{
+    ops::ControlFlow,
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 use percuss::{
     Scenario,
@@ -24,6 +28,7 @@ use crate::{
 pub struct RunResult {
     scenario: Arc<Scenario>,
     result: Arc<Computed>,
+    solver_time: Duration,
 }
 
 /// Computes a case by a model.
@@ -42,6 +47,7 @@ pub fn run(
     let scenario = laws.put_into(py, &case.get().scenario);
     let model = model::model(model).map_err(|error| raise(py, error))?;
     let mut asker = Asker::new(progress.as_ref());
+    let mut solver_time = Duration::ZERO;
     let result = py.detach(|| {
         let mut hear = |now: Progress| -> ControlFlow<()> {
             laws.flow()?;
@@ -54,13 +60,20 @@ pub fn run(
             progress: Some(&mut hear),
             ..Control::default()
         };
-        model::run(model, &scenario, &mut control).map_err(Failure::from)
+        let start = Instant::now();
+        let result = model::run(model, &scenario, &mut control).map_err(Failure::from);
+        solver_time = start.elapsed();
+        result
     });
     if let Some(error) = laws.into_error() {
         return Err(error);
     }
     let result = Arc::new(asker.finish(py, result)?);
-    Ok(RunResult { scenario, result })
+    Ok(RunResult {
+        scenario,
+        result,
+        solver_time,
+    })
 }
 
 #[pymethods]
@@ -69,6 +82,11 @@ impl RunResult {
     fn json(&self) -> PyResult<String> {
         let results = CaseResults::new(&self.scenario, std::slice::from_ref(&self.result));
         serde_json::to_string(&results).map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+
+    /// Time that the solver took [s].
+    fn solver_seconds(&self) -> f64 {
+        self.solver_time.as_secs_f64()
     }
 
     /// Number of recorded moments; `None` without a history.

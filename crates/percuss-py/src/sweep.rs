@@ -11,7 +11,7 @@ use std::{
 
 use percuss::sweep::{Row, ScalarKernel, Sweep as Loaded};
 use percuss_cli::Failure;
-use percuss_report::sweep::{self, SweepFolder as Folder};
+use percuss_report::sweep::{self, Block, SweepFolder as Folder};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyBytes};
 
 use crate::{errors::raise, watch::watched};
@@ -62,9 +62,9 @@ impl Sweep {
         }
         let stop = AtomicBool::new(false);
         let kernel = ScalarKernel::new(self.sweep.model);
-        let content = py.detach(|| sweep::block_content(&self.sweep, &kernel, block, &stop));
-        match content.map_err(|error| raise(py, error))? {
-            Some((content, _)) => Ok(PyBytes::new(py, &content)),
+        let computed = py.detach(|| Block::compute(&self.sweep, &kernel, block, &stop));
+        match computed.map_err(|error| raise(py, error))? {
+            Some(computed) => Ok(PyBytes::new(py, &computed.content)),
             None => Err(PyValueError::new_err("the block was stopped")),
         }
     }

@@ -158,9 +158,9 @@ impl SweepFolder {
         if stop.load(Ordering::Relaxed) {
             return Err(None);
         }
-        let (content, rows) = block_content(sweep, kernel, block, stop)?.ok_or(None)?;
-        self.write(block, &content)?;
-        done(&rows);
+        let computed = Block::compute(sweep, kernel, block, stop)?.ok_or(None)?;
+        self.write(block, &computed.content)?;
+        done(&computed.rows);
         Ok(())
     }
 
@@ -191,22 +191,33 @@ impl SweepFolder {
     }
 }
 
-/// Computes a block: what its file holds, and its rows; `None` when `stop` ended it.
-///
-/// # Errors
-/// [`ReportError::Table`].
-pub fn block_content(
-    sweep: &Sweep,
-    kernel: &dyn Kernel,
-    block: u64,
-    stop: &AtomicBool,
-) -> Result<Option<(Vec<u8>, Vec<Row>)>, ReportError> {
-    let shots = sweep.block(block).map(|shot| sweep.shot(shot)).collect();
-    let Ok(rows) = kernel.rows(shots, stop) else {
-        return Ok(None);
-    };
-    let content = column::parquet(&block_file(block), &columns(sweep), &rows)?;
-    Ok(Some((content, rows)))
+/// A block that was computed, wherever that was.
+#[derive(Debug)]
+pub struct Block {
+    /// What its file holds: [`SweepFolder::put`] takes it.
+    pub content: Vec<u8>,
+    /// Its rows.
+    pub rows: Vec<Row>,
+}
+
+impl Block {
+    /// Computes a block of a sweep; `None` when `stop` ended it.
+    ///
+    /// # Errors
+    /// [`ReportError::Table`].
+    pub fn compute(
+        sweep: &Sweep,
+        kernel: &dyn Kernel,
+        block: u64,
+        stop: &AtomicBool,
+    ) -> Result<Option<Self>, ReportError> {
+        let shots = sweep.block(block).map(|shot| sweep.shot(shot)).collect();
+        let Ok(rows) = kernel.rows(shots, stop) else {
+            return Ok(None);
+        };
+        let content = column::parquet(&block_file(block), &columns(sweep), &rows)?;
+        Ok(Some(Self { content, rows }))
+    }
 }
 
 /// How far a folder has come.

@@ -8,7 +8,7 @@ mod folder;
 mod manifest;
 mod merge;
 
-pub use folder::{Status, SweepFolder, block_content, status};
+pub use folder::{Block, Status, SweepFolder, status};
 pub use manifest::{ColumnName, Manifest};
 pub use merge::merge;
 
