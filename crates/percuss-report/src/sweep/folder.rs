@@ -2,13 +2,13 @@
 
 use std::{
     fs::{self, File, TryLockError},
-    io::Write,
+    io::{ErrorKind, Write},
     path::{Path, PathBuf},
     sync::atomic::{AtomicBool, Ordering},
 };
 
 use bytes::Bytes;
-use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
+use parquet::file::reader::{FileReader, SerializedFileReader};
 use percuss::sweep::{Kernel, Row, Sweep};
 use rayon::prelude::*;
 
@@ -16,6 +16,7 @@ use super::{
     block_file,
     columns::columns,
     manifest::{self, Manifest},
+    seal,
 };
 use crate::{ReportError, column, replace_file::replace_file_durably};
 
@@ -215,7 +216,10 @@ impl Block {
         let Ok(rows) = kernel.rows(shots, stop) else {
             return Ok(None);
         };
-        let content = column::parquet(&block_file(block), &columns(sweep), &rows)?;
+        let name = block_file(block);
+        let notes = seal::notes(&Manifest::new(sweep), block);
+        let mut content = column::parquet_with(&name, &columns(sweep), &rows, &notes)?;
+        seal::close(&mut content);
         Ok(Some(Self { content, rows }))
     }
 }
@@ -260,22 +264,31 @@ pub(super) enum State {
     Done,
 }
 
-/// What there is of a block. The end of a Parquet file says what is in it: one that was cut has none.
+/// What there is of a block. Its checksum tells whether a byte was lost or changed, its name whether it is this block.
 pub(super) fn state(folder: &Path, manifest: &Manifest, block: u64) -> State {
-    let Ok(file) = File::open(folder.join(block_file(block))) else {
-        return State::Missing;
+    let content = match fs::read(folder.join(block_file(block))) {
+        Ok(content) => content,
+        Err(error) if error.kind() == ErrorKind::NotFound => return State::Missing,
+        Err(_) => return State::Damaged,
     };
-    state_of(file, manifest, block)
+    state_of(content.into(), manifest, block)
 }
 
-fn state_of(file: impl ChunkReader + 'static, manifest: &Manifest, block: u64) -> State {
-    let Ok(reader) = SerializedFileReader::new(file) else {
+fn state_of(content: Bytes, manifest: &Manifest, block: u64) -> State {
+    if !seal::is_whole(&content) {
+        return State::Damaged;
+    }
+    let Ok(reader) = SerializedFileReader::new(content) else {
         return State::Damaged;
     };
     let metadata = reader.metadata().file_metadata();
     let fields = metadata.schema_descr().columns();
     let names = fields.iter().map(|field| field.name());
-    let whole = metadata.num_rows() as u64 == manifest.shots_in(block)
+    let notes = metadata.key_value_metadata();
+    let name = notes.and_then(|notes| notes.iter().find(|note| note.key == seal::BLOCK));
+    let of_block = name.is_some_and(|name| name.value == Some(seal::block_name(manifest, block)));
+    let whole = of_block
+        && metadata.num_rows() as u64 == manifest.shots_in(block)
         && reader.num_row_groups() == 1
         && names.eq(manifest.columns.iter().map(|column| column.name.as_str()));
     if whole { State::Done } else { State::Damaged }
