@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -10,12 +11,6 @@ import numpy
 import percuss
 import pytest
 from conftest import CASES, Program
-
-MODELS = {
-    "concrete-forrestal-1994": "forrestal_concrete",
-    "elastic-bars": "chain",
-}
-
 
 def answer(program: Program, *words: str) -> Any:
     """What the program prints. JSON holds as many digits as it takes to read a number back unchanged."""
@@ -25,7 +20,9 @@ def answer(program: Program, *words: str) -> Any:
 @pytest.mark.parametrize("case", CASES)
 def test_a_run_gives_the_numbers_of_the_program(case: str, program: Program) -> None:
     path = f"cases/{case}/scenario.toml"
-    model = MODELS.get(case, "chain")
+    # By a model that the case has expected values of.
+    named = re.search(r'^model = "(\w+)"', Path(f"cases/{case}/expected.toml").read_text(), re.MULTILINE)
+    model = named[1] if named else "chain"
     whole = answer(program, "run", path, "--model", model)
     (result,) = whole.pop("results")
     assert percuss.run(path, model).to_dict() == whole | result
