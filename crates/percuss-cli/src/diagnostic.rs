@@ -21,13 +21,42 @@ pub fn print(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());
 }
 
+/// How messages look.
+#[derive(Debug, Clone, Copy)]
+pub struct Look {
+    /// Columns of a line.
+    width: usize,
+    /// Whether escape codes may be written.
+    coloured: bool,
+}
+
+impl Look {
+    /// What is read elsewhere than on a terminal.
+    pub const PLAIN: Self = Self {
+        width: 100,
+        coloured: false,
+    };
+
+    /// What standard error asks for.
+    pub fn of_stderr() -> Self {
+        let stderr = io::stderr();
+        Self {
+            width: match stderr.is_terminal() {
+                true => terminal::width(),
+                false => Self::PLAIN.width,
+            },
+            coloured: terminal::colours(&stderr),
+        }
+    }
+}
+
 /// A message without a place.
-pub fn message(what: &str, help: &str) -> String {
-    render(what, &[], help)
+pub fn message(look: Look, what: &str, help: &str) -> String {
+    render(look, what, &[], help)
 }
 
 /// The message of an error in a case or material file.
-pub fn input_error(error: &InputError) -> String {
+pub fn input_error(look: Look, error: &InputError) -> String {
     let file = printable(&error.file);
     if error.span.is_empty() && error.span.start == 0 {
         let mut elements = vec![Element::from(Origin::path(file))];
@@ -35,7 +64,7 @@ pub fn input_error(error: &InputError) -> String {
             let key = format!("key: {}", name(&error.key));
             elements.push(Level::NOTE.no_name().message(key).into());
         }
-        return render(&error.message, &elements, &error.help);
+        return render(look, &error.message, &elements, &error.help);
     }
     let place = Excerpt::new(&error.text, error.span.clone());
     let mut annotation = AnnotationKind::Primary.span(place.span.clone());
@@ -46,15 +75,14 @@ pub fn input_error(error: &InputError) -> String {
         .path(file)
         .line_start(place.line)
         .annotation(annotation);
-    render(&error.message, &[snippet.into()], &error.help)
+    render(look, &error.message, &[snippet.into()], &error.help)
 }
 
-fn render(what: &str, elements: &[Element<'_>], help: &str) -> String {
-    let width = stderr_width();
+fn render(look: Look, what: &str, elements: &[Element<'_>], help: &str) -> String {
+    let Look { width, coloured } = look;
     let title = terminal::wrap(&printable(what), width.saturating_sub(7), 0);
     let group =
         Group::with_title(Level::ERROR.primary_title(title)).elements(elements.iter().cloned());
-    let coloured = terminal::colours(&io::stderr());
     let renderer = if coloured {
         Renderer::styled()
     } else {
@@ -75,14 +103,6 @@ fn render(what: &str, elements: &[Element<'_>], help: &str) -> String {
         text.push('\n');
     }
     text
-}
-
-fn stderr_width() -> usize {
-    if io::stderr().is_terminal() {
-        terminal::width()
-    } else {
-        100
-    }
 }
 
 /// A key, cut where it is longer than any that a case has.

@@ -9,7 +9,10 @@ use std::{
 use percuss::Error;
 use percuss_report::ReportError;
 
-use crate::{diagnostic, terminal};
+use crate::{
+    diagnostic::{self, Look},
+    terminal,
+};
 
 /// Help for a model that does not apply and names no remedy.
 const WHICH_APPLY: &str = "`percuss compare CASE.toml` names the models that apply";
@@ -23,8 +26,11 @@ pub enum Failure {
     Report(ReportError),
     /// A file or folder could not be written.
     Write {
+        /// The file or folder.
         path: PathBuf,
+        /// Why, in words.
         reason: String,
+        /// What to do; may be empty.
         help: String,
     },
     /// No model gave a result: the reasons, one a model.
@@ -32,13 +38,35 @@ pub enum Failure {
     /// Standard output could not be written.
     Output(io::Error),
     /// The user stopped a run, which left a checkpoint [us].
-    Stopped { time_us: f64 },
+    Stopped {
+        /// Time reached [us].
+        time_us: f64,
+    },
     /// The user stopped a sweep.
-    SweepStopped { done: u64, shots: u64 },
+    SweepStopped {
+        /// Shots that are there.
+        done: u64,
+        /// All shots.
+        shots: u64,
+    },
     /// The user stopped something that leaves nothing behind: its name.
     Interrupted(&'static str),
     /// The command line asks for something that does not exist.
-    Usage { message: String, help: String },
+    Usage {
+        /// What is wrong.
+        message: String,
+        /// What to do; may be empty.
+        help: String,
+    },
+    /// The command line asks for a material that does not exist.
+    Material {
+        /// What is wrong.
+        message: String,
+        /// What to do; may be empty.
+        help: String,
+    },
+    /// The command line cannot be read.
+    CommandLine(clap::Error),
 }
 
 impl From<Error> for Failure {
@@ -72,9 +100,13 @@ impl Failure {
         }
     }
 
+    /// The exit code of the program.
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
-            Self::Usage { .. } | Self::NoResult(_) => 2,
+            Self::Usage { .. }
+            | Self::Material { .. }
+            | Self::CommandLine(_)
+            | Self::NoResult(_) => 2,
             // What shells report of a program that Ctrl-C ended.
             Self::Stopped { .. } | Self::SweepStopped { .. } | Self::Interrupted(_) => 130,
             Self::Library(Error::Numerical(_) | Error::Cancelled { .. }) | Self::Report(_) => 3,
@@ -85,12 +117,22 @@ impl Failure {
 
     /// Says on standard error what is wrong.
     pub fn report(&self) {
-        let text = match self {
-            Self::Library(Error::Input(error)) => diagnostic::input_error(error),
+        diagnostic::print(&self.text(Look::of_stderr()));
+    }
+
+    /// What the program writes to standard error where that is no terminal.
+    pub fn plain_text(&self) -> String {
+        self.text(Look::PLAIN)
+    }
+
+    fn text(&self, look: Look) -> String {
+        let message = |what: &str, help: &str| diagnostic::message(look, what, help);
+        match self {
+            Self::Library(Error::Input(error)) => diagnostic::input_error(look, error),
             Self::Library(Error::NotApplicable { model, reason }) => {
                 let (reason, help) = reason.split_once("; ").unwrap_or((reason, WHICH_APPLY));
-                let message = format!("model `{model}` does not apply to this case: {reason}");
-                diagnostic::message(&message, help)
+                let what = format!("model `{model}` does not apply to this case: {reason}");
+                message(&what, help)
             }
             Self::Library(Error::UnknownModel {
                 name,
@@ -100,7 +142,7 @@ impl Failure {
                 let near = suggestion
                     .as_ref()
                     .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
-                diagnostic::message(
+                message(
                     &format!("no model is named `{name}`"),
                     &format!("{near}models: {}", known.join(", ")),
                 )
@@ -108,8 +150,8 @@ impl Failure {
             Self::Library(Error::Numerical(error)) => {
                 let mut error = (**error).clone();
                 let remedy = std::mem::take(&mut error.remedy);
-                let message = error.to_string();
-                diagnostic::message(message.trim_end_matches([':', ' ']), &remedy)
+                let what = error.to_string();
+                message(what.trim_end_matches([':', ' ']), &remedy)
             }
             Self::Library(Error::Read {
                 path,
@@ -127,48 +169,47 @@ impl Failure {
                     None if missing => (&**reason, "`percuss new NAME` writes a starter case"),
                     None => (&**reason, ""),
                 };
-                let message = format!("cannot read `{}`: {reason}", path.display());
-                diagnostic::message(&message, help)
+                let what = format!("cannot read `{}`: {reason}", path.display());
+                message(&what, help)
             }
             Self::Library(error @ Error::Checkpoint { remedy, .. }) => {
-                diagnostic::message(&error.to_string(), remedy)
+                message(&error.to_string(), remedy)
             }
-            Self::Library(Error::Calibration { reason, remedy }) => {
-                diagnostic::message(reason, remedy)
-            }
-            Self::Library(error) => diagnostic::message(&error.to_string(), ""),
-            Self::Report(error) => diagnostic::message(&error.to_string(), ""),
+            Self::Library(Error::Calibration { reason, remedy }) => message(reason, remedy),
+            Self::Library(error) => message(&error.to_string(), ""),
+            Self::Report(error) => message(&error.to_string(), ""),
             Self::Write { path, reason, help } => {
-                let message = format!("cannot write `{}`: {reason}", path.display());
-                diagnostic::message(&message, help)
+                let what = format!("cannot write `{}`: {reason}", path.display());
+                message(&what, help)
             }
-            Self::Output(error) => {
-                diagnostic::message(&format!("cannot write the output: {error}"), "")
-            }
+            Self::Output(error) => message(&format!("cannot write the output: {error}"), ""),
             Self::NoResult(reasons) => {
-                let message = diagnostic::message("no model gives a result for this case", "");
+                let text = message("no model gives a result for this case", "");
                 let reason = |reason: &String| {
                     format!("  {}\n", terminal::wrap(reason, terminal::width() - 2, 4))
                 };
-                message + &reasons.iter().map(reason).collect::<String>()
+                text + &reasons.iter().map(reason).collect::<String>()
             }
             Self::Stopped { time_us } => {
-                let message =
-                    format!("the run was stopped at {time_us:.1} us and left a checkpoint");
-                diagnostic::message(
-                    &message,
-                    "the same command with `--resume` goes on from there",
-                )
+                let what = format!("the run was stopped at {time_us:.1} us and left a checkpoint");
+                message(&what, "the same command with `--resume` goes on from there")
             }
-            Self::SweepStopped { done, shots } => diagnostic::message(
+            Self::SweepStopped { done, shots } => message(
                 &format!("the sweep was stopped with {done} of {shots} shots done"),
                 "the same command with `--resume` goes on from there",
             ),
             Self::Interrupted(what) => {
-                diagnostic::message(&format!("{what} was stopped and left no result"), "")
+                message(&format!("{what} was stopped and left no result"), "")
             }
-            Self::Usage { message, help } => diagnostic::message(message, help),
-        };
-        diagnostic::print(&text);
+            Self::Usage {
+                message: what,
+                help,
+            }
+            | Self::Material {
+                message: what,
+                help,
+            } => message(what, help),
+            Self::CommandLine(error) => error.render().to_string(),
+        }
     }
 }

@@ -1,6 +1,9 @@
 //! Progress on standard error: nothing for what takes less than a second.
 
-use std::time::{Duration, Instant};
+use std::{
+    ops::ControlFlow,
+    time::{Duration, Instant},
+};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
@@ -50,6 +53,14 @@ impl Progress {
         if self.bar.is_hidden() {
             self.bar
                 .set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
+        }
+    }
+
+    /// What shows the progress of a command that a caller could end.
+    pub fn hear(&mut self) -> impl FnMut(f64, &str) -> ControlFlow<()> + Send {
+        |fraction, words| {
+            self.update(fraction, words);
+            ControlFlow::Continue(())
         }
     }
 

@@ -5,8 +5,8 @@ use kuva::render::render::TextAnchor;
 
 use crate::{
     Axis, Figure, Mark,
-    frame::{Frame, plain, text},
-    primitives::{area_entry, bar, border, line, mark, mark_entry},
+    frame::{Frame, plain},
+    primitives::{area_entry, bar, border, line, mark, mark_entry, text},
 };
 
 /// Most characters of a name.

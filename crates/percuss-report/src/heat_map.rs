@@ -12,9 +12,9 @@ use kuva::render::{
 
 use crate::{
     Axis, Figure,
-    frame::{Frame, HEIGHT, text, tick_label},
+    frame::{Frame, HEIGHT, tick_label},
     palette,
-    primitives::{border, filled, line},
+    primitives::{border, filled, line, text},
 };
 
 /// Steps of colour.

@@ -100,3 +100,21 @@ pub(crate) fn area_entry(name: &str, color: &str) -> LegendEntry {
         dasharray: None,
     }
 }
+
+/// A text at a place, turned by an angle where one is given [deg].
+pub(crate) fn text(
+    place: (f64, f64),
+    content: &str,
+    (size, anchor, rotate): (u32, TextAnchor, Option<f64>),
+) -> Primitive {
+    Primitive::Text {
+        x: place.0,
+        y: place.1,
+        content: content.to_owned(),
+        size,
+        anchor,
+        rotate,
+        bold: false,
+        color: None,
+    }
+}

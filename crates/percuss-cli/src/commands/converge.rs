@@ -1,16 +1,17 @@
-use std::{ops::ControlFlow, path::PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, builder::PossibleValuesParser};
 use comfy_table::{CellAlignment, Table, presets::UTF8_HORIZONTAL_ONLY};
 use percuss::{
-    case,
+    Scenario, case,
     converge::{self, Quantity, Study, Verdict},
-    model::{self, Control, MODELS},
+    model::{self, Control, MODELS, Model},
     units::significant,
 };
 use percuss_report::convergence_figure;
 
 use crate::{
+    answer::Hear,
     failure::Failure,
     progress::Progress,
     run_folder::make_folder,
@@ -69,21 +70,9 @@ impl Converge {
             make_folder(out)?;
         }
         let mut progress = Progress::new(true);
-        let mut report = |now: model::Progress| {
-            progress.update(
-                now.fraction,
-                &format!("{:.1} us on the current mesh", now.time * 1e6),
-            );
-            ControlFlow::Continue(())
-        };
-        let mut control = Control {
-            record: false,
-            progress: Some(&mut report),
-            ..Control::default()
-        };
-        let study = converge::study(model, &scenario, self.levels, &mut control);
+        let study = self.compute(model, &scenario, &mut progress.hear());
         progress.finish();
-        let (study, _) = study?;
+        let study = study?;
         let mut written = Vec::new();
         if let Some(out) = &self.out {
             let path = out.join("convergence.json");
@@ -120,6 +109,35 @@ impl Converge {
             }
         }
         terminal::print(&text)
+    }
+
+    /// What the command prints with --json.
+    pub fn answer(&self, case: Option<&Scenario>, hear: Hear<'_>) -> Result<String, Failure> {
+        let model = model::model(&self.model)?;
+        let study = match case {
+            Some(scenario) => self.compute(model, scenario, hear),
+            None => self.compute(model, &case::load(&self.case)?, hear),
+        };
+        terminal::json(&study?)
+    }
+
+    fn compute(
+        &self,
+        model: &dyn Model,
+        scenario: &Scenario,
+        hear: Hear<'_>,
+    ) -> Result<Study, Failure> {
+        let mut report = |now: model::Progress| {
+            let words = format!("{:.1} us on the current mesh", now.time * 1e6);
+            hear(now.fraction, &words)
+        };
+        let mut control = Control {
+            record: false,
+            progress: Some(&mut report),
+            ..Control::default()
+        };
+        let (study, _) = converge::study(model, scenario, self.levels, &mut control)?;
+        Ok(study)
     }
 }
 

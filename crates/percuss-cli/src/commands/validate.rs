@@ -12,6 +12,7 @@ use percuss_report::validation::{self, Origin};
 use serde::Serialize;
 
 use crate::{
+    answer::Hear,
     diagnostic,
     failure::Failure,
     progress::Progress,
@@ -102,16 +103,15 @@ struct CoverageRecord {
 
 impl Validate {
     pub fn run(&self) -> Result<(), Failure> {
-        let models = self.models()?;
-        let mut library = Library::built_in().clone();
-        for path in &self.materials {
-            library.add(&case::load_materials(path)?, &path.display().to_string());
-        }
+        let (models, library) = (self.models()?, self.library()?);
         let (shots, files) = self.shots(&library)?;
         if let Some(out) = &self.out {
             make_folder(out)?;
         }
-        let validation = self.compute(&models, &shots, &library)?;
+        let mut progress = Progress::new(!self.quiet);
+        let validation = self.compute(&models, &shots, &library, &mut progress.hear());
+        progress.finish();
+        let validation = validation?;
         let mut written = String::new();
         if let Some(out) = &self.out {
             let origin = Origin {
@@ -147,6 +147,22 @@ impl Validate {
         terminal::print(&text)
     }
 
+    /// What the command prints with --json.
+    pub fn answer(&self, hear: Hear<'_>) -> Result<String, Failure> {
+        let (models, library) = (self.models()?, self.library()?);
+        let (shots, files) = self.shots(&library)?;
+        let validation = self.compute(&models, &shots, &library, hear)?;
+        terminal::json(&record(&validation, files))
+    }
+
+    fn library(&self) -> Result<Library, Failure> {
+        let mut library = Library::built_in().clone();
+        for path in &self.materials {
+            library.add(&case::load_materials(path)?, &path.display().to_string());
+        }
+        Ok(library)
+    }
+
     fn models(&self) -> Result<Vec<&'static dyn Model>, Failure> {
         if self.model.is_empty() {
             return Ok(model::quick());
@@ -178,25 +194,20 @@ impl Validate {
         models: &[&'static dyn Model],
         shots: &[Shot],
         library: &Library,
+        hear: Hear<'_>,
     ) -> Result<Validation, Failure> {
-        let progress = Mutex::new(Progress::new(!self.quiet));
+        let hear = Mutex::new(hear);
         let words = format!(
             "{}, {}",
             terminal::counted(shots.len(), "shot"),
             terminal::counted(models.len(), "model")
         );
-        let report = |fraction: f64| {
-            // A bar that another thread is drawing has no need of this one.
-            if let Ok(mut progress) = progress.try_lock() {
-                progress.update(fraction, &words);
-            }
-            ControlFlow::Continue(())
+        let report = |fraction: f64| match hear.try_lock() {
+            Ok(mut hear) => hear(fraction, &words),
+            // Who listens to another thread has no need of this one.
+            Err(_) => ControlFlow::Continue(()),
         };
-        let validation = validate::run(models, shots, library, &report);
-        if let Ok(progress) = progress.into_inner() {
-            progress.finish();
-        }
-        Ok(validation?)
+        Ok(validate::run(models, shots, library, &report)?)
     }
 
     /// The command as a user would type it.

@@ -19,7 +19,8 @@ use super::{
 use crate::{
     Axis, Figure, ReportError,
     figure::draw_over,
-    frame::{Frame, WIDTH, text, tick_label},
+    frame::{Frame, WIDTH, tick_label},
+    primitives::text,
     run_figures::significant,
 };
 

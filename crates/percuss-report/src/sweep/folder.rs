@@ -7,8 +7,9 @@ use std::{
     sync::atomic::{AtomicBool, Ordering},
 };
 
+use bytes::Bytes;
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use percuss::sweep::{Kernel, Row, Stopped, Sweep};
+use percuss::sweep::{Kernel, Row, Sweep};
 use rayon::prelude::*;
 
 use super::{
@@ -158,15 +159,68 @@ impl SweepFolder {
         if stop.load(Ordering::Relaxed) {
             return Err(None);
         }
+        let computed = Block::compute(sweep, kernel, block, stop)?.ok_or(None)?;
+        self.write(block, &computed.content)?;
+        done(&computed.rows);
+        Ok(())
+    }
+
+    /// Takes the file of a block that was computed elsewhere.
+    ///
+    /// # Errors
+    /// [`ReportError::Sweep`] when it is not the whole of this block of this sweep; [`ReportError::Write`].
+    pub fn put(&self, block: u64, content: &[u8]) -> Result<(), ReportError> {
+        let found = match block < self.manifest.blocks() {
+            true => state_of(Bytes::copy_from_slice(content), &self.manifest, block),
+            false => State::Missing,
+        };
+        if found != State::Done {
+            return Err(ReportError::Sweep {
+                path: self.path.join(block_file(block)),
+                reason: "what was computed elsewhere is not this block of this sweep".to_owned(),
+                remedy: "compute it with the same version of the program".to_owned(),
+            });
+        }
+        self.write(block, content)
+    }
+
+    fn write(&self, block: u64, content: &[u8]) -> Result<(), ReportError> {
+        replace_file_durably(&self.path, &block_file(block), |file| {
+            file.write_all(content)
+        })?;
+        Ok(())
+    }
+}
+
+/// A block that was computed, wherever that was.
+#[derive(Debug)]
+pub struct Block {
+    /// What its file holds: [`SweepFolder::put`] takes it.
+    pub content: Vec<u8>,
+    /// Its rows.
+    pub rows: Vec<Row>,
+}
+
+impl Block {
+    /// Computes a block of a sweep; `None` when `stop` ended it.
+    ///
+    /// # Errors
+    /// [`ReportError::Table`].
+    pub fn compute(
+        sweep: &Sweep,
+        kernel: &dyn Kernel,
+        block: u64,
+        stop: &AtomicBool,
+    ) -> Result<Option<Self>, ReportError> {
         let shots = sweep.block(block).map(|shot| sweep.shot(shot)).collect();
-        let rows = kernel.rows(shots, stop).map_err(|Stopped| None)?;
+        let Ok(rows) = kernel.rows(shots, stop) else {
+            return Ok(None);
+        };
         let name = block_file(block);
-        let notes = seal::notes(&self.manifest, block);
+        let notes = seal::notes(&Manifest::new(sweep), block);
         let mut content = column::parquet_with(&name, &columns(sweep), &rows, &notes)?;
         seal::close(&mut content);
-        replace_file_durably(&self.path, &name, |file| file.write_all(&content))?;
-        done(&rows);
-        Ok(())
+        Ok(Some(Self { content, rows }))
     }
 }
 
@@ -212,19 +266,19 @@ pub(super) enum State {
 
 /// What there is of a block. Its checksum tells whether a byte was lost or changed, its name whether it is this block.
 pub(super) fn state(folder: &Path, manifest: &Manifest, block: u64) -> State {
-    let path = folder.join(block_file(block));
-    let content = match fs::read(&path) {
+    let content = match fs::read(folder.join(block_file(block))) {
         Ok(content) => content,
         Err(error) if error.kind() == ErrorKind::NotFound => return State::Missing,
         Err(_) => return State::Damaged,
     };
+    state_of(content.into(), manifest, block)
+}
+
+fn state_of(content: Bytes, manifest: &Manifest, block: u64) -> State {
     if !seal::is_whole(&content) {
         return State::Damaged;
     }
-    let Ok(file) = File::open(path) else {
-        return State::Damaged;
-    };
-    let Ok(reader) = SerializedFileReader::new(file) else {
+    let Ok(reader) = SerializedFileReader::new(content) else {
         return State::Damaged;
     };
     let metadata = reader.metadata().file_metadata();

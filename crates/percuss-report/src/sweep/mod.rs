@@ -12,7 +12,7 @@ mod plot;
 mod rows;
 mod seal;
 
-pub use folder::{Status, SweepFolder, status};
+pub use folder::{Block, Status, SweepFolder, status};
 pub use manifest::{ColumnName, Manifest, Varied};
 pub use merge::merge;
 pub use plot::{PlotRequest, PlotStyle, plot};

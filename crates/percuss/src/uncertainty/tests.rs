@@ -301,7 +301,7 @@ fn correlated_parameters_have_their_exact_spread_and_no_indices() {
     let found = analysed(
         &study(&format!("{NORMALS}{CORRELATION}")),
         &LINEAR,
-        &settings(8192),
+        &settings(4096),
     );
     let depth = &found.quantities[0];
     let shared = 2.0 * 0.6 * SLOPES[0] * SLOPES[1] * DEVIATIONS[0] * DEVIATIONS[1];

@@ -8,7 +8,7 @@ mod sweep;
 mod tests;
 mod warnings;
 
-use std::{ops::ControlFlow, path::PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
@@ -18,8 +18,8 @@ use percuss::{
 };
 
 use crate::{
-    diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, speeds::Speeds,
-    terminal,
+    answer::Hear, diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder,
+    speeds::Speeds, terminal,
 };
 
 const LONG_ABOUT: &str = "\
@@ -81,29 +81,13 @@ impl Compare {
     pub fn run(&self) -> Result<(), Failure> {
         let scenario = case::load(&self.case)?;
         let speeds = self.speeds(&scenario)?;
-        let models: Vec<&dyn Model> = match self.model.is_empty() {
-            true => model::quick(),
-            false => MODELS
-                .iter()
-                .copied()
-                .filter(|model| self.model.iter().any(|name| name == model.name()))
-                .collect(),
-        };
         // Before runs that may take long: a folder that cannot be written should be known at once.
         let folder = match &self.out {
             Some(out) => Some(RunFolder::create(out, &self.case)?),
             None => None,
         };
         let mut progress = Progress::new(!self.quiet);
-        let mut report = |now: compare::Progress| {
-            let words = format!("{} of {} runs", now.finished, now.total);
-            progress.update(now.fraction, &words);
-            ControlFlow::Continue(())
-        };
-        let mut watch = Watch {
-            progress: Some(&mut report),
-        };
-        let comparison = compare::compare(&models, &scenario, &speeds, &mut watch);
+        let comparison = self.compute(&scenario, &speeds, &mut progress.hear());
         progress.finish();
         let comparison = comparison?;
         let files = match folder {
@@ -115,6 +99,44 @@ impl Compare {
             true => Ok(()),
             false => Err(Failure::NoResult(absent::reasons(&comparison))),
         }
+    }
+
+    /// What the command prints with --json; a case without any result is no failure here.
+    pub fn answer(&self, case: Option<&Scenario>, hear: Hear<'_>) -> Result<String, Failure> {
+        let loaded;
+        let scenario = match case {
+            Some(scenario) => scenario,
+            None => {
+                loaded = case::load(&self.case)?;
+                &loaded
+            }
+        };
+        let speeds = self.speeds(scenario)?;
+        terminal::json(&self.compute(scenario, &speeds, hear)?)
+    }
+
+    fn compute(
+        &self,
+        scenario: &Scenario,
+        speeds: &[f64],
+        hear: Hear<'_>,
+    ) -> Result<Comparison, Failure> {
+        let models: Vec<&dyn Model> = match self.model.is_empty() {
+            true => model::quick(),
+            false => MODELS
+                .iter()
+                .copied()
+                .filter(|model| self.model.iter().any(|name| name == model.name()))
+                .collect(),
+        };
+        let mut report = |now: compare::Progress| {
+            let words = format!("{} of {} runs", now.finished, now.total);
+            hear(now.fraction, &words)
+        };
+        let mut watch = Watch {
+            progress: Some(&mut report),
+        };
+        Ok(compare::compare(&models, scenario, speeds, &mut watch)?)
     }
 
     fn speeds(&self, scenario: &Scenario) -> Result<Vec<f64>, Failure> {

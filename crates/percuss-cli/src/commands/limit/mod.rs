@@ -1,10 +1,7 @@
 mod table;
 mod values;
 
-use std::{
-    ops::ControlFlow,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
@@ -15,7 +12,9 @@ use percuss::{
 };
 use serde::Serialize;
 
-use crate::{diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, terminal};
+use crate::{
+    answer::Hear, diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, terminal,
+};
 
 const LONG_ABOUT: &str = "\
 Find the ballistic limit of a case: the impact speed above which the target is
@@ -123,18 +122,10 @@ impl Limit {
             Some(out) => Some(RunFolder::create_for(out, self.case.as_deref())?),
             None => None,
         };
-        let shots = shots.map(|shots| {
-            let v50 = v50::estimate(&shots, self.span.unwrap_or(v50::SPAN));
-            (shots, v50)
-        });
-        let case = match scenario {
-            Some(scenario) => {
-                let limits = self.search(&scenario)?;
-                Some((scenario, limits))
-            }
-            None => None,
-        };
-        let found = Found { case, shots };
+        let mut progress = Progress::new(!self.quiet);
+        let found = self.find(scenario, shots, &mut progress.hear());
+        progress.finish();
+        let found = found?;
         let files = match folder {
             Some(folder) => self.write(folder, &found)?,
             None => Vec::new(),
@@ -148,7 +139,37 @@ impl Limit {
         }
     }
 
-    fn search(&self, scenario: &Scenario) -> Result<Limits, Failure> {
+    /// What the command prints with --json; a case to which no model applies is no failure here.
+    pub fn answer(&self, case: Option<&Scenario>, hear: Hear<'_>) -> Result<String, Failure> {
+        let scenario = match case {
+            Some(scenario) => Some(scenario.clone()),
+            None => self.case.as_ref().map(case::load).transpose()?,
+        };
+        let shots = self.shots.as_ref().map(v50::read).transpose()?;
+        terminal::json(&self.find(scenario, shots, hear)?.record())
+    }
+
+    fn find(
+        &self,
+        scenario: Option<Scenario>,
+        shots: Option<Vec<Shot>>,
+        hear: Hear<'_>,
+    ) -> Result<Found, Failure> {
+        let shots = shots.map(|shots| {
+            let v50 = v50::estimate(&shots, self.span.unwrap_or(v50::SPAN));
+            (shots, v50)
+        });
+        let case = match scenario {
+            Some(scenario) => {
+                let limits = self.search(&scenario, hear)?;
+                Some((scenario, limits))
+            }
+            None => None,
+        };
+        Ok(Found { case, shots })
+    }
+
+    fn search(&self, scenario: &Scenario, hear: Hear<'_>) -> Result<Limits, Failure> {
         let models: Vec<&dyn Model> = match self.model.is_empty() {
             true => model::quick(),
             false => MODELS
@@ -162,18 +183,14 @@ impl Limit {
             tolerance: self.tolerance,
             points: usize::from(self.points),
         };
-        let mut progress = Progress::new(!self.quiet);
         let mut report = |now: limit::Progress| {
             let words = format!("{} runs", now.finished);
-            progress.update(now.fraction, &words);
-            ControlFlow::Continue(())
+            hear(now.fraction, &words)
         };
         let mut watch = Watch {
             progress: Some(&mut report),
         };
-        let limits = limit::limits(&models, scenario, &search, &mut watch);
-        progress.finish();
-        Ok(limits?)
+        Ok(limit::limits(&models, scenario, &search, &mut watch)?)
     }
 
     fn write(&self, mut folder: RunFolder, found: &Found) -> Result<Vec<PathBuf>, Failure> {

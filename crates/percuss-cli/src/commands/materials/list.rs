@@ -7,8 +7,7 @@ use crate::{failure::Failure, terminal};
 /// Prints all materials of a library.
 pub fn list(library: &Library, json: bool) -> Result<(), Failure> {
     if json {
-        let records: Vec<MaterialRecord<'_>> = library.iter().map(MaterialRecord::new).collect();
-        return terminal::print_json(&records);
+        return terminal::print_json(&records(library));
     }
     let mut table = Table::new();
     table
@@ -37,6 +36,11 @@ pub fn list(library: &Library, json: bool) -> Result<(), Failure> {
         Some(width) if widest > Some(width.into()) => terminal::print(&narrow(library)),
         _ => terminal::print(&format!("{text}\n")),
     }
+}
+
+/// The materials as JSON has them.
+pub fn records(library: &Library) -> Vec<MaterialRecord<'_>> {
+    library.iter().map(MaterialRecord::new).collect()
 }
 
 /// The table for a narrow terminal: a few lines a material.

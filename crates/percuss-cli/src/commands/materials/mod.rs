@@ -10,7 +10,7 @@ use percuss::{
 };
 use serde::Serialize;
 
-use crate::failure::Failure;
+use crate::{failure::Failure, terminal};
 
 const LONG_ABOUT: &str = "\
 List the materials that a case can name, by their id or by their family. Rival
@@ -58,6 +58,15 @@ impl Materials {
         match &self.action {
             None => list::list(&library, self.json),
             Some(Action::Show(show)) => show.run(&library, self.json),
+        }
+    }
+
+    /// What the command prints with --json.
+    pub fn answer(&self) -> Result<String, Failure> {
+        let library = self.library()?;
+        match &self.action {
+            None => terminal::json(&list::records(&library)),
+            Some(Action::Show(show)) => show.answer(&library),
         }
     }
 

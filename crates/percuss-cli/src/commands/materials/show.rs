@@ -44,19 +44,28 @@ struct Work<'a> {
 
 impl Show {
     pub fn run(&self, library: &Library, json: bool) -> Result<(), Failure> {
-        let Some(entry) = library.find(&self.name) else {
-            let near = library
-                .nearest(&self.name)
-                .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
-            return Err(Failure::Usage {
-                message: format!("no material is named `{}`", self.name),
-                help: format!("{near}`percuss materials` lists all"),
-            });
-        };
+        let entry = self.find(library)?;
         if json {
             return terminal::print_json(&card(entry, library));
         }
         terminal::print(&material_card::text(entry, library))
+    }
+
+    /// What the command prints with --json.
+    pub fn answer(&self, library: &Library) -> Result<String, Failure> {
+        terminal::json(&card(self.find(library)?, library))
+    }
+
+    fn find<'a>(&self, library: &'a Library) -> Result<&'a MaterialEntry, Failure> {
+        library.find(&self.name).ok_or_else(|| {
+            let near = library
+                .nearest(&self.name)
+                .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+            Failure::Material {
+                message: format!("no material is named `{}`", self.name),
+                help: format!("{near}`percuss materials` lists all"),
+            }
+        })
     }
 }
 

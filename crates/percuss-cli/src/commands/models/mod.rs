@@ -69,21 +69,29 @@ impl ModelRecord {
 
 impl Models {
     pub fn run(&self) -> Result<(), Failure> {
-        let schema = schemars::schema_for!(Case).to_value();
-        if let Some(name) = &self.name {
-            let model = ModelRecord::new(model::model(name)?, &schema);
-            return match self.json {
-                true => terminal::print_json(&model),
-                false => terminal::print(&card::text(&model)),
-            };
-        }
-        let models: Vec<ModelRecord> = MODELS
-            .iter()
-            .map(|model| ModelRecord::new(*model, &schema))
-            .collect();
-        match self.json {
-            true => terminal::print_json(&models),
-            false => terminal::print(&table::text(&models)),
+        match (&self.name, self.json) {
+            (_, true) => terminal::print(&self.answer()?),
+            (Some(name), false) => terminal::print(&card::text(&one(name)?)),
+            (None, false) => terminal::print(&table::text(&all())),
         }
     }
+
+    /// What the command prints with --json.
+    pub fn answer(&self) -> Result<String, Failure> {
+        match &self.name {
+            Some(name) => terminal::json(&one(name)?),
+            None => terminal::json(&all()),
+        }
+    }
+}
+
+fn one(name: &str) -> Result<ModelRecord, Failure> {
+    let schema = schemars::schema_for!(Case).to_value();
+    Ok(ModelRecord::new(model::model(name)?, &schema))
+}
+
+fn all() -> Vec<ModelRecord> {
+    let schema = schemars::schema_for!(Case).to_value();
+    let record = |model: &&dyn Model| ModelRecord::new(*model, &schema);
+    MODELS.iter().map(record).collect()
 }

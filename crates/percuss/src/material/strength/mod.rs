@@ -3,6 +3,7 @@
 mod concrete;
 mod elastic;
 mod johnson_cook;
+mod own;
 mod perfectly_plastic;
 mod power_law;
 mod steinberg_guinan;
@@ -18,6 +19,7 @@ use crate::check::Check;
 pub use concrete::Concrete;
 pub use elastic::Elastic;
 pub use johnson_cook::{JohnsonCook, RateForm};
+pub use own::OwnLaw;
 pub use perfectly_plastic::PerfectlyPlastic;
 pub(crate) use perfectly_plastic::perfectly_plastic;
 pub use power_law::PowerLaw;
@@ -98,6 +100,9 @@ macro_rules! strength_laws {
         #[serde(rename_all = "snake_case")]
         pub enum Strength {
             $($(#[$doc])* $law($law),)*
+            /// A law of the caller's own; no file can name it.
+            #[serde(skip)]
+            Own(OwnLaw),
         }
 
         impl Strength {
@@ -105,6 +110,7 @@ macro_rules! strength_laws {
             pub fn key(&self) -> &'static str {
                 match self {
                     $(Self::$law(_) => $key,)*
+                    Self::Own(_) => "own",
                 }
             }
 
@@ -112,6 +118,7 @@ macro_rules! strength_laws {
             pub fn law(&self) -> &dyn StrengthLaw {
                 match self {
                     $(Self::$law(law) => law,)*
+                    Self::Own(own) => &*own.0,
                 }
             }
         }

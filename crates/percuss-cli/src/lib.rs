@@ -1,0 +1,45 @@
+//! The program `percuss`, as a library: what the binary calls, and what other programs ask for a command's answer as data.
+
+mod answer;
+mod cli;
+mod commands;
+mod diagnostic;
+mod failure;
+mod fragment_table;
+mod judgement_table;
+mod material_card;
+mod progress;
+mod result_table;
+mod run_folder;
+mod shot_data;
+mod speeds;
+mod table;
+mod terminal;
+mod validation_table;
+mod workers;
+
+use std::{ffi::OsString, process::ExitCode};
+
+use clap::Parser;
+
+pub use answer::{Hear, answer};
+pub use failure::Failure;
+
+/// Runs a command line, whose first word is the name of the program; returns the exit code.
+pub fn main(words: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let cli = match cli::Cli::try_parse_from(words) {
+        Ok(cli) => cli,
+        Err(error) => {
+            // There is nowhere left to say that this failed.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    match cli.command.run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            failure.report();
+            failure.exit_code()
+        }
+    }
+}

@@ -1,0 +1,74 @@
+"""First-order impact and penetration mechanics: what strikes what, how fast, how deep it goes, and how far to trust that.
+
+Everything that the program ``percuss`` can do, with the same names and the same numbers. Cases are data: the tables of a case file,
+from a file or as keyword arguments. Numbers in code are in SI units; the names of results end with their unit.
+
+Examples
+--------
+>>> import percuss
+>>> case = percuss.Case(
+...     projectile={"material": "copper", "length": "12.74 mm", "diameter": "4.8 mm", "velocity": "230 m/s"},
+...     target={"material": "aluminium-2024-t351", "thickness": "25 mm"},
+... )
+>>> result = percuss.run(case)
+>>> result.outcome, round(result.depth_of_penetration_mm, 4)
+('rebounded', 0.2235)
+"""
+
+from ._percuss import VERSION as __version__
+from .case import Case, load
+from .commands import StrengthLaw, compare, converge, limit, material, materials, models, run, validate
+from .errors import (
+    CaseError,
+    ClusterError,
+    MaterialError,
+    NotApplicableError,
+    NumericalError,
+    PercussError,
+    ReadError,
+    UsageError,
+    WriteError,
+)
+from .history import History, Profile
+from .progress import Progress
+from .record import Record
+from .results import Comparison, Convergence, Limits, Material, Model, RunResult, Validation
+from .sweeps import SweepResult, merge, sweep
+
+__all__ = [
+    "Case",
+    "CaseError",
+    "ClusterError",
+    "Comparison",
+    "Convergence",
+    "History",
+    "Limits",
+    "Material",
+    "MaterialError",
+    "Model",
+    "NotApplicableError",
+    "NumericalError",
+    "PercussError",
+    "Profile",
+    "Progress",
+    "ReadError",
+    "Record",
+    "RunResult",
+    "StrengthLaw",
+    "SweepResult",
+    "UsageError",
+    "Validation",
+    "WriteError",
+    "__version__",
+    "compare",
+    "converge",
+    "limit",
+    "load",
+    "material",
+    "materials",
+    "merge",
+    "models",
+    "run",
+    "sweep",
+    "validate",
+]

@@ -1,0 +1,160 @@
+"""Cases: what strikes what, how fast, and by which options."""
+
+from __future__ import annotations
+
+import html
+import os
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from . import _percuss
+
+
+class Case:
+    """A case built in code: the tables of a case file as keyword arguments.
+
+    Nothing here knows the keys: they are those of a case file, and so are their defaults and the messages about them.
+
+    Parameters
+    ----------
+    name : str
+        Name of the case, which messages show in place of a file.
+    **tables
+        The tables and values of a case file: ``projectile``, ``target``, ``chain``, ``materials`` and so on. A quantity is a text
+        with its unit, such as ``"4.8 mm"``, or a number in SI units. What is ``None`` is left out.
+
+    Raises
+    ------
+    CaseError, MaterialError
+        With the place in the case's text, what is allowed and the remedy.
+
+    Examples
+    --------
+    >>> import percuss
+    >>> case = percuss.Case(
+    ...     projectile={"material": "copper", "length": "12.74 mm", "diameter": 4.8e-3, "velocity": 230.0},
+    ...     target={"material": "aluminium-2024-t351", "thickness": 0.025},
+    ... )
+    >>> case.impact_velocity_m_s
+    230.0
+    >>> round(percuss.run(case).depth_of_penetration_mm, 4)
+    0.2235
+    """
+
+    _native: _percuss.Case
+
+    def __init__(self, name: str = "case", /, **tables: Any) -> None:
+        self._native = _percuss.Case.from_tables(name, tables)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Case:
+        """Reads a case file, as :func:`percuss.load` does."""
+        return cls._of(_percuss.Case.load(path))
+
+    @classmethod
+    def from_text(cls, text: str, name: str = "case") -> Case:
+        """Reads a case from the text of a case file.
+
+        Parameters
+        ----------
+        text : str
+            TOML, as a case file has it. It cannot name material files.
+        name : str
+            Name of the case, which messages show in place of a file.
+        """
+        return cls._of(_percuss.Case.from_text(name, text))
+
+    @classmethod
+    def _of(cls, native: _percuss.Case) -> Case:
+        case = cls.__new__(cls)
+        case._native = native
+        return case
+
+    def replace(self, values: Mapping[str, Any]) -> Case:
+        """The same case with other values under some dotted keys.
+
+        Examples
+        --------
+        >>> faster = percuss.load("cases/paper-table1/scenario.toml").replace({"projectile.velocity": "400 m/s"})
+        >>> faster.impact_velocity_m_s
+        400.0
+        """
+        tables = tomllib.loads(self.text)
+        for key, value in values.items():
+            *way, last = key.split(".")
+            table: Any = tables
+            for part in way:
+                table = table[int(part)] if isinstance(table, list) else table.setdefault(part, {})
+            table[int(last) if isinstance(table, list) else last] = value
+        return self._of(_percuss.Case.from_tables(self.name, tables))
+
+    @property
+    def name(self) -> str:
+        """Name of the case."""
+        return self._native.name
+
+    @property
+    def title(self) -> str:
+        """One line that says what it is."""
+        return self._native.title
+
+    @property
+    def impact_velocity_m_s(self) -> float:
+        """Impact speed [m/s]."""
+        return self._native.impact_velocity_m_s
+
+    @property
+    def text(self) -> str:
+        """The text of the case file; of a case that was built in code, the text that it would have."""
+        return self._native.text
+
+    @property
+    def path(self) -> Path | None:
+        """The file; ``None`` for a case that comes from none."""
+        return None if self._native.path is None else Path(self._native.path)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes a case file, which the program reads."""
+        Path(path).write_text(self.text, encoding="utf-8")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Where it came from a file, the file may be on another machine: the text goes along.
+        return Case.from_text, (self.text, self.name)
+
+    def __repr__(self) -> str:
+        where = f" from {self.path}" if self.path else ""
+        return f"<Case {self.name}, {self.impact_velocity_m_s:g} m/s{where}>"
+
+    def _repr_html_(self) -> str:
+        head = html.escape(self.title or self.name)
+        return f"<details open><summary>{head}</summary><pre>{html.escape(self.text)}</pre></details>"
+
+
+def load(path: str | os.PathLike[str]) -> Case:
+    """Reads a case file and everything that it names.
+
+    Parameters
+    ----------
+    path : str or path
+        Case file; ``percuss new NAME`` writes one to start from.
+
+    Raises
+    ------
+    ReadError
+        When a file cannot be read.
+    CaseError, MaterialError
+        When its content is not valid; the message has file, line, key, what is allowed and the remedy.
+
+    Examples
+    --------
+    >>> percuss.load("cases/paper-table1/scenario.toml")
+    <Case paper-table1, 230 m/s from cases/paper-table1/scenario.toml>
+    """
+    return Case.load(path)
+
+
+def native(case: Case | str | os.PathLike[str]) -> _percuss.Case:
+    """The native case of a case, or of the file that it is in."""
+    return case._native if isinstance(case, Case) else _percuss.Case.load(case)

@@ -1,0 +1,324 @@
+"""The commands of the program as functions: one a command, which passes its options on as they are."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Sequence
+from typing import Any, TypeAlias
+
+from . import _percuss
+from .case import Case, native
+from .progress import Progress, watching
+from .results import Comparison, Convergence, Limits, Material, Model, RunResult, Validation
+
+#: A path of a file or folder.
+Path: TypeAlias = str | os.PathLike[str]
+#: A case, or the path of a case file.
+CaseLike: TypeAlias = Case | Path
+#: Flow stress [Pa] from plastic strain, strain rate [1/s] and temperature [K].
+StrengthLaw: TypeAlias = Callable[[float, float, float], float]
+#: A speed in m/s, or a text with its unit.
+Speed: TypeAlias = float | str
+
+# Stands where a command line names the file of a case that is at hand.
+_AT_HAND = "case.toml"
+
+
+def _answer(
+    command: str,
+    *names: str,
+    of: CaseLike | None = None,
+    progress: Progress | bool | None = None,
+    **options: Any,
+) -> Any:
+    """What a command prints with --json. Options have the names that they have there; ``None`` stands for the default."""
+    line = ["percuss", *command.split()]
+    for name, value in options.items():
+        flag = "--" + name.replace("_", "-")
+        for item in value if isinstance(value, (list, tuple)) else [value]:
+            if item is not None:
+                line.append(f"{flag}={os.fspath(item) if isinstance(item, os.PathLike) else item}")
+    at_hand = None if of is None else native(of)
+    line += ["--", *names, *([] if at_hand is None else [_AT_HAND])]
+    with watching(progress) as hear:
+        return json.loads(_percuss.answer(line, at_hand, hear))
+
+
+def _several(names: Path | Sequence[Path] | None) -> list[Path]:
+    if names is None:
+        return []
+    return [names] if isinstance(names, (str, os.PathLike)) else list(names)
+
+
+def _list(speeds: Speed | Sequence[float] | None) -> str | None:
+    """Speeds as the command line has them: with as many digits as it takes to read them back unchanged."""
+    if speeds is None or isinstance(speeds, str):
+        return speeds
+    if isinstance(speeds, (int, float)):
+        return repr(float(speeds))
+    return ",".join(repr(float(speed)) for speed in speeds)
+
+
+def _with_unit(speed: Speed | None) -> str | None:
+    return speed if speed is None or isinstance(speed, str) else f"{float(speed)!r} m/s"
+
+
+def run(
+    case: CaseLike,
+    model: str = "chain",
+    *,
+    history: bool = True,
+    progress: Progress | bool | None = None,
+    projectile_law: StrengthLaw | None = None,
+    target_law: StrengthLaw | None = None,
+) -> RunResult:
+    """Runs a case by a model.
+
+    Parameters
+    ----------
+    case : Case or path
+        The case, or its file.
+    model : str
+        Name of the model; :func:`percuss.models` lists them.
+    history : bool
+        Whether to keep time histories.
+    progress : callable or bool, optional
+        Called with the part done, 0 to 1, and a few words; ``True`` and ``False`` show a bar or none. When not given, a bar of tqdm
+        is shown after a second, where tqdm is installed and somebody sees it.
+    projectile_law, target_law : callable, optional
+        A strength law in Python that takes the place of the material's own: flow stress [Pa] from plastic strain, strain rate [1/s] and
+        temperature [K]. Slow: the solver calls it for every flowing element and step, three times for the slopes, so a run takes
+        hundreds of times as long. What it raises ends the run.
+
+    Returns
+    -------
+    RunResult
+        The same numbers, to the last bit, as ``percuss run --json`` prints.
+
+    Raises
+    ------
+    NotApplicableError
+        When the model is not made for the case; :func:`compare` says which are.
+    NumericalError
+        When the solution fails or its books do not balance.
+
+    Examples
+    --------
+    >>> result = percuss.run("cases/paper-table1/scenario.toml")
+    >>> result.outcome, round(result.depth_of_penetration_mm, 4)
+    ('rebounded', 0.2235)
+    """
+    at_hand = case._native if isinstance(case, Case) else native(case)
+    if progress is False or callable(progress):
+        return RunResult(_percuss.run(at_hand, model, history, progress or None, projectile_law, target_law))
+    with watching(progress) as hear:
+        return RunResult(_percuss.run(at_hand, model, history, hear, projectile_law, target_law))
+
+
+def compare(
+    case: CaseLike,
+    *,
+    velocity: Speed | Sequence[float] | None = None,
+    model: str | Sequence[str] | None = None,
+    progress: Progress | bool | None = None,
+) -> Comparison:
+    """Runs every model on a case and sets their results side by side.
+
+    Parameters
+    ----------
+    case : Case or path
+        The case, or its file.
+    velocity : float, sequence of float or str, optional
+        Impact speeds [m/s], or what ``--velocity`` takes, such as ``"200..1500:27"`` or ``"experiments"``; the case's own when
+        not given.
+    model : str or sequence of str, optional
+        Models to compare; all that answer at once when not given.
+    progress : callable or bool, optional
+        As of :func:`run`.
+
+    Examples
+    --------
+    >>> comparison = percuss.compare("cases/paper-table1/scenario.toml", velocity=[200, 230])
+    >>> [choice.model for choice in comparison.recommended[0].models]
+    ['chain']
+    """
+    answer = _answer(
+        "compare", of=case, velocity=_list(velocity), model=_several(model), progress=progress
+    )
+    return Comparison(answer)
+
+
+def limit(
+    case: CaseLike | None = None,
+    *,
+    velocity: str | tuple[float, float] | None = None,
+    tolerance: Speed | None = None,
+    points: int | None = None,
+    model: str | Sequence[str] | None = None,
+    shots: Path | None = None,
+    span: Speed | None = None,
+    progress: Progress | bool | None = None,
+) -> Limits:
+    """Finds the ballistic limit of a case by every model that can tell, or V50 from shots that scatter.
+
+    Parameters
+    ----------
+    case : Case or path, optional
+        The case, or its file; may be left out when ``shots`` is given.
+    velocity : tuple of float or str, optional
+        Lowest and highest impact speed to search [m/s]; 0 to 2000 m/s when not given.
+    tolerance : float or str, optional
+        How far apart the stopped and the perforating shot may be [m/s], or a part such as ``"0.2 %"``; 0.1 m/s when not given.
+    points : int, optional
+        Residual velocities to compute above the limit; 12 when not given.
+    model : str or sequence of str, optional
+        Models to search with; all that answer at once when not given.
+    shots : path, optional
+        CSV file of shots with the columns ``velocity_m_s`` and ``perforated``.
+    span : float or str, optional
+        Widest span of the shots that V50 may be the mean of [m/s].
+    progress : callable or bool, optional
+        As of :func:`run`.
+
+    Examples
+    --------
+    >>> limits = percuss.limit("cases/weldox-460e-12mm-blunt/scenario.toml", model="plugging", points=0)
+    >>> limits.results[0].outcome
+    'found'
+    """
+    if isinstance(velocity, tuple):
+        velocity = "..".join(repr(float(end)) for end in velocity)
+    answer = _answer(
+        "limit",
+        of=case,
+        velocity=velocity,
+        tolerance=_with_unit(tolerance),
+        points=points,
+        model=_several(model),
+        shots=shots,
+        span=_with_unit(span),
+        progress=progress,
+    )
+    return Limits(answer)
+
+
+def converge(
+    case: CaseLike,
+    *,
+    model: str | None = None,
+    levels: int | None = None,
+    progress: Progress | bool | None = None,
+) -> Convergence:
+    """Refines the mesh of a case and judges its convergence.
+
+    Parameters
+    ----------
+    case : Case or path
+        The case, or its file; its own mesh is the coarsest one.
+    model : str, optional
+        Name of the model; ``chain`` when not given.
+    levels : int, optional
+        Number of meshes, 3 to 8, each twice as fine as the last; 4 when not given.
+    progress : callable or bool, optional
+        As of :func:`run`.
+
+    Examples
+    --------
+    >>> study = percuss.converge("cases/taylor-copper-wilkins/scenario.toml", levels=3)
+    >>> [mesh.projectile_elements for mesh in study.meshes]
+    [40, 80, 160]
+    """
+    return Convergence(_answer("converge", of=case, model=model, levels=levels, progress=progress))
+
+
+def validate(
+    *,
+    model: str | Sequence[str] | None = None,
+    kind: str | Sequence[str] | None = None,
+    data: Path | Sequence[Path] | None = None,
+    materials: Path | Sequence[Path] | None = None,
+    progress: Progress | bool | None = None,
+) -> Validation:
+    """Computes every published shot with every model that applies to it, and says how far off each is.
+
+    Parameters
+    ----------
+    model : str or sequence of str, optional
+        Models to validate; all that answer at once when not given.
+    kind : str or sequence of str, optional
+        Kinds of shots; all of them when not given.
+    data : path or sequence of paths, optional
+        CSV files of shots in place of the program's own, which are named ``builtin``.
+    materials : path or sequence of paths, optional
+        Files of materials that the shots name, beside the library.
+    progress : callable or bool, optional
+        As of :func:`run`.
+
+    Examples
+    --------
+    >>> validation = percuss.validate(model="taylor", kind="taylor")
+    >>> validation.models
+    ['taylor']
+    """
+    answer = _answer(
+        "validate",
+        model=_several(model),
+        kind=_several(kind),
+        data=_several(data),
+        materials=_several(materials),
+        progress=progress,
+    )
+    return Validation(answer)
+
+
+def materials(
+    *, case: Path | None = None, file: Path | None = None
+) -> list[Material]:
+    """The materials that a case can name.
+
+    Parameters
+    ----------
+    case : path, optional
+        Case file whose materials are included.
+    file : path, optional
+        File whose materials are included.
+
+    Examples
+    --------
+    >>> "copper-woodward" in [material.id for material in percuss.materials()]
+    True
+    """
+    return [Material(record) for record in _answer("materials", case=case, file=file)]
+
+
+def material(
+    name: str,
+    *,
+    case: Path | None = None,
+    file: Path | None = None,
+) -> Material:
+    """Everything that is known of one material, by its id or its family.
+
+    Raises
+    ------
+    MaterialError
+        When none has the name.
+
+    Examples
+    --------
+    >>> percuss.material("copper").id
+    'copper-woodward'
+    """
+    return Material(_answer("materials show", name, case=case, file=file))
+
+
+def models() -> list[Model]:
+    """The models, with what each of them is made for.
+
+    Examples
+    --------
+    >>> [model.name for model in percuss.models()][:3]
+    ['chain', 'fdm', 'axi']
+    """
+    return [Model(record) for record in _answer("models")]

@@ -1,0 +1,164 @@
+"""Figures on axes of matplotlib, which is imported when a figure is asked for."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from .results import Comparison, Convergence, Limits, RunResult, Validation
+    from .sweeps import SweepResult
+
+#: How a number in SI units is drawn: the end of its name, the factor and the unit.
+_UNITS = [
+    ("_m_s", 1.0, "m/s"),
+    ("_n_s", 1.0, "N s"),
+    ("_mm", 1.0, "mm"),
+    ("_us", 1.0, "us"),
+    ("_kn", 1.0, "kN"),
+    ("_pa", 1e-6, "MPa"),
+    ("_m", 1e3, "mm"),
+    ("_n", 1e-3, "kN"),
+    ("_j", 1.0, "J"),
+    ("_g", 1.0, "g"),
+    ("_k", 1.0, "K"),
+    ("_s", 1e6, "us"),
+]
+
+
+def label(name: str) -> tuple[str, float]:
+    """A name in words with the unit that it is drawn in, and the factor to that unit.
+
+    Examples
+    --------
+    >>> label("depth_m"), label("residual_velocity_m_s"), label("strain")
+    (('depth [mm]', 1000.0), ('residual velocity [m/s]', 1.0), ('strain', 1.0))
+    """
+    for end, factor, unit in _UNITS:
+        if name.endswith(end):
+            return f"{name.removesuffix(end).replace('_', ' ')} [{unit}]", factor
+    return name.replace("_", " "), 1.0
+
+
+def new_axes(ax: Axes | None) -> Axes:
+    """These axes, or new ones."""
+    if ax is not None:
+        return ax
+    import matplotlib.pyplot
+
+    return matplotlib.pyplot.subplots(layout="constrained")[1]
+
+
+def history(result: RunResult, what: str, ax: Axes | None, **style: Any) -> Axes:
+    history = result.history
+    words, factor = label(what)
+    ax = new_axes(ax)
+    style.setdefault("label", result.model)
+    ax.plot(history.time_s * 1e6, history[what] * factor, **style)
+    ax.set(xlabel="time [us]", ylabel=words, title=result.case)
+    return ax
+
+
+def stress(result: RunResult, ax: Axes | None) -> Axes:
+    import numpy
+
+    ax = new_axes(ax)
+    profiles = result.history.profiles
+    time = numpy.concatenate([numpy.full(len(p.part), p.time_s * 1e6) for p in profiles])
+    position = numpy.concatenate([p.position_m for p in profiles]) * 1e3
+    value = numpy.concatenate([p.stress_pa for p in profiles]) * 1e-6
+    # The largest stresses belong to a few elements under the contact: the waves are what a figure is to show.
+    top = float(numpy.percentile(numpy.abs(value), 99.5)) or 1.0
+    dots = ax.scatter(position, time, c=value, s=4, marker="s", cmap="RdBu_r", vmin=-top, vmax=top, linewidths=0)
+    ax.figure.colorbar(dots, ax=ax, label="axial stress, compression positive [MPa]", extend="both")
+    ax.set(xlabel="position, struck face at 0 [mm]", ylabel="time [us]", title=result.case)
+    return ax
+
+
+def comparison(comparison: Comparison, ax: Axes | None) -> Axes:
+    ax = new_axes(ax)
+    quantity = comparison.quantities[0]
+    words, factor = label(quantity)
+    chosen = {choice.model for at in comparison.recommended for choice in at.models}
+    given = [r for r in comparison.results if r[quantity] is not None]
+    names = list(dict.fromkeys(r.model for r in given))
+    measured = [e for e in comparison.experiments if e.quantity == quantity]
+    title = f"{comparison.case} (★ recommended)"
+    if len(comparison.regime) == 1:
+        values = [r[quantity] * factor for r in given]
+        colours = ["C0" if r.model in chosen else "0.7" for r in given]
+        ax.barh([f"{r.model} ★" if r.model in chosen else r.model for r in given], values, color=colours)
+        ax.invert_yaxis()
+        speed = comparison.regime[0].impact_velocity_m_s
+        for experiment in measured:
+            if experiment.impact_velocity_m_s in (None, speed):
+                ax.axvline(experiment.value, color="C3", label="experiment")
+        ax.set(xlabel=words, title=title)
+        return ax
+    for name in names:
+        points = [(r.impact_velocity_m_s, r[quantity] * factor) for r in given if r.model == name]
+        star = " ★" if name in chosen else ""
+        ax.plot(*zip(*points, strict=True), label=name + star, linewidth=2 if star else 1)
+    shots = [(e.impact_velocity_m_s, e.value) for e in measured if e.impact_velocity_m_s is not None]
+    if shots:
+        ax.plot(*zip(*shots, strict=True), "k+", label="experiment")
+    ax.set(xlabel="impact velocity [m/s]", ylabel=words, title=title)
+    ax.legend()
+    return ax
+
+
+def limits(limits: Limits, ax: Axes | None) -> Axes:
+    ax = new_axes(ax)
+    for model in limits.results:
+        if model.ballistic_limit_m_s is None:
+            continue
+        points = [(model.ballistic_limit_m_s, 0.0)]
+        points += [(p.impact_velocity_m_s, p.residual_velocity_m_s) for p in model.curve or []]
+        ax.plot(*zip(*points, strict=True), marker=".", label=f"{model.model}, {model.ballistic_limit_m_s:.4g} m/s")
+    for experiment in limits.experiments:
+        if experiment.quantity == "ballistic_limit_m_s":
+            ax.axvline(experiment.value, color="k", linestyle="--", label=f"measured, {experiment.value:.4g} m/s")
+    ax.set(xlabel="impact velocity [m/s]", ylabel="residual velocity [m/s]", title=limits.case)
+    if ax.lines:
+        ax.legend()
+    return ax
+
+
+def convergence(study: Convergence, quantity: str | None, ax: Axes | None) -> Axes:
+    ax = new_axes(ax)
+    chosen = next(q for q in study.quantities if quantity in (None, q.name))
+    elements = [mesh.projectile_elements + mesh.target_elements for mesh in study.meshes]
+    name = chosen.name.replace("_", " ")
+    ax.plot(elements, chosen.values, marker="o", label=name)
+    if "richardson" in chosen.verdict:
+        ax.axhline(chosen.verdict.richardson, color="0.5", linestyle="--", label="extrapolated (Richardson)")
+    ax.set(xlabel="elements", ylabel=f"{name} [{chosen.unit}]", xscale="log")
+    ax.legend()
+    return ax
+
+
+def validation(validation: Validation, ax: Axes | None) -> Axes:
+    ax = new_axes(ax)
+    counted = [p for p in validation.predictions if p.standing == "counted" and p.predicted is not None]
+    units = sorted({p.unit for p in counted})
+    for name in dict.fromkeys(p.model for p in counted):
+        points = [(p.measured, p.predicted / p.measured) for p in counted if p.model == name and p.measured]
+        ax.plot(*zip(*points, strict=True), ".", label=name)
+    ax.axhline(1.0, color="k", linewidth=1)
+    ax.set(xlabel=f"measured [{', '.join(units)}]", ylabel="predicted / measured", xscale="log")
+    ax.legend()
+    return ax
+
+
+def sweep(sweep: SweepResult, x: str, y: str, colour: str | None, ax: Axes | None) -> Axes:
+    ax = new_axes(ax)
+    rows = sweep.to_pandas()
+    # Names of inputs are keys of the case with a unit as the user wrote it: they are drawn as they are.
+    if colour is None:
+        ax.plot(rows[x], rows[y], ".")
+    else:
+        dots = ax.scatter(rows[x], rows[y], c=rows[colour], s=8)
+        ax.figure.colorbar(dots, ax=ax, label=colour)
+    ax.set(xlabel=x, ylabel=y, title=sweep.manifest.title or sweep.manifest.case)
+    return ax

@@ -1,0 +1,73 @@
+"""Progress of what takes longer than a second."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, TypeAlias
+
+#: Called now and then with the part done, 0 to 1, and a few words; what it raises ends the computation.
+Progress: TypeAlias = Callable[[float, str], None]
+
+#: How long something takes before it shows its progress [s].
+PATIENCE = 1.0
+
+
+class _Bar:
+    """A bar of tqdm that appears after a while."""
+
+    def __init__(self) -> None:
+        self.start = time.monotonic()
+        self.bar: Any = None
+
+    def __call__(self, fraction: float, words: str) -> None:
+        if self.bar is None:
+            if time.monotonic() - self.start < PATIENCE:
+                return
+            self.bar = _tqdm()(total=1.0, leave=False, bar_format="{percentage:3.0f} %|{bar}| {desc}")
+        # An estimate that falls back would only puzzle.
+        self.bar.n = max(self.bar.n, min(fraction, 1.0))
+        self.bar.set_description_str(words, refresh=False)
+        self.bar.refresh()
+
+    def close(self) -> None:
+        if self.bar is not None:
+            self.bar.close()
+
+
+def _tqdm() -> Any:
+    """The bar of a notebook where it can be drawn, otherwise that of a terminal."""
+    try:
+        import ipywidgets  # noqa: F401
+        from tqdm.auto import tqdm
+    except ImportError:
+        from tqdm import tqdm
+    return tqdm
+
+
+def _is_watched() -> bool:
+    """Whether somebody sees a bar, and one can be drawn."""
+    if not ("ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty())):
+        return False
+    try:
+        import tqdm  # noqa: F401
+    except ImportError:
+        return False
+    return True
+
+
+@contextmanager
+def watching(progress: Progress | bool | None) -> Iterator[Progress | None]:
+    """What is told of progress: a callable as it is, a bar for ``None`` where one is seen, or for ``True``."""
+    if callable(progress):
+        yield progress
+    elif progress is False or (progress is None and not _is_watched()):
+        yield None
+    else:
+        bar = _Bar()
+        try:
+            yield bar
+        finally:
+            bar.close()

@@ -1,0 +1,335 @@
+"""What commands find out, as small classes with the names of the program's JSON."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from . import _percuss, plots
+from .history import History
+from .record import Record, frame, shown, table, table_html
+
+if TYPE_CHECKING:
+    import pandas
+    import pyarrow
+    from matplotlib.axes import Axes
+
+
+class RunResult(Record):
+    """The result of a run: the values of ``percuss run --json`` and the histories.
+
+    A number that the model does not give is ``None``.
+
+    Attributes
+    ----------
+    case, model, scheme : str
+        Names of the case, the model and its scheme.
+    outcome, criterion, termination : str
+        How the shot ended, what that was told by, and why the run was ended.
+    impact_velocity_m_s, residual_velocity_m_s, ballistic_limit_m_s, plug_velocity_m_s : float or None
+        Speeds [m/s].
+    depth_of_penetration_mm, largest_depth_mm, permanent_depth_mm : float or None
+        Depth when the projectile's momentum is used up, at its largest, and once the load is gone [mm].
+    expected_error : Record or None
+        Error to expect of the depth against the axisymmetric reference.
+    projectile_final_length_mm, projectile_final_diameter_mm : float or None
+        What is left of the projectile [mm].
+    projectile_final_mass_g, plug_mass_g : float or None
+        Masses [g].
+    time_to_rest_us, contact_time_us, end_time_us : float or None
+        Times [us].
+    peak_force_kn : float or None
+        Largest force between projectile and target [kN].
+    energy_residual, momentum_residual : float or None
+        Largest part of the initial energy and momentum that no line of the books accounted for.
+    warnings : list of str
+        What to know before relying on the numbers.
+    """
+
+    case: str
+    percuss_version: str
+    model: str
+    scheme: str
+    target_closure: str | None
+    outcome: str
+    criterion: str | None
+    termination: str | None
+    reason: str | None
+    impact_velocity_m_s: float
+    depth_of_penetration_mm: float | None
+    expected_error: Record | None
+    largest_depth_mm: float | None
+    permanent_depth_mm: float | None
+    residual_velocity_m_s: float | None
+    ballistic_limit_m_s: float | None
+    band: Record | None
+    projectile_final_length_mm: float | None
+    projectile_final_diameter_mm: float | None
+    projectile_final_mass_g: float | None
+    plug_mass_g: float | None
+    plug_velocity_m_s: float | None
+    time_to_rest_us: float | None
+    peak_force_kn: float | None
+    contact_time_us: float | None
+    end_time_us: float | None
+    steps: int | None
+    time_step_ns: float | None
+    smallest_time_step_ns: float | None
+    eroded_projectile_elements: int | None
+    eroded_target_elements: int | None
+    projectile_plastic_strain: float | None
+    target_plastic_strain: float | None
+    projectile_temperature_k: float | None
+    target_temperature_k: float | None
+    impact_energy_j: float
+    energy_residual: float | None
+    momentum_residual: float | None
+    fragments: list[Record]
+    details: list[Record]
+    warnings: list[str]
+
+    def __init__(self, native: _percuss.RunResult) -> None:
+        self._native = native
+
+    def __getattr__(self, name: str) -> Any:
+        if name == "_data":
+            # Read when it is first asked for: many runs are asked for one number or for their history only.
+            whole = json.loads(self._native.json())
+            (result,) = whole.pop("results")
+            self._data = whole | result
+            return self._data
+        return super().__getattr__(name)
+
+    @property
+    def history(self) -> History:
+        """Histories of the run.
+
+        Raises
+        ------
+        AttributeError
+            When the run kept none: a formula, or ``history=False``.
+        """
+        if self._native.samples() is None:
+            raise ValueError(f"the run by model `{self.model}` kept no history")
+        return History(self._native)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The numbers as a table of pandas with one row; ``history.to_pandas()`` gives the histories."""
+        return frame([self._data])
+
+    def to_arrow(self) -> pyarrow.Table:
+        """The numbers as a table of Arrow with one row."""
+        return table([self._data])
+
+    def plot(self, what: str = "depth_m", ax: Axes | None = None, **style: Any) -> Axes:
+        """Draws a column of the history against time [us].
+
+        Parameters
+        ----------
+        what : str
+            Name of the column, such as ``depth_m``, ``tip_velocity_m_s`` or ``contact_force_n``.
+        ax : matplotlib axes, optional
+            Where to draw; new axes when not given.
+        **style
+            What ``Axes.plot`` takes.
+        """
+        return plots.history(self, what, ax, **style)
+
+    def plot_stress(self, ax: Axes | None = None) -> Axes:
+        """Draws the axial stress [MPa] over position [mm] and time [us]."""
+        return plots.stress(self, ax)
+
+    def _repr_html_(self) -> str:
+        rows = [[name, value] for name, value in self._shown()]
+        rows += [["warning", warning] for warning in self.warnings]
+        return table_html(["", ""], rows, f"{self.case}, model {self.model}")
+
+
+class Comparison(Record):
+    """What every model says of a case: the values of ``percuss compare --json``.
+
+    Attributes
+    ----------
+    regime, recommended : list of Record
+        The regime and the models to rely on, an entry a speed.
+    quantities : list of str
+        Names of the quantities that tell most of the case, the leading one first.
+    experiments : list of Record
+        What was measured.
+    results : list of Record
+        An entry a speed and model, with the names of :class:`RunResult`; ``reason`` says why a model gives no result.
+    """
+
+    case: str
+    percuss_version: str
+    regime: list[Record]
+    recommended: list[Record]
+    quantities: list[str]
+    experiments: list[Record]
+    results: list[Record]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row a speed and model."""
+        return frame(self._data["results"])
+
+    def to_arrow(self) -> pyarrow.Table:
+        """A row a speed and model."""
+        return table(self._data["results"])
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws the leading quantity: by model at one speed, against the speed at many."""
+        return plots.comparison(self, ax)
+
+    def _repr_html_(self) -> str:
+        quantities = self.quantities
+        rows = [
+            [r.model, shown(r.impact_velocity_m_s), *(shown(r[q]) for q in quantities), r.outcome.replace("_", " "), r.reason or ""]
+            for r in self.results
+        ]
+        return table_html(["model", "impact_velocity_m_s", *quantities, "outcome", "reason"], rows, self.case)
+
+
+class Limits(Record):
+    """Ballistic limits: the values of ``percuss limit --json``.
+
+    Attributes
+    ----------
+    searched_m_s : list of float
+        Lowest and highest impact speed of the search [m/s].
+    experiments : list of Record
+        What was measured.
+    results : list of Record
+        An entry a model: ``ballistic_limit_m_s``, ``bracket``, ``curve`` of residual velocities and the ``fit`` to it.
+    v50 : Record or None
+        V50 of shots that scatter, when a file of them was given.
+    """
+
+    case: str
+    percuss_version: str
+    searched_m_s: list[float]
+    experiments: list[Record]
+    results: list[Record]
+    v50: Record | None
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row a model."""
+        return frame(self._data.get("results", []))
+
+    def to_arrow(self) -> pyarrow.Table:
+        """A row a model."""
+        return table(self._data.get("results", []))
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws residual velocity against impact velocity for every model that found a limit."""
+        return plots.limits(self, ax)
+
+    def _repr_html_(self) -> str:
+        results = self._data.get("results", [])
+        rows = [[r["model"], r["outcome"].replace("_", " "), shown(r.get("ballistic_limit_m_s"))] for r in results]
+        return table_html(["model", "outcome", "ballistic_limit_m_s"], rows, self._data.get("case", ""))
+
+
+class Convergence(Record):
+    """A case on finer and finer meshes: the values of ``percuss converge --json``.
+
+    Attributes
+    ----------
+    meshes : list of Record
+        ``projectile_elements``, ``target_elements`` and ``steps``, from coarse to fine.
+    quantities : list of Record
+        ``name``, ``unit``, ``values`` on every mesh and the ``verdict`` of the finest three.
+    """
+
+    meshes: list[Record]
+    quantities: list[Record]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row a mesh."""
+        return frame(self._rows())
+
+    def to_arrow(self) -> pyarrow.Table:
+        """A row a mesh."""
+        return table(self._rows())
+
+    def plot(self, quantity: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draws a quantity, the first when not named, against the number of elements."""
+        return plots.convergence(self, quantity, ax)
+
+    def _rows(self) -> list[dict[str, Any]]:
+        rows: list[dict[str, Any]] = []
+        for i, mesh in enumerate(self._data["meshes"]):
+            values = {f"{q['name']} [{q['unit']}]": q["values"][i] for q in self._data["quantities"]}
+            rows.append(mesh | values)
+        return rows
+
+    def _repr_html_(self) -> str:
+        rows = self._rows()
+        return table_html(list(rows[0]), [[shown(value) for value in row.values()] for row in rows])
+
+
+class Validation(Record):
+    """Models against published shots: the values of ``percuss validate --json``.
+
+    Attributes
+    ----------
+    data, models : list of str
+        What the shots come from, and the models.
+    shots : int
+        Number of shots.
+    statistics, coverage, predictions : list of Record
+        Errors by group, how many shots each model could be tested on, and every prediction beside its measurement.
+    """
+
+    percuss_version: str
+    data: list[str]
+    models: list[str]
+    shots: int
+    statistics: list[Record]
+    coverage: list[Record]
+    predictions: list[Record]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row a prediction."""
+        return frame(self._data["predictions"])
+
+    def to_arrow(self) -> pyarrow.Table:
+        """A row a prediction."""
+        return table(self._data["predictions"])
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws predicted against measured values of the counted predictions."""
+        return plots.validation(self, ax)
+
+
+class Material(Record):
+    """What is known of a material: the values of ``percuss materials --json``.
+
+    Attributes
+    ----------
+    id, name, family, state, trust, note : str
+        Its names, how far its numbers are established, and what to know of them.
+    sources : list of str
+        Keys of the bibliography.
+    strength : Record
+        The strength law and its constants, as a case file has them.
+    bar_wave_speed_m_s, bar_impedance_kg_m2_s : float
+        Speed of elastic waves in a bar [m/s] and its impedance per area [kg/(m2 s)].
+    """
+
+    id: str
+    name: str
+    density: str
+    strength: Record
+    trust: str
+    sources: list[str]
+    bar_wave_speed_m_s: float
+    bar_impedance_kg_m2_s: float
+
+
+class Model(Record):
+    """What a model is made for: the values of ``percuss models --json``."""
+
+    name: str
+    summary: str
+    guard: Record
+    page: str

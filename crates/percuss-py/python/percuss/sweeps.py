@@ -1,0 +1,191 @@
+"""Sweeps: a case many times with some of its numbers varied, here or on a cluster."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from . import _percuss, cluster, plots
+from .case import Case
+from .errors import UsageError
+from .progress import Progress, watching
+from .record import Record, table_html
+
+if TYPE_CHECKING:
+    import pandas
+    import pyarrow
+    from distributed import Client
+    from matplotlib.axes import Axes
+
+
+class SweepResult:
+    """The folder of a sweep: a row a shot, in Parquet files."""
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        self.folder = Path(folder)
+
+    @property
+    def status(self) -> Record:
+        """How far the folder has come: ``shots_done``, ``blocks_done``, ``blocks_damaged``, ``running`` and the ``manifest``."""
+        return Record(json.loads(_percuss.sweep_status(self.folder)))
+
+    @property
+    def manifest(self) -> Record:
+        """What the folder holds the results of."""
+        manifest: Record = self.status.manifest
+        return manifest
+
+    @property
+    def complete(self) -> bool:
+        """Whether all shots are there."""
+        status = self.status
+        return bool(status.shots_done == status.manifest.shots)
+
+    def files(self) -> list[Path]:
+        """The files of the blocks that are there, in the order of the shots."""
+        return [self.folder / f"block-{block:06}.parquet" for block in self.status.blocks_done]
+
+    def to_arrow(self) -> pyarrow.Table:
+        """All rows that are there as a table of Arrow, in the order of the shots."""
+        import pyarrow
+        import pyarrow.parquet
+
+        return pyarrow.concat_tables(pyarrow.parquet.read_table(file) for file in self.files())
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """All rows that are there as a table of pandas, in the order of the shots."""
+        rows: pandas.DataFrame = self.to_arrow().to_pandas()
+        return rows
+
+    def merge(self, out: str | os.PathLike[str]) -> int:
+        """Writes all rows into one Parquet file, as ``percuss sweep merge`` does; returns their number."""
+        return merge([self.folder], out)
+
+    def plot(self, x: str, y: str, colour: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draws a column against another one, a dot a shot, coloured by a third."""
+        return plots.sweep(self, x, y, colour, ax)
+
+    def __repr__(self) -> str:
+        status = self.status
+        return f"<SweepResult {self.folder}, {status.shots_done} of {status.manifest.shots} shots>"
+
+    def _repr_html_(self) -> str:
+        status, manifest = self.status, self.manifest
+        rows = [
+            ["folder", str(self.folder)],
+            ["shots", f"{status.shots_done} of {manifest.shots}"],
+            ["model", manifest.model],
+            ["design", manifest.design],
+            ["columns", ", ".join(column.name for column in manifest.columns)],
+        ]
+        return table_html(["", ""], rows, manifest.title or manifest.case)
+
+
+def sweep(
+    sweep: str | os.PathLike[str] | Mapping[str, Any],
+    out: str | os.PathLike[str],
+    *,
+    resume: bool = False,
+    shard: tuple[int, int] = (1, 1),
+    threads: int | None = None,
+    client: Client | None = None,
+    progress: Progress | bool | None = None,
+) -> SweepResult:
+    """Computes a case many times with some of its numbers varied.
+
+    Rows depend on the sweep, the case and the shot alone: they are the same, bit for bit, whatever the number of threads, shards and
+    workers, and the same as those of ``percuss sweep``.
+
+    Parameters
+    ----------
+    sweep : path or mapping
+        A sweep file, or what it says as a mapping, whose ``base`` may be a :class:`Case`. A mapping is written to ``out`` as
+        ``sweep.toml``, so that the program can go on with the folder.
+    out : path
+        Folder of the results. It is written by this process alone, also on a cluster.
+    resume : bool
+        Whether to go on with a folder that holds a part of this sweep.
+    shard : tuple of int
+        Which of how many parts to compute, such as ``(2, 8)``.
+    threads : int, optional
+        Threads; as many as there are cores when not given. On a cluster the workers have their own.
+    client : distributed.Client, optional
+        A Dask cluster to compute on.
+    progress : callable or bool, optional
+        As of :func:`percuss.run`.
+
+    Returns
+    -------
+    SweepResult
+        The folder.
+
+    Raises
+    ------
+    CaseError
+        When the sweep or its case is not valid.
+    ClusterError
+        When the cluster was lost; what was done stays in the folder, and ``resume=True`` goes on.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> rows = percuss.sweep(
+    ...     {
+    ...         "base": percuss.load("cases/paper-table1/scenario.toml"),
+    ...         "model": "chain",
+    ...         "design": "grid",
+    ...         "parameter": [{"key": "projectile.velocity", "values": ["200 m/s", "230 m/s"]}],
+    ...     },
+    ...     tempfile.mkdtemp(),
+    ... )
+    >>> rows.complete, rows.to_pandas()["impact_velocity_m_s"].tolist()
+    (True, [200.0, 230.0])
+    """
+    part, parts = shard
+    if not 1 <= part <= parts:
+        raise UsageError(f"shard {part}/{parts} does not exist: parts are counted from 1 to their number")
+    path = _written(sweep, Path(out)) if isinstance(sweep, Mapping) else Path(sweep)
+    native = _percuss.Sweep(path)
+    folder = _percuss.SweepFolder(out, native, resume)
+    try:
+        with watching(progress) as hear:
+            if client is None:
+                _percuss.compute_sweep(native, folder, part, parts, threads, hear)
+            else:
+                cluster.compute(native, folder, folder.missing(part, parts), client, hear)
+    finally:
+        folder.close()
+    return SweepResult(out)
+
+
+def merge(folders: Sequence[str | os.PathLike[str]], out: str | os.PathLike[str]) -> int:
+    """Joins folders that hold all parts of a sweep into one Parquet file.
+
+    Returns
+    -------
+    int
+        Number of rows.
+    """
+    return _percuss.merge_sweep(list(folders), out)
+
+
+def _written(sweep: Mapping[str, Any], out: Path) -> Path:
+    """The sweep file of a mapping, with its case beside it."""
+    out.mkdir(parents=True, exist_ok=True)
+    tables = dict(sweep)
+    base = tables.get("base")
+    if isinstance(base, Case):
+        if base.path is not None:
+            base = base.path
+        else:
+            name = f"{base.name}.toml"
+            base.save(out / name)
+            tables["base"] = name
+    if isinstance(base, os.PathLike):
+        tables["base"] = os.path.relpath(base, out)
+    path = out / "sweep.toml"
+    path.write_text(_percuss.toml_text(tables), encoding="utf-8")
+    return path

@@ -1,0 +1,86 @@
+//! Failures as Python's exceptions, with the text that the program prints.
+
+use percuss::{Error, InputError};
+use percuss_cli::Failure;
+use pyo3::{exceptions::PyKeyboardInterrupt, prelude::*, types::PyDict};
+
+/// The exception of a failure.
+pub fn raise(py: Python<'_>, failure: impl Into<Failure>) -> PyErr {
+    let failure = failure.into();
+    let attributes = PyDict::new(py);
+    let class = match describe(&failure, &attributes) {
+        Ok(Some(class)) => class,
+        Ok(None) => return PyKeyboardInterrupt::new_err(()),
+        Err(error) => return error,
+    };
+    let text = failure.plain_text().trim_end().to_owned();
+    let made = py
+        .import("percuss.errors")
+        .and_then(|module| module.getattr(class))
+        .and_then(|class| class.call((text,), None));
+    match made {
+        Ok(exception) => {
+            for (name, value) in &attributes {
+                if let Err(error) = exception.setattr(name.to_string().as_str(), value) {
+                    return error;
+                }
+            }
+            PyErr::from_value(exception)
+        }
+        Err(error) => error,
+    }
+}
+
+/// The name of the exception's class, `None` for a run that its caller stopped; what it carries goes into `attributes`.
+fn describe(failure: &Failure, attributes: &Bound<'_, PyDict>) -> PyResult<Option<&'static str>> {
+    Ok(Some(match failure {
+        Failure::Library(Error::Cancelled { .. }) => return Ok(None),
+        Failure::Library(Error::Input(error)) => {
+            attributes.set_item("file", &error.file)?;
+            attributes.set_item("line", error.line())?;
+            attributes.set_item("key", &error.key)?;
+            attributes.set_item("message", &error.message)?;
+            attributes.set_item("help", &error.help)?;
+            match is_of_material(error) {
+                true => "MaterialError",
+                false => "CaseError",
+            }
+        }
+        Failure::Library(Error::NotApplicable { model, reason }) => {
+            attributes.set_item("model", model)?;
+            attributes.set_item("reason", reason)?;
+            "NotApplicableError"
+        }
+        Failure::Library(Error::Numerical(error)) => {
+            attributes.set_item("message", &error.what)?;
+            attributes.set_item("step", error.step)?;
+            attributes.set_item("time_us", error.time_us)?;
+            attributes.set_item("element", error.element)?;
+            attributes.set_item("help", &error.remedy)?;
+            "NumericalError"
+        }
+        Failure::Library(Error::Read { path, reason, .. }) => {
+            attributes.set_item("filename", path)?;
+            attributes.set_item("message", reason)?;
+            "ReadError"
+        }
+        Failure::Write { path, reason, .. } => {
+            attributes.set_item("filename", path)?;
+            attributes.set_item("message", reason)?;
+            "WriteError"
+        }
+        Failure::Material { message, help } => {
+            attributes.set_item("message", message)?;
+            attributes.set_item("help", help)?;
+            "MaterialError"
+        }
+        _ => "UsageError",
+    }))
+}
+
+/// Whether what is wrong is a material, or the name of one.
+fn is_of_material(error: &InputError) -> bool {
+    let about = |part: &str| ["material", "materials", "material_files"].contains(&part);
+    // A file of materials has no projectile; the keys of its tables are those of the materials.
+    error.key.split('.').any(about) || !error.text.contains("projectile")
+}

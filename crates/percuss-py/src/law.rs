@@ -1,0 +1,164 @@
+//! Strength laws written in Python: slow, since every flow stress is a call into the interpreter.
+
+use std::{
+    ops::ControlFlow,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+use percuss::{
+    Scenario,
+    check::Check,
+    material::{FlowState, FlowStress, Material, OwnLaw, PreparedStrength, Strength, StrengthLaw},
+    scenario::TargetBody,
+};
+use pyo3::prelude::*;
+
+/// Stress that stands in once a law has failed [Pa]: the run goes on to the next place where it can be ended.
+const STAND_IN: f64 = 1e6;
+/// Steps in strain and strain rate [1/s] for slopes, and the part of the value that they grow with.
+const STEP: f64 = 1e-6;
+const RATE_STEP: f64 = 1e-2;
+const PART: f64 = 1e-4;
+
+/// The laws that take the place of a case's own.
+pub struct Laws {
+    projectile: Option<Py<PyAny>>,
+    target: Option<Py<PyAny>>,
+    /// What the first law that failed raised.
+    error: Arc<Mutex<Option<PyErr>>>,
+}
+
+impl Laws {
+    pub fn new(projectile: Option<Py<PyAny>>, target: Option<Py<PyAny>>) -> Self {
+        Self {
+            projectile,
+            target,
+            error: Arc::default(),
+        }
+    }
+
+    /// The case with these laws; the same case where there are none.
+    pub fn put_into(&self, py: Python<'_>, scenario: &Arc<Scenario>) -> Arc<Scenario> {
+        if self.projectile.is_none() && self.target.is_none() {
+            return Arc::clone(scenario);
+        }
+        let mut changed = (**scenario).clone();
+        if let Some(law) = &self.projectile {
+            let material = &changed.projectile.material;
+            changed.projectile.material = self.with_law(py, material, law);
+        }
+        if let (Some(law), TargetBody::Layers { layers, .. }) = (&self.target, &mut changed.target)
+        {
+            for layer in layers {
+                layer.material = self.with_law(py, &layer.material, law);
+            }
+        }
+        Arc::new(changed)
+    }
+
+    fn with_law(&self, py: Python<'_>, material: &Material, law: &Py<PyAny>) -> Arc<Material> {
+        let law = Law {
+            function: Arc::new(law.clone_ref(py)),
+            error: Arc::clone(&self.error),
+            room_temperature: material.room_temperature.si(),
+        };
+        Arc::new(Material {
+            // Warnings name the material.
+            name: format!("{} with a strength law in Python", material.name),
+            strength: Strength::Own(OwnLaw(Arc::new(law))),
+            ..material.clone()
+        })
+    }
+
+    /// Whether to go on.
+    pub fn flow(&self) -> ControlFlow<()> {
+        let error = self.error.lock().unwrap_or_else(PoisonError::into_inner);
+        match *error {
+            Some(_) => ControlFlow::Break(()),
+            None => ControlFlow::Continue(()),
+        }
+    }
+
+    /// What the first law that failed raised.
+    pub fn into_error(self) -> Option<PyErr> {
+        let mut error = self.error.lock().unwrap_or_else(PoisonError::into_inner);
+        error.take()
+    }
+}
+
+/// A law for one material, and the same made ready by a factor.
+#[derive(Debug, Clone)]
+struct Law {
+    function: Arc<Py<PyAny>>,
+    error: Arc<Mutex<Option<PyErr>>>,
+    room_temperature: f64,
+}
+
+#[derive(Debug)]
+struct Prepared {
+    law: Law,
+    factor: f64,
+}
+
+impl Law {
+    /// Flow stress at a strain, a strain rate [1/s] and a temperature [K].
+    fn stress(&self, strain: f64, rate: f64, temperature: f64) -> f64 {
+        let called = Python::attach(|py| {
+            let stress = self.function.call1(py, (strain, rate, temperature))?;
+            stress.extract::<f64>(py)
+        });
+        match called {
+            Ok(stress) => stress,
+            Err(error) => {
+                let mut first = self.error.lock().unwrap_or_else(PoisonError::into_inner);
+                first.get_or_insert(error);
+                STAND_IN
+            }
+        }
+    }
+}
+
+impl PreparedStrength for Prepared {
+    fn flow_stress(&self, state: &FlowState) -> FlowStress {
+        let (strain, rate) = (state.plastic_strain, state.strain_rate);
+        let at = |strain, rate| self.factor * self.law.stress(strain, rate, state.temperature);
+        let stress = at(strain, rate);
+        let (step, rate_step) = (STEP + PART * strain, RATE_STEP + PART * rate);
+        FlowStress {
+            stress,
+            strain_slope: (at(strain + step, rate) - stress) / step,
+            rate_slope: (at(strain, rate + rate_step) - stress) / rate_step,
+        }
+    }
+}
+
+impl StrengthLaw for Law {
+    fn prepare(&self, _: &Material, factor: f64) -> Box<dyn PreparedStrength> {
+        Box::new(Prepared {
+            law: self.clone(),
+            factor,
+        })
+    }
+
+    fn flow_stress_at_unit_strain(&self, _: &Material) -> Option<f64> {
+        Some(self.stress(1.0, 0.0, self.room_temperature))
+    }
+
+    fn initial_yield_stress(&self, _: &Material) -> Option<f64> {
+        Some(self.stress(0.0, 0.0, self.room_temperature))
+    }
+
+    fn depends_on_temperature(&self) -> bool {
+        true
+    }
+
+    fn equation(&self) -> &'static str {
+        "a function of Python"
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, String)> {
+        Vec::new()
+    }
+
+    fn check(&self, _: &mut Check<'_>) {}
+}

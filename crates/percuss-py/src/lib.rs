@@ -1,0 +1,31 @@
+//! The native half of the Python package `percuss`: cases, runs and sweeps, and the answers of commands as JSON.
+//!
+//! It knows no option by name: cases, sweeps and command lines pass through it as data.
+
+mod case;
+mod command;
+mod errors;
+mod history;
+mod law;
+mod run;
+mod si;
+mod sweep;
+mod tables;
+mod watch;
+
+/// The module that the package's Python files import.
+#[pyo3::pymodule]
+mod _percuss {
+    #[pymodule_export]
+    use crate::{
+        case::Case,
+        command::{answer, command},
+        history::Column,
+        run::{RunResult, run},
+        sweep::{Sweep, SweepFolder, compute_sweep, merge_sweep, sweep_status},
+        tables::toml_text,
+    };
+
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+}

@@ -1,0 +1,130 @@
+//! One run of one model.
+
+use std::{
+    ops::ControlFlow,
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use percuss::{
+    Scenario,
+    model::{self, Control, Progress},
+    outcome::RunResult as Computed,
+    summary::CaseResults,
+};
+use percuss_cli::Failure;
+use pyo3::{exceptions::PyValueError, prelude::*};
+
+use crate::{
+    case::Case,
+    errors::raise,
+    history::{self, Column},
+    law::Laws,
+    watch::Asker,
+};
+
+/// The result of a run.
+#[pyclass(frozen, module = "percuss._percuss")]
+pub struct RunResult {
+    scenario: Arc<Scenario>,
+    result: Arc<Computed>,
+    solver_time: Duration,
+}
+
+/// Computes a case by a model.
+#[pyfunction]
+#[pyo3(signature = (case, model, record, progress=None, projectile_law=None, target_law=None))]
+pub fn run(
+    py: Python<'_>,
+    case: &Bound<'_, Case>,
+    model: &str,
+    record: bool,
+    progress: Option<Py<PyAny>>,
+    projectile_law: Option<Py<PyAny>>,
+    target_law: Option<Py<PyAny>>,
+) -> PyResult<RunResult> {
+    let laws = Laws::new(projectile_law, target_law);
+    let scenario = laws.put_into(py, &case.get().scenario);
+    let model = model::model(model).map_err(|error| raise(py, error))?;
+    let mut asker = Asker::new(progress.as_ref());
+    let mut solver_time = Duration::ZERO;
+    let result = py.detach(|| {
+        let mut hear = |now: Progress| -> ControlFlow<()> {
+            laws.flow()?;
+            asker.ask(now.fraction, || {
+                format!("{:.1} us, depth {:.3} mm", now.time * 1e6, now.depth * 1e3)
+            })
+        };
+        let mut control = Control {
+            record,
+            progress: Some(&mut hear),
+            ..Control::default()
+        };
+        let start = Instant::now();
+        let result = model::run(model, &scenario, &mut control).map_err(Failure::from);
+        solver_time = start.elapsed();
+        result
+    });
+    if let Some(error) = laws.into_error() {
+        return Err(error);
+    }
+    let result = Arc::new(asker.finish(py, result)?);
+    Ok(RunResult {
+        scenario,
+        result,
+        solver_time,
+    })
+}
+
+#[pymethods]
+impl RunResult {
+    /// What `percuss run --json` prints.
+    fn json(&self) -> PyResult<String> {
+        let results = CaseResults::new(&self.scenario, std::slice::from_ref(&self.result));
+        serde_json::to_string(&results).map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+
+    /// Time that the solver took [s].
+    fn solver_seconds(&self) -> f64 {
+        self.solver_time.as_secs_f64()
+    }
+
+    /// Number of recorded moments; `None` without a history.
+    fn samples(&self) -> Option<usize> {
+        self.result.history.as_ref().map(|h| h.samples.len())
+    }
+
+    /// Number of recorded states along the axis.
+    fn profiles(&self) -> usize {
+        let history = self.result.history.as_ref();
+        history.map_or(0, |history| history.profiles.len())
+    }
+
+    /// Time of a state along the axis [s].
+    fn profile_time(&self, index: usize) -> Option<f64> {
+        let history = self.result.history.as_ref()?;
+        Some(history.profiles.get(index)?.time)
+    }
+
+    /// Names of the columns of the history, which end with the unit.
+    #[staticmethod]
+    fn sample_names() -> Vec<&'static str> {
+        history::SAMPLE.iter().map(|field| field.name).collect()
+    }
+
+    /// Names of the columns of a state along the axis.
+    #[staticmethod]
+    fn element_names() -> Vec<&'static str> {
+        history::ELEMENT.iter().map(|field| field.name).collect()
+    }
+
+    /// A column of the history.
+    fn sample_column(&self, name: &str) -> Option<Column> {
+        Column::of_samples(&self.result, name)
+    }
+
+    /// A column of a state along the axis.
+    fn element_column(&self, index: usize, name: &str) -> Option<Column> {
+        Column::of_elements(&self.result, index, name)
+    }
+}

@@ -1,0 +1,173 @@
+//! Sweeps: computed here, or block by block anywhere and put into a folder here.
+
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicBool, AtomicU64, Ordering},
+    },
+};
+
+use percuss::sweep::{Row, ScalarKernel, Sweep as Loaded};
+use percuss_cli::Failure;
+use percuss_report::sweep::{self, Block, SweepFolder as Folder};
+use pyo3::{exceptions::PyValueError, prelude::*, types::PyBytes};
+
+use crate::{errors::raise, watch::watched};
+
+/// A sweep that was read and checked.
+#[pyclass(frozen, module = "percuss._percuss")]
+pub struct Sweep {
+    sweep: Loaded,
+    path: PathBuf,
+}
+
+#[pymethods]
+impl Sweep {
+    /// Reads a sweep file and the case that it names.
+    #[new]
+    fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let sweep = Loaded::load(&path).map_err(|error| raise(py, error))?;
+        Ok(Self { sweep, path })
+    }
+
+    /// Number of shots.
+    #[getter]
+    fn shots(&self) -> u64 {
+        self.sweep.shots()
+    }
+
+    /// The files that it rests on: itself, its base case and the material files of that.
+    fn files(&self) -> PyResult<Vec<PathBuf>> {
+        let base = &self.sweep.base;
+        let mut files = vec![self.path.clone(), base.clone()];
+        let case: toml::Table = std::fs::read_to_string(base)?
+            .parse()
+            .map_err(|error: toml::de::Error| PyValueError::new_err(error.to_string()))?;
+        let materials = case.get("material_files").and_then(toml::Value::as_array);
+        let folder = base.parent().unwrap_or(Path::new(""));
+        let names = materials
+            .into_iter()
+            .flatten()
+            .filter_map(toml::Value::as_str);
+        files.extend(names.map(|name| folder.join(name)));
+        Ok(files)
+    }
+
+    /// The file of a block, computed on this thread.
+    fn block<'py>(&self, py: Python<'py>, block: u64) -> PyResult<Bound<'py, PyBytes>> {
+        if block >= self.sweep.blocks() {
+            return Err(PyValueError::new_err(format!("there is no block {block}")));
+        }
+        let stop = AtomicBool::new(false);
+        let kernel = ScalarKernel::new(self.sweep.model);
+        let computed = py.detach(|| Block::compute(&self.sweep, &kernel, block, &stop));
+        match computed.map_err(|error| raise(py, error))? {
+            Some(computed) => Ok(PyBytes::new(py, &computed.content)),
+            None => Err(PyValueError::new_err("the block was stopped")),
+        }
+    }
+}
+
+/// A folder that this process alone writes results to, until it is closed.
+#[pyclass(frozen, module = "percuss._percuss")]
+pub struct SweepFolder(Mutex<Option<Arc<Folder>>>);
+
+impl SweepFolder {
+    fn folder(&self) -> PyResult<Arc<Folder>> {
+        let folder = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let closed = || PyValueError::new_err("the folder is closed");
+        folder.as_ref().map(Arc::clone).ok_or_else(closed)
+    }
+}
+
+#[pymethods]
+impl SweepFolder {
+    /// Makes the folder of a sweep, or takes one that holds a part of it when `resume` says so.
+    #[new]
+    fn new(
+        py: Python<'_>,
+        path: PathBuf,
+        sweep: &Bound<'_, Sweep>,
+        resume: bool,
+    ) -> PyResult<Self> {
+        let folder = Folder::open(&path, &sweep.get().sweep, resume);
+        let folder = folder.map_err(|error| raise(py, error))?;
+        Ok(Self(Mutex::new(Some(Arc::new(folder)))))
+    }
+
+    /// Lets other processes write to it: what refers to this object, such as the traceback of an error, may live long.
+    fn close(&self) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = None;
+    }
+
+    /// The blocks that are missing of part `part` of `parts`, counted from 1.
+    fn missing(&self, part: u64, parts: u64) -> PyResult<Vec<u64>> {
+        Ok(self.folder()?.missing(part, parts))
+    }
+
+    /// Takes the file of a block that was computed elsewhere.
+    fn put(&self, py: Python<'_>, block: u64, content: &[u8]) -> PyResult<()> {
+        let folder = self.folder()?;
+        folder.put(block, content).map_err(|error| raise(py, error))
+    }
+}
+
+/// Computes what a folder lacks of part `part` of `parts`. Returns whether all of it was computed.
+#[pyfunction]
+#[pyo3(signature = (sweep, folder, part, parts, threads=None, progress=None))]
+pub fn compute_sweep(
+    py: Python<'_>,
+    sweep: &Bound<'_, Sweep>,
+    folder: &Bound<'_, SweepFolder>,
+    part: u64,
+    parts: u64,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<bool> {
+    let (sweep, folder) = (&sweep.get().sweep, folder.get().folder()?);
+    let blocks = folder.missing(part, parts);
+    let due: u64 = blocks
+        .iter()
+        .map(|block| folder.manifest().shots_in(*block))
+        .sum();
+    watched(py, progress.as_ref(), |board| {
+        let done = AtomicU64::new(0);
+        let hear = |rows: &[Row]| {
+            let done = done.fetch_add(rows.len() as u64, Ordering::Relaxed) + rows.len() as u64;
+            // Whether to go on is asked of the board by the folder itself.
+            let _ = board.hear(done as f64 / due as f64, &format!("{done} of {due} shots"));
+        };
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.unwrap_or(0))
+            .build()
+            .map_err(|error| Failure::Usage {
+                message: format!("cannot start the threads: {error}"),
+                help: "ask for fewer threads".to_owned(),
+            })?;
+        let kernel = ScalarKernel::new(sweep.model);
+        Ok(pool.install(|| folder.compute(sweep, &kernel, &blocks, board.stop(), &hear))?)
+    })
+}
+
+/// Manifest of a folder as JSON, with the blocks that are there.
+#[pyfunction]
+pub fn sweep_status(py: Python<'_>, path: PathBuf) -> PyResult<String> {
+    let status = sweep::status(&path).map_err(|error| raise(py, error))?;
+    let answer = BTreeMap::from([
+        ("manifest", serde_json::json!(status.manifest)),
+        ("blocks_done", serde_json::json!(status.done)),
+        ("blocks_damaged", serde_json::json!(status.damaged)),
+        ("shots_done", serde_json::json!(status.shots_done())),
+        ("running", serde_json::json!(status.running)),
+    ]);
+    serde_json::to_string(&answer).map_err(|error| PyValueError::new_err(error.to_string()))
+}
+
+/// Joins folders that hold all parts of a sweep into one Parquet file; returns the number of rows.
+#[pyfunction]
+pub fn merge_sweep(py: Python<'_>, folders: Vec<PathBuf>, out: PathBuf) -> PyResult<u64> {
+    py.detach(|| sweep::merge(&folders, &out))
+        .map_err(|error| raise(py, error))
+}

@@ -1,0 +1,128 @@
+//! Long computations: progress goes to Python, Ctrl-C comes from it, and other Python threads run meanwhile.
+
+use std::{
+    ops::ControlFlow,
+    panic,
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicBool, Ordering},
+        mpsc::{self, RecvTimeoutError},
+    },
+    thread,
+    time::{Duration, Instant},
+};
+
+use percuss_cli::Failure;
+use pyo3::prelude::*;
+
+use crate::errors::raise;
+
+/// How often Python is asked: often enough for Ctrl-C to seem to work at once.
+const INTERVAL: Duration = Duration::from_millis(50);
+
+/// What Python is asked now and then.
+pub struct Asker<'py> {
+    progress: Option<&'py Py<PyAny>>,
+    last: Instant,
+    /// Why the computation was stopped, if it was.
+    error: Option<PyErr>,
+}
+
+impl<'py> Asker<'py> {
+    pub fn new(progress: Option<&'py Py<PyAny>>) -> Self {
+        Self {
+            progress,
+            last: Instant::now(),
+            error: None,
+        }
+    }
+
+    /// Tells Python how far it has come and hears whether to go on, unless it was asked just now.
+    pub fn ask(&mut self, fraction: f64, words: impl FnOnce() -> String) -> ControlFlow<()> {
+        if self.last.elapsed() < INTERVAL {
+            return ControlFlow::Continue(());
+        }
+        self.last = Instant::now();
+        let asked = Python::attach(|py| {
+            py.check_signals()?;
+            match self.progress {
+                Some(progress) => progress.call1(py, (fraction, words())).map(drop),
+                None => Ok(()),
+            }
+        });
+        match asked {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                self.error = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    }
+
+    /// The result, or what Python raised when it was asked.
+    pub fn finish<T>(self, py: Python<'_>, result: Result<T, Failure>) -> PyResult<T> {
+        match (self.error, result) {
+            (Some(error), _) => Err(error),
+            (None, Ok(value)) => Ok(value),
+            (None, Err(failure)) => Err(raise(py, failure)),
+        }
+    }
+}
+
+/// What another thread says of its work.
+#[derive(Default)]
+pub struct Board {
+    stop: AtomicBool,
+    latest: Mutex<(f64, String)>,
+}
+
+impl Board {
+    /// Takes note of how far the work has come; says whether to go on.
+    pub fn hear(&self, fraction: f64, words: &str) -> ControlFlow<()> {
+        *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = (fraction, words.to_owned());
+        match self.stop.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+
+    /// Becomes true when the work is to end.
+    pub fn stop(&self) -> &AtomicBool {
+        &self.stop
+    }
+}
+
+/// Does work that uses many threads: signals arrive on this one, so it does nothing but listen.
+pub fn watched<T: Send>(
+    py: Python<'_>,
+    progress: Option<&Py<PyAny>>,
+    work: impl FnOnce(&Board) -> Result<T, Failure> + Send,
+) -> PyResult<T> {
+    let board = Board::default();
+    let mut asker = Asker::new(progress);
+    let result = py.detach(|| {
+        thread::scope(|scope| {
+            let (done, ended) = mpsc::channel::<()>();
+            let worker = scope.spawn(|| {
+                // Dropped when the work ends, in whatever way.
+                let _done = done;
+                work(&board)
+            });
+            while let Err(RecvTimeoutError::Timeout) = ended.recv_timeout(INTERVAL) {
+                let (fraction, words) = {
+                    let latest = board.latest.lock();
+                    latest.unwrap_or_else(PoisonError::into_inner).clone()
+                };
+                if asker.ask(fraction, || words).is_break() {
+                    board.stop.store(true, Ordering::Relaxed);
+                    break;
+                }
+            }
+            worker.join()
+        })
+    });
+    match result {
+        Ok(result) => asker.finish(py, result),
+        Err(payload) => panic::resume_unwind(payload),
+    }
+}

@@ -1,0 +1,37 @@
+"""What the tests share: the repository as working folder, and the program to compare with."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import matplotlib
+import pytest
+
+matplotlib.use("agg")
+
+ROOT = Path(__file__).resolve().parents[3]
+CASES = sorted(path.parent.name for path in ROOT.glob("cases/*/scenario.toml"))
+
+Program = Callable[..., subprocess.CompletedProcess[str]]
+
+
+@pytest.fixture(autouse=True)
+def in_repository(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Paths of cases are those of the documentation."""
+    monkeypatch.chdir(ROOT)
+
+
+@pytest.fixture(scope="session")
+def program() -> Program:
+    """Runs the program: the one that cargo built where PERCUSS_PROGRAM names it, otherwise the command of the wheel."""
+    command = os.environ.get("PERCUSS_PROGRAM") or str(Path(sys.executable).with_name("percuss"))
+
+    def run(*words: str | os.PathLike[str]) -> subprocess.CompletedProcess[str]:
+        line = [str(ROOT / command), *map(str, words)]
+        return subprocess.run(line, capture_output=True, text=True, cwd=ROOT, timeout=120)
+
+    return run

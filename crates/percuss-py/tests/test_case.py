@@ -1,0 +1,89 @@
+"""Cases that are built in code."""
+
+from __future__ import annotations
+
+import math
+import pickle
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import numpy
+import percuss
+import pytest
+from conftest import CASES, Program
+
+COPPER = {"material": "copper", "length": "12.74 mm", "diameter": "4.8 mm", "velocity": "230 m/s"}
+PLATE = {"material": "aluminium-2024-t351", "thickness": "25 mm"}
+
+
+@pytest.mark.parametrize("case", [case for case in CASES if case != "elastic-bars"])
+def test_the_tables_of_a_case_make_the_same_case(case: str) -> None:
+    path = Path(f"cases/{case}/scenario.toml")
+    tables = tomllib.loads(path.read_text())
+    if "material_files" in tables:
+        pytest.skip("names files")
+    built = percuss.Case(case, **tables)
+    speeds = [built.impact_velocity_m_s]
+    ours = percuss.compare(built, velocity=speeds, model=["chain", "taylor", "forrestal_concrete"])
+    theirs = percuss.compare(path, velocity=speeds, model=["chain", "taylor", "forrestal_concrete"])
+    assert ours.to_dict() == theirs.to_dict()
+
+
+def test_numbers_are_in_si_units_where_a_quantity_is_due() -> None:
+    with_units = percuss.Case(
+        projectile={**COPPER, "temperature": "293 K"},
+        target=PLATE,
+        chain={"constraint_factor": 2.7, "courant": 0.5, "end_time": "50 us"},
+        experiments=[{"velocity": "230 m/s", "depth_of_penetration": "0.25 mm", "source": "user"}],
+        materials={"mine": {"name": "mine", "density": "8000 kg/m3", "youngs_modulus": "100 GPa", "poissons_ratio": 0.3,
+                            "strength": {"perfectly_plastic": {"flow_stress": "300 MPa"}}}},
+    )
+    numbers = percuss.Case(
+        projectile={"material": "copper", "length": 12.74e-3, "diameter": 4.8e-3, "velocity": 230, "temperature": 293},
+        target={"material": "aluminium-2024-t351", "thickness": numpy.float64(25e-3)},
+        chain={"constraint_factor": numpy.float32(2.7).item(), "courant": 0.5, "end_time": 50e-6},
+        experiments=[{"velocity": 230.0, "depth_of_penetration": 0.25e-3, "source": "user"}],
+        materials={"mine": {"name": "mine", "density": 8000, "youngs_modulus": 100e9, "poissons_ratio": 0.3,
+                            "strength": {"perfectly_plastic": {"flow_stress": 300e6}}}},
+    )
+    assert 'velocity = "230 m/s"' in numbers.text and "courant = 0.5" in numbers.text
+    first, second = (percuss.run(case).to_dict() for case in (with_units, numbers))
+    for name, value in first.items():
+        if isinstance(value, float):
+            assert math.isclose(value, second[name], rel_tol=1e-6, abs_tol=1e-12), name
+
+
+def test_an_si_number_keeps_all_its_bits() -> None:
+    speed = 230.0 * (1 + 2**-50)
+    case = percuss.Case(projectile={**COPPER, "velocity": speed}, target=PLATE)
+    assert case.impact_velocity_m_s == speed
+    assert percuss.Case.from_text(case.text).impact_velocity_m_s == speed
+
+
+def test_a_case_can_be_written_changed_and_sent(tmp_path: Path, program: Program) -> None:
+    case = percuss.Case("shot", projectile=COPPER, target=PLATE, chain=None)
+    case.save(tmp_path / "shot.toml")
+    assert f"{percuss.run(case).depth_of_penetration_mm}" in program("run", tmp_path / "shot.toml", "--json").stdout
+    faster = case.replace({"projectile.velocity": 400.0, "chain.target_elements": 40})
+    assert (faster.impact_velocity_m_s, case.impact_velocity_m_s) == (400.0, 230.0)
+    assert tomllib.loads(faster.text)["chain"]["target_elements"] == 40
+    sent = pickle.loads(pickle.dumps(faster))
+    assert (sent.name, sent.text) == (faster.name, faster.text)
+    assert repr(case) == "<Case shot, 230 m/s>" and "thickness" in case._repr_html_()
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "words"),
+    [
+        (object(), TypeError, "`diameter`: a object has no place in a case"),
+        (float("nan"), percuss.CaseError, "NaN m"),
+        (2**70, ValueError, "`diameter`: the whole number is too large"),
+        ("4.8 kg", percuss.CaseError, "`kg` is a unit of mass, but a length is due here"),
+        (-1.0, percuss.CaseError, "allowed"),
+    ],
+)
+def test_what_has_no_place_in_a_case_is_refused(value: Any, error: type[Exception], words: str) -> None:
+    with pytest.raises(error) as caught:
+        percuss.Case(projectile={**COPPER, "diameter": value}, target=PLATE)
+    assert words in str(caught.value)

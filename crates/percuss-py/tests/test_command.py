@@ -1,0 +1,30 @@
+"""The wheel installs the program."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import percuss
+from conftest import ROOT
+
+COMMAND = Path(sys.executable).with_name("percuss")
+
+
+def test_the_command_is_the_program(tmp_path: Path) -> None:
+    def run(*words: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run([COMMAND, *words], capture_output=True, text=True, cwd=ROOT, timeout=60)
+
+    assert run("--version").stdout == f"percuss {percuss.__version__}\n"
+    assert "Exit codes" in run("--help").stdout
+    assert run("new", str(tmp_path / "shot")).returncode == 0
+    case = tmp_path / "shot/scenario.toml"
+    assert "depth of penetration" in run("run", str(case)).stdout
+    case.write_text(case.read_text().replace(' mm"', ' kg"'))
+    bad = run("run", str(case))
+    assert bad.returncode == 2 and bad.stdout == "" and "unit of mass" in bad.stderr
+    assert run("frobnicate").returncode == 2
+    assert run("run", "no-such.toml").returncode == 4
+    module = [sys.executable, "-m", "percuss", "--version"]
+    assert subprocess.run(module, capture_output=True, text=True).stdout == f"percuss {percuss.__version__}\n"

@@ -1,0 +1,96 @@
+"""The same case gives the same numbers as the program, to the last bit."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy
+import percuss
+import pytest
+from conftest import CASES, Program
+
+def answer(program: Program, *words: str) -> Any:
+    """What the program prints. JSON holds as many digits as it takes to read a number back unchanged."""
+    return json.loads(program(*words, "--json").stdout)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_run_gives_the_numbers_of_the_program(case: str, program: Program) -> None:
+    path = f"cases/{case}/scenario.toml"
+    # By a model that the case has expected values of.
+    named = re.search(r'^model = "(\w+)"', Path(f"cases/{case}/expected.toml").read_text(), re.MULTILINE)
+    model = named[1] if named else "chain"
+    whole = answer(program, "run", path, "--model", model)
+    (result,) = whole.pop("results")
+    assert percuss.run(path, model).to_dict() == whole | result
+    assert percuss.run(percuss.load(path), model, history=False).to_dict() == whole | result
+
+
+def test_every_command_gives_the_answer_of_the_program(program: Program, tmp_path: Path) -> None:
+    case = "cases/taylor-copper-wilkins/scenario.toml"
+    speeds = [150.0, 183.1]
+    compared = percuss.compare(case, velocity=speeds, model=["chain", "taylor", "tate"])
+    words = ["--velocity", "150,183.1", "--model", "chain", "--model", "taylor", "--model", "tate"]
+    assert compared.to_dict() == answer(program, "compare", case, *words)
+
+    plate = "cases/weldox-460e-12mm-blunt/scenario.toml"
+    limits = percuss.limit(plate, model="plugging", velocity=(50, 400), tolerance=0.5, points=3)
+    words = ["--model", "plugging", "--velocity", "50..400", "--tolerance", "0.5 m/s", "--points", "3"]
+    assert limits.to_dict() == answer(program, "limit", plate, *words)
+
+    shots = tmp_path / "shots.csv"
+    shots.write_text("velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
+    assert percuss.limit(shots=shots).to_dict() == answer(program, "limit", "--shots", str(shots))
+
+    assert percuss.converge(case, levels=3).to_dict() == answer(program, "converge", case, "--levels", "3")
+    validated = percuss.validate(model="taylor", kind="taylor")
+    assert validated.to_dict() == answer(program, "validate", "--model", "taylor", "--kind", "taylor")
+    assert [m.to_dict() for m in percuss.materials()] == answer(program, "materials")
+    assert percuss.material("copper").to_dict() == answer(program, "materials", "show", "copper")
+    assert [m.to_dict() for m in percuss.models()] == answer(program, "models")
+
+
+def test_histories_are_those_of_the_program_and_no_copies(program: Program, tmp_path: Path) -> None:
+    import pyarrow.parquet
+
+    case = "cases/paper-table1/scenario.toml"
+    assert program("run", case, "--out", tmp_path).returncode == 0
+    written = pyarrow.parquet.read_table(tmp_path / "history.parquet")
+    result = percuss.run(case)
+    history = result.history
+    # In the order of the program, whose columns are in the units of the field and these in SI units.
+    factors = {"_us": 1e6, "_mm": 1e3, "_kn": 1e-3}
+    assert len(history.names()) == written.num_columns
+    for name, column in zip(history.names(), written.columns, strict=True):
+        theirs = written.column_names[history.names().index(name)]
+        factor = next((f for end, f in factors.items() if theirs.endswith(end)), None)
+        array = history[name]
+        assert not array.flags.owndata and not array.flags.writeable
+        expected = column.to_numpy()
+        assert numpy.array_equal(array if factor is None else array * factor, expected, equal_nan=True), name
+    # Two arrays of one column are the same memory, and neither is a copy of the other.
+    again = numpy.asarray(result._native.sample_column("depth_m"))
+    assert numpy.shares_memory(history.depth_m, again)
+
+    profile = history.profiles[-1]
+    elements = pyarrow.parquet.read_table(tmp_path / "profiles.parquet").to_pandas()
+    last = elements[elements["time_us"] == profile.time_s * 1e6]
+    assert numpy.array_equal(profile.stress_pa * 1e-6, last["stress_mpa"])
+    assert numpy.array_equal(profile.part, last["part"])
+
+
+def test_arrays_outlive_their_result() -> None:
+    depth = percuss.run("cases/paper-table1/scenario.toml").history.depth_m
+    expected = depth.copy()
+    for _ in range(20):
+        percuss.run("cases/paper-table1/scenario.toml")
+    assert numpy.array_equal(depth, expected)
+
+
+def test_a_formula_has_no_history() -> None:
+    result = percuss.run("cases/taylor-copper-wilkins/scenario.toml", "taylor")
+    with pytest.raises(ValueError, match="kept no history"):
+        _ = result.history

@@ -1,0 +1,85 @@
+"""Results: typed names, tables, figures and what a notebook shows."""
+
+from __future__ import annotations
+
+import typing
+from pathlib import Path
+
+import percuss
+import pytest
+from percuss.record import Record
+
+CASE = "cases/paper-table1/scenario.toml"
+
+
+@pytest.fixture(scope="module")
+def records() -> dict[type[Record], list[Record]]:
+    case = Path(__file__).resolve().parents[3] / CASE
+    wall = case.parents[1] / "taylor-copper-wilkins/scenario.toml"
+    plate = case.parents[1] / "weldox-460e-12mm-blunt/scenario.toml"
+    return {
+        percuss.RunResult: [percuss.run(case), percuss.run(wall, "taylor", history=False)],
+        percuss.Comparison: [percuss.compare(case), percuss.compare(case, velocity="200..400:3")],
+        percuss.Limits: [percuss.limit(plate, model=["plugging", "recht_ipson", "tate"])],
+        percuss.Convergence: [percuss.converge(wall, levels=3)],
+        percuss.Validation: [percuss.validate(model="taylor", kind="taylor")],
+        percuss.Material: [percuss.material("copper"), *percuss.materials()],
+        percuss.Model: list(percuss.models()),
+    }
+
+
+def test_types_know_the_names_of_the_program(records: dict[type[Record], list[Record]]) -> None:
+    for kind, all_of_kind in records.items():
+        typed = {name for name in typing.get_type_hints(kind) if not name.startswith("_")}
+        for record in all_of_kind:
+            missing = typed - set(record.keys())
+            assert not missing, f"{kind.__name__} promises {missing}"
+    # Of a run all names are typed: a new one in the program asks for a line in results.py.
+    untyped = set(records[percuss.RunResult][0].keys()) - set(typing.get_type_hints(percuss.RunResult))
+    assert not untyped, untyped
+
+
+def test_records_become_tables(records: dict[type[Record], list[Record]]) -> None:
+    for kind, all_of_kind in records.items():
+        for record in all_of_kind:
+            if not hasattr(kind, "to_pandas"):
+                continue
+            frame, table = record.to_pandas(), record.to_arrow()
+            assert len(frame) == table.num_rows > 0 and list(frame.columns) == table.column_names
+    (run, _) = records[percuss.RunResult]
+    assert run.to_pandas()["depth_of_penetration_mm"].tolist() == [run.depth_of_penetration_mm]
+    history = run.history
+    assert history.to_pandas()["depth_m"].tolist() == history.to_arrow()["depth_m"].to_pylist() == history.depth_m.tolist()
+    assert len(history) == len(history.time_s)
+
+
+def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], tmp_path: Path) -> None:
+    for all_of_kind in records.values():
+        for i, record in enumerate(all_of_kind):
+            text = record._repr_html_()
+            assert text.startswith("<table>") and text.endswith("</table>") and "<script" not in text
+            assert repr(record).startswith(type(record).__name__)
+            if hasattr(record, "plot") and not (isinstance(record, percuss.RunResult) and i == 1):
+                axes = record.plot()
+                assert axes.get_xlabel() and (axes.lines or axes.patches)
+                axes.figure.savefig(tmp_path / f"{type(record).__name__}-{i}.png")
+    (run, _) = records[percuss.RunResult]
+    assert isinstance(run, percuss.RunResult)
+    assert run.plot("contact_force_n").get_ylabel() == "contact force [kN]"
+    assert run.plot_stress().get_ylabel() == "time [us]"
+
+
+def test_text_of_a_case_cannot_become_markup() -> None:
+    record = Record({"name": "<script>alert(1)</script>"})
+    assert "<script" not in record._repr_html_()
+
+
+def test_a_misspelt_name_says_which_there_are() -> None:
+    run = percuss.run(CASE, history=True)
+    with pytest.raises(AttributeError, match="depth_of_penetration_mm"):
+        _ = run.depth_of_penetration
+    with pytest.raises(AttributeError, match="columns: time_s, step"):
+        _ = run.history.depth
+    with pytest.raises(KeyError, match="no column"):
+        _ = run.history["depth"]
+    assert "outcome" in dir(run) and "depth_m" in dir(run.history)

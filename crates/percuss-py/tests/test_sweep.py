@@ -1,0 +1,114 @@
+"""Sweeps: the folders of the program, bit for bit."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+from typing import Any
+
+import percuss
+import pytest
+from conftest import Program
+
+# Small enough for a test.
+SWEEP: dict[str, Any] = {
+    "model": "chain",
+    "design": "latin-hypercube",
+    "samples": 24,
+    "seed": 7,
+    "block_size": 4,
+    "parameter": [
+        {"key": "projectile.velocity", "uniform": {"from": "150 m/s", "to": "300 m/s"}},
+        {"key": "projectile.diameter", "normal": {"mean": "4.8 mm", "standard_deviation": "0.2 mm"}},
+    ],
+}
+
+
+def contents(folder: Path) -> dict[str, str]:
+    """Files of results and what they hold."""
+    names = [*folder.glob("block-*.parquet"), folder / "manifest.json"]
+    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in names}
+
+
+def sweep_file(folder: Path) -> Path:
+    """The sweep as a file, with its case beside it."""
+    case = percuss.load("cases/paper-table1/scenario.toml")
+    case.replace({"chain.projectile_elements": 10, "chain.target_elements": 20}).save(folder / "small.toml")
+    text = percuss._percuss.toml_text({**SWEEP, "base": "small.toml"})
+    path = folder / "sweep.toml"
+    path.write_text(text)
+    return path
+
+
+def test_a_sweep_is_that_of_the_program(program: Program, tmp_path: Path) -> None:
+    path = sweep_file(tmp_path)
+    assert program("sweep", path, "--out", tmp_path / "cli").returncode == 0
+    heard: list[float] = []
+    rows = percuss.sweep(path, tmp_path / "python", threads=1, progress=lambda part, _: heard.append(part))
+    assert contents(tmp_path / "cli") == contents(tmp_path / "python")
+    assert rows.complete and rows.status.shots_done == 24 and len(rows.files()) == 6
+    assert rows.to_arrow().num_rows == 24
+    assert rows.to_pandas()["shot"].tolist() == list(range(24))
+    assert rows.merge(tmp_path / "all.parquet") == 24
+    assert program("sweep", "merge", tmp_path / "cli", "--out", tmp_path / "cli.parquet").returncode == 0
+    assert (tmp_path / "all.parquet").read_bytes() == (tmp_path / "cli.parquet").read_bytes()
+    axes = rows.plot("projectile.velocity_m_s", "depth_of_penetration_mm", "projectile.diameter_mm")
+    assert axes.get_xlabel() == "projectile.velocity_m_s" and axes.collections
+    assert "24 of 24" in repr(rows) and "small" in rows._repr_html_()
+
+
+def test_parts_resume_and_merge(program: Program, tmp_path: Path) -> None:
+    path = sweep_file(tmp_path)
+    whole = percuss.sweep(path, tmp_path / "whole")
+    whole.merge(tmp_path / "whole.parquet")
+    parts = [percuss.sweep(path, tmp_path / f"part-{i}", shard=(i, 2)).folder for i in (1, 2)]
+    assert percuss.merge(parts, tmp_path / "parts.parquet") == 24
+    assert (tmp_path / "parts.parquet").read_bytes() == (tmp_path / "whole.parquet").read_bytes()
+
+    before = contents(tmp_path / "whole")
+    (tmp_path / "whole/block-000002.parquet").unlink()
+    (tmp_path / "whole/block-000003.parquet").write_bytes(b"PAR1")
+    assert not whole.complete and whole.status.blocks_damaged == [3]
+    with pytest.raises(percuss.UsageError, match="the folder holds this") as refused:
+        percuss.sweep(path, tmp_path / "whole")
+    printed = program("sweep", path, "--out", tmp_path / "whole")
+    assert str(refused.value) == printed.stderr.rstrip()
+    percuss.sweep(path, tmp_path / "whole", resume=True)
+    assert contents(tmp_path / "whole") == before
+    with pytest.raises(percuss.UsageError, match="3/2"):
+        percuss.sweep(path, tmp_path / "none", shard=(3, 2))
+
+
+def test_a_mapping_is_a_sweep_file(program: Program, tmp_path: Path) -> None:
+    case = percuss.load("cases/paper-table1/scenario.toml")
+    sweep = {
+        "base": case.replace({"chain.projectile_elements": 10}),
+        "model": "chain",
+        "design": "grid",
+        "parameter": [{"key": "projectile.velocity", "values": ["150 m/s", "200 m/s"]}],
+    }
+    rows = percuss.sweep(sweep, tmp_path / "rows")
+    assert program("sweep", tmp_path / "rows/sweep.toml", "--out", tmp_path / "cli").returncode == 0
+    assert contents(tmp_path / "rows") == contents(tmp_path / "cli")
+    assert percuss.sweep(sweep, tmp_path / "rows", resume=True).complete
+    by_path = percuss.sweep({**sweep, "base": case}, tmp_path / "by-path")
+    assert by_path.manifest.case == "paper-table1" and rows.manifest.case == "paper-table1"
+
+
+def test_a_block_of_another_sweep_is_refused(tmp_path: Path) -> None:
+    path = sweep_file(tmp_path)
+    sweep = percuss._percuss.Sweep(path)
+    folder = percuss._percuss.SweepFolder(tmp_path / "rows", sweep, False)
+    block = sweep.block(0)
+    for wrong, content in [(99, block), (0, block[:-1]), (0, b"")]:
+        with pytest.raises(percuss.UsageError, match="is not this block"):
+            folder.put(wrong, content)
+    folder.put(0, block)
+    assert folder.missing(1, 1) == [1, 2, 3, 4, 5]
+    # Nobody else writes to the folder before it is closed.
+    with pytest.raises(percuss.UsageError, match="another process"):
+        percuss._percuss.SweepFolder(tmp_path / "rows", sweep, True)
+    folder.close()
+    with pytest.raises(ValueError, match="closed"):
+        folder.put(0, block)
+    assert percuss.sweep(path, tmp_path / "rows", resume=True).complete
