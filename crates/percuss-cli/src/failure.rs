@@ -11,9 +11,6 @@ use percuss_report::ReportError;
 
 use crate::{diagnostic, terminal};
 
-/// Help for a model that does not apply and names no remedy.
-const WHICH_APPLY: &str = "`percuss compare CASE.toml` names the models that apply";
-
 /// Any failure of a command.
 #[derive(Debug)]
 pub enum Failure {
@@ -85,30 +82,6 @@ impl Failure {
     pub fn report(&self) {
         let text = match self {
             Self::Library(Error::Input(error)) => diagnostic::input_error(error),
-            Self::Library(Error::NotApplicable { model, reason }) => {
-                let (reason, help) = reason.split_once("; ").unwrap_or((reason, WHICH_APPLY));
-                let message = format!("model `{model}` does not apply to this case: {reason}");
-                diagnostic::message(&message, help)
-            }
-            Self::Library(Error::UnknownModel {
-                name,
-                suggestion,
-                known,
-            }) => {
-                let near = suggestion
-                    .as_ref()
-                    .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
-                diagnostic::message(
-                    &format!("no model is named `{name}`"),
-                    &format!("{near}models: {}", known.join(", ")),
-                )
-            }
-            Self::Library(Error::Numerical(error)) => {
-                let mut error = (**error).clone();
-                let remedy = std::mem::take(&mut error.remedy);
-                let message = error.to_string();
-                diagnostic::message(message.trim_end_matches([':', ' ']), &remedy)
-            }
             Self::Library(Error::Read {
                 path,
                 reason,
@@ -128,10 +101,10 @@ impl Failure {
                 let message = format!("cannot read `{}`: {reason}", path.display());
                 diagnostic::message(&message, help)
             }
-            Self::Library(error @ Error::Checkpoint { remedy, .. }) => {
-                diagnostic::message(&error.to_string(), remedy)
+            Self::Library(error) => {
+                let (message, help) = error.message_and_help();
+                diagnostic::message(&message, &help)
             }
-            Self::Library(error) => diagnostic::message(&error.to_string(), ""),
             Self::Report(error) => diagnostic::message(&error.to_string(), ""),
             Self::Write { path, reason, help } => {
                 let message = format!("cannot write `{}`: {reason}", path.display());

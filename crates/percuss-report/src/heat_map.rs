@@ -18,6 +18,8 @@ use crate::{
 
 /// Colours on either side of zero.
 const LEVELS: i32 = 32;
+/// Character that stands for the lowest level.
+const FIRST_CODE: u8 = b'0';
 /// Space at the right for the colour bar, its numbers and its label [px].
 const BAR_MARGIN: f64 = 118.0;
 /// Distance of the colour bar from the plot, and its width [px].
@@ -26,15 +28,15 @@ const BAR_PLACE: (f64, f64) = (20.0, 18.0);
 /// A heat map on a regular grid, with colours that diverge from zero and a colour bar.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatMap {
-    name: String,
-    title: String,
-    caption: String,
-    x: Axis,
-    y: Axis,
-    ranges: [(f64, f64); 2],
-    value_label: String,
-    rows: Vec<Vec<f64>>,
-    vertical_lines: Vec<f64>,
+    pub(crate) name: String,
+    pub(crate) title: String,
+    pub(crate) caption: String,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
+    pub(crate) ranges: [(f64, f64); 2],
+    pub(crate) value_label: String,
+    pub(crate) rows: Vec<Vec<f64>>,
+    pub(crate) vertical_lines: Vec<f64>,
     texts: Vec<Vec<String>>,
     limit: Option<f64>,
     height: f64,
@@ -111,7 +113,7 @@ impl HeatMap {
             legend: Vec::new(),
             marks: Vec::new(),
         };
-        let limit = self.limit.unwrap_or_else(|| self.largest());
+        let limit = self.strongest();
         // Axes are drawn only for a plot, so there is one without content.
         frame.draw(vec![LinePlot::new().into()], |scene, place| {
             self.add_cells(scene, place, limit);
@@ -121,7 +123,27 @@ impl HeatMap {
         })
     }
 
-    /// Value with the strongest colour: all but one value in 200 lie within it, so that a spike does not bleach the rest.
+    /// Value with the strongest colour.
+    pub(crate) fn strongest(&self) -> f64 {
+        self.limit.unwrap_or_else(|| self.largest())
+    }
+
+    /// The cells as text, a character a cell, and the colours that they stand for: [`FIRST_CODE`] is the first colour, the next
+    /// character the next one, and a space a cell without value.
+    pub(crate) fn codes(&self) -> (String, Vec<String>) {
+        let limit = self.strongest();
+        let code = |value: &f64| match level(*value, limit) {
+            None => ' ',
+            Some(level) => char::from(FIRST_CODE + (level + LEVELS) as u8),
+        };
+        let colors = (-LEVELS..=LEVELS).map(level_color);
+        (
+            self.rows.iter().flatten().map(code).collect(),
+            colors.collect(),
+        )
+    }
+
+    /// All but one value in 200 lie within it, so that a spike does not bleach the rest.
     fn largest(&self) -> f64 {
         let mut sizes: Vec<f64> = self.rows.iter().flatten().map(|v| v.abs()).collect();
         sizes.retain(|size| size.is_finite());
@@ -138,10 +160,7 @@ impl HeatMap {
         if columns == 0 {
             return;
         }
-        let level = |value: f64| {
-            let scaled = (value / limit).clamp(-1.0, 1.0) * f64::from(LEVELS);
-            value.is_finite().then(|| scaled.round() as i32)
-        };
+        let level = |value: f64| level(value, limit);
         let index = |level: Option<i32>| level.map_or(0, |level| (level + LEVELS + 1) as usize);
         let mut paths = vec![String::new(); 2 * LEVELS as usize + 2];
         for (j, row) in self.rows.iter().enumerate() {
@@ -171,7 +190,7 @@ impl HeatMap {
             if !path.is_empty() {
                 let color = match i {
                     0 => palette::NO_VALUE.to_owned(),
-                    _ => palette::diverging(f64::from(i as i32 - LEVELS - 1) / f64::from(LEVELS)),
+                    _ => level_color(i as i32 - LEVELS - 1),
                 };
                 scene.add(filled(path, &color));
             }
@@ -247,6 +266,16 @@ impl HeatMap {
             (14, TextAnchor::Middle, Some(-90.0)),
         ));
     }
+}
+
+/// Level of a value between minus and plus the limit.
+fn level(value: f64, limit: f64) -> Option<i32> {
+    let scaled = (value / limit).clamp(-1.0, 1.0) * f64::from(LEVELS);
+    value.is_finite().then(|| scaled.round() as i32)
+}
+
+fn level_color(level: i32) -> String {
+    palette::diverging(f64::from(level) / f64::from(LEVELS))
 }
 
 fn filled(path: String, color: &str) -> Primitive {

@@ -40,9 +40,10 @@ pub trait Dimension: 'static {
     const DISPLAY: &'static [&'static str];
 }
 
-/// A dimension's name and units, to tell a wrong dimension from an unknown unit.
+/// A dimension's names and units, to tell a wrong dimension from an unknown unit.
 pub(super) struct DimensionInfo {
     pub(super) name: &'static str,
+    pub(super) type_name: &'static str,
     pub(super) units: &'static [Unit],
 }
 
@@ -68,7 +69,7 @@ macro_rules! dimensions {
         )*
 
         pub(super) const ALL_DIMENSIONS: &[DimensionInfo] = &[
-            $(DimensionInfo { name: $marker::NAME, units: $marker::UNITS }),*
+            $(DimensionInfo { name: $marker::NAME, type_name: $marker::TYPE_NAME, units: $marker::UNITS }),*
         ];
     };
 }

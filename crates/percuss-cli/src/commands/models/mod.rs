@@ -4,7 +4,7 @@ mod table;
 
 use clap::Args;
 use percuss::{
-    case::Case,
+    case,
     guard::Guard,
     model::{self, MODELS, Model},
 };
@@ -69,7 +69,7 @@ impl ModelRecord {
 
 impl Models {
     pub fn run(&self) -> Result<(), Failure> {
-        let schema = schemars::schema_for!(Case).to_value();
+        let schema = case::schema();
         if let Some(name) = &self.name {
             let model = ModelRecord::new(model::model(name)?, &schema);
             return match self.json {
