@@ -12,6 +12,7 @@ mod new;
 mod reproduce;
 mod run;
 mod schema;
+mod serve;
 mod sweep;
 mod validate;
 
@@ -27,5 +28,6 @@ pub use new::New;
 pub use reproduce::Reproduce;
 pub use run::Run;
 pub use schema::Schema;
+pub use serve::Serve;
 pub use sweep::Sweep;
 pub use validate::Validate;
