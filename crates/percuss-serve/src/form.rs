@@ -44,7 +44,7 @@ pub(crate) struct Field {
     #[serde(flatten)]
     kind: Kind,
     common: bool,
-    /// Whether it stands within a value that a case may not have.
+    /// Whether it stands within one of several forms of a value, and so is there with that form only.
     nested: bool,
     /// Range of its slider in SI units.
     slider: Option<(f64, f64)>,
@@ -59,6 +59,8 @@ enum Kind {
     /// A number with a unit, or one of a few words.
     Quantity {
         units: Vec<UnitRecord>,
+        /// The unit to start with.
+        usual: String,
         words: Vec<String>,
     },
     /// A plain number, or one of a few words.
@@ -159,14 +161,7 @@ fn add(
     if tables && depth < DEPTH {
         for (name, inner) in object(&definition["properties"]) {
             let inner_key = format!("{key}.{name}");
-            add(
-                schema,
-                &inner_key,
-                inner,
-                depth + 1,
-                nested || depth > 0,
-                fields,
-            );
+            add(schema, &inner_key, inner, depth + 1, nested, fields);
         }
         return;
     }
@@ -209,8 +204,11 @@ fn kind(schema: &Value, key: &str, property: &Value) -> Kind {
     }
     let (name, definition) = resolve(schema, property);
     if let Some(units) = unit_records(name) {
-        let words = Vec::new();
-        return Kind::Quantity { units, words };
+        return Kind::Quantity {
+            units,
+            usual: usual_unit(definition),
+            words: Vec::new(),
+        };
     }
     if let Some(forms) = definition["anyOf"].as_array() {
         return any_of(schema, forms);
@@ -238,17 +236,29 @@ fn unit_records(type_name: &str) -> Option<Vec<UnitRecord>> {
     units::units_of(type_name).map(|units| units.iter().map(record).collect())
 }
 
+/// The unit of the example that the schema gives of a quantity.
+fn usual_unit(definition: &Value) -> String {
+    let example = definition["examples"][0].as_str().unwrap_or_default();
+    let unit = example.split_once(' ').map(|(_, unit)| unit);
+    unit.unwrap_or_default().to_owned()
+}
+
 /// A quantity or a number, or words in its place.
 fn any_of(schema: &Value, forms: &[Value]) -> Kind {
     let words: Vec<String> = forms
         .iter()
         .filter_map(|form| form["const"].as_str().map(str::to_owned))
         .collect();
-    let quantity = forms
-        .iter()
-        .find_map(|form| unit_records(resolve(schema, form).0));
-    if let Some(units) = quantity {
-        return Kind::Quantity { units, words };
+    let quantity = forms.iter().find_map(|form| {
+        let (name, definition) = resolve(schema, form);
+        Some((unit_records(name)?, usual_unit(definition)))
+    });
+    if let Some((units, usual)) = quantity {
+        return Kind::Quantity {
+            units,
+            usual,
+            words,
+        };
     }
     let number = forms
         .iter()
@@ -308,7 +318,12 @@ mod tests {
         for (key, _) in COMMON {
             assert!(field(key).common, "{key}");
         }
-        let Kind::Quantity { units, words } = field("target.thickness").kind else {
+        let Kind::Quantity {
+            units,
+            usual,
+            words,
+        } = field("target.thickness").kind
+        else {
             panic!("no quantity");
         };
         assert!(
@@ -316,7 +331,10 @@ mod tests {
                 .iter()
                 .any(|unit| unit.symbol == "mm" && unit.factor == 1e-3)
         );
-        assert_eq!(words, ["semi-infinite"]);
+        assert_eq!(
+            (usual.as_str(), words),
+            ("mm", vec!["semi-infinite".to_owned()])
+        );
         let Kind::Choice { choices } = field("projectile.nose").kind else {
             panic!("no choice");
         };

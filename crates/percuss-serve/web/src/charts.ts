@@ -6,7 +6,7 @@ import { make, significant } from "./dom";
 import { mapCanvas, mapReader } from "./map";
 import { rows } from "./rows";
 import { shape } from "./shape";
-import type { AreaChart, Axis, Chart, LineChart, MapChart, Mark } from "./types";
+import type { AreaChart, Chart, LineChart, MapChart, Mark } from "./types";
 
 const HEIGHT = 250;
 const FONT = "12px system-ui, sans-serif";
@@ -55,6 +55,9 @@ export class ChartView {
     const width = Math.max(240, this.body.clientWidth || 480);
     const current = () => this.chart as Chart;
     this.plot = new uPlot(options(chart, width, current), data(chart), this.body);
+    // A line that emphasises another has no name and no place in the legend.
+    const names = [...this.plot.root.querySelectorAll<HTMLElement>(".u-legend .u-series")].slice(1);
+    if (chart.kind === "lines") chart.series.forEach((series, i) => series.name === "" && names[i]?.setAttribute("hidden", ""));
     if (chart.kind === "map") this.body.append(mapReader(this.plot, () => current() as MapChart));
   }
 
@@ -63,8 +66,8 @@ export class ChartView {
     if (!plot) return;
     plot.batch(() => {
       plot.setData(data(chart), false);
-      plot.setScale("x", span(chart.x));
-      plot.setScale("y", span(chart.y));
+      plot.setScale("x", limits(chart, "x"));
+      plot.setScale("y", limits(chart, "y"));
     });
     plot.redraw(true, true);
   }
@@ -89,8 +92,17 @@ function signature(chart: Chart): string {
   }
 }
 
-function span(axis: Axis): { min: number; max: number } {
-  const [min, max] = axis.range ?? [0, 1];
+// Range of an axis; that of its values, with some room, where the axis is logarithmic and has none of its own.
+function span(chart: Chart, side: "x" | "y"): [number, number] {
+  const range = chart[side].range;
+  if (range) return range;
+  const values = chart.kind === "lines" ? chart.series.flatMap((series) => (side === "x" ? (series.x ?? []) : series.y)) : [];
+  const positive = values.filter((value): value is number => value !== null && value > 0);
+  return positive.length ? [Math.min(...positive) / 1.15, Math.max(...positive) * 1.15] : [1, 10];
+}
+
+function limits(chart: Chart, side: "x" | "y"): { min: number; max: number } {
+  const [min, max] = span(chart, side);
   return { min, max };
 }
 
@@ -98,7 +110,7 @@ function data(chart: Chart): uPlot.AlignedData {
   switch (chart.kind) {
     case "lines": return lineData(chart);
     case "areas": return areaData(chart);
-    case "map": return [[chart.x.range?.[0] ?? 0, chart.x.range?.[1] ?? 1], [null, null]];
+    case "map": return [span(chart, "x"), [null, null]];
     case "rows": return [[]];
   }
 }
@@ -144,10 +156,10 @@ function options(chart: Chart, width: number, current: () => Chart): uPlot.Optio
     legend: { live: true, show: chart.kind !== "map" },
     cursor: { drag: { x: false, y: false }, y: chart.kind === "map" },
     scales: {
-      x: { time: false, range: () => pair(current().x), distr: chart.x.log ? 3 : 1 },
-      y: { range: () => pair(current().y), distr: chart.y.log ? 3 : 1 },
+      x: { time: false, range: () => span(current(), "x"), distr: chart.x.log ? 3 : 1 },
+      y: { range: () => span(current(), "y"), distr: chart.y.log ? 3 : 1 },
     },
-    axes: [axis(chart.x.label, 2), axis(chart.y.label, 3)],
+    axes: [{ ...axis(chart.x.label, 2), ...meshes(chart, current) }, axis(chart.y.label, 3)],
     series: [{ label: chart.x.label, value: (_, value) => number(value) }, ...seriesOf(chart, current)],
     hooks: {
       drawAxes: [(plot) => under(plot, current())],
@@ -156,8 +168,14 @@ function options(chart: Chart, width: number, current: () => Chart): uPlot.Optio
   };
 }
 
-function pair(axis: Axis): [number, number] {
-  return axis.range ?? [0, 1];
+// On a logarithmic axis the places of the points are the numbers that a reader looks for.
+function meshes(chart: Chart, current: () => Chart): uPlot.Axis {
+  if (!chart.x.log) return {};
+  const places = () => {
+    const shown = current();
+    return shown.kind === "lines" ? (shown.series[0]?.x ?? []).filter((x): x is number => x !== null) : [];
+  };
+  return { splits: places, filter: (_, splits) => splits };
 }
 
 function seriesOf(chart: Chart, current: () => Chart): uPlot.Series[] {

@@ -166,6 +166,7 @@ function quantity(field: Field, id: string, frame: HTMLElement, edit: (value: st
   const unit = make("select", { "aria-label": `${field.key.replaceAll("_", " ").replaceAll(".", " ")}, unit` });
   const known = [...units.map((u) => u.symbol), ...(field.words ?? [])];
   unit.append(...known.map((symbol) => make("option", { value: symbol }, symbol)));
+  if (field.usual) unit.value = field.usual;
   const find = (symbol: string) => units.find((u) => u.symbol === symbol);
   const range = field.slider ? slider(id, frame.textContent ?? "") : null;
   frame.append(input, unit);
@@ -198,7 +199,8 @@ function quantity(field: Field, id: string, frame: HTMLElement, edit: (value: st
     const word = field.words?.includes(text) ?? false;
     const [, digits, symbol] = NUMBER.exec(text) ?? [];
     const named = word ? text : (symbol ?? "");
-    if (text !== "" && !isFocused(unit)) {
+    // While a number is typed it may be none, and what follows it no unit.
+    if (text !== "" && !isFocused(unit) && !isFocused(input)) {
       if (![...unit.options].some((option) => option.value === named)) unit.append(make("option", { value: named }, named || "no unit"));
       unit.value = named;
     }

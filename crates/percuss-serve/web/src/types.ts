@@ -7,6 +7,7 @@ export interface Field {
   help: string;
   kind: "material" | "quantity" | "number" | "boolean" | "choice" | "text";
   units?: Unit[];
+  usual?: string;
   words?: string[];
   integer?: boolean;
   choices?: string[];
