@@ -60,6 +60,15 @@ fn put(table: &mut dyn TableLike, keys: &[&str], value: Option<Value>) -> Option
 }
 
 fn descend(item: &mut Item, keys: &[&str], value: Option<Value>) -> Option<()> {
+    if let Some(inline) = item.as_inline_table_mut()
+        && let [key] = keys
+        && value.is_some()
+        && !inline.contains_key(key)
+        && let Some((_, last)) = inline.iter_mut().last()
+    {
+        // The space before the brace belongs to the last value, which this one is no more.
+        last.decor_mut().set_suffix("");
+    }
     if let Some(table) = item.as_table_like_mut() {
         return put(table, keys, value);
     }

@@ -28,7 +28,7 @@ fn the_numbers_are_those_of_the_library() {
     for (text, model) in [
         (PAPER, "chain"),
         (PAPER, "fdm"),
-        (PAPER, "tate"),
+        (PAPER, "crater_energy"),
         (taylor, "chain"),
         (taylor, "taylor"),
         (blunt, "plugging"),
@@ -138,6 +138,14 @@ fn studies_end_with_what_the_library_says() {
     assert_eq!(answer.status, 404);
 }
 
+/// A drawing without the numbers of its clipping paths, which count on from drawing to drawing.
+fn without_numbers(svg: &str) -> String {
+    let mut parts = svg.split("kuva-clip-");
+    let first = parts.next().unwrap_or_default().to_owned();
+    let rest = parts.map(|part| part.trim_start_matches(|c: char| c.is_ascii_digit()));
+    rest.fold(first, |text, part| text + part)
+}
+
 #[test]
 fn files_are_those_of_a_run_folder() {
     let served = Served::new(Options::default());
@@ -154,7 +162,8 @@ fn files_are_those_of_a_run_folder() {
         assert!(answer.head.contains("content-disposition: attachment"));
     }
     for figure in percuss_report::run_figures(&scenario, &result).unwrap() {
-        assert_eq!(file(&format!("{}.svg", figure.name)).text(), figure.svg);
+        let drawn = file(&format!("{}.svg", figure.name)).text();
+        assert_eq!(without_numbers(&drawn), without_numbers(&figure.svg));
     }
     for name in [
         "../../etc/passwd",

@@ -128,7 +128,7 @@ test("the form follows the text", async () => {
   const page = await open();
   await answered(page, 1);
   const text = await page.locator("#text").inputValue();
-  await page.locator("#text").fill(text.replace("230 m/s", "1000 ft/s").replace('"25 mm"', '"semi-infinite"').replace('back_face = "fixed"\n', ""));
+  await page.locator("#text").fill(text.replace('"230 m/s"', '"1000 ft/s"').replace('"25 mm"', '"semi-infinite"').replace('back_face = "fixed"\n', ""));
   await answered(page, 2);
   assert.equal(await page.locator("#field-projectile-velocity").inputValue(), "1000");
   assert.equal(await page.locator("#field-projectile-velocity + select").inputValue(), "ft/s");
