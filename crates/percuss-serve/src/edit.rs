@@ -5,6 +5,11 @@ use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike,
 
 use crate::problem::Problem;
 
+/// Most parts of a key: a case has a handful of levels.
+const LEVELS: usize = 16;
+/// Most characters of a key or value that a message shows.
+const SHOWN: usize = 60;
+
 /// A key and its new value.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -26,18 +31,23 @@ pub(crate) fn apply(text: &str, edits: &[Edit]) -> Result<String, Problem> {
     for edit in edits {
         let value = edit.value.as_deref().map(parse).transpose()?;
         let keys: Vec<&str> = edit.key.split('.').collect();
-        put(document.as_table_mut(), &keys, value).ok_or_else(|| {
-            Problem::bad_request(format!("the case has no place for `{}`", edit.key))
+        let put = match keys.len() {
+            ..=LEVELS => put(document.as_table_mut(), &keys, value),
+            _ => None,
+        };
+        put.ok_or_else(|| {
+            let key: String = edit.key.chars().take(SHOWN).collect();
+            Problem::bad_request(format!("the case has no place for `{key}`"))
         })?;
     }
     Ok(document.to_string())
 }
 
 fn parse(expression: &str) -> Result<Value, Problem> {
-    expression
-        .trim()
-        .parse()
-        .map_err(|_| Problem::bad_request(format!("`{expression}` is no TOML value")))
+    expression.trim().parse().map_err(|_| {
+        let expression: String = expression.chars().take(SHOWN).collect();
+        Problem::bad_request(format!("`{expression}` is no TOML value"))
+    })
 }
 
 /// Sets or removes a value; `None` when there is no place for it.

@@ -267,7 +267,7 @@ fn bodies_have_a_size_and_a_form() {
         "/api/answer",
         &json!({ "case": PAPER, "edits": [{ "key": key, "value": "1" }] }),
     );
-    assert!(matches!(answer.status, 400 | 422), "{}", answer.status);
+    assert_eq!(answer.status, 400);
     let value = "[".repeat(30_000);
     let answer = served.post(
         "/api/answer",
