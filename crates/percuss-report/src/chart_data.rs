@@ -86,8 +86,8 @@ enum Content {
         colors: Vec<String>,
         no_value: &'static str,
         value_label: String,
-        /// Value with the strongest colour.
-        limit: f32,
+        /// Values that the first and the last colour stand for.
+        ends: (f32, f32),
         vertical_lines: Vec<f32>,
     },
     Rows {
@@ -272,7 +272,7 @@ fn map(chart: &HeatMap) -> ChartData {
             colors,
             no_value: palette::NO_VALUE,
             value_label: chart.value_label.clone(),
-            limit: chart.strongest() as f32,
+            ends: pair(chart.ends()),
             vertical_lines: single(chart.vertical_lines.iter().copied()),
         },
     }

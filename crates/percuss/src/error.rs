@@ -38,6 +38,9 @@ pub enum Error {
         /// Time reached [us].
         time_us: f64,
     },
+    /// A model panicked: a fault of the program.
+    #[error("{0}")]
+    Fault(String),
     /// A checkpoint cannot be used.
     #[error("cannot go on from the checkpoint: {reason}")]
     Checkpoint {

@@ -20,7 +20,8 @@ pub enum Outcome {
     Rebounded,
     /// The target moved away from the projectile, which still moves forward.
     Separated,
-    /// The crater floor passed the original back face of the target.
+    /// The crater floor passed the original back face of the target, or a plug left it: the hole is open, whether or not the projectile
+    /// follows.
     Perforated,
     /// Nothing of the projectile is left.
     ProjectileEroded,

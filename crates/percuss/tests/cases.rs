@@ -147,4 +147,5 @@ cases! {
     layered_with_gap: "layered-with-gap",
     concrete_forrestal_1994: "concrete-forrestal-1994",
     weldox_460e_12mm_blunt: "weldox-460e-12mm-blunt",
+    apm2_core_oblique: "apm2-core-oblique",
 }

@@ -21,10 +21,17 @@ export class ChartView {
   private plot: uPlot | null = null;
   private signature = "";
   private chart: Chart | null = null;
+  private visible = true;
+  // Whether the drawing is that of an earlier chart.
+  private late = false;
 
   constructor(actions: HTMLElement[] = []) {
     this.element = make("figure", {}, make("div", { class: "head" }, this.title, ...actions), this.body, this.caption);
     new ResizeObserver(() => this.resize()).observe(this.body);
+    new IntersectionObserver((entries) => {
+      this.visible = entries.at(-1)?.isIntersecting ?? true;
+      if (this.visible && this.late && this.chart) this.show(this.chart);
+    }).observe(this.element);
   }
 
   show(chart: Chart): void {
@@ -35,6 +42,9 @@ export class ChartView {
     this.element.dataset["chart"] = chart.name;
     this.body.setAttribute("role", "img");
     this.body.setAttribute("aria-label", `${chart.title}: ${chart.y.label || "values"} against ${chart.x.label}`);
+    // What nobody sees is drawn when it comes into view: a slider moves the faster for it.
+    this.late = !first && !this.visible;
+    if (this.late) return;
     if (!first && this.plot && signature(chart) === this.signature) this.update(chart);
     else this.draw();
   }

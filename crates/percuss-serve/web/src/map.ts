@@ -44,8 +44,8 @@ function valueAt(chart: MapChart, x: number, y: number): number | null {
   const row = Math.min(rowCount - 1, Math.floor(part(y, chart.y.range) * rowCount));
   const code = chart.cells.charCodeAt(row * chart.columns + column) - FIRST;
   if (!(code >= 0)) return null;
-  const middle = (chart.colors.length - 1) / 2;
-  return ((code - middle) / middle) * chart.limit;
+  const [low, high] = chart.ends;
+  return low + ((high - low) * code) / (chart.colors.length - 1);
 }
 
 // The unit of a label stands in square brackets.
@@ -60,15 +60,15 @@ export function mapReader(plot: uPlot, chart: () => MapChart): HTMLElement {
   const high = make("span");
   const said = make("output");
   const draw = () => {
-    const { colors, limit, value_label } = chart();
+    const { colors, ends, value_label } = chart();
     const context = scale.getContext("2d");
     colors.forEach((color, i) => {
       if (!context) return;
       context.fillStyle = color;
       context.fillRect((i * 130) / colors.length, 0, 130 / colors.length + 1, 1);
     });
-    low.textContent = significant(-limit, 3);
-    high.textContent = significant(limit, 3);
+    low.textContent = significant(ends[0], 3);
+    high.textContent = significant(ends[1], 3);
     said.textContent = value_label;
   };
   draw();

@@ -47,7 +47,7 @@ export interface MapChart extends ChartHead {
   colors: string[];
   no_value: string;
   value_label: string;
-  limit: number;
+  ends: [number, number];
   vertical_lines: number[];
 }
 export interface RowChart extends ChartHead {

@@ -98,7 +98,7 @@ fn stated(samples: &[Sample<Shot>]) -> Option<f64> {
     samples.iter().find(perforated)?.shot.as_ref()?.stated
 }
 
-/// Residual velocities of shots that perforated.
+/// Residual velocities of shots that perforated; zero where a plug has left and the projectile does not follow it.
 pub(super) fn curve(shots: &[Sample<Shot>]) -> Vec<CurvePoint> {
     let through = shots
         .iter()
@@ -107,7 +107,7 @@ pub(super) fn curve(shots: &[Sample<Shot>]) -> Vec<CurvePoint> {
         .filter_map(|sample| {
             Some(CurvePoint {
                 impact_velocity_m_s: sample.speed,
-                residual_velocity_m_s: sample.shot.as_ref()?.residual?,
+                residual_velocity_m_s: sample.shot.as_ref()?.residual?.max(0.0),
             })
         })
         .collect()

@@ -1,16 +1,18 @@
-//! One parameter of a sweep: the values that it takes, checked.
+//! One parameter of a sweep: the values that it takes, checked. A value that is no number counts as its place in the list.
 
 use toml::Value;
 
 use super::distribution::Distribution;
 
-/// A number of the case with the values that it takes.
+/// A number or an option of the case with the values that it takes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// Dotted key in the case.
     pub key: String,
     /// Unit of the values; empty for plain numbers.
     pub unit: String,
+    /// Key of the sweep file that gives the values, such as `linear` or `normal`.
+    pub kind: &'static str,
     pub(super) values: Values,
     /// Whether the values are whole numbers.
     pub(super) whole: bool,
@@ -21,6 +23,8 @@ pub struct Axis {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Values {
     List(Vec<f64>),
+    /// Words and switches, which stand for their places in the list.
+    Options(Vec<Value>),
     Distribution(Distribution),
 }
 
@@ -37,27 +41,41 @@ impl Axis {
         name
     }
 
-    /// Number of values of a list.
-    pub(super) fn count(&self) -> Option<u64> {
+    /// Number of values of a list; a distribution has none.
+    pub fn count(&self) -> Option<u64> {
         match &self.values {
             Values::List(values) => Some(values.len() as u64),
+            Values::Options(options) => Some(options.len() as u64),
             Values::Distribution(_) => None,
         }
+    }
+
+    /// The words that its values stand for, where they are no numbers: value 0 for the first, and so on.
+    pub fn words(&self) -> Option<Vec<String>> {
+        let Values::Options(options) = &self.values else {
+            return None;
+        };
+        let word = |option: &Value| match option {
+            Value::String(text) => text.clone(),
+            other => other.to_string(),
+        };
+        Some(options.iter().map(word).collect())
     }
 
     /// The value that a number drawn evenly between 0 and 1 stands for: of a list all are equally likely.
     pub(super) fn at(&self, u: f64) -> f64 {
         match &self.values {
-            Values::List(values) => {
-                values[((u * values.len() as f64) as usize).min(values.len() - 1)]
-            }
+            Values::List(values) => values[drawn(u, values.len())],
+            Values::Options(options) => drawn(u, options.len()) as f64,
             Values::Distribution(distribution) => distribution.quantile(u),
         }
     }
 
     /// A value as the case file would have it; a float's text reads back as the same number.
     pub(super) fn written(&self, value: f64) -> Value {
-        if !self.unit.is_empty() {
+        if let Values::Options(options) = &self.values {
+            options[value as usize].clone()
+        } else if !self.unit.is_empty() {
             Value::String(format!("{value:?} {}", self.unit))
         } else if self.whole {
             Value::Integer(value as i64)
@@ -65,4 +83,9 @@ impl Axis {
             Value::Float(value)
         }
     }
+}
+
+/// Place in a list of equally likely values of a number drawn evenly between 0 and 1.
+fn drawn(u: f64, count: usize) -> usize {
+    ((u * count as f64) as usize).min(count - 1)
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Deserializer};
 
+use super::entry::Entry;
 use crate::units::{shorten, split_number};
 
 /// A sweep as its TOML file holds it.
@@ -49,12 +50,12 @@ impl Design {
     }
 }
 
-/// A number of the case and the values it takes: just one of the other keys.
+/// A number or an option of the case and the values it takes: just one of the other keys.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Parameter {
     pub(super) key: String,
-    pub(super) values: Option<Vec<Amount>>,
+    pub(super) values: Option<Vec<Entry>>,
     pub(super) linear: Option<Steps>,
     pub(super) log: Option<Steps>,
     pub(super) normal: Option<Normal>,
@@ -121,7 +122,7 @@ impl<'de> Deserialize<'de> for Amount {
     }
 }
 
-struct AmountVisitor;
+pub(super) struct AmountVisitor;
 
 impl serde::de::Visitor<'_> for AmountVisitor {
     type Value = Amount;

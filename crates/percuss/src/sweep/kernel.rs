@@ -5,6 +5,7 @@ use std::{
     sync::atomic::{AtomicBool, Ordering},
 };
 
+use super::caught::caught;
 use crate::{
     Error, Scenario,
     model::{self, Control, Model},
@@ -67,7 +68,10 @@ impl ScalarKernel {
             progress: Some(&mut watch),
             ..Control::default()
         };
-        match model::run(self.model, scenario, &mut control) {
+        // One shot is what a panic may cost: the other shots of the block, the block and the sweep go on.
+        let result = caught(|| model::run(self.model, scenario, &mut control));
+        let result = result.unwrap_or_else(|said| Err(Error::Fault(said)));
+        match result {
             Ok(result) => Ok(ResultRecord::new(scenario, &result)),
             Err(Error::Cancelled { .. }) => Err(Stopped),
             Err(error) => Ok(ResultRecord::without_result(

@@ -4,7 +4,9 @@
 //! machine computes it, and when, makes no difference.
 
 mod axis;
+mod caught;
 mod distribution;
+mod entry;
 mod file;
 mod kernel;
 mod load;
@@ -21,6 +23,7 @@ use std::{
 };
 
 pub use axis::Axis;
+use caught::caught;
 pub use file::Design;
 pub use kernel::{Kernel, Row, ScalarKernel, Shot, Stopped};
 use points::Points;
@@ -95,15 +98,18 @@ impl Sweep {
             .zip(&inputs)
             .map(|(axis, value)| (axis.key.as_str(), axis.written(*value)))
             .collect();
-        let scenario = self.template.scenario(&changes).map_err(|findings| {
-            let words = |finding: &crate::check::Finding| {
-                let mut text = format!("{}: {}", finding.key, finding.message);
-                if !finding.help.is_empty() {
-                    text += &format!(" ({})", finding.help);
-                }
-                text.trim_start_matches(": ").to_owned()
-            };
-            findings.iter().map(words).collect::<Vec<_>>().join("; ")
+        let made = caught(|| self.template.scenario(&changes));
+        let scenario = made.and_then(|made| {
+            made.map_err(|findings| {
+                let words = |finding: &crate::check::Finding| {
+                    let mut text = format!("{}: {}", finding.key, finding.message);
+                    if !finding.help.is_empty() {
+                        text += &format!(" ({})", finding.help);
+                    }
+                    text.trim_start_matches(": ").to_owned()
+                };
+                findings.iter().map(words).collect::<Vec<_>>().join("; ")
+            })
         });
         Shot {
             index,

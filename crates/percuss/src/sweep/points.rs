@@ -85,6 +85,12 @@ fn grid(axes: &[Axis], shot: u64) -> Vec<f64> {
                 rest /= count;
                 value
             }
+            Values::Options(options) => {
+                let count = options.len() as u64;
+                let place = rest % count;
+                rest /= count;
+                place as f64
+            }
             // Grids have lists only; the median would be the one value to take.
             Values::Distribution(distribution) => distribution.quantile(0.5),
         })

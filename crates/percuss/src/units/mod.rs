@@ -231,6 +231,14 @@ fn normalise(unit: &str) -> String {
         .join(" ")
 }
 
+/// Whether a text is a unit of any dimension.
+pub(crate) fn is_unit(text: &str) -> bool {
+    let name = normalise(text);
+    ALL_DIMENSIONS
+        .iter()
+        .any(|dimension| find_unit(dimension.units, &name).is_some())
+}
+
 fn find_unit(units: &'static [Unit], name: &str) -> Option<&'static Unit> {
     units
         .iter()

@@ -1,3 +1,5 @@
+mod plot;
+
 use std::{
     collections::BTreeMap,
     path::{Path, PathBuf},
@@ -43,6 +45,7 @@ Examples:
   percuss sweep my-sweep.toml --out rows-2 --shard 2/8 --threads 4
   percuss sweep status rows
   percuss sweep merge rows --out rows.parquet
+  percuss sweep plot rows
 
 Exit codes: 0 ok, 2 bad input, 4 a file could not be read or written, 130 the
 sweep was stopped";
@@ -91,6 +94,7 @@ enum What {
         #[arg(long, value_name = "FILE.parquet")]
         out: PathBuf,
     },
+    Plot(plot::Plot),
 }
 
 impl Sweep {
@@ -102,6 +106,7 @@ impl Sweep {
                 let rows = terminal::counted(rows as usize, "row");
                 terminal::print(&format!("wrote {rows} to {}\n", out.display()))
             }
+            (Some(What::Plot(plot)), ..) => plot.run(),
             (None, Some(file), Some(out)) => self.compute(file, out),
             _ => Err(Failure::Usage {
                 message: "a sweep file and --out DIR are due".to_owned(),
