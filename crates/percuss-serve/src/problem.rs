@@ -19,7 +19,7 @@ pub(crate) struct Problem {
     /// Dotted key of the case; empty when there is none.
     key: String,
     /// Where in the case, if it is known.
-    place: Option<Place>,
+    place: Option<Box<Place>>,
 }
 
 /// A place in the text of a case.
@@ -120,7 +120,7 @@ impl From<percuss_report::ReportError> for Problem {
 }
 
 impl Place {
-    fn of(error: &InputError) -> Option<Self> {
+    fn of(error: &InputError) -> Option<Box<Self>> {
         if error.span.is_empty() && error.span.start == 0 {
             return None;
         }
@@ -129,12 +129,12 @@ impl Place {
         let line_start = text[..start].rfind('\n').map_or(0, |at| at + 1);
         let line_end = text[start..].find('\n').map_or(text.len(), |at| start + at);
         let end = text.ceil_char_boundary(error.span.end.clamp(start, line_end));
-        Some(Self {
+        Some(Box::new(Self {
             line: error.line(),
             text: text[line_start..line_end].trim_end_matches('\r').to_owned(),
             column: text[line_start..start].chars().count(),
             length: text[start..end].trim_end().chars().count().max(1),
-        })
+        }))
     }
 }
 
