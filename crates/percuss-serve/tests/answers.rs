@@ -84,7 +84,7 @@ fn a_case_that_is_not_valid_is_refused_in_the_words_of_the_reader() {
         let (message, help) = error.message_and_help();
         let answer = served.post("/api/answer", &json!({ "case": text }));
         assert_eq!(answer.status, 422, "{bad}");
-        assert_eq!(answer.json()["problem"]["message"], message, "{bad}");
+        assert_eq!(answer.problem(), message, "{bad}");
         assert_eq!(answer.json()["problem"]["help"], help, "{bad}");
         assert_eq!(answer.json()["case"], text);
     }
