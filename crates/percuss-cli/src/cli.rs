@@ -5,7 +5,7 @@ use clap::{Parser, Subcommand};
 use crate::{
     commands::{
         Calibrate, Compare, Completions, Converge, Judge, Limit, Man, Materials, Models, New,
-        Reproduce, Run, Schema, Sweep, Uncertainty, Validate,
+        Reproduce, Run, Schema, Serve, Sweep, Uncertainty, Validate,
     },
     failure::Failure,
 };
@@ -28,6 +28,7 @@ Examples:
   percuss limit my-shot/scenario.toml      find the speed that perforates it
   percuss sweep my-sweep.toml --out rows   vary a case and keep a row a shot
   percuss converge my-shot/scenario.toml   see whether its mesh is fine enough
+  percuss serve                            answer in a browser while you drag
   percuss materials show copper            show what is known of a material
   percuss run --help                       explain one command
 
@@ -64,6 +65,7 @@ pub enum Command {
     Converge(Converge),
     Validate(Validate),
     Judge(Judge),
+    Serve(Serve),
     New(New),
     Models(Models),
     Materials(Materials),
@@ -85,6 +87,7 @@ impl Command {
             Self::Converge(command) => command.run(),
             Self::Validate(command) => command.run(),
             Self::Judge(command) => command.run(),
+            Self::Serve(command) => command.run(),
             Self::New(command) => command.run(),
             Self::Models(command) => command.run(),
             Self::Materials(command) => command.run(),

@@ -14,9 +14,6 @@ use crate::{
     terminal,
 };
 
-/// Help for a model that does not apply and names no remedy.
-const WHICH_APPLY: &str = "`percuss compare CASE.toml` names the models that apply";
-
 /// Any failure of a command.
 #[derive(Debug)]
 pub enum Failure {
@@ -129,30 +126,6 @@ impl Failure {
         let message = |what: &str, help: &str| diagnostic::message(look, what, help);
         match self {
             Self::Library(Error::Input(error)) => diagnostic::input_error(look, error),
-            Self::Library(Error::NotApplicable { model, reason }) => {
-                let (reason, help) = reason.split_once("; ").unwrap_or((reason, WHICH_APPLY));
-                let what = format!("model `{model}` does not apply to this case: {reason}");
-                message(&what, help)
-            }
-            Self::Library(Error::UnknownModel {
-                name,
-                suggestion,
-                known,
-            }) => {
-                let near = suggestion
-                    .as_ref()
-                    .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
-                message(
-                    &format!("no model is named `{name}`"),
-                    &format!("{near}models: {}", known.join(", ")),
-                )
-            }
-            Self::Library(Error::Numerical(error)) => {
-                let mut error = (**error).clone();
-                let remedy = std::mem::take(&mut error.remedy);
-                let what = error.to_string();
-                message(what.trim_end_matches([':', ' ']), &remedy)
-            }
             Self::Library(Error::Read {
                 path,
                 reason,
@@ -172,11 +145,10 @@ impl Failure {
                 let what = format!("cannot read `{}`: {reason}", path.display());
                 message(&what, help)
             }
-            Self::Library(error @ Error::Checkpoint { remedy, .. }) => {
-                message(&error.to_string(), remedy)
+            Self::Library(error) => {
+                let (what, help) = error.message_and_help();
+                message(&what, &help)
             }
-            Self::Library(Error::Calibration { reason, remedy }) => message(reason, remedy),
-            Self::Library(error) => message(&error.to_string(), ""),
             Self::Report(error) => message(&error.to_string(), ""),
             Self::Write { path, reason, help } => {
                 let what = format!("cannot write `{}`: {reason}", path.display());

@@ -17,13 +17,13 @@ const LEGEND_CHARS: usize = 30;
 /// A chart of stacked areas, the first one at the bottom.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AreaChart {
-    name: String,
-    title: String,
-    caption: String,
-    x: Axis,
-    y: Axis,
-    positions: Vec<f64>,
-    areas: Vec<(String, Option<String>, Vec<f64>)>,
+    pub(crate) name: String,
+    pub(crate) title: String,
+    pub(crate) caption: String,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
+    pub(crate) positions: Vec<f64>,
+    pub(crate) areas: Vec<(String, Option<String>, Vec<f64>)>,
 }
 
 impl AreaChart {
@@ -71,6 +71,15 @@ impl AreaChart {
         (0..self.positions.len()).map(total).collect()
     }
 
+    /// Smallest and largest value on either axis.
+    pub(crate) fn extents(&self) -> ((f64, f64), (f64, f64)) {
+        let tops = self.totals().into_iter().chain(std::iter::once(0.0));
+        (
+            self.x.extent(self.positions.iter().copied()),
+            self.y.extent(tops),
+        )
+    }
+
     /// Draws the chart.
     pub fn draw(&self) -> Figure {
         let mut plot = StackedAreaPlot::new()
@@ -90,16 +99,15 @@ impl AreaChart {
         }
         // The legend lists areas as they stand on each other, the uppermost first.
         legend.reverse();
+        let (x_extent, y_extent) = self.extents();
         let frame = Frame {
             name: &self.name,
             title: &self.title,
             caption: &self.caption,
             x: &self.x,
             y: &self.y,
-            x_extent: self.x.extent(self.positions.iter().copied()),
-            y_extent: self
-                .y
-                .extent(self.totals().into_iter().chain(std::iter::once(0.0))),
+            x_extent,
+            y_extent,
             height: HEIGHT,
             right_margin: None,
             legend,

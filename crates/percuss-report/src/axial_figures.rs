@@ -3,7 +3,7 @@
 use percuss::history::{ElementState, History, Profile};
 
 use crate::{
-    Axis, Figure, HeatMap, LineChart, Mark, Series, Style, palette,
+    Axis, HeatMap, LineChart, Mark, Series, Style, palette,
     run_figures::significant,
     stress_grid::{GAP, StressGrid, spacing},
 };
@@ -15,8 +15,6 @@ const STRAIN_COLORS: [[&str; 2]; 4] = [
     ["#009e73", "#7fe0c0"],
     ["#8a3f78", "#f0a8d8"],
 ];
-/// Cells of the x–t diagram along the axis and along time.
-const CELLS: [usize; 2] = [300, 220];
 
 /// Where the values along the axis stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,7 +34,7 @@ impl Along {
     }
 }
 
-pub(crate) fn strain(history: &History, along: Along, caption: &str) -> Option<Figure> {
+pub(crate) fn strain(history: &History, along: Along, caption: &str) -> Option<LineChart> {
     let (first, last) = (history.profiles.first()?, history.profiles.last()?);
     let mut chart = LineChart::new(
         "strain-profile",
@@ -78,11 +76,16 @@ pub(crate) fn strain(history: &History, along: Along, caption: &str) -> Option<F
                     .color(total),
             );
     }
-    Some(chart.mark(Mark::vertical("", 0.0)).draw())
+    Some(chart.mark(Mark::vertical("", 0.0)))
 }
 
-pub(crate) fn stress(history: &History, along: Along, caption: &str) -> Option<Figure> {
-    let grid = StressGrid::resample(&history.profiles, CELLS)?;
+pub(crate) fn stress(
+    history: &History,
+    along: Along,
+    cells: [usize; 2],
+    caption: &str,
+) -> Option<HeatMap> {
+    let grid = StressGrid::resample(&history.profiles, cells)?;
     let note = if grid.rows.iter().flatten().any(|stress| stress.is_nan()) {
         let gap = grid.rows[0].iter().any(|stress| stress.is_nan());
         match along {
@@ -104,15 +107,14 @@ pub(crate) fn stress(history: &History, along: Along, caption: &str) -> Option<F
         grid.rows.into_iter().map(mega).collect(),
     )
     .caption(format!("{caption}{note}"));
-    let map = if grid.positions.1 > 0.0 {
+    Some(if grid.positions.1 > 0.0 {
         map.vertical_line(0.0)
     } else {
         map
-    };
-    Some(map.draw())
+    })
 }
 
-pub(crate) fn shape(history: &History, caption: &str) -> Option<Figure> {
+pub(crate) fn shape(history: &History, caption: &str) -> Option<LineChart> {
     let (first, last) = (history.profiles.first()?, history.profiles.last()?);
     let spacing = spacing(first, 0);
     let (before, after) = (outline(first, spacing)?, outline(last, spacing)?);
@@ -132,7 +134,7 @@ pub(crate) fn shape(history: &History, caption: &str) -> Option<Figure> {
             .style(Style::Dashed)
             .color(palette::MARK),
     );
-    Some(chart.true_to_scale().draw())
+    Some(chart.true_to_scale())
 }
 
 fn parts(profile: &Profile) -> Vec<usize> {

@@ -38,14 +38,14 @@ const MARKERS: [MarkerShape; 9] = [
 /// A chart of lines and markers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineChart {
-    name: String,
-    title: String,
-    caption: String,
-    x: Axis,
-    y: Axis,
-    series: Vec<Series>,
-    marks: Vec<Mark>,
-    true_to_scale: bool,
+    pub(crate) name: String,
+    pub(crate) title: String,
+    pub(crate) caption: String,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
+    pub(crate) series: Vec<Series>,
+    pub(crate) marks: Vec<Mark>,
+    pub(crate) true_to_scale: bool,
 }
 
 impl LineChart {
@@ -89,6 +89,31 @@ impl LineChart {
 
     /// Draws the chart.
     pub fn draw(&self) -> Figure {
+        let (x_extent, y_extent) = self.extents();
+        let mut frame = Frame {
+            name: &self.name,
+            title: &self.title,
+            caption: &self.caption,
+            x: &self.x,
+            y: &self.y,
+            x_extent,
+            y_extent,
+            height: HEIGHT,
+            right_margin: None,
+            legend: self.legend(),
+            marks: self.reference_lines(),
+        };
+        let (mut x, mut y) = (self.x.clone(), self.y.clone());
+        if self.true_to_scale {
+            frame.height = true_to_scale(&mut x, &mut y, frame.x_extent, frame.y_extent);
+            frame.x = &x;
+            frame.y = &y;
+        }
+        frame.draw(self.plots(), |_, _| {})
+    }
+
+    /// Smallest and largest value on either axis.
+    pub(crate) fn extents(&self) -> ((f64, f64), (f64, f64)) {
         let shown = || {
             self.series.iter().flat_map(|series| {
                 series.points.iter().enumerate().map(|(i, &(x, y))| {
@@ -108,29 +133,13 @@ impl LineChart {
         let y_values = shown()
             .flat_map(|point| [point.1, point.2, point.3])
             .chain(bands.flat_map(|ends| [ends.0, ends.1]));
-        let mut frame = Frame {
-            name: &self.name,
-            title: &self.title,
-            caption: &self.caption,
-            x: &self.x,
-            y: &self.y,
-            x_extent: self.x.extent(x_values),
-            y_extent: self.y.extent(y_values.chain(marked(false))),
-            height: HEIGHT,
-            right_margin: None,
-            legend: self.legend(),
-            marks: self.reference_lines(),
-        };
-        let (mut x, mut y) = (self.x.clone(), self.y.clone());
-        if self.true_to_scale {
-            frame.height = true_to_scale(&mut x, &mut y, frame.x_extent, frame.y_extent);
-            frame.x = &x;
-            frame.y = &y;
-        }
-        frame.draw(self.plots(), |_, _| {})
+        (
+            self.x.extent(x_values),
+            self.y.extent(y_values.chain(marked(false))),
+        )
     }
 
-    fn color(&self, index: usize) -> String {
+    pub(crate) fn color(&self, index: usize) -> String {
         match &self.series[index].color {
             Some(color) => color.clone(),
             None => {
@@ -275,15 +284,19 @@ fn legend_name(series: &Series) -> String {
     }
 }
 
+/// Dashes and gaps of a series [px], if it has any.
+pub(crate) fn dashes(series: &Series) -> Option<&'static str> {
+    match series.style {
+        Style::Dashed => Some(DASHES),
+        _ => symbol_dashes(series).map(|dashes| dashes.pattern),
+    }
+}
+
 fn line(series: &Series, run: std::ops::Range<usize>, color: &str) -> Plot {
     let mut line = LinePlot::new()
         .with_color(color)
         .with_stroke_width(series.width);
-    let dashes = match series.style {
-        Style::Dashed => Some(DASHES),
-        _ => symbol_dashes(series).map(|dashes| dashes.pattern),
-    };
-    if let Some(dashes) = dashes {
+    if let Some(dashes) = dashes(series) {
         line = line.with_line_style(LineStyle::Custom(dashes.to_owned()));
     }
     line.data = run

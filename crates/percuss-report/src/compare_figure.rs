@@ -1,9 +1,9 @@
-//! Figure of a comparison of models.
+//! Chart of a comparison of models, and its figure.
 
 use percuss::{Scenario, compare::Comparison, outcome::BandQuantity, summary::ResultRecord};
 
 use crate::{
-    Axis, Figure, LineChart, Mark, RowChart, Series, Style, palette, run_figures::caption,
+    Axis, Chart, Figure, LineChart, Mark, RowChart, Series, Style, palette, run_figures::caption,
     run_figures::significant,
 };
 
@@ -17,6 +17,11 @@ const EMPHASIS: f64 = 4.0;
 /// A line is broken where its model gives nothing, and thick where the model is recommended. `None` when no model gives the
 /// quantity.
 pub fn compare_figure(scenario: &Scenario, comparison: &Comparison) -> Option<Figure> {
+    compare_chart(scenario, comparison).map(|chart| chart.draw())
+}
+
+/// The chart that [`compare_figure`] draws.
+pub fn compare_chart(scenario: &Scenario, comparison: &Comparison) -> Option<Chart> {
     let quantity = *comparison.quantities.first()?;
     let given = |record: &ResultRecord| record.value(quantity).is_some();
     if !comparison.results.iter().any(given) {
@@ -24,9 +29,9 @@ pub fn compare_figure(scenario: &Scenario, comparison: &Comparison) -> Option<Fi
     }
     // A ballistic limit is one number a model at any speed.
     if comparison.regime.len() == 1 || quantity == BandQuantity::BallisticLimit {
-        Some(rows(scenario, comparison, quantity))
+        Some(rows(scenario, comparison, quantity).into())
     } else {
-        Some(lines(scenario, comparison, quantity))
+        Some(lines(scenario, comparison, quantity).into())
     }
 }
 
@@ -64,7 +69,7 @@ fn band(record: &ResultRecord, quantity: BandQuantity) -> Option<(f64, f64)> {
     (band.quantity == quantity).then_some((band.low, band.high))
 }
 
-fn lines(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -> Figure {
+fn lines(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -> LineChart {
     const NONE: f64 = f64::NAN;
     let mut chart = LineChart::new(
         "compare",
@@ -128,10 +133,10 @@ fn lines(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -
             .error_bars(measured.iter().map(|(_, m)| uncertainty(m.uncertainty))),
         );
     }
-    chart.draw()
+    chart
 }
 
-fn rows(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -> Figure {
+fn rows(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -> RowChart {
     let speed = comparison.speeds()[0];
     let at = match quantity {
         BandQuantity::BallisticLimit => String::new(),
@@ -177,7 +182,7 @@ fn rows(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) ->
         );
         chart = chart.mark(Mark::vertical("", measured.value));
     }
-    chart.draw()
+    chart
 }
 
 /// The case in one line, and what the mark stands for.

@@ -33,6 +33,19 @@ pub fn write_comparison(
     folder: &Path,
     comparison: &Comparison,
 ) -> Result<Vec<PathBuf>, ReportError> {
+    comparison_files(comparison)?
+        .into_iter()
+        .map(|(name, content)| replace_file(folder, name, &content))
+        .collect()
+}
+
+/// The files that [`write_comparison`] writes: name and content of each.
+///
+/// # Errors
+/// [`ReportError::Table`].
+pub fn comparison_files(
+    comparison: &Comparison,
+) -> Result<[(&'static str, Vec<u8>); 2], ReportError> {
     let columns = columns();
     let entries: Vec<Entry> = (0..comparison.regime.len())
         .flat_map(|i| {
@@ -47,13 +60,9 @@ pub fn write_comparison(
         })
         .collect();
     let (csv, parquet) = ("compare.csv", "compare.parquet");
-    Ok(vec![
-        replace_file(folder, csv, &column::csv(csv, &columns, &entries)?)?,
-        replace_file(
-            folder,
-            parquet,
-            &column::parquet(parquet, &columns, &entries)?,
-        )?,
+    Ok([
+        (csv, column::csv(csv, &columns, &entries)?),
+        (parquet, column::parquet(parquet, &columns, &entries)?),
     ])
 }
 

@@ -1,11 +1,16 @@
-//! Figure of a convergence study.
+//! Chart of a convergence study, and its figure.
 
 use percuss::converge::{Study, Verdict};
 
-use crate::{Axis, Figure, LineChart, Mark, Series, Style};
+use crate::{Axis, Chart, Figure, LineChart, Mark, Series, Style};
 
 /// Draws one quantity of a study against the number of elements along the projectile.
 pub fn convergence_figure(case: &str, study: &Study, quantity: usize) -> Option<Figure> {
+    convergence_chart(case, study, quantity).map(|chart| chart.draw())
+}
+
+/// The chart that [`convergence_figure`] draws.
+pub fn convergence_chart(case: &str, study: &Study, quantity: usize) -> Option<Chart> {
     let quantity = study.quantities.get(quantity)?;
     let name = quantity.name.replace('_', " ");
     let points = study
@@ -30,5 +35,5 @@ pub fn convergence_figure(case: &str, study: &Study, quantity: usize) -> Option<
         ));
     }
     let fine = quantity.values.last().copied().unwrap_or(f64::NAN);
-    Some(chart.caption(quantity.verdict.in_words(fine)).draw())
+    Some(chart.caption(quantity.verdict.in_words(fine)).into())
 }

@@ -19,6 +19,8 @@ use crate::{
 
 /// Steps of colour.
 const LEVELS: usize = 64;
+/// Character that stands for the first colour.
+const FIRST_CODE: u8 = b'0';
 /// Space at the right for the colour bar, its numbers and its label [px].
 const BAR_MARGIN: f64 = 118.0;
 /// Distance of the colour bar from the plot, and its width [px].
@@ -59,15 +61,15 @@ impl Scale {
 /// A heat map on a regular grid, with a colour bar. Colours diverge from zero unless they are told to run between two values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatMap {
-    name: String,
-    title: String,
-    caption: String,
-    x: Axis,
-    y: Axis,
-    ranges: [(f64, f64); 2],
-    value_label: String,
-    rows: Vec<Vec<f64>>,
-    vertical_lines: Vec<f64>,
+    pub(crate) name: String,
+    pub(crate) title: String,
+    pub(crate) caption: String,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
+    pub(crate) ranges: [(f64, f64); 2],
+    pub(crate) value_label: String,
+    pub(crate) rows: Vec<Vec<f64>>,
+    pub(crate) vertical_lines: Vec<f64>,
     texts: Vec<Vec<String>>,
     scale: Option<Scale>,
     height: f64,
@@ -159,14 +161,7 @@ impl HeatMap {
             legend: Vec::new(),
             marks: Vec::new(),
         };
-        let scale = self.scale.unwrap_or_else(|| {
-            let limit = self.largest();
-            Scale {
-                low: -limit,
-                high: limit,
-                diverging: true,
-            }
-        });
+        let scale = self.scale();
         // Axes are drawn only for a plot, so there is one without content.
         frame.draw(vec![LinePlot::new().into()], |scene, place| {
             self.add_cells(scene, place, scale);
@@ -174,6 +169,38 @@ impl HeatMap {
             self.add_lines(scene, place);
             self.add_bar(scene, place, scale);
         })
+    }
+
+    fn scale(&self) -> Scale {
+        self.scale.unwrap_or_else(|| {
+            let limit = self.largest();
+            Scale {
+                low: -limit,
+                high: limit,
+                diverging: true,
+            }
+        })
+    }
+
+    /// The values that the first and the last colour stand for.
+    pub(crate) fn ends(&self) -> (f64, f64) {
+        let scale = self.scale();
+        (scale.low, scale.high)
+    }
+
+    /// The cells as text, a character a cell, and the colours that they stand for: [`FIRST_CODE`] is the first colour, the next
+    /// character the next one, and a space a cell without value.
+    pub(crate) fn codes(&self) -> (String, Vec<String>) {
+        let scale = self.scale();
+        let code = |value: &f64| match value.is_finite() {
+            true => char::from(FIRST_CODE + (scale.part(*value) * LEVELS as f64).round() as u8),
+            false => ' ',
+        };
+        let colors = (0..=LEVELS).map(|level| scale.color(level as f64 / LEVELS as f64));
+        (
+            self.rows.iter().flatten().map(code).collect(),
+            colors.collect(),
+        )
     }
 
     /// Value with the strongest colour: all but one value in 200 lie within it, so that a spike does not bleach the rest.

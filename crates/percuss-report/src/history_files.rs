@@ -26,6 +26,17 @@ use crate::{
 /// # Errors
 /// [`ReportError::NoHistory`] when the run kept no history; [`ReportError::Write`]; [`ReportError::Table`].
 pub fn write_histories(folder: &Path, result: &RunResult) -> Result<Vec<PathBuf>, ReportError> {
+    history_files(result)?
+        .into_iter()
+        .map(|(name, content)| replace_file(folder, name, &content))
+        .collect()
+}
+
+/// The files that [`write_histories`] writes: name and content of each.
+///
+/// # Errors
+/// [`ReportError::NoHistory`] when the run kept no history; [`ReportError::Table`].
+pub fn history_files(result: &RunResult) -> Result<[(&'static str, Vec<u8>); 4], ReportError> {
     let history = history_of(result)?;
     let samples = sample_columns();
     let elements = element_columns();
@@ -40,7 +51,7 @@ pub fn write_histories(folder: &Path, result: &RunResult) -> Result<Vec<PathBuf>
     let parquet = "history.parquet";
     let profiles = "profiles.parquet";
     let end = "final-profile.csv";
-    [
+    Ok([
         (csv, column::csv(csv, &samples, &history.samples)?),
         (
             parquet,
@@ -48,10 +59,7 @@ pub fn write_histories(folder: &Path, result: &RunResult) -> Result<Vec<PathBuf>
         ),
         (profiles, column::parquet(profiles, &elements, &all)?),
         (end, column::csv(end, &elements, &last)?),
-    ]
-    .into_iter()
-    .map(|(name, content)| replace_file(folder, name, &content))
-    .collect()
+    ])
 }
 
 /// An element at a time.

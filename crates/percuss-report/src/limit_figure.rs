@@ -1,4 +1,4 @@
-//! Figure of speeds behind a target against impact speeds.
+//! Chart of speeds behind a target against impact speeds, and its figure.
 
 use percuss::{
     Scenario,
@@ -7,7 +7,7 @@ use percuss::{
 };
 
 use crate::{
-    Axis, Figure, LineChart, Mark, Series, Style, palette, run_figures::caption,
+    Axis, Chart, Figure, LineChart, Mark, Series, Style, palette, run_figures::caption,
     run_figures::significant,
 };
 
@@ -17,6 +17,11 @@ const POINTS: u32 = 200;
 /// Draws residual velocities of all models, their curves of Lambert and Jonas, and what was measured, as `limit`; `None` when no
 /// model found a limit.
 pub fn limit_figure(scenario: &Scenario, limits: &Limits) -> Option<Figure> {
+    limit_chart(scenario, limits).map(|chart| chart.draw())
+}
+
+/// The chart that [`limit_figure`] draws.
+pub fn limit_chart(scenario: &Scenario, limits: &Limits) -> Option<Chart> {
     let found = || {
         let results = limits.results.iter().enumerate();
         results.filter(|(_, limit)| limit.outcome == LimitOutcome::Found)
@@ -51,7 +56,7 @@ pub fn limit_figure(scenario: &Scenario, limits: &Limits) -> Option<Figure> {
         let name = format!("measured limit, {} m/s", significant(value));
         chart = chart.mark(Mark::vertical(name, value));
     }
-    Some(chart.draw())
+    Some(chart.into())
 }
 
 /// A model's points and curve; the point at its limit stands on the axis.

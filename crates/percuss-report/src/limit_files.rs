@@ -23,6 +23,17 @@ struct Point {
 /// # Errors
 /// [`ReportError::Write`]; [`ReportError::Table`].
 pub fn write_limits(folder: &Path, limits: &Limits) -> Result<Vec<PathBuf>, ReportError> {
+    limit_files(limits)?
+        .into_iter()
+        .map(|(name, content)| replace_file(folder, name, &content))
+        .collect()
+}
+
+/// The files that [`write_limits`] writes: name and content of each.
+///
+/// # Errors
+/// [`ReportError::Table`].
+pub fn limit_files(limits: &Limits) -> Result<[(&'static str, Vec<u8>); 2], ReportError> {
     let points: Vec<Point> = limits
         .results
         .iter()
@@ -35,17 +46,12 @@ pub fn write_limits(folder: &Path, limits: &Limits) -> Result<Vec<PathBuf>, Repo
         })
         .collect();
     let (models, curve) = ("limit.csv", "curve.csv");
-    Ok(vec![
-        replace_file(
-            folder,
+    Ok([
+        (
             models,
-            &column::csv(models, &model_columns(), &limits.results)?,
-        )?,
-        replace_file(
-            folder,
-            curve,
-            &column::csv(curve, &curve_columns(), &points)?,
-        )?,
+            column::csv(models, &model_columns(), &limits.results)?,
+        ),
+        (curve, column::csv(curve, &curve_columns(), &points)?),
     ])
 }
 

@@ -4,7 +4,7 @@ use kuva::plot::legend::{LegendEntry, LegendShape};
 use kuva::render::{
     color::Color,
     layout::ComputedLayout,
-    render::{PathData, Primitive},
+    render::{PathData, Primitive, TextAnchor},
 };
 
 use crate::{frame::plain, palette};

@@ -23,20 +23,20 @@ const MARK_DASHES: &str = "2 2";
 /// A chart of named values, the first one at the top.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowChart {
-    name: String,
-    title: String,
-    caption: String,
-    x: Axis,
-    rows: Vec<Row>,
-    marks: Vec<Mark>,
+    pub(crate) name: String,
+    pub(crate) title: String,
+    pub(crate) caption: String,
+    pub(crate) x: Axis,
+    pub(crate) rows: Vec<Row>,
+    pub(crate) marks: Vec<Mark>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct Row {
-    name: String,
-    value: f64,
-    range: Option<(f64, f64)>,
-    color: String,
+pub(crate) struct Row {
+    pub(crate) name: String,
+    pub(crate) value: f64,
+    pub(crate) range: Option<(f64, f64)>,
+    pub(crate) color: String,
 }
 
 impl RowChart {
@@ -83,14 +83,19 @@ impl RowChart {
         self
     }
 
-    /// Draws the chart.
-    pub fn draw(&self) -> Figure {
-        let count = self.rows.len() as f64;
+    /// Smallest and largest value.
+    pub(crate) fn extent(&self) -> (f64, f64) {
         let values = self.rows.iter().flat_map(|row| {
             let (low, high) = row.range.unwrap_or((row.value, row.value));
             [row.value, low, high]
         });
-        let x_values = values.chain(self.marks.iter().map(|mark| mark.value));
+        self.x
+            .extent(values.chain(self.marks.iter().map(|mark| mark.value)))
+    }
+
+    /// Draws the chart.
+    pub fn draw(&self) -> Figure {
+        let count = self.rows.len() as f64;
         let mut plot = ForestPlot::new();
         plot.null_value = None;
         plot.marker_size = MARKER;
@@ -116,7 +121,7 @@ impl RowChart {
             caption: &self.caption,
             x: &self.x,
             y: &y,
-            x_extent: self.x.extent(x_values),
+            x_extent: self.extent(),
             y_extent: (0.5, count.max(1.0) + 0.5),
             height: SURROUNDINGS + ROW * count.max(2.0),
             right_margin: None,

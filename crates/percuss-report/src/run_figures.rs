@@ -1,14 +1,17 @@
-//! All figures of one run.
+//! All charts of one run, and their figures.
 
 use percuss::{Scenario, outcome::RunResult, scenario::TargetBody};
 
 use crate::{
-    Figure, ReportError,
+    Chart, Figure, ReportError,
     axial_figures::{self, Along},
     error::history_of,
-    shape_figure::shape_figure,
+    shape_figure::shape_chart,
     time_figures,
 };
+
+/// Cells of the x–t diagram of a figure along the axis and along time.
+const CELLS: [usize; 2] = [300, 220];
 
 /// Draws all figures that a result has data for.
 ///
@@ -19,31 +22,44 @@ use crate::{
 /// # Errors
 /// [`ReportError::NoHistory`] when the run kept no history.
 pub fn run_figures(scenario: &Scenario, result: &RunResult) -> Result<Vec<Figure>, ReportError> {
+    let charts = run_charts(scenario, result, CELLS)?;
+    Ok(charts.iter().map(Chart::draw).collect())
+}
+
+/// The charts that [`run_figures`] draws; `cells` are those of the x–t diagram along the axis and along time.
+///
+/// # Errors
+/// [`ReportError::NoHistory`] when the run kept no history.
+pub fn run_charts(
+    scenario: &Scenario,
+    result: &RunResult,
+    cells: [usize; 2],
+) -> Result<Vec<Chart>, ReportError> {
     let history = history_of(result)?;
     let caption = caption(scenario, Some(scenario.impact_speed));
     let (first, last) = (
         &history.samples[0],
         &history.samples[history.samples.len() - 1],
     );
-    let mut figures = Vec::new();
+    let mut charts: Vec<Chart> = Vec::new();
     if first.time < last.time {
-        figures.extend(time_figures::depth(history, result, &caption));
-        figures.extend(time_figures::length(history, result, &caption));
-        figures.push(time_figures::velocity(history, result, &caption));
-        figures.extend(time_figures::force(history, &caption));
-        figures.extend(time_figures::energy(history, &caption));
+        charts.extend(time_figures::depth(history, result, &caption).map(Chart::from));
+        charts.extend(time_figures::length(history, result, &caption).map(Chart::from));
+        charts.push(time_figures::velocity(history, result, &caption).into());
+        charts.extend(time_figures::force(history, &caption).map(Chart::from));
+        charts.extend(time_figures::energy(history, &caption).map(Chart::from));
     }
     let along = match result.shapes {
         Some(_) => Along::Space,
         None => Along::Initial,
     };
-    figures.extend(axial_figures::strain(history, along, &caption));
-    figures.extend(axial_figures::stress(history, along, &caption));
+    charts.extend(axial_figures::strain(history, along, &caption).map(Chart::from));
+    charts.extend(axial_figures::stress(history, along, cells, &caption).map(Chart::from));
     match &result.shapes {
-        Some(shapes) => figures.push(shape_figure(scenario, shapes)),
-        None => figures.extend(axial_figures::shape(history, &caption)),
+        Some(shapes) => charts.push(shape_chart(scenario, shapes).into()),
+        None => charts.extend(axial_figures::shape(history, &caption).map(Chart::from)),
     }
-    Ok(figures)
+    Ok(charts)
 }
 
 /// The case in one line: its title, or what strikes what and, where it is one speed [m/s], how fast.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use percuss::{Scenario, outcome::RunResult, shapes::Shapes};
 
 use crate::{
-    Axis, Figure, LineChart, ReportError, Series, Style,
+    Axis, LineChart, ReportError, Series, Style,
     column::{self, Column},
     palette,
     replace_file::replace_file,
@@ -35,8 +35,8 @@ pub fn write_shapes(folder: &Path, result: &RunResult) -> Result<Vec<PathBuf>, R
     .collect()
 }
 
-/// Draws crater and projectile at the end, true to scale.
-pub(crate) fn shape_figure(scenario: &Scenario, shapes: &Shapes) -> Figure {
+/// Crater and projectile at the end, true to scale.
+pub(crate) fn shape_chart(scenario: &Scenario, shapes: &Shapes) -> LineChart {
     let rod = &scenario.projectile;
     let widest = shapes.projectile.iter().map(|point| point[0]);
     let around = if shapes.crater.is_empty() { 1.5 } else { 2.5 }
@@ -75,7 +75,7 @@ pub(crate) fn shape_figure(scenario: &Scenario, shapes: &Shapes) -> Figure {
             .style(Style::Dashed)
             .color(palette::MARK),
     );
-    chart.true_to_scale().draw()
+    chart.true_to_scale()
 }
 
 /// Points of both halves in mm, from the left to the right and as one line.

@@ -5,7 +5,7 @@ use percuss::{
     outcome::RunResult,
 };
 
-use crate::{AreaChart, Axis, Figure, LineChart, Mark, Series, Style, run_figures::significant};
+use crate::{AreaChart, Axis, LineChart, Mark, Series, Style, run_figures::significant};
 
 /// Colours of the lines of the energy book, in its order: dark for the projectile, light for the target.
 const ENERGY_COLORS: [&str; 15] = [
@@ -27,7 +27,7 @@ const RINGING: f64 = 1.0;
 /// Colour of the minor lines.
 const MINOR_COLOR: &str = "#d4d4d4";
 
-pub(crate) fn depth(history: &History, result: &RunResult, caption: &str) -> Option<Figure> {
+pub(crate) fn depth(history: &History, result: &RunResult, caption: &str) -> Option<LineChart> {
     let depth = result.depth_of_penetration?;
     let chart = chart("depth-time", "Depth against time", "depth [mm]", caption)
         .series(series("crater floor", history, |s| s.depth * 1e3))
@@ -36,10 +36,10 @@ pub(crate) fn depth(history: &History, result: &RunResult, caption: &str) -> Opt
             format!("penetration {} mm", significant(depth * 1e3)),
             depth * 1e3,
         ));
-    Some(with_time_to_rest(chart, result).draw())
+    Some(with_time_to_rest(chart, result))
 }
 
-pub(crate) fn length(history: &History, result: &RunResult, caption: &str) -> Option<Figure> {
+pub(crate) fn length(history: &History, result: &RunResult, caption: &str) -> Option<LineChart> {
     if result.depth_of_penetration.is_some()
         && result
             .numerics
@@ -60,10 +60,10 @@ pub(crate) fn length(history: &History, result: &RunResult, caption: &str) -> Op
         format!("final, unloaded {} mm", significant(unloaded)),
         unloaded,
     ));
-    Some(with_time_to_rest(chart, result).draw())
+    Some(with_time_to_rest(chart, result))
 }
 
-pub(crate) fn velocity(history: &History, result: &RunResult, caption: &str) -> Figure {
+pub(crate) fn velocity(history: &History, result: &RunResult, caption: &str) -> LineChart {
     let mut chart = chart(
         "velocity-time",
         "Velocity against time",
@@ -78,11 +78,11 @@ pub(crate) fn velocity(history: &History, result: &RunResult, caption: &str) -> 
         chart = chart.series(floor.style(Style::Dashed).width(RINGING));
     }
     let mean = series("projectile's mean", history, |s| s.mean_velocity).color("#000000");
-    with_time_to_rest(chart.series(mean), result).draw()
+    with_time_to_rest(chart.series(mean), result)
 }
 
 /// `None` when the model knows no force at either face, as for a target that is a given pressure.
-pub(crate) fn force(history: &History, caption: &str) -> Option<Figure> {
+pub(crate) fn force(history: &History, caption: &str) -> Option<LineChart> {
     let samples = || history.samples.iter();
     let struck = samples().any(|s| s.contact_force != 0.0);
     // A wall is both faces in one.
@@ -97,15 +97,11 @@ pub(crate) fn force(history: &History, caption: &str) -> Option<Figure> {
         let curve = series("back face", history, |s| s.back_force * 1e-3);
         chart = chart.series(curve.width(RINGING));
     }
-    (struck || behind).then(|| chart.draw())
-}
-
-pub(crate) fn energy(history: &History, caption: &str) -> Option<Figure> {
-    energy_chart(history, caption).map(|chart| chart.draw())
+    (struck || behind).then_some(chart)
 }
 
 /// The energy book in percent of the initial energy; `None` when nothing moved.
-fn energy_chart(history: &History, caption: &str) -> Option<AreaChart> {
+pub(crate) fn energy(history: &History, caption: &str) -> Option<AreaChart> {
     let samples = &history.samples;
     let initial = samples.first()?.energy.initial;
     if initial <= 0.0 {
@@ -197,7 +193,7 @@ mod tests {
             let chain = model::model("chain").unwrap();
             let result = model::run(chain, &scenario, &mut model::Control::recording()).unwrap();
             let history = result.history.unwrap();
-            let totals = energy_chart(&history, "").unwrap().totals();
+            let totals = energy(&history, "").unwrap().totals();
             assert_eq!(totals.len(), history.samples.len());
             for total in totals {
                 assert!((total - 100.0).abs() < 0.1, "{target}: {total} %");

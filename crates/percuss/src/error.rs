@@ -70,6 +70,45 @@ pub enum Error {
     },
 }
 
+/// Help for a model that does not apply and names no remedy.
+const WHICH_APPLY: &str = "`percuss compare CASE.toml` names the models that apply";
+
+impl Error {
+    /// What is wrong, and what to do about it; the latter may be empty.
+    pub fn message_and_help(&self) -> (String, String) {
+        match self {
+            Self::Input(error) => (error.message.clone(), error.help.clone()),
+            Self::NotApplicable { model, reason } => {
+                let (reason, help) = reason.split_once("; ").unwrap_or((reason, WHICH_APPLY));
+                let message = format!("model `{model}` does not apply to this case: {reason}");
+                (message, help.to_owned())
+            }
+            Self::UnknownModel {
+                name,
+                suggestion,
+                known,
+            } => {
+                let near = suggestion
+                    .as_ref()
+                    .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+                (
+                    format!("no model is named `{name}`"),
+                    format!("{near}models: {}", known.join(", ")),
+                )
+            }
+            Self::Numerical(error) => {
+                let mut error = (**error).clone();
+                let remedy = std::mem::take(&mut error.remedy);
+                let message = error.to_string();
+                (message.trim_end_matches([':', ' ']).to_owned(), remedy)
+            }
+            Self::Checkpoint { remedy, .. } => (self.to_string(), remedy.clone()),
+            Self::Calibration { reason, remedy } => (reason.clone(), remedy.clone()),
+            other => (other.to_string(), String::new()),
+        }
+    }
+}
+
 impl From<InputError> for Error {
     fn from(error: InputError) -> Self {
         Self::Input(Box::new(error))

@@ -36,7 +36,7 @@ pub(crate) fn render(page: &[Block<'_>]) -> String {
 }
 
 /// Text as HTML shows it.
-pub(crate) fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -75,6 +75,14 @@ impl Writer {
                 self.text += "<ul>\n";
                 for item in items {
                     self.element("li", item);
+                }
+                self.text += "</ul>\n";
+            }
+            Block::Links(links) => {
+                self.text += "<ul>\n";
+                for (address, text) in links {
+                    let (address, text) = (escape(address), escape(text));
+                    self.text += &format!("<li><a href=\"{address}\">{text}</a></li>\n");
                 }
                 self.text += "</ul>\n";
             }

@@ -20,6 +20,12 @@ fn block(block: &Block<'_>) -> Option<String> {
                 .collect();
             items.join("\n")
         }
+        Block::Links(links) => {
+            let links = links
+                .iter()
+                .map(|(address, text)| format!("- [{}]({address})", escape(text)));
+            links.collect::<Vec<_>>().join("\n")
+        }
         Block::Table(table) => self::table(table),
         Block::Figure(figure) => format!(
             "![{0}]({1}.png)\n\n*{0}*",

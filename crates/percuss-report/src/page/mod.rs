@@ -12,6 +12,8 @@ pub(crate) enum Block<'a> {
     Subheading(String),
     Text(String),
     List(Vec<String>),
+    /// Addresses and what is said of them.
+    Links(Vec<(String, String)>),
     Table(Table),
     Figure(&'a Figure),
     /// Parts that are shown when asked for.

@@ -141,7 +141,7 @@ impl FdmOptions {
     }
 
     /// Cells along the projectile and through the target, as a case resolves them.
-    pub(crate) fn elements(&self, scenario: &Scenario) -> (u32, u32) {
+    pub fn elements(&self, scenario: &Scenario) -> (u32, u32) {
         match self.geometry {
             Geometry::Planar => cells(scenario),
             Geometry::Rod => {

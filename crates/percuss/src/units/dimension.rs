@@ -40,7 +40,7 @@ pub trait Dimension: 'static {
     const DISPLAY: &'static [&'static str];
 }
 
-/// A dimension's name and units, to tell a wrong dimension from an unknown unit.
+/// A dimension's names and units, to tell a wrong dimension from an unknown unit.
 pub(super) struct DimensionInfo {
     pub(super) name: &'static str,
     pub(super) type_name: &'static str,

@@ -226,6 +226,13 @@ pub(crate) fn split_number(text: &str) -> Option<(f64, &str)> {
         })
 }
 
+/// The units of the dimension whose definition has this name in the schema of case files, such as `Length`.
+pub fn units_of(type_name: &str) -> Option<&'static [Unit]> {
+    let mut dimensions = ALL_DIMENSIONS.iter();
+    let found = dimensions.find(|dimension| dimension.type_name == type_name);
+    found.map(|dimension| dimension.units)
+}
+
 /// Brings the many ways to write a unit to one: `kg/m³` and `kg/m^3` to `kg/m3`, `μs` to `us`.
 fn normalise(unit: &str) -> String {
     unit.chars()

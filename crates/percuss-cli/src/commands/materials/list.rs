@@ -1,5 +1,5 @@
 use comfy_table::{CellAlignment, Table, presets};
-use percuss::material::{Library, MaterialEntry, Trust};
+use percuss::material::{Library, MaterialEntry};
 
 use super::MaterialRecord;
 use crate::{failure::Failure, terminal};
@@ -74,17 +74,7 @@ fn row(entry: &MaterialEntry) -> [String; 8] {
         material.state.clone().unwrap_or_default(),
         material.strength.key().to_owned(),
         format!("{}", material.density.si()),
-        trust(material.trust).to_owned(),
+        material.trust.letter().to_owned(),
         material.sources.join(", "),
     ]
-}
-
-/// A degree of trust as files have it.
-pub fn trust(trust: Trust) -> &'static str {
-    match trust {
-        Trust::A => "A",
-        Trust::B => "B",
-        Trust::C => "C",
-        Trust::User => "user",
-    }
 }

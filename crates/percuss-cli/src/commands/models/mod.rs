@@ -4,7 +4,7 @@ mod table;
 
 use clap::Args;
 use percuss::{
-    case::Case,
+    case,
     guard::Guard,
     model::{self, MODELS, Model},
 };
@@ -86,12 +86,12 @@ impl Models {
 }
 
 fn one(name: &str) -> Result<ModelRecord, Failure> {
-    let schema = schemars::schema_for!(Case).to_value();
+    let schema = case::schema();
     Ok(ModelRecord::new(model::model(name)?, &schema))
 }
 
 fn all() -> Vec<ModelRecord> {
-    let schema = schemars::schema_for!(Case).to_value();
+    let schema = case::schema();
     let record = |model: &&dyn Model| ModelRecord::new(*model, &schema);
     MODELS.iter().map(record).collect()
 }

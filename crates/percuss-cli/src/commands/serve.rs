@@ -1,0 +1,134 @@
+use std::{
+    fs,
+    net::{IpAddr, Ipv4Addr, SocketAddr},
+    path::{Path, PathBuf},
+};
+
+use clap::Args;
+use percuss::case;
+use percuss_serve::{Bounds, Options, ServeError, Server, StartCase};
+
+use crate::{failure::Failure, terminal};
+
+const LONG_ABOUT: &str = "\
+Serve a page that answers while its sliders move: the case as a form and as
+text, time histories, the stress over position and time, every model that
+applies, and convergence and ballistic limits on demand. Everything that the
+page needs is part of the program, and nothing leaves the machine.
+
+Only this machine reaches the page. To serve it to others, give an address,
+--allow-remote and a token that they have to know; there is no encryption, so
+that `ssh -L` or a proxy with TLS is the better way over a network.
+
+The page reads no files: a case that names material files has to be given with
+its materials in its own `materials` table.";
+
+const AFTER_HELP: &str = "\
+Examples:
+  percuss serve
+  percuss serve my-shot/scenario.toml --port 8080
+  percuss serve --address 0.0.0.0 --allow-remote --token-file token.txt
+
+Exit codes: 0 ok, 2 bad input or an address that is not safe, 4 a file could not
+be read";
+
+/// Serve a page that answers while you drag
+#[derive(Debug, Args)]
+#[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
+pub struct Serve {
+    /// Case file to open the page on; the seed paper's when not given
+    #[arg(value_name = "CASE.toml")]
+    case: Option<PathBuf>,
+    /// Port to listen on; 0 takes a free one
+    #[arg(long, value_name = "PORT", default_value_t = 7355)]
+    port: u16,
+    /// Address to listen on
+    #[arg(long, value_name = "IP", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
+    address: IpAddr,
+    /// Allow an address that other machines reach
+    #[arg(long, requires = "token_file")]
+    allow_remote: bool,
+    /// File that holds the token which the page asks for
+    #[arg(long, value_name = "FILE")]
+    token_file: Option<PathBuf>,
+    /// Name by which browsers may address the page, beside IP addresses and localhost; may be given several times
+    #[arg(long, value_name = "NAME")]
+    host_name: Vec<String>,
+    /// Most elements of projectile and target together
+    #[arg(long, value_name = "N", default_value_t = Bounds::default().elements)]
+    max_elements: usize,
+    /// Longest time that a run or a study may take, in seconds
+    #[arg(long, value_name = "S", default_value_t = Bounds::default().seconds)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    max_seconds: u64,
+    /// Most runs and studies at a time [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    max_runs: Option<u16>,
+}
+
+impl Serve {
+    pub fn run(&self) -> Result<(), Failure> {
+        let bounds = Bounds::default();
+        let options = Options {
+            address: SocketAddr::new(self.address, self.port),
+            allow_remote: self.allow_remote,
+            token: self.token_file.as_deref().map(token).transpose()?,
+            host_names: self.host_name.clone(),
+            bounds: Bounds {
+                elements: self.max_elements,
+                seconds: self.max_seconds,
+                runs: self.max_runs.map_or(bounds.runs, usize::from),
+            },
+            case: self.case.as_deref().map(start_case).transpose()?,
+        };
+        let server = Server::bind(options)?;
+        let address = server.address();
+        let reached = match address.ip().is_unspecified() {
+            true => format!("port {} of every address of this machine", address.port()),
+            false => format!("http://{address}"),
+        };
+        let with_token = match self.token_file {
+            Some(_) => "; open it with `/?token=` and the token behind the address",
+            None => "",
+        };
+        terminal::print(&format!("serving {reached}{with_token}\nend with Ctrl-C\n"))?;
+        server.run()
+    }
+}
+
+/// The first line of a file.
+fn token(path: &Path) -> Result<String, Failure> {
+    let text = read(path)?;
+    Ok(text.lines().next().unwrap_or_default().trim().to_owned())
+}
+
+/// A case that is valid, with the name that all commands give it.
+fn start_case(path: &Path) -> Result<StartCase, Failure> {
+    let scenario = case::load(path)?;
+    Ok(StartCase {
+        name: scenario.name,
+        text: read(path)?,
+    })
+}
+
+fn read(path: &Path) -> Result<String, Failure> {
+    fs::read_to_string(path).map_err(|error| {
+        Failure::Library(percuss::Error::Read {
+            path: path.to_path_buf(),
+            reason: error.to_string(),
+            source: Some(error),
+        })
+    })
+}
+
+impl From<ServeError> for Failure {
+    fn from(error: ServeError) -> Self {
+        match error {
+            ServeError::Case(error) => Self::Library(error),
+            other => Self::Usage {
+                message: other.to_string(),
+                help: other.help(),
+            },
+        }
+    }
+}

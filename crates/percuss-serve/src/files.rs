@@ -1,0 +1,83 @@
+//! Files of an answer to take away: histories, figures, numbers.
+
+use axum::{
+    extract::{Request, State},
+    http::{HeaderValue, StatusCode, header},
+    response::{IntoResponse, Response},
+};
+use percuss::summary::CaseResults;
+use percuss_report::{Chart, history_files};
+
+use crate::{
+    answer, http,
+    problem::Problem,
+    request::{self, CaseRequest},
+    stream::pretty,
+    worker::{Stop, Workers},
+};
+
+/// Cells of the x–t diagram of a figure along the axis and along time.
+const CELLS: [usize; 2] = [300, 220];
+
+/// `POST /api/file`.
+pub(crate) async fn post(State(workers): State<Workers>, request: Request) -> Response {
+    let asked: CaseRequest = match request::read(request).await {
+        Ok(asked) => asked,
+        Err(problem) => return problem.into_response(),
+    };
+    let bounds = *workers.bounds();
+    let made = workers.run(move |stop| {
+        let name = asked.file.clone().unwrap_or_default();
+        let read = asked.read(asked.edited()?)?;
+        let model = asked.model(&read.scenario, &bounds)?;
+        file(&name, &read.scenario, model, stop)
+    });
+    match made.await {
+        Ok((kind, content)) => {
+            let mut response = http::respond(StatusCode::OK, kind, content);
+            response.headers_mut().insert(
+                header::CONTENT_DISPOSITION,
+                HeaderValue::from_static("attachment"),
+            );
+            response
+        }
+        Err(problem) => problem.into_response(),
+    }
+}
+
+/// Type and content of a file by its name.
+fn file(
+    name: &str,
+    scenario: &percuss::Scenario,
+    model: &dyn percuss::model::Model,
+    stop: &Stop,
+) -> Result<(&'static str, Vec<u8>), Problem> {
+    let result = answer::run(scenario, model, stop, None)?;
+    if name == "result.json" {
+        let results = CaseResults::new(scenario, &[result]);
+        return Ok(("application/json", pretty(&results).into_bytes()));
+    }
+    let unknown = || {
+        Problem::with_status(
+            StatusCode::NOT_FOUND,
+            "this model makes no such file of this case",
+            "",
+        )
+    };
+    let Some(figure) = name.strip_suffix(".svg") else {
+        let tables = history_files(&result)?;
+        let found = tables.into_iter().find(|(table, _)| *table == name);
+        let (_, content) = found.ok_or_else(unknown)?;
+        let kind = match name.ends_with(".csv") {
+            true => "text/csv",
+            false => "application/vnd.apache.parquet",
+        };
+        return Ok((kind, content));
+    };
+    let charts = answer::charts(scenario, &result, CELLS)?;
+    let chart: &Chart = charts
+        .iter()
+        .find(|chart| chart.name() == figure)
+        .ok_or_else(unknown)?;
+    Ok(("image/svg+xml", chart.draw().svg.into_bytes()))
+}

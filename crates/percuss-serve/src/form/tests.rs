@@ -1,0 +1,76 @@
+use super::*;
+
+fn field(key: &str) -> Field {
+    let fields = fields();
+    let found = fields.into_iter().find(|field| field.key == key);
+    found.unwrap_or_else(|| panic!("no field {key}"))
+}
+
+#[test]
+fn fields_follow_from_the_schema() {
+    for (key, _) in COMMON {
+        assert!(field(key).common, "{key}");
+    }
+    let Kind::Quantity {
+        units,
+        usual,
+        words,
+    } = field("target.thickness").kind
+    else {
+        panic!("no quantity");
+    };
+    assert!(
+        units
+            .iter()
+            .any(|unit| unit.symbol == "mm" && unit.factor == 1e-3)
+    );
+    assert_eq!(
+        (usual.as_str(), words),
+        ("mm", vec!["semi-infinite".to_owned()])
+    );
+    let Kind::Choice { choices } = field("projectile.nose").kind else {
+        panic!("no choice");
+    };
+    assert!(choices.contains(&"\"flat\"".to_owned()), "{choices:?}");
+    assert!(
+        choices.contains(&"{ ogive = { crh = 1.0 } }".to_owned()),
+        "{choices:?}"
+    );
+    let Kind::Choice { choices } = field("chain.target_closure").kind else {
+        panic!("no choice");
+    };
+    assert!(choices.contains(&"\"expanding-cavity\"".to_owned()));
+    assert!(field("projectile.nose.ogive.crh").nested);
+    assert_eq!(field("projectile.material").kind, Kind::Material);
+    assert_eq!(field("chain.rate_effects").kind, Kind::Boolean);
+    assert!(matches!(
+        field("chain.projectile_elements").kind,
+        Kind::Number { integer: true, .. }
+    ));
+}
+
+#[test]
+fn every_choice_is_toml() {
+    for field in fields() {
+        if let Kind::Choice { choices } = field.kind {
+            for choice in choices {
+                let text = format!("x = {choice}");
+                assert!(
+                    text.parse::<toml::Table>().is_ok(),
+                    "{}: {choice}",
+                    field.key
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn values_stand_under_their_keys() {
+    let values = values("a.b = \"1 mm\"\nc = [{ d = 2 }, { d = nan }]\ne = true");
+    assert_eq!(values["a.b"], "1 mm");
+    assert_eq!(values["c.0.d"], json!({ "number": "2" }));
+    assert_eq!(values["c.1.d"], json!({ "number": "nan" }));
+    assert_eq!(values["e"], true);
+    assert!(super::values("a = [").is_empty());
+}

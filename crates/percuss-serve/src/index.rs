@@ -1,0 +1,132 @@
+//! The page as it is sent: with its first answer, so that the first paint shows it.
+
+use axum::{extract::State, http::StatusCode, response::Response};
+use percuss::{
+    material::{Library, MaterialEntry},
+    model::{MODELS, Model},
+};
+use percuss_report::{palette, result_rows::Row};
+use serde::Serialize;
+use std::sync::Arc;
+
+use crate::{
+    Bounds, StartCase,
+    answer::Answer,
+    assets, cases,
+    form::{self, Field},
+    http,
+};
+
+/// Rows of the first answer that the page shows before its script runs.
+const FIRST_ROWS: usize = 12;
+/// Characters of a value that takes more room than others.
+const LONG: usize = 36;
+
+/// The page as text.
+#[derive(Debug)]
+pub(crate) struct Index(String);
+
+/// What the page knows from the start.
+#[derive(Serialize)]
+struct Start<'a> {
+    version: &'static str,
+    name: &'a str,
+    answer: &'a Answer,
+    fields: Vec<Field>,
+    models: Vec<ModelRecord>,
+    materials: Vec<MaterialRecord<'a>>,
+    cases: Vec<cases::ReadyCase>,
+    bounds: BoundsRecord,
+    experiment_color: &'static str,
+}
+
+#[derive(Serialize)]
+struct ModelRecord {
+    name: &'static str,
+    summary: &'static str,
+    slow: bool,
+}
+
+#[derive(Serialize)]
+struct MaterialRecord<'a> {
+    id: &'a str,
+    name: &'a str,
+    family: Option<&'a str>,
+    recommended: bool,
+    trust: &'static str,
+    sources: &'a [String],
+}
+
+#[derive(Serialize)]
+struct BoundsRecord {
+    elements: usize,
+    seconds: u64,
+}
+
+impl Index {
+    pub(crate) fn new(case: &StartCase, answer: &Answer, bounds: &Bounds) -> Self {
+        let start = Start {
+            version: env!("CARGO_PKG_VERSION"),
+            name: &case.name,
+            answer,
+            fields: form::fields(),
+            models: MODELS.iter().map(|model| model_record(*model)).collect(),
+            materials: Library::built_in().iter().map(material_record).collect(),
+            cases: cases::all(),
+            bounds: BoundsRecord {
+                elements: bounds.elements,
+                seconds: bounds.seconds,
+            },
+            experiment_color: palette::EXPERIMENT,
+        };
+        // Within a script element `<` could end it.
+        let data = serde_json::to_string(&start).unwrap_or_default();
+        let data = data.replace('<', "\\u003c");
+        let rows: String = answer.rows[0].iter().take(FIRST_ROWS).map(row).collect();
+        let page = assets::template()
+            .replace("<!--answer-->", &rows)
+            .replace("<!--data-->", &data);
+        Self(page)
+    }
+
+    /// `GET /`.
+    pub(crate) async fn get(State(index): State<Arc<Self>>) -> Response {
+        let mut response =
+            http::respond(StatusCode::OK, "text/html; charset=utf-8", index.0.clone());
+        http::set_policy(response.headers_mut(), http::PAGE_POLICY);
+        response
+    }
+}
+
+fn model_record(model: &dyn Model) -> ModelRecord {
+    ModelRecord {
+        name: model.name(),
+        summary: model.summary(),
+        slow: model.is_slow(),
+    }
+}
+
+fn material_record(entry: &MaterialEntry) -> MaterialRecord<'_> {
+    let material = &entry.material;
+    MaterialRecord {
+        id: &entry.id,
+        name: &material.name,
+        family: material.family.as_deref(),
+        recommended: material.recommended,
+        trust: material.trust.letter(),
+        sources: &material.sources,
+    }
+}
+
+/// A row as the script of the page makes it.
+fn row((label, value): &Row) -> String {
+    let class = match value.chars().count() > LONG {
+        true => " class=\"long\"",
+        false => "",
+    };
+    format!(
+        "<div{class}><dt>{}</dt><dd>{}</dd></div>",
+        percuss_report::escape_html(label),
+        percuss_report::escape_html(value)
+    )
+}

@@ -1,0 +1,95 @@
+//! Reports as pages: materials with their sources, and the validation of all models.
+
+use std::{
+    ops::ControlFlow,
+    sync::{Arc, OnceLock},
+};
+
+use axum::{
+    extract::{Path, Request, State},
+    response::{IntoResponse, Response},
+};
+use percuss::{material::Library, model, shots, validate};
+use percuss_report::{
+    MaterialCard,
+    validation::{self, Origin},
+};
+use serde::Deserialize;
+use serde_json::json;
+
+use crate::{assets, http, problem::Problem, request, stream, worker::Workers};
+
+/// `GET /materials`.
+pub(crate) async fn materials() -> Response {
+    let library = Library::built_in();
+    http::report(MaterialCard::list_html(library, |id| {
+        format!("/materials/{id}")
+    }))
+}
+
+/// `GET /materials/{name}`.
+pub(crate) async fn material(Path(name): Path<String>) -> Response {
+    let library = Library::built_in();
+    match library.find(&name) {
+        Some(entry) => http::report(MaterialCard::new(entry, library).html()),
+        None => assets::missing().into_response(),
+    }
+}
+
+/// The validation report, once it was computed.
+#[derive(Debug, Default)]
+pub(crate) struct Validation(OnceLock<String>);
+
+/// A request without content.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Empty {}
+
+impl Validation {
+    /// `GET /validation`: the report, when it was computed before.
+    pub(crate) async fn get(State(report): State<Arc<Self>>) -> Response {
+        match report.0.get() {
+            Some(html) => http::report(html.clone()),
+            None => Problem::with_status(
+                axum::http::StatusCode::NOT_FOUND,
+                "the validation was not computed yet",
+                "the page computes it: press `Validation` there",
+            )
+            .into_response(),
+        }
+    }
+
+    /// `POST /api/validation`: computes the report, unless it is there.
+    pub(crate) async fn post(
+        State(report): State<Arc<Self>>,
+        State(workers): State<Workers>,
+        request: Request,
+    ) -> Response {
+        if let Err(problem) = request::read::<Empty>(request).await {
+            return problem.into_response();
+        }
+        stream::respond(&workers, move |stop, tell| {
+            if report.0.get().is_none() {
+                let progress = |fraction: f64| {
+                    tell.progress(fraction, "published shots");
+                    match tell.is_alone() {
+                        true => ControlFlow::Break(()),
+                        false => stop.flow(),
+                    }
+                };
+                let shots = shots::built_in();
+                let (models, library) = (model::quick(), Library::built_in());
+                let validation = validate::run(&models, shots, library, &progress)
+                    .map_err(|error| stop.problem(error))?;
+                let origin = Origin {
+                    files: vec![format!("the program's own ({})", shots.len())],
+                    command: "percuss serve".to_owned(),
+                };
+                // Of two that compute at once the first one is kept: they are the same.
+                let _ = report.0.set(validation::html(&validation, &origin));
+            }
+            Ok(json!({ "address": "/validation" }))
+        })
+        .await
+    }
+}

@@ -1,0 +1,146 @@
+//! What is wrong with a request, as the page shows it: the same words as on the command line.
+
+use axum::{
+    http::StatusCode,
+    response::{IntoResponse, Response},
+};
+use percuss::{Error, InputError};
+use serde::Serialize;
+
+use crate::{ServeError, http};
+
+/// What is wrong, where, and what to do.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct Problem {
+    #[serde(skip)]
+    pub(crate) status: StatusCode,
+    message: String,
+    help: String,
+    /// Dotted key of the case; empty when there is none.
+    key: String,
+    /// Where in the case, if it is known.
+    place: Option<Box<Place>>,
+}
+
+/// A place in the text of a case.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+struct Place {
+    /// Counted from 1.
+    line: usize,
+    text: String,
+    /// Characters before what is meant, and how many those are.
+    column: usize,
+    length: usize,
+}
+
+impl Problem {
+    fn new(status: StatusCode, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self {
+            status,
+            message: message.into(),
+            help: help.into(),
+            key: String::new(),
+            place: None,
+        }
+    }
+
+    /// The request is not one that the page makes.
+    pub(crate) fn bad_request(message: impl Into<String>) -> Self {
+        Self::new(StatusCode::BAD_REQUEST, message, "reload the page")
+    }
+
+    pub(crate) fn with_status(status: StatusCode, message: &str, help: &str) -> Self {
+        Self::new(status, message, help)
+    }
+
+    /// The case asks for more than a page may.
+    pub(crate) fn too_large(message: String, help: String, key: &str) -> Self {
+        Self {
+            key: key.to_owned(),
+            ..Self::new(StatusCode::UNPROCESSABLE_ENTITY, message, help)
+        }
+    }
+
+    /// All places to compute are taken.
+    pub(crate) fn busy(runs: usize) -> Self {
+        Self::new(
+            StatusCode::SERVICE_UNAVAILABLE,
+            format!("{runs} runs are under way, the most at a time"),
+            "cancel one, or try again when one has ended",
+        )
+    }
+
+    /// The run took too long.
+    pub(crate) fn too_slow(seconds: u64) -> Self {
+        Self::new(
+            StatusCode::UNPROCESSABLE_ENTITY,
+            format!("the run was ended after {seconds} s"),
+            "give a coarser mesh, start the page with a larger `--max-seconds`, or use the command line",
+        )
+    }
+
+    /// Nobody waits for the answer any more.
+    pub(crate) fn cancelled() -> Self {
+        Self::new(StatusCode::CONFLICT, "the run was cancelled", "")
+    }
+
+    /// A fault of the program.
+    pub(crate) fn fault() -> Self {
+        Self::new(
+            StatusCode::INTERNAL_SERVER_ERROR,
+            "the program failed on this case: that is a fault of its own",
+            "please report it with the case",
+        )
+    }
+}
+
+impl From<Problem> for ServeError {
+    fn from(problem: Problem) -> Self {
+        let Problem { message, help, .. } = problem;
+        Self::NoAnswer { message, help }
+    }
+}
+
+impl From<Error> for Problem {
+    fn from(error: Error) -> Self {
+        let (message, help) = error.message_and_help();
+        let mut problem = Self::new(StatusCode::UNPROCESSABLE_ENTITY, message, help);
+        if let Error::Input(error) = &error {
+            problem.key.clone_from(&error.key);
+            problem.place = Place::of(error);
+        }
+        problem
+    }
+}
+
+impl From<percuss_report::ReportError> for Problem {
+    fn from(error: percuss_report::ReportError) -> Self {
+        Self::new(StatusCode::UNPROCESSABLE_ENTITY, error.to_string(), "")
+    }
+}
+
+impl Place {
+    fn of(error: &InputError) -> Option<Box<Self>> {
+        if error.span.is_empty() && error.span.start == 0 {
+            return None;
+        }
+        let text = &error.text;
+        let start = text.floor_char_boundary(error.span.start.min(text.len()));
+        let line_start = text[..start].rfind('\n').map_or(0, |at| at + 1);
+        let line_end = text[start..].find('\n').map_or(text.len(), |at| start + at);
+        let end = text.ceil_char_boundary(error.span.end.clamp(start, line_end));
+        Some(Box::new(Self {
+            line: error.line(),
+            text: text[line_start..line_end].trim_end_matches('\r').to_owned(),
+            column: text[line_start..start].chars().count(),
+            length: text[start..end].trim_end().chars().count().max(1),
+        }))
+    }
+}
+
+impl IntoResponse for Problem {
+    fn into_response(self) -> Response {
+        let status = self.status;
+        http::json(status, &serde_json::json!({ "problem": self }))
+    }
+}

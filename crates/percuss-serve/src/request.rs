@@ -1,0 +1,151 @@
+//! Reading requests: JSON of a limited size that arrives in a limited time, and the case in it.
+
+use std::{future::poll_fn, pin::Pin};
+
+use axum::{
+    body::{Body, HttpBody},
+    extract::Request,
+    http::{StatusCode, header},
+};
+use percuss::{
+    Scenario, case,
+    model::{self, Model},
+};
+use serde::{Deserialize, de::DeserializeOwned};
+use tokio::time;
+
+use crate::{
+    Bounds,
+    bounds::{ARRIVAL, BODY, PATIENT_BODY},
+    edit::{self, Edit},
+    problem::Problem,
+};
+
+/// A case as the page sends it.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CaseRequest {
+    /// Name of the case.
+    #[serde(default)]
+    pub(crate) name: String,
+    /// The text of the case.
+    pub(crate) case: String,
+    /// What its form changes.
+    #[serde(default)]
+    pub(crate) edits: Vec<Edit>,
+    /// Model to compute with; one that suits the case when not given.
+    #[serde(default)]
+    pub(crate) model: Option<String>,
+    /// Impact speeds to compare models at [m/s]: first, last and how many; the case's own when not given.
+    #[serde(default)]
+    pub(crate) speeds: Option<(f64, f64, usize)>,
+    /// File that is asked for.
+    #[serde(default)]
+    pub(crate) file: Option<String>,
+}
+
+/// A case that was understood.
+pub(crate) struct ReadCase {
+    pub(crate) text: String,
+    pub(crate) scenario: Scenario,
+}
+
+impl CaseRequest {
+    /// The text with what the form changes.
+    pub(crate) fn edited(&self) -> Result<String, Problem> {
+        edit::apply(&self.case, &self.edits)
+    }
+
+    /// Reads the edited text, as the command line reads a file.
+    pub(crate) fn read(&self, text: String) -> Result<ReadCase, Problem> {
+        let name = match self.name.trim() {
+            "" => "case",
+            name => name,
+        };
+        let scenario = case::load_str(name, &text)?;
+        Ok(ReadCase { text, scenario })
+    }
+
+    /// The model that is asked for, within bounds.
+    pub(crate) fn model(
+        &self,
+        scenario: &Scenario,
+        bounds: &Bounds,
+    ) -> Result<&'static dyn Model, Problem> {
+        let model = match &self.model {
+            Some(name) => model::model(name)?,
+            None => suitable(scenario),
+        };
+        bounds.check(model, scenario)?;
+        Ok(model)
+    }
+}
+
+/// The chain where it applies, otherwise the first model that does.
+pub(crate) fn suitable(scenario: &Scenario) -> &'static dyn Model {
+    let models = model::quick();
+    let applies = |model: &&&'static dyn Model| model::applicability(**model, scenario).is_ok();
+    *models.iter().find(applies).unwrap_or(&models[0])
+}
+
+/// The body of a request.
+async fn body(request: Request) -> Result<Vec<u8>, Problem> {
+    let json = request
+        .headers()
+        .get(header::CONTENT_TYPE)
+        .and_then(|value| value.to_str().ok())
+        .is_some_and(|kind| {
+            kind.split(';').next().unwrap_or_default().trim() == "application/json"
+        });
+    if !json {
+        return Err(Problem::with_status(
+            StatusCode::UNSUPPORTED_MEDIA_TYPE,
+            "the request is not of type application/json",
+            "reload the page",
+        ));
+    }
+    let too_large = || {
+        Problem::with_status(
+            StatusCode::PAYLOAD_TOO_LARGE,
+            &format!("the case is larger than {} KiB", BODY >> 10),
+            "shorten it, or use `percuss run`",
+        )
+    };
+    match time::timeout(ARRIVAL, whole(request.into_body())).await {
+        Ok(Some(bytes)) => Ok(bytes),
+        Ok(None) => Err(too_large()),
+        Err(_) => Err(Problem::with_status(
+            StatusCode::REQUEST_TIMEOUT,
+            &format!(
+                "the request took more than {} s to arrive",
+                ARRIVAL.as_secs()
+            ),
+            "try again",
+        )),
+    }
+}
+
+/// All of a body; nothing of one that is too large or breaks off.
+async fn whole(mut body: Body) -> Option<Vec<u8>> {
+    let (mut bytes, mut length) = (Vec::new(), 0_usize);
+    while let Some(frame) = poll_fn(|context| Pin::new(&mut body).poll_frame(context)).await {
+        let Ok(data) = frame.ok()?.into_data() else {
+            continue;
+        };
+        length += data.len();
+        if length > PATIENT_BODY {
+            return None;
+        }
+        if length <= BODY {
+            bytes.extend_from_slice(&data);
+        }
+    }
+    (length <= BODY).then_some(bytes)
+}
+
+/// What a request says.
+pub(crate) async fn read<T: DeserializeOwned>(request: Request) -> Result<T, Problem> {
+    let bytes = body(request).await?;
+    serde_json::from_slice(&bytes)
+        .map_err(|error| Problem::bad_request(format!("the request is not understood: {error}")))
+}

@@ -1,0 +1,60 @@
+// Making elements, and numbers as people read them.
+
+type Child = Node | string | null;
+
+export function make<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Record<string, string> = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children.filter((child): child is Node | string => child !== null));
+  return element;
+}
+
+export function get<T extends HTMLElement>(id: string): T {
+  const element = document.getElementById(id);
+  if (!element) throw new Error(`the page has no element ${id}`);
+  return element as T;
+}
+
+export function button(text: string, action: () => void): HTMLButtonElement {
+  const element = make("button", { type: "button" }, text);
+  element.addEventListener("click", action);
+  return element;
+}
+
+// At most `digits` significant digits, no trailing zeros, no exponent for ordinary numbers.
+export function significant(value: number, digits = 4): string {
+  if (!Number.isFinite(value) || value === 0) return String(value);
+  const size = Math.floor(Math.log10(Math.abs(value)));
+  if (size < -4 || size > 8) return String(Number(value.toPrecision(digits)));
+  return String(Number(value.toFixed(Math.max(0, digits - 1 - size))));
+}
+
+// A table; columns from the second on hold numbers unless `texts` names them.
+export function table(head: string[], rows: (string | Node)[][], texts: number[] = []): HTMLElement {
+  const cell = (tag: "th" | "td") => (content: string | Node, column: number) => {
+    const element = make(tag, {}, content);
+    if (column > 0 && !texts.includes(column)) element.className = "number";
+    if (tag === "th") element.setAttribute("scope", "col");
+    return element;
+  };
+  const body = make("tbody", {}, ...rows.map((row) => make("tr", {}, ...row.map(cell("td")))));
+  const heading = make("thead", {}, make("tr", {}, ...head.map(cell("th"))));
+  return make("div", { class: "wide", tabindex: "0" }, make("table", {}, heading, body));
+}
+
+// A label and a value each; what is a sentence rather than a number takes more room.
+export function pairs(list: [string, string][]): HTMLElement[] {
+  return list.map(([label, value]) =>
+    make("div", value.length > 36 ? { class: "long" } : {}, make("dt", {}, label), make("dd", {}, value)));
+}
+
+export function download(name: string, content: BlobPart, type: string): void {
+  const address = URL.createObjectURL(new Blob([content], { type }));
+  const link = make("a", { href: address, download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 1000);
+}

@@ -1,0 +1,285 @@
+// The case as a form: made of the server's description of the keys, every change an edit of the text.
+
+import { get, make, significant } from "./dom";
+import type { Field, Start, Unit, Value, Values } from "./types";
+
+// A key and its new value as TOML writes it; none removes the key.
+export interface Edit { key: string; value: string | null }
+
+const NUMBER = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$/;
+const TOML_NUMBER = /^[+-]?(\d+(\.\d+)?([eE][+-]?\d+)?|nan|inf)$/;
+const STEPS = 400;
+
+const quoted = (text: string) => JSON.stringify(text);
+
+function shown(value: Value | undefined): string {
+  if (value === undefined) return "";
+  return typeof value === "object" ? value.number : String(value);
+}
+
+// One field: elements that are made once and follow the values of the case.
+interface Control { element: HTMLElement; input: HTMLElement; show(values: Values): void; present(values: Values): boolean }
+
+export class Form {
+  private controls: { key: string; control: Control }[] = [];
+  private built = "";
+  private values: Values = {};
+
+  constructor(private start: Start, private change: (edits: Edit[]) => void) {
+    get("form").addEventListener("submit", (event) => event.preventDefault());
+  }
+
+  // Follows the case; what the user is typing in stays as it is.
+  show(values: Values, model: string): void {
+    this.values = values;
+    const layers = Object.keys(values)
+      .map((key) => /^target\.layers\.(\d+)\./.exec(key)?.[1])
+      .reduce((most, index) => Math.max(most, index === undefined ? 0 : Number(index) + 1), 0);
+    const shape = JSON.stringify([model, layers, Object.keys(values).filter((key) => key.startsWith("materials."))]);
+    if (shape !== this.built) {
+      this.build(model, layers);
+      this.built = shape;
+    }
+    for (const { control } of this.controls) {
+      control.show(values);
+      control.element.hidden = !control.present(values);
+    }
+  }
+
+  // Marks the field that a problem is about.
+  mark(key: string): void {
+    for (const entry of this.controls) {
+      const meant = key !== "" && (entry.key === key || key.startsWith(`${entry.key}.`));
+      if (meant) entry.control.input.setAttribute("aria-invalid", "true");
+      else entry.control.input.removeAttribute("aria-invalid");
+    }
+  }
+
+  private build(model: string, layers: number): void {
+    const open = new Set(Array.from(get("form").querySelectorAll("details[open]"), (details) => details.id));
+    this.controls = [];
+    const fields = this.start.fields.flatMap((field) => expand(field, layers));
+    const group = (name: string, title: string) => {
+      const own = fields.filter((field) => field.key.startsWith(`${name}.`));
+      if (own.length === 0) return null;
+      const common = own.filter((field) => field.common).map((field) => this.add(field));
+      const more = own.filter((field) => !field.common).map((field) => this.add(field));
+      const id = `more-${name}`;
+      const rest = more.length
+        ? make("details", open.has(id) ? { id, open: "" } : { id }, make("summary", {}, `More of the ${title.toLowerCase()}`), ...more)
+        : null;
+      return make("fieldset", {}, make("legend", {}, title), ...common, rest);
+    };
+    const options = group(model.replaceAll("-", "_"), `Model ${model}`);
+    get("form").replaceChildren(...[group("projectile", "Projectile"), group("target", "Target"), options].filter((g) => g !== null));
+  }
+
+  private add(field: Field): HTMLElement {
+    const control = this.control(field);
+    if (field.help) control.input.setAttribute("aria-description", field.help);
+    this.controls.push({ key: field.key, control });
+    return control.element;
+  }
+
+  private control(field: Field): Control {
+    const label = field.key.split(".").slice(1).join(" ").replaceAll("_", " ").replace(/^layers (\d+)/, (_, i) => `layer ${Number(i) + 1}`);
+    const id = `field-${field.key.replaceAll(".", "-")}`;
+    const frame = make("div", { class: `field of-${field.kind}`, title: field.help }, make("label", { for: id }, label));
+    const edit = (value: string | null) => this.change([{ key: field.key, value }]);
+    // A field within a value is there with the value; a field that belongs to another form of target is not in the way.
+    const present = (values: Values) => {
+      if (field.key in values) return true;
+      const around = field.key.slice(0, field.key.lastIndexOf("."));
+      if (field.nested) return Object.keys(values).some((key) => key.startsWith(`${around}.`));
+      const single = field.key === "target.material" || field.key === "target.thickness";
+      return !single || !Object.keys(values).some((key) => /^target\.(layers|rigid_wall|constant_pressure)/.test(key));
+    };
+    switch (field.kind) {
+      case "material": return { ...this.material(field, id, frame, edit), present };
+      case "quantity": return { ...quantity(field, id, frame, edit), present };
+      case "number": return { ...number(field, id, frame, edit), present };
+      case "boolean": return { ...choice(field, ["true", "false"], id, frame, edit, shown), present };
+      case "choice": return { ...choice(field, field.choices ?? [], id, frame, edit, (value) => value === undefined ? "" : quoted(shown(value))), present };
+      case "text": return { ...text(field, id, frame, edit), present };
+    }
+  }
+
+  private material(field: Field, id: string, frame: HTMLElement, edit: (value: string | null) => void) {
+    const input = make("select", { id });
+    const card = make("a", { target: "_blank", rel: "noopener" }, "sources");
+    const own = new Set(Object.keys(this.values).map((key) => /^materials\.([^.]+)\./.exec(key)?.[1]).filter((name) => name !== undefined));
+    const option = (value: string, words: string) => make("option", { value }, words);
+    const families = new Map<string, HTMLElement[]>();
+    for (const material of this.start.materials) {
+      const family = material.family ?? "other";
+      const list = families.get(family) ?? [];
+      if (material.recommended && material.family) list.unshift(option(material.family, `${material.family} ★`));
+      list.push(option(material.id, `${material.id} (${material.trust})`));
+      families.set(family, list);
+    }
+    if (own.size) input.append(make("optgroup", { label: "this case" }, ...[...own].map((name) => option(name, name))));
+    for (const [family, list] of [...families].sort()) input.append(make("optgroup", { label: family }, ...list));
+    frame.append(input, card);
+    input.addEventListener("input", () => edit(quoted(input.value)));
+    const show = (values: Values) => {
+      const name = shown(values[field.key]);
+      if (![...input.options].some((known) => known.value === name)) input.append(option(name, name));
+      input.value = name;
+      card.href = `/materials/${encodeURIComponent(name)}`;
+      card.hidden = own.has(name);
+      const found = this.start.materials.find((material) => material.id === name || (material.family === name && material.recommended));
+      card.title = found ? `${found.name}; ${found.sources.join(", ")}` : "";
+    };
+    return { element: frame, input, show };
+  }
+}
+
+// Fields of the entries of a list in place of the one that stands for them.
+function expand(field: Field, layers: number): Field[] {
+  if (!field.key.includes(".*.")) return [field];
+  return Array.from({ length: layers }, (_, index) => ({ ...field, key: field.key.replace("*", String(index)), nested: false }));
+}
+
+const isFocused = (element: Element) => document.activeElement === element;
+
+function toSI(value: number, unit: Unit | undefined): number {
+  return unit ? value * unit.factor + unit.offset : value;
+}
+
+function fromSI(si: number, unit: Unit | undefined): number {
+  return unit ? (si - unit.offset) / unit.factor : si;
+}
+
+function slider(id: string, label: string): HTMLInputElement {
+  return make("input", { type: "range", min: "0", max: String(STEPS), step: "1", "aria-label": `${label}, slider`, id: `${id}-slider` });
+}
+
+// Range of a slider, wide enough for the value.
+function rangeOf(field: Field, si: number): [number, number] {
+  const [low, high] = field.slider ?? [0, 1];
+  return [Math.min(low, si), Math.max(high, si)];
+}
+
+function quantity(field: Field, id: string, frame: HTMLElement, edit: (value: string | null) => void) {
+  const units = field.units ?? [];
+  const input = make("input", { id, type: "text", inputmode: "decimal", placeholder: "default" });
+  const unit = make("select", { "aria-label": `${field.key.replaceAll("_", " ").replaceAll(".", " ")}, unit` });
+  const known = [...units.map((u) => u.symbol), ...(field.words ?? [])];
+  unit.append(...known.map((symbol) => make("option", { value: symbol }, symbol)));
+  if (field.usual) unit.value = field.usual;
+  const find = (symbol: string) => units.find((u) => u.symbol === symbol);
+  const range = field.slider ? slider(id, frame.textContent ?? "") : null;
+  frame.append(input, unit);
+  if (range) frame.append(range);
+  let limits: [number, number] = [0, 1];
+  let before = "";
+  const write = () => {
+    if (field.words?.includes(unit.value)) return edit(quoted(unit.value));
+    if (input.value.trim() === "") return edit(null);
+    edit(quoted(`${input.value.trim()} ${unit.value}`));
+  };
+  input.addEventListener("input", write);
+  unit.addEventListener("input", () => {
+    const si = toSI(Number(input.value), find(before));
+    // Another unit is another way to write the same quantity.
+    if (input.value.trim() !== "" && find(unit.value) && find(before)) input.value = significant(fromSI(si, find(unit.value)), 7);
+    if (input.value.trim() === "" && find(unit.value) && range) input.value = significant(fromSI(limits[1] / 2, find(unit.value)), 3);
+    before = unit.value;
+    write();
+  });
+  range?.addEventListener("input", () => {
+    const si = limits[0] + ((limits[1] - limits[0]) * Number(range.value)) / STEPS;
+    const step = fromSI((limits[1] - limits[0]) / STEPS, { ...(find(unit.value) ?? { symbol: "", factor: 1 }), offset: 0 });
+    const digits = Math.max(0, -Math.floor(Math.log10(step)));
+    input.value = String(Number(fromSI(si, find(unit.value)).toFixed(digits)));
+    write();
+  });
+  const show = (values: Values) => {
+    const text = shown(values[field.key]);
+    const word = field.words?.includes(text) ?? false;
+    const [, digits, symbol] = NUMBER.exec(text) ?? [];
+    const named = word ? text : (symbol ?? "");
+    // While a number is typed it may be none, and what follows it no unit.
+    if (text !== "" && !isFocused(unit) && !isFocused(input)) {
+      if (![...unit.options].some((option) => option.value === named)) unit.append(make("option", { value: named }, named || "no unit"));
+      unit.value = named;
+    }
+    before = unit.value;
+    if (!isFocused(input)) input.value = word ? "" : (digits ?? text);
+    input.disabled = word;
+    if (range) {
+      const si = toSI(Number(digits), find(named));
+      range.disabled = digits === undefined || !find(named);
+      if (!isFocused(range) && Number.isFinite(si)) {
+        limits = rangeOf(field, si);
+        range.value = String(Math.round((STEPS * (si - limits[0])) / (limits[1] - limits[0])));
+      }
+      range.setAttribute("aria-valuetext", text);
+    }
+  };
+  return { element: frame, input, show };
+}
+
+function number(field: Field, id: string, frame: HTMLElement, edit: (value: string | null) => void) {
+  const input = make("input", { id, type: "text", inputmode: "decimal", placeholder: "default" });
+  const range = field.slider ? slider(id, frame.textContent ?? "") : null;
+  frame.append(input);
+  if (range) frame.append(range);
+  let limits: [number, number] = [0, 1];
+  input.addEventListener("input", () => {
+    const text = input.value.trim();
+    // What is no number goes to the reader as it is, which says what is due.
+    edit(text === "" ? null : TOML_NUMBER.test(text) ? text : quoted(text));
+  });
+  range?.addEventListener("input", () => {
+    const value = limits[0] + ((limits[1] - limits[0]) * Number(range.value)) / STEPS;
+    input.value = field.integer ? String(Math.round(value)) : significant(value, 3);
+    edit(input.value);
+  });
+  const show = (values: Values) => {
+    const text = shown(values[field.key]);
+    if (!isFocused(input)) input.value = text;
+    if (range && !isFocused(range) && Number.isFinite(Number(text))) {
+      limits = rangeOf(field, Number(text));
+      range.value = String(Math.round((STEPS * (Number(text) - limits[0])) / (limits[1] - limits[0])));
+    }
+  };
+  return { element: frame, input, show };
+}
+
+// One of a few values, each as TOML writes it; `written` writes the value of a case in the same way.
+function choice(
+  field: Field,
+  choices: string[],
+  id: string,
+  frame: HTMLElement,
+  edit: (value: string | null) => void,
+  written: (value: Value | undefined) => string,
+) {
+  const input = make("select", { id });
+  const words = (toml: string) => toml.replaceAll('"', "").replace(/^\{ (\w+) = .*\}$/, "$1").replaceAll("_", " ");
+  const optional = !["projectile.material", "target.material"].includes(field.key);
+  if (optional) input.append(make("option", { value: "" }, "default"));
+  input.append(...choices.map((toml) => make("option", { value: toml }, words(toml))));
+  input.addEventListener("input", () => edit(input.value === "" ? null : input.value));
+  frame.append(input);
+  const show = (values: Values) => {
+    // A choice with numbers in it is recognised by the key of its table.
+    const inside = choices.find((toml) => {
+      const name = /^\{ (\w+) =/.exec(toml)?.[1];
+      return name !== undefined && Object.keys(values).some((key) => key.startsWith(`${field.key}.${name}`));
+    });
+    input.value = inside ?? written(values[field.key]);
+  };
+  return { element: frame, input, show };
+}
+
+function text(field: Field, id: string, frame: HTMLElement, edit: (value: string | null) => void) {
+  const input = make("input", { id, type: "text", placeholder: "default" });
+  input.addEventListener("input", () => edit(input.value.trim() === "" ? null : quoted(input.value)));
+  frame.append(input);
+  const show = (values: Values) => {
+    if (!isFocused(input)) input.value = shown(values[field.key]);
+  };
+  return { element: frame, input, show };
+}

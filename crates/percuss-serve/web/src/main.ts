@@ -1,0 +1,228 @@
+// The page: a case on the left, its answer on the right, live while a slider moves.
+
+import "uplot/dist/uPlot.min.css";
+import "./app.css";
+import { Refused, follow, post, postForFile } from "./api";
+import { ChartView } from "./charts";
+import { onThemeChange } from "./colors";
+import { button, download, get, make, pairs } from "./dom";
+import { Form, type Edit } from "./form";
+import { fromFragment, toFragment } from "./link";
+import { SideBySide, studies } from "./studies";
+import type { Answer, Problem, Start } from "./types";
+
+// A run that takes longer is ended when the case changes; a shorter one is waited for, so that curves follow a drag.
+const PATIENCE_MS = 400;
+
+const start = JSON.parse(get("data").textContent ?? "") as Start;
+const text = get<HTMLTextAreaElement>("text");
+const models = get<HTMLSelectElement>("models");
+const cases = get<HTMLSelectElement>("cases");
+const views = new Map<string, ChartView>();
+const others: ChartView[] = [];
+const form = new Form(start, (edits) => ask(edits));
+const sideBySide = new SideBySide(get("comparison-body"), others);
+
+let name = start.name;
+// None leaves the choice to the server.
+let model: string | null = start.answer.model;
+let pending: { edits: Map<string, Edit> } | null = null;
+let current: { control: AbortController; since: number } | null = null;
+let saved = 0;
+
+// Asks for the answer to the case as it stands, with edits of the form. While one is computed the latest wish waits.
+function ask(edits: Edit[] = []): void {
+  pending ??= { edits: new Map() };
+  for (const edit of edits) pending.edits.set(edit.key, edit);
+  if (!current) void answerAll();
+  else if (performance.now() - current.since > PATIENCE_MS) current.control.abort();
+}
+
+// Puts edits of a run that was ended before those that wait; false when nothing waits.
+function keep(edits: Map<string, Edit>): boolean {
+  if (!pending) return false;
+  pending = { edits: new Map([...edits, ...pending.edits]) };
+  return true;
+}
+
+async function answerAll(): Promise<void> {
+  while (pending) {
+    const { edits } = pending;
+    pending = null;
+    const control = new AbortController();
+    const since = performance.now();
+    current = { control, since };
+    const sent = text.value;
+    const busy = window.setTimeout(() => wait(control), PATIENCE_MS);
+    try {
+      const body = { name, case: sent, edits: [...edits.values()], model };
+      const answer = await post<Answer>("/api/answer", body, control.signal);
+      if (text.value === sent) text.value = answer.case;
+      show(answer, performance.now() - since);
+    } catch (error) {
+      if (control.signal.aborted) {
+        // What the form had changed is not lost with the run that was ended.
+        if (!keep(edits)) get("status").textContent = "cancelled";
+      } else if (error instanceof Refused) {
+        const refused = error.body as { case?: string; values?: Answer["values"] };
+        if (refused.case !== undefined && text.value === sent) text.value = refused.case;
+        if (refused.values && Object.keys(refused.values).length) form.show(refused.values, model ?? models.value);
+        refuse(error.problem);
+      } else {
+        throw error;
+      }
+    } finally {
+      clearTimeout(busy);
+      current = null;
+    }
+  }
+}
+
+// Says that a run takes long, with a way to end it.
+function wait(control: AbortController): void {
+  get("status").replaceChildren("computing … ", button("Cancel", () => control.abort()));
+}
+
+// `took` is the time from the wish to the answer [ms]; the first answer comes with the page.
+function show(answer: Answer, took: number | null): void {
+  get("problem").hidden = true;
+  get("answer").classList.remove("stale");
+  form.mark("");
+  model = answer.model;
+  models.value = answer.model;
+  form.show(answer.values, answer.model);
+  get("numbers").replaceChildren(...pairs(answer.rows[0]));
+  get("more-numbers").querySelector("dl")?.replaceChildren(...pairs([...answer.rows[1], ...answer.rows[2]]));
+  const warnings = answer.results.results[0]?.warnings ?? [];
+  const box = get<HTMLDetailsElement>("warnings");
+  box.hidden = warnings.length === 0;
+  box.querySelector("summary")!.textContent = warnings.length === 1 ? "1 warning" : `${warnings.length} warnings`;
+  box.querySelector("ul")!.replaceChildren(...warnings.map((words) => make("li", {}, words)));
+  showCharts(answer);
+  const run = `${answer.elapsed_ms.toFixed(0)} ms`;
+  get("status").textContent = took === null ? `computed in ${run}` : `${took.toFixed(0)} ms from change to curves, ${run} of them for the run`;
+  document.documentElement.dataset["answers"] = String(Number(document.documentElement.dataset["answers"] ?? 0) + 1);
+  sideBySide.follow({ name, case: answer.case });
+  downloads(answer);
+  clearTimeout(saved);
+  saved = window.setTimeout(() => void save(answer), 400);
+}
+
+function showCharts(answer: Answer): void {
+  const charts = answer.charts.map((chart) => {
+    let view = views.get(chart.name);
+    if (!view) {
+      const file = `${chart.name}.svg`;
+      const action = button("SVG", () => void take(file));
+      action.setAttribute("aria-label", `Download the figure: ${chart.title}`);
+      view = new ChartView([action]);
+      views.set(chart.name, view);
+    }
+    return { chart, view };
+  });
+  const elements = charts.map(({ view }) => view.element);
+  const box = get("charts");
+  if (elements.length !== box.children.length || elements.some((element, i) => element !== box.children[i])) box.replaceChildren(...elements);
+  for (const { chart, view } of charts) view.show(chart);
+}
+
+function refuse(problem: Problem): void {
+  const box = get("problem");
+  box.replaceChildren(make("strong", {}, problem.message));
+  if (problem.place) {
+    const { line, text: content, column, length } = problem.place;
+    const pointer = `${" ".repeat(column)}${"^".repeat(length)} ${problem.key}`;
+    box.append(make("pre", {}, `line ${line}\n${content}\n${pointer}`));
+  } else if (problem.key) {
+    box.append(make("p", {}, problem.key));
+  }
+  if (problem.help) box.append(make("p", {}, problem.help));
+  box.hidden = false;
+  form.mark(problem.key);
+  get("answer").classList.add("stale");
+  get("status").textContent = "the numbers and curves are those of the last valid case";
+  sideBySide.stop();
+}
+
+async function save(answer: Answer): Promise<void> {
+  const fragment = await toFragment({ name, case: answer.case, model: answer.model });
+  if (fragment !== location.hash) history.replaceState(null, "", fragment);
+}
+
+async function take(file: string): Promise<void> {
+  try {
+    const content = await postForFile("/api/file", { name, case: text.value, model, file });
+    download(`${name || "case"}-${file}`, content, content.type);
+  } catch (error) {
+    if (error instanceof Refused) refuse(error.problem);
+  }
+}
+
+function downloads(answer: Answer): void {
+  const history = answer.charts.length ? ["history.csv", "final-profile.csv", "history.parquet", "profiles.parquet"] : [];
+  const figures = answer.charts.map((chart) => `${chart.name}.svg`);
+  const whole = button("scenario.toml", () => download("scenario.toml", text.value, "application/toml"));
+  get("downloads").replaceChildren(whole, ...["result.json", ...history, ...figures].map((file) => button(file, () => void take(file))));
+}
+
+function load(state: { name: string; case: string; model: string | null }): void {
+  name = state.name;
+  model = state.model;
+  text.value = state.case;
+  cases.value = start.cases.some((known) => known.name === name) ? name : "";
+  ask();
+}
+
+async function validate(): Promise<void> {
+  const control = new AbortController();
+  const trigger = get<HTMLButtonElement>("validation");
+  trigger.disabled = true;
+  const say = (words: string) => (get("status").textContent = words);
+  try {
+    const done = await follow<{ address: string }>("/api/validation", {}, control.signal, (fraction, words) =>
+      say(`validation: ${words}, ${Math.round(100 * fraction)} %`));
+    say("");
+    const link = make("a", { href: done.address, target: "_blank", rel: "noopener" }, "Open the validation report");
+    get("status").replaceChildren(link);
+    link.focus();
+  } catch (error) {
+    if (error instanceof Refused) refuse(error.problem);
+  } finally {
+    trigger.disabled = false;
+  }
+}
+
+function build(): void {
+  cases.append(make("option", { value: "" }, "your own"));
+  cases.append(...start.cases.map((known) => make("option", { value: known.name, title: known.title }, known.name)));
+  cases.value = start.cases.some((known) => known.name === name) ? name : "";
+  cases.addEventListener("input", () => {
+    const chosen = start.cases.find((known) => known.name === cases.value);
+    if (chosen) load({ name: chosen.name, case: chosen.text, model: null });
+  });
+  models.append(...start.models.filter((known) => !known.slow).map((known) => make("option", { value: known.name, title: known.summary }, known.name)));
+  models.addEventListener("input", () => {
+    model = models.value;
+    ask();
+  });
+  text.addEventListener("input", () => ask());
+  get("validation").addEventListener("click", () => void validate());
+  get("link").addEventListener("click", () => {
+    void navigator.clipboard?.writeText(location.href).then(
+      () => (get("status").textContent = "the link is on the clipboard"),
+      () => (get("status").textContent = "the link is the address of this page"),
+    );
+  });
+  get("studies").append(...studies(() => ({ name, case: text.value, model: model ?? models.value }), others));
+  onThemeChange(() => [...views.values(), ...others].forEach((view) => view.draw()));
+  addEventListener("hashchange", () => void fromFragment(location.hash).then((state) => state && load(state)));
+  document.addEventListener("keydown", (event) => {
+    if (event.key === "Escape") document.querySelectorAll<HTMLDetailsElement>("details.menu[open]").forEach((menu) => (menu.open = false));
+  });
+}
+
+build();
+text.value = start.answer.case;
+const linked = fromFragment(location.hash);
+show(start.answer, null);
+void linked.then((state) => state && load(state));

@@ -1,0 +1,76 @@
+// What studies came to, as tables.
+
+import { make, significant, table } from "./dom";
+import type { Comparison, Convergence, Limits, Result } from "./types";
+
+const value = (result: Result, key: string) => {
+  const found = result[key];
+  return typeof found === "number" ? found : null;
+};
+const number = (found: number | null | undefined, digits = 4) => (found == null ? "–" : significant(found, digits));
+
+// Models at one speed, what was measured, and why the others say nothing.
+export function comparison(study: Comparison): HTMLElement[] {
+  const { results, recommended } = study.comparison;
+  const given = results.filter((result) => result.outcome !== "not_applicable" && result.outcome !== "failed");
+  const chosen = new Map(recommended[0]?.models.map((choice) => [choice.model, choice.because]));
+  const head = ["model", ...study.quantities.flatMap((q) => [`${q.words} [${q.unit}]`, ...(q.measured === null ? [] : ["off by [%]"])])];
+  const lines = given.map((result) => [
+    chosen.has(result.model) ? `${result.model} ★` : result.model,
+    ...study.quantities.flatMap((quantity) => {
+      const found = value(result, quantity.key);
+      const off = found === null || !quantity.measured ? null : 100 * (found / quantity.measured - 1);
+      return [number(found), ...(quantity.measured === null ? [] : [off === null ? "–" : `${off > 0 ? "+" : ""}${significant(off, 3)}`])];
+    }),
+  ]);
+  if (study.quantities.some((quantity) => quantity.measured !== null)) {
+    lines.push(["experiment", ...study.quantities.flatMap((q) => [number(q.measured), ...(q.measured === null ? [] : [""])])]);
+  }
+  const said = [make("p", {}, make("b", {}, "Regime: "), study.regimes[0] ?? "")];
+  for (const [model, because] of chosen) said.push(make("p", {}, make("b", {}, `Recommended: ${model} ★ `), because));
+  const note = recommended[0]?.note;
+  if (note) said.push(make("p", {}, note));
+  const absent = results.filter((result) => !given.includes(result));
+  const reasons = make("details", {}, make("summary", {}, `${absent.length} models do not apply`),
+    make("ul", {}, ...absent.map((result) => make("li", {}, make("b", {}, `${result.model}: `), result.reason ?? ""))));
+  const cautions = given.filter((result) => result.warnings.length > 0);
+  const warned = make("details", {}, make("summary", {}, `Warnings of ${cautions.length} models`),
+    make("ul", {}, ...cautions.flatMap((result) => result.warnings.map((words) => make("li", {}, make("b", {}, `${result.model}: `), words)))));
+  return [...said, table(head, lines), ...(absent.length ? [reasons] : []), ...(cautions.length ? [warned] : [])];
+}
+
+export function convergence({ study, words }: Convergence): HTMLElement[] {
+  const head = ["elements", "steps", ...study.quantities.map((q) => `${q.name.replaceAll("_", " ")} [${q.unit}]`)];
+  const lines = study.meshes.map((mesh, i) => [
+    `${mesh.projectile_elements}–${mesh.target_elements}`,
+    String(mesh.steps),
+    ...study.quantities.map((quantity) => number(quantity.values[i], 5)),
+  ]);
+  const verdicts: [string, (v: Convergence["study"]["quantities"][number]["verdict"]) => string][] = [
+    ["order", (v) => number(v.order, 3)],
+    ["Richardson", (v) => number(v.richardson, 5)],
+    ["GCI [%]", (v) => number(v.index === undefined ? null : 100 * v.index, 3)],
+  ];
+  for (const [name, read] of verdicts) lines.push([name, "", ...study.quantities.map((quantity) => read(quantity.verdict))]);
+  const said = study.quantities.map((quantity, i) =>
+    make("li", {}, make("b", {}, `${quantity.name.replaceAll("_", " ")}: `), words[i] ?? ""));
+  return [table(head, lines), make("ul", {}, ...said)];
+}
+
+export function limits(study: Limits): HTMLElement[] {
+  const { results } = study.limits;
+  const found = results.filter((limit) => limit.outcome === "found");
+  const lines = found.map((limit) => [
+    limit.model,
+    number(limit.ballistic_limit_m_s, 5),
+    limit.bracket ? `${significant(limit.bracket.stopped_m_s, 5)} … ${significant(limit.bracket.perforated_m_s, 5)}` : "–",
+    String(limit.runs),
+  ]);
+  if (study.measured !== null) lines.push(["experiment", number(study.measured, 5), "", ""]);
+  const rest = results.flatMap((limit, i) =>
+    limit.outcome === "found" ? [] : [make("li", {}, make("b", {}, `${limit.model}: `), limit.reason ?? study.outcomes[i] ?? "")]);
+  const answer = found.length
+    ? table(["model", "ballistic limit [m/s]", "stopped … perforated [m/s]", "runs"], lines)
+    : make("p", {}, "No model finds a limit between 0 and 2000 m/s.");
+  return [answer, make("details", {}, make("summary", {}, `${rest.length} models without a limit`), make("ul", {}, ...rest))];
+}

@@ -1,0 +1,141 @@
+// What the server sends. The fields of a form, the words and the charts all come from there.
+
+export interface Unit { symbol: string; factor: number; offset: number }
+
+export interface Field {
+  key: string;
+  help: string;
+  kind: "material" | "quantity" | "number" | "boolean" | "choice" | "text";
+  units?: Unit[];
+  usual?: string;
+  words?: string[];
+  integer?: boolean;
+  choices?: string[];
+  common: boolean;
+  nested: boolean;
+  slider: [number, number] | null;
+}
+
+export interface Axis { label: string; log: boolean; downward: boolean; range: [number, number] | null }
+
+export interface Series {
+  name: string;
+  color: string;
+  dashes: string | null;
+  line: boolean;
+  markers: boolean;
+  width: number;
+  x?: (number | null)[];
+  y: (number | null)[];
+  errors?: [number, number][];
+  band?: [number | null, number | null][];
+}
+
+export interface Mark { name: string; value: number; vertical: boolean }
+
+interface ChartHead { name: string; title: string; caption: string; x: Axis; y: Axis }
+export interface LineChart extends ChartHead { kind: "lines"; series: Series[]; marks: Mark[]; true_to_scale: boolean }
+export interface AreaChart extends ChartHead {
+  kind: "areas";
+  positions: number[];
+  areas: { name: string; color: string; heights: number[] }[];
+}
+export interface MapChart extends ChartHead {
+  kind: "map";
+  columns: number;
+  cells: string;
+  colors: string[];
+  no_value: string;
+  value_label: string;
+  ends: [number, number];
+  vertical_lines: number[];
+}
+export interface RowChart extends ChartHead {
+  kind: "rows";
+  rows: { name: string; color: string; value: number; range: [number, number] | null }[];
+  marks: Mark[];
+}
+export type Chart = LineChart | AreaChart | MapChart | RowChart;
+
+export type Value = string | boolean | { number: string };
+export type Values = Record<string, Value>;
+export type Row = [string, string];
+
+export interface Result {
+  model: string;
+  outcome: string;
+  reason: string | null;
+  warnings: string[];
+  band: { quantity: string; low: number; high: number; basis: string } | null;
+  expected_error: Record<string, number> | null;
+  [quantity: string]: unknown;
+}
+
+export interface Answer {
+  case: string;
+  values: Values;
+  model: string;
+  results: { case: string; percuss_version: string; results: Result[] };
+  rows: [Row[], Row[], Row[]];
+  charts: Chart[];
+  elapsed_ms: number;
+}
+
+export interface Problem {
+  message: string;
+  help: string;
+  key: string;
+  place: { line: number; text: string; column: number; length: number } | null;
+}
+
+export interface Study { charts: Chart[]; files: Record<string, string> }
+
+export interface Comparison extends Study {
+  regimes: string[];
+  quantities: { key: string; words: string; unit: string; measured: number | null }[];
+  comparison: {
+    regime: { impact_velocity_m_s: number }[];
+    recommended: { models: { model: string; because: string }[]; note: string | null }[];
+    results: Result[];
+  };
+}
+
+export interface Convergence extends Study {
+  words: string[];
+  study: {
+    meshes: { projectile_elements: number; target_elements: number; steps: number }[];
+    quantities: {
+      name: string;
+      unit: string;
+      values: number[];
+      verdict: { kind: string; order?: number; richardson?: number; index?: number };
+    }[];
+  };
+}
+
+export interface Limits extends Study {
+  measured: number | null;
+  outcomes: string[];
+  limits: {
+    results: {
+      model: string;
+      outcome: string;
+      reason: string | null;
+      ballistic_limit_m_s: number | null;
+      bracket: { stopped_m_s: number; perforated_m_s: number } | null;
+      runs: number;
+    }[];
+  };
+}
+
+export interface Start {
+  version: string;
+  name: string;
+  answer: Answer;
+  fields: Field[];
+  models: { name: string; summary: string; slow: boolean }[];
+  materials: { id: string; name: string; family: string | null; recommended: boolean; trust: string; sources: string[] }[];
+  cases: { name: string; title: string; text: string }[];
+  bounds: { elements: number; seconds: number };
+  experiment_color: string;
+}

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Tests the page in a real browser. Installs what it needs: the npm packages of the lock file and, where it is missing, Debian's
+# chromium. With SCREENSHOTS=DIR the pictures of the page are written there.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+chromium="${CHROMIUM:-$(command -v chromium || true)}"
+if [ -z "$chromium" ]; then
+    [ "$(id -u)" -eq 0 ] || { echo "chromium is missing: install it, or name a browser with CHROMIUM=PATH" >&2; exit 1; }
+    apt-get update -qq
+    apt-get -o DPkg::Lock::Timeout=600 install -y -qq chromium
+    chromium=/usr/bin/chromium
+fi
+export CHROMIUM="$chromium"
+
+npm ci --no-audit --no-fund --loglevel=error
+npx tsc --noEmit
+
+# What is committed is what the sources give.
+fresh="$(mktemp -d)"
+trap 'rm -rf "$fresh"' EXIT
+node build.mjs "$fresh"
+diff -r dist "$fresh" || { echo "web/dist is not what its sources give: run \`npm run build\`" >&2; exit 1; }
+
+cargo build --manifest-path ../../../Cargo.toml -p percuss-cli --locked
+node --test test/
