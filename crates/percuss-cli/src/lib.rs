@@ -20,10 +20,15 @@ mod workers;
 
 use std::{ffi::OsString, process::ExitCode};
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 
 pub use answer::{Hear, answer};
 pub use failure::Failure;
+
+/// What the command line holds, for pages that explain it.
+pub fn command() -> clap::Command {
+    cli::Cli::command()
+}
 
 /// Runs a command line, whose first word is the name of the program; returns the exit code.
 pub fn main(words: impl IntoIterator<Item = OsString>) -> ExitCode {

@@ -1,0 +1,58 @@
+//! The user guide as a book: the pages of `docs/` and of the cases, with the references that the program itself writes.
+//!
+//! `cargo run -p percuss-book` brings `docs/reference/` up to date and builds the book into `target/book`.
+
+mod case_reference;
+mod commands;
+mod stage;
+
+use std::{
+    error::Error,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use mdbook_driver::{MDBook, config::Config};
+
+/// The root of the repository that this crate stands in.
+pub fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// The pages that the program itself writes: their paths in the repository and their texts.
+pub fn references() -> Vec<(&'static str, String)> {
+    vec![
+        ("docs/reference/case-file.md", case_reference::page()),
+        ("docs/reference/commands.md", commands::page()),
+    ]
+}
+
+/// Writes the pages of [`references`] below a folder.
+///
+/// # Errors
+/// Those of the file system.
+pub fn write_references(root: &Path) -> Result<(), Box<dyn Error>> {
+    for (path, text) in references() {
+        let path = root.join(path);
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        fs::write(path, text)?;
+    }
+    Ok(())
+}
+
+/// Builds the book of a repository into `out/html`; its pages are gathered in `out/pages` before. Gives the path of the first page.
+///
+/// # Errors
+/// Those of the file system, and of a book that cannot be built.
+pub fn build(root: &Path, out: &Path) -> Result<PathBuf, Box<dyn Error>> {
+    let pages = out.join("pages");
+    stage::gather(root, &pages)?;
+    let mut config: Config = fs::read_to_string(root.join("docs/book.toml"))?.parse()?;
+    config.book.src = PathBuf::from(".");
+    config.build.build_dir = std::path::absolute(out)?.join("html");
+    config.build.create_missing = false;
+    MDBook::load_with_config(&pages, config)?.build()?;
+    Ok(out.join("html/index.html"))
+}

@@ -1,0 +1,61 @@
+//! Gathers what becomes the book: its pages refer to each other and to the cases by their places in the repository.
+
+use std::{fs, io, path::Path};
+
+/// What readers of the guide are sent to, besides `docs/`.
+const BESIDE: [&str; 6] = [
+    "cases",
+    "crates/percuss/data",
+    "README.md",
+    "ARCHITECTURE.md",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+];
+
+/// Copies the pages into an empty folder and puts the table of contents at its root.
+pub(crate) fn gather(root: &Path, to: &Path) -> io::Result<()> {
+    if to.exists() {
+        fs::remove_dir_all(to)?;
+    }
+    for place in BESIDE.into_iter().chain(["docs"]) {
+        copy(&root.join(place), &to.join(place))?;
+    }
+    let contents = to.join("docs/SUMMARY.md");
+    let text = fs::read_to_string(&contents)?;
+    fs::remove_file(&contents)?;
+    fs::write(to.join("SUMMARY.md"), from_root(&text))
+}
+
+/// A table of contents whose links lead from the root of the repository, not from `docs/`.
+fn from_root(contents: &str) -> String {
+    contents
+        .replace("](", "](docs/")
+        .replace("](docs/)", "]()")
+        .replace("](docs/../", "](")
+}
+
+fn copy(from: &Path, to: &Path) -> io::Result<()> {
+    if from.is_file() {
+        if let Some(folder) = to.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        return fs::copy(from, to).map(|_| ());
+    }
+    for entry in fs::read_dir(from)? {
+        let entry = entry?;
+        copy(&entry.path(), &to.join(entry.file_name()))?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn links_of_the_contents_lead_from_the_root() {
+        let contents = "- [A](a.md)\n- [B](../cases/b/README.md)\n- [C]()\n";
+        let expected = "- [A](docs/a.md)\n- [B](cases/b/README.md)\n- [C]()\n";
+        assert_eq!(from_root(contents), expected);
+    }
+}

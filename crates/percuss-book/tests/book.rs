@@ -1,0 +1,80 @@
+//! The pages that the program writes are those in the repository, and the book builds with every page and link in it.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use percuss_book::{build, references, repository};
+
+#[test]
+fn the_references_are_what_the_program_writes() {
+    for (path, text) in references() {
+        let kept = fs::read_to_string(repository().join(path)).unwrap_or_default();
+        assert!(
+            kept == text,
+            "{path} is out of date; `cargo run -p percuss-book` writes it anew"
+        );
+    }
+}
+
+#[test]
+fn the_book_builds_and_every_link_leads_somewhere() {
+    let out = tempfile::tempdir().unwrap();
+    let first = build(&repository(), out.path()).unwrap();
+    assert!(first.is_file());
+    let html = out.path().join("html");
+    let pages = files(&html.join("docs"), "html");
+    assert!(pages.len() > 30, "{} pages", pages.len());
+    let mut broken = Vec::new();
+    for page in pages {
+        let text = fs::read_to_string(&page).unwrap();
+        let content = text.split("<main>").nth(1).unwrap_or_default();
+        for link in ["href=\"", "src=\""]
+            .into_iter()
+            .flat_map(|mark| content.split(mark).skip(1))
+        {
+            let link = link.split('"').next().unwrap_or_default();
+            let place = link.split('#').next().unwrap_or_default();
+            if place.is_empty() || place.contains("://") {
+                continue;
+            }
+            if !page.parent().unwrap().join(place).exists() {
+                broken.push(format!("{}: {link}", page.display()));
+            }
+        }
+    }
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+#[test]
+fn every_page_of_the_guide_is_in_the_contents() {
+    let docs = repository().join("docs");
+    let contents = fs::read_to_string(docs.join("SUMMARY.md")).unwrap();
+    for page in files(&docs, "md") {
+        let name = page
+            .strip_prefix(&docs)
+            .unwrap()
+            .to_string_lossy()
+            .replace('\\', "/");
+        let listed = contents.contains(&format!("]({name})"));
+        assert!(
+            listed || name == "SUMMARY.md",
+            "docs/SUMMARY.md lacks {name}"
+        );
+    }
+}
+
+/// All files below a folder with an extension.
+fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(files(&path, extension));
+        } else if path.extension().is_some_and(|end| end == extension) {
+            found.push(path);
+        }
+    }
+    found
+}
