@@ -4,6 +4,7 @@
 //! machine computes it, and when, makes no difference.
 
 mod axis;
+mod batch;
 mod distribution;
 mod file;
 mod kernel;
@@ -21,6 +22,7 @@ use std::{
 };
 
 pub use axis::Axis;
+pub use batch::BatchKernel;
 pub use file::Design;
 pub use kernel::{Kernel, Row, ScalarKernel, Shot, Stopped};
 use points::Points;
