@@ -52,10 +52,13 @@ pub(super) struct Node {
 pub(super) struct Spring {
     pub(super) unloaded_length: Lanes,
     pub(super) yield_stress: Lanes,
-    pub(super) plastic_step: Lanes,
     pub(super) force: Lanes,
     /// Stress after the last step and after the one before it, in turn.
     pub(super) stress: [Lanes; 2],
+    /// Plastic strain of the last step and of the one before it, in turn.
+    pub(super) plastic_step: [Lanes; 2],
+    /// Largest stable time step.
+    pub(super) stable_step: Lanes,
 }
 
 /// What only flow needs and changes.
@@ -134,11 +137,17 @@ pub(super) struct Bundle {
     pub(super) nodes: Vec<Node>,
     pub(super) springs: Vec<Spring>,
     pub(super) flows: Vec<Flow>,
+    /// Whether a node moves in any lane.
+    pub(super) moves: Vec<bool>,
     /// Whether an update of an element to the same length would change nothing, in any lane.
     pub(super) settled: Vec<bool>,
+    /// Elements that a pass takes up.
+    pub(super) active: Vec<usize>,
+    /// Where among them something flows: elements and lanes.
+    pub(super) flowing: Vec<(u32, u32)>,
     pub(super) bodies: [Body; 2],
     pub(super) whole: Whole,
-    /// Which of the two stresses of an element is the one after the last step.
+    /// Which of two numbers in turn is the one after the last step.
     pub(super) now: usize,
 }
 
@@ -150,7 +159,10 @@ impl Bundle {
             nodes: vec![Node::default(); elements + 2],
             springs: vec![Spring::default(); elements],
             flows: vec![Flow::default(); elements],
+            moves: vec![false; elements + 2],
             settled: vec![false; elements],
+            active: vec![0; elements],
+            flowing: vec![(0, 0); (elements + 1) * LANES],
             bodies: [Body::default(); 2],
             whole: Whole::default(),
             now: 0,

@@ -90,10 +90,8 @@ impl Bundle {
             node.velocity.0[lane] = 0.0;
         }
         for (spring, flow) in self.springs.iter_mut().zip(&mut self.flows) {
-            for of in [&mut spring.plastic_step, &mut spring.force]
-                .into_iter()
-                .chain(&mut spring.stress)
-            {
+            let in_turn = spring.stress.iter_mut().chain(&mut spring.plastic_step);
+            for of in in_turn.chain([&mut spring.force]) {
                 of.0[lane] = 0.0;
             }
             spring.unloaded_length.0[lane] = 1.0;
@@ -135,17 +133,19 @@ impl Spring {
     fn take_in(&mut self, lane: usize, from: &Element) {
         self.unloaded_length.0[lane] = from.unloaded_length;
         self.yield_stress.0[lane] = from.yield_point.stress();
-        self.plastic_step.0[lane] = from.plastic_step;
         self.force.0[lane] = from.axial_force;
         // At the moment of impact nothing has changed yet.
         for stress in &mut self.stress {
             stress.0[lane] = from.stress;
         }
+        for step in &mut self.plastic_step {
+            step.0[lane] = from.plastic_step;
+        }
     }
 
     fn let_out(&self, lane: usize, to: &mut Element, now: usize) {
         to.unloaded_length = self.unloaded_length.0[lane];
-        to.plastic_step = self.plastic_step.0[lane];
+        to.plastic_step = self.plastic_step[now].0[lane];
         to.axial_force = self.force.0[lane];
         to.stress = self.stress[now].0[lane];
         to.stress_before = self.stress[1 - now].0[lane];

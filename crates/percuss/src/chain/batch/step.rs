@@ -1,9 +1,9 @@
 //! One step of every lane: `State::advance` and `Watch::follow` of a column, in the same order.
 
 use super::{
-    bundle::{Back, Body, Bundle, Node},
+    bundle::{Back, Bundle, Node},
     lanes::{LANES, Lanes, larger, smaller},
-    spring::Pass,
+    spring::{Pass, flow},
 };
 use crate::chain::{
     friction::rub,
@@ -38,17 +38,11 @@ impl Bundle {
     #[inline(always)]
     fn step(&mut self, is_last: bool) -> [bool; LANES] {
         let step = self.begin();
-        let [projectile, target] = self.mesh.elements;
-        let body = self.bodies[0];
-        let mut pass = Pass::START;
-        let force_behind = self.kick_projectile(&body, &step, &mut pass);
+        let force_behind = self.kick_projectile(&step);
         self.kick_contact(force_behind, &step);
-        self.drift(projectile, &step);
-        self.update(projectile - 1, 0, &step, &mut pass);
-        self.whole.plastic_work[0] = add(self.whole.plastic_work[0], pass.plastic_work);
-        pass.plastic_work = Lanes::all(0.0);
-        self.kick_target(target, &step, &mut pass);
-        self.whole.plastic_work[1] = add(self.whole.plastic_work[1], pass.plastic_work);
+        self.drift(self.mesh.elements[0], &step);
+        self.kick_target(&step);
+        let pass = self.update(&step);
         self.now = 1 - self.now;
         self.end(&step, &pass, is_last)
     }
@@ -79,26 +73,29 @@ impl Bundle {
 
     /// Kicks and moves all of the projectile but its tip; returns the force on the tip.
     #[inline(always)]
-    fn kick_projectile(&mut self, body: &Body, step: &Step, pass: &mut Pass) -> Lanes {
+    fn kick_projectile(&mut self, step: &Step) -> Lanes {
+        let body = self.bodies[0];
+        let (mut ratio, mut end_ratio) = ([0.0; LANES], [0.0; LANES]);
+        for l in 0..LANES {
+            ratio[l] = step.kick.0[l] / body.mass.0[l];
+            end_ratio[l] = step.kick.0[l] / body.end_mass.0[l];
+        }
         let mut force_behind = Lanes::all(0.0);
         for i in 0..self.mesh.elements[0] {
-            let mass = if i == 0 { body.end_mass } else { body.mass };
+            let ratio = if i == 0 { end_ratio } else { ratio };
             let force_ahead = self.springs[i].force;
             let node = &mut self.nodes[i];
             let (velocity, position) = (node.velocity.0, node.position.0);
             let mut next_velocity = [0.0; LANES];
             let mut next_position = [0.0; LANES];
             for l in 0..LANES {
-                let ratio = step.kick.0[l] / mass.0[l];
-                let change = (force_behind.0[l] - force_ahead.0[l]) * ratio;
+                let change = (force_behind.0[l] - force_ahead.0[l]) * ratio[l];
                 next_velocity[l] = velocity[l] + change;
                 next_position[l] = position[l] + next_velocity[l] * step.length.0[l];
             }
             node.velocity = Lanes(next_velocity);
             node.position = Lanes(next_position);
-            if i > 0 {
-                self.update(i - 1, 0, step, pass);
-            }
+            self.moves[i] = !is_still(node);
             force_behind = force_ahead;
         }
         force_behind
@@ -211,8 +208,9 @@ impl Bundle {
 
     /// Kicks and moves the target behind its face, which has been kicked.
     #[inline(always)]
-    fn kick_target(&mut self, count: usize, step: &Step, pass: &mut Pass) {
+    fn kick_target(&mut self, step: &Step) {
         let body = self.bodies[1];
+        let count = self.mesh.elements[1];
         let first = self.mesh.elements[0];
         let face = first + 1;
         self.drift(face, step);
@@ -225,7 +223,6 @@ impl Bundle {
             limit.0[l] = body.friction.0[l] * ratio.0[l];
         }
         let mut force_behind = self.springs[first].force;
-        let mut was_still = is_still(&self.nodes[face]);
         for j in 1..count {
             let spring = first + j;
             let force_ahead = self.springs[spring].force;
@@ -248,16 +245,13 @@ impl Bundle {
             node.position = Lanes(next_position);
             work = Lanes(next_work);
             impulse = Lanes(next_impulse);
-            self.update_unless(was_still & !moves, spring - 1, step, pass);
+            self.moves[face + j] = moves;
             force_behind = force_ahead;
-            was_still = !moves;
         }
         self.whole.friction_work = work;
         self.whole.friction_impulse = impulse;
         self.kick_back(face + count, force_behind, step);
         self.drift(face + count, step);
-        let still = was_still & is_still(&self.nodes[face + count]);
-        self.update_unless(still, first + count - 1, step, pass);
     }
 
     /// Kicks the back of the target.
@@ -300,38 +294,62 @@ impl Bundle {
     }
 
     #[inline(always)]
-    fn drift(&mut self, node: usize, step: &Step) {
-        let node = &mut self.nodes[node];
+    fn drift(&mut self, i: usize, step: &Step) {
+        let node = &mut self.nodes[i];
         let (position, velocity) = (node.position.0, node.velocity.0);
         let mut next = [0.0; LANES];
         for l in 0..LANES {
             next[l] = position[l] + velocity[l] * step.length.0[l];
         }
         node.position = Lanes(next);
+        self.moves[i] = !is_still(node);
     }
 
-    /// Updates an element of the target unless its ends are still and nothing would change.
+    /// Updates the elements: first all of them as if elastic, then those that flow. Nothing has to be guessed that way.
     #[inline(always)]
-    fn update_unless(&mut self, is_still: bool, element: usize, step: &Step, pass: &mut Pass) {
-        if is_still & self.settled[element] {
-            let ends = [&self.nodes[element + 1], &self.nodes[element + 2]];
-            pass.pass_by(&self.springs[element], self.now, ends, &self.bodies[1]);
-        } else {
-            self.update(element, 1, step, pass);
+    fn update(&mut self, step: &Step) -> Pass {
+        let mut pass = Pass::START;
+        let [projectile, target] = self.mesh.elements;
+        let now = self.now;
+        for (b, elements) in [0..projectile, projectile..projectile + target]
+            .into_iter()
+            .enumerate()
+        {
+            let body = self.bodies[b];
+            let (mut active, mut flowing) = (0, 0);
+            for e in elements {
+                // Where no wave has come, or border shear holds, nothing changes.
+                let changes = self.moves[e + b] | self.moves[e + b + 1] | !self.settled[e];
+                self.active[active] = e;
+                active += usize::from(changes);
+                let (stable, before) = (self.springs[e].stable_step.0, pass.stable_step.0);
+                for l in 0..LANES {
+                    let held = smaller(stable[l], before[l]);
+                    pass.stable_step.0[l] = if changes { before[l] } else { held };
+                }
+            }
+            for &e in &self.active[..active] {
+                let ends = [&self.nodes[e + b], &self.nodes[e + b + 1]];
+                let flows = self.springs[e].try_elastic(ends, &body, now);
+                for l in 0..LANES {
+                    self.flowing[flowing] = (e as u32, l as u32);
+                    flowing += usize::from(flows >> l & 1);
+                }
+            }
+            let chain = (&mut self.springs[..], &mut self.flows[..], &self.nodes[b..]);
+            flow(&mut self.flowing, flowing, chain, &body, &step.rate, now);
+            let mut work = Lanes::all(0.0);
+            for &e in &self.active[..active] {
+                let ends = [&self.nodes[e + b], &self.nodes[e + b + 1]];
+                let spring = &mut self.springs[e];
+                self.settled[e] = spring.finish(ends, &body, now, &mut work, &mut pass);
+            }
+            let before = self.whole.plastic_work[b].0;
+            for l in 0..LANES {
+                self.whole.plastic_work[b].0[l] = before[l] + work.0[l];
+            }
         }
-    }
-
-    #[inline(always)]
-    fn update(&mut self, element: usize, body: usize, step: &Step, pass: &mut Pass) {
-        let ends = [&self.nodes[element + body], &self.nodes[element + body + 1]];
-        self.settled[element] = self.springs[element].update(
-            &mut self.flows[element],
-            ends,
-            &self.bodies[body],
-            step.rate,
-            self.now,
-            pass,
-        );
+        pass
     }
 
     /// Ends the step and finds the lanes that the single run has to look at.
@@ -403,15 +421,6 @@ impl Bundle {
         }
         sum
     }
-}
-
-#[inline(always)]
-fn add(a: Lanes, b: Lanes) -> Lanes {
-    let mut sum = [0.0; LANES];
-    for l in 0..LANES {
-        sum[l] = a.0[l] + b.0[l];
-    }
-    Lanes(sum)
 }
 
 #[inline(always)]
