@@ -143,7 +143,11 @@ pub(super) struct Bundle {
     pub(super) settled: Vec<bool>,
     /// Elements that a pass takes up.
     pub(super) active: Vec<usize>,
-    /// Where among them something flows: elements and lanes.
+    /// Whether an element flowed in the last step, in any lane.
+    pub(super) flowed: Vec<bool>,
+    /// Those that flow or flowed in the last step.
+    pub(super) working: Vec<usize>,
+    /// Where something flows: elements and lanes.
     pub(super) flowing: Vec<(u32, u32)>,
     pub(super) bodies: [Body; 2],
     pub(super) whole: Whole,
@@ -162,6 +166,8 @@ impl Bundle {
             moves: vec![false; elements + 2],
             settled: vec![false; elements],
             active: vec![0; elements],
+            flowed: vec![false; elements],
+            working: vec![0; elements],
             flowing: vec![(0, 0); (elements + 1) * LANES],
             bodies: [Body::default(); 2],
             whole: Whole::default(),

@@ -12,82 +12,133 @@ use crate::{
 /// Elastic strain from which a trial is done anew: less than the one up to which it is exact.
 const LARGE: f64 = 0.09;
 
-/// What a pass over the elements adds up and finds.
+/// What a pass over the elements of a body finds.
 #[derive(Clone, Copy)]
 pub(super) struct Pass {
     pub(super) stable_step: Lanes,
     /// Largest rate of approach, as a part of the length.
     pub(super) fastest: Lanes,
-    /// What is left of the shortest element, and of the longest, until it erodes.
-    pub(super) left: Lanes,
+    pub(super) shortest: Lanes,
+    pub(super) longest: Lanes,
 }
 
 impl Pass {
     pub(super) const START: Self = Self {
         stable_step: Lanes::all(f64::INFINITY),
         fastest: Lanes::all(0.0),
-        left: Lanes::all(f64::INFINITY),
+        shortest: Lanes::all(f64::INFINITY),
+        longest: Lanes::all(0.0),
     };
 }
 
+/// What became of an element.
+pub(super) struct Response {
+    /// A bit for every lane that flows, or has to be looked at.
+    pub(super) flows: u8,
+    /// Whether the stress of any lane has changed.
+    pub(super) changes: bool,
+}
+
 impl Spring {
-    /// Stress if nothing flows, as the one after the step; tells a bit for every lane that flows or has to be looked at.
+    /// Brings the element to the length that its ends give it, as if nothing flowed.
     #[inline(always)]
-    pub(super) fn try_elastic(&mut self, ends: [&Node; 2], body: &Body, now: usize) -> u8 {
+    pub(super) fn respond(
+        &mut self,
+        ends: [&Node; 2],
+        body: &Body,
+        now: usize,
+        pass: &mut Pass,
+    ) -> Response {
         let [back, front] = ends.map(|node| node.position.0);
+        let [back_velocity, front_velocity] = ends.map(|node| node.velocity.0);
         let unloaded = self.unloaded_length.0;
         let yield_stress = self.yield_stress.0;
+        let stress_before = self.stress[now].0;
         let modulus = body.modulus.0;
-        let mut trial = [0.0; LANES];
-        let mut beyond = 0;
+        let (volume, compliance, slowness) = (body.volume.0, body.compliance.0, body.slowness.0);
+        let mut stress = [0.0; LANES];
+        let mut force = [0.0; LANES];
+        let mut stable_step = [0.0; LANES];
+        let mut flows = 0;
+        let mut changes = false;
         for l in 0..LANES {
-            let (elastic, is_exact) = small_log_ratio(unloaded[l], front[l] - back[l]);
-            trial[l] = modulus[l] * elastic;
-            beyond |= u8::from((trial[l].abs() > yield_stress[l]) | !is_exact) << l;
+            let length = front[l] - back[l];
+            let (elastic, is_exact) = small_log_ratio(unloaded[l], length);
+            stress[l] = modulus[l] * elastic;
+            let beyond = (stress[l].abs() > yield_stress[l]) | !is_exact;
+            flows |= u8::from(beyond) << l;
+            changes |= stress[l] != stress_before[l];
+            let inverse = 1.0 / length;
+            force[l] = stress[l] * volume[l] * inverse;
+            stable_step[l] = stable(length, stress[l], compliance[l], slowness[l]);
+            let counts = if beyond {
+                f64::INFINITY
+            } else {
+                stable_step[l]
+            };
+            pass.stable_step.0[l] = smaller(counts, pass.stable_step.0[l]);
+            let approach = (back_velocity[l] - front_velocity[l]).abs() * inverse;
+            pass.fastest.0[l] = larger(approach, pass.fastest.0[l]);
+            pass.shortest.0[l] = smaller(length, pass.shortest.0[l]);
+            pass.longest.0[l] = larger(length, pass.longest.0[l]);
         }
-        self.stress[1 - now] = Lanes(trial);
+        self.stress[1 - now] = Lanes(stress);
         self.plastic_step[1 - now] = Lanes::all(0.0);
-        beyond
+        self.force = Lanes(force);
+        self.stable_step = Lanes(stable_step);
+        Response { flows, changes }
     }
 
-    /// What follows from length and stress; says whether to do all of it again would change nothing.
+    /// What follows from the stress once what flows has flowed.
     #[inline(always)]
-    pub(super) fn finish(
+    pub(super) fn settle(
         &mut self,
         ends: [&Node; 2],
         body: &Body,
         now: usize,
         work: &mut Lanes,
         pass: &mut Pass,
-    ) -> bool {
+    ) {
         let [back, front] = ends.map(|node| node.position.0);
-        let [back_velocity, front_velocity] = ends.map(|node| node.velocity.0);
         let (stress_before, stress) = (self.stress[now].0, self.stress[1 - now].0);
         let (step_before, step) = (self.plastic_step[now].0, self.plastic_step[1 - now].0);
         let (volume, compliance, slowness) = (body.volume.0, body.compliance.0, body.slowness.0);
-        let (shortest, longest) = (body.shortest.0, body.longest.0);
         let mut force = [0.0; LANES];
-        let mut stable_step = [0.0; LANES];
-        let mut changes = false;
         for l in 0..LANES {
             let length = front[l] - back[l];
-            let inverse = 1.0 / length;
-            force[l] = stress[l] * volume[l] * inverse;
+            force[l] = stress[l] * volume[l] * (1.0 / length);
             work.0[l] += volume[l] * (0.5 * stress_before[l] * (step_before[l] + step[l]));
-            let stiffening = 0.5 * larger(smaller(stress[l] * compliance[l], 1.0), 0.0);
-            stable_step[l] = length * slowness[l] * (1.0 - stiffening);
-            pass.stable_step.0[l] = smaller(stable_step[l], pass.stable_step.0[l]);
-            let approach = (back_velocity[l] - front_velocity[l]).abs() * inverse;
-            pass.fastest.0[l] = larger(approach, pass.fastest.0[l]);
-            let left = smaller(length - shortest[l], longest[l] - length);
-            pass.left.0[l] = smaller(left, pass.left.0[l]);
-            changes |= (step_before[l] != 0.0) | (step[l] != 0.0) | (stress[l] != stress_before[l]);
+            let limit = stable(length, stress[l], compliance[l], slowness[l]);
+            pass.stable_step.0[l] = smaller(limit, pass.stable_step.0[l]);
         }
         self.force = Lanes(force);
-        self.stable_step = Lanes(stable_step);
-        !changes
     }
 }
+
+/// Largest stable time step of an element.
+#[inline(always)]
+fn stable(length: f64, stress: f64, compliance: f64, slowness: f64) -> f64 {
+    let stiffening = 0.5 * larger(smaller(stress * compliance, 1.0), 0.0);
+    length * slowness * (1.0 - stiffening)
+}
+
+/// The lanes whose bits are set in a number, and after them others.
+pub(super) const SET_LANES: [[u32; LANES]; 256] = {
+    let mut table = [[0; LANES]; 256];
+    let mut bits = 0;
+    while bits < 256 {
+        let (mut count, mut lane) = (0, 0);
+        while lane < LANES {
+            if bits >> lane & 1 == 1 {
+                table[bits][count] = lane as u32;
+                count += 1;
+            }
+            lane += 1;
+        }
+        bits += 1;
+    }
+    table
+};
 
 /// Returns trial stresses to the yield surface, those of eight places at a time: few lanes of an element flow in the same step.
 ///

@@ -3,7 +3,7 @@
 use super::{
     bundle::{Back, Bundle, Node},
     lanes::{LANES, Lanes, larger, smaller},
-    spring::{Pass, flow},
+    spring::{Pass, SET_LANES, flow},
 };
 use crate::chain::{
     friction::rub,
@@ -19,6 +19,22 @@ struct Step {
     kick: Lanes,
     /// Inverse of its length.
     rate: Lanes,
+}
+
+/// What a step finds out about the elements of every lane.
+struct Found {
+    stable_step: Lanes,
+    fastest: Lanes,
+    /// Length that the shortest element, and the longest one, have left until they erode.
+    spare: Lanes,
+}
+
+impl Found {
+    const START: Self = Self {
+        stable_step: Lanes::all(f64::INFINITY),
+        fastest: Lanes::all(0.0),
+        spare: Lanes::all(f64::INFINITY),
+    };
 }
 
 impl Bundle {
@@ -42,9 +58,9 @@ impl Bundle {
         self.kick_contact(force_behind, &step);
         self.drift(self.mesh.elements[0], &step);
         self.kick_target(&step);
-        let pass = self.update(&step);
+        let found = self.update(&step);
         self.now = 1 - self.now;
-        self.end(&step, &pass, is_last)
+        self.end(&step, &found, is_last)
     }
 
     /// Chooses the time steps.
@@ -227,26 +243,46 @@ impl Bundle {
             let spring = first + j;
             let force_ahead = self.springs[spring].force;
             let node = &mut self.nodes[face + j];
+            let mut change = [0.0; LANES];
+            let mut is_held = true;
+            for l in 0..LANES {
+                change[l] = (force_behind.0[l] - force_ahead.0[l]) * ratio.0[l];
+                is_held &= change[l].abs() <= limit.0[l];
+            }
+            force_behind = force_ahead;
+            if is_held & !self.moves[face + j] {
+                for l in 0..LANES {
+                    impulse.0[l] += body.mass.0[l] * change[l];
+                }
+                continue;
+            }
             let (velocity, position) = (node.velocity.0, node.position.0);
-            let (mut next_velocity, mut next_position) = ([0.0; LANES], [0.0; LANES]);
-            let (mut next_work, mut next_impulse) = ([0.0; LANES], [0.0; LANES]);
+            let mut after = [0.0; LANES];
+            let mut is_sliding = true;
+            for l in 0..LANES {
+                let sign = 1.0_f64.copysign(velocity[l]);
+                after[l] = velocity[l] + change[l] - sign * limit.0[l];
+                let loss = limit.0[l] - sign * change[l];
+                let slides = (loss <= 0.0) | (velocity[l].abs() >= loss);
+                is_sliding &= (slides & (velocity[l] != 0.0)) | (limit.0[l] == 0.0);
+            }
+            if !is_sliding {
+                for l in 0..LANES {
+                    after[l] = rub(velocity[l], change[l], limit.0[l]);
+                }
+            }
+            let mut next_position = [0.0; LANES];
             let mut moves = false;
             for l in 0..LANES {
-                let change = (force_behind.0[l] - force_ahead.0[l]) * ratio.0[l];
-                let after = rub(velocity[l], change, limit.0[l]);
-                let rubbed = body.mass.0[l] * (velocity[l] + change - after);
-                next_impulse[l] = impulse.0[l] + rubbed;
-                next_work[l] = work.0[l] + rubbed * 0.5 * (velocity[l] + after);
-                next_velocity[l] = after;
-                next_position[l] = position[l] + after * step.length.0[l];
-                moves |= after != 0.0;
+                let rubbed = body.mass.0[l] * (velocity[l] + change[l] - after[l]);
+                impulse.0[l] += rubbed;
+                work.0[l] += rubbed * 0.5 * (velocity[l] + after[l]);
+                next_position[l] = position[l] + after[l] * step.length.0[l];
+                moves |= after[l] != 0.0;
             }
-            node.velocity = Lanes(next_velocity);
+            node.velocity = Lanes(after);
             node.position = Lanes(next_position);
-            work = Lanes(next_work);
-            impulse = Lanes(next_impulse);
             self.moves[face + j] = moves;
-            force_behind = force_ahead;
         }
         self.whole.friction_work = work;
         self.whole.friction_impulse = impulse;
@@ -307,8 +343,8 @@ impl Bundle {
 
     /// Updates the elements: first all of them as if elastic, then those that flow. Nothing has to be guessed that way.
     #[inline(always)]
-    fn update(&mut self, step: &Step) -> Pass {
-        let mut pass = Pass::START;
+    fn update(&mut self, step: &Step) -> Found {
+        let mut found = Found::START;
         let [projectile, target] = self.mesh.elements;
         let now = self.now;
         for (b, elements) in [0..projectile, projectile..projectile + target]
@@ -316,45 +352,58 @@ impl Bundle {
             .enumerate()
         {
             let body = self.bodies[b];
-            let (mut active, mut flowing) = (0, 0);
+            let mut pass = Pass::START;
+            let (mut active, mut working, mut flowing) = (0, 0, 0);
             for e in elements {
                 // Where no wave has come, or border shear holds, nothing changes.
                 let changes = self.moves[e + b] | self.moves[e + b + 1] | !self.settled[e];
                 self.active[active] = e;
                 active += usize::from(changes);
-                let (stable, before) = (self.springs[e].stable_step.0, pass.stable_step.0);
-                for l in 0..LANES {
-                    let held = smaller(stable[l], before[l]);
-                    pass.stable_step.0[l] = if changes { before[l] } else { held };
+                if !changes {
+                    let stable = self.springs[e].stable_step.0;
+                    for l in 0..LANES {
+                        pass.stable_step.0[l] = smaller(stable[l], pass.stable_step.0[l]);
+                    }
                 }
             }
             for &e in &self.active[..active] {
                 let ends = [&self.nodes[e + b], &self.nodes[e + b + 1]];
-                let flows = self.springs[e].try_elastic(ends, &body, now);
-                for l in 0..LANES {
-                    self.flowing[flowing] = (e as u32, l as u32);
-                    flowing += usize::from(flows >> l & 1);
-                }
+                let response = self.springs[e].respond(ends, &body, now, &mut pass);
+                let flows = response.flows != 0;
+                let works = flows | self.flowed[e];
+                self.settled[e] = !(response.changes | works);
+                self.flowed[e] = flows;
+                self.working[working] = e;
+                working += usize::from(works);
+                let lanes = SET_LANES[usize::from(response.flows)];
+                let places = lanes.map(|lane| (e as u32, lane));
+                self.flowing[flowing..flowing + LANES].copy_from_slice(&places);
+                flowing += response.flows.count_ones() as usize;
             }
             let chain = (&mut self.springs[..], &mut self.flows[..], &self.nodes[b..]);
             flow(&mut self.flowing, flowing, chain, &body, &step.rate, now);
             let mut work = Lanes::all(0.0);
-            for &e in &self.active[..active] {
+            for &e in &self.working[..working] {
                 let ends = [&self.nodes[e + b], &self.nodes[e + b + 1]];
-                let spring = &mut self.springs[e];
-                self.settled[e] = spring.finish(ends, &body, now, &mut work, &mut pass);
+                self.springs[e].settle(ends, &body, now, &mut work, &mut pass);
             }
-            let before = self.whole.plastic_work[b].0;
             for l in 0..LANES {
-                self.whole.plastic_work[b].0[l] = before[l] + work.0[l];
+                self.whole.plastic_work[b].0[l] += work.0[l];
+                let spare = smaller(
+                    pass.shortest.0[l] - body.shortest.0[l],
+                    body.longest.0[l] - pass.longest.0[l],
+                );
+                found.spare.0[l] = smaller(spare, found.spare.0[l]);
+                found.stable_step.0[l] = smaller(pass.stable_step.0[l], found.stable_step.0[l]);
+                found.fastest.0[l] = larger(pass.fastest.0[l], found.fastest.0[l]);
             }
         }
-        pass
+        found
     }
 
     /// Ends the step and finds the lanes that the single run has to look at.
     #[inline(always)]
-    fn end(&mut self, step: &Step, pass: &Pass, is_last: bool) -> [bool; LANES] {
+    fn end(&mut self, step: &Step, found: &Found, is_last: bool) -> [bool; LANES] {
         let [projectile, target] = self.mesh.elements;
         let face = self.nodes[projectile + 1].position.0;
         let back = self.nodes[projectile + 1 + target].position.0;
@@ -368,12 +417,12 @@ impl Bundle {
             whole.time_step.0[l] = step.length.0[l];
             whole.time.0[l] += step.length.0[l];
             whole.step.0[l] += 1.0;
-            let of_approach = LARGEST_STRAIN_STEP / pass.fastest.0[l];
-            whole.stable_step.0[l] = smaller(of_approach, pass.stable_step.0[l]);
+            let of_approach = LARGEST_STRAIN_STEP / found.fastest.0[l];
+            whole.stable_step.0[l] = smaller(of_approach, found.stable_step.0[l]);
             let drift = back[l] - whole.back_position.0[l];
             depth[l] = if is_open { face[l] - drift } else { face[l] };
             calls[l] = is_last
-                | (pass.left.0[l] <= 0.0)
+                | (found.spare.0[l] <= 0.0)
                 | (depth[l] >= whole.perforated.0[l])
                 | (whole.time.0[l] >= whole.next_look.0[l])
                 | (whole.step.0[l] >= whole.most_steps.0[l]);
