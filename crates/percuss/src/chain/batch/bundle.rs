@@ -55,15 +55,14 @@ pub(super) struct Spring {
     pub(super) force: Lanes,
     /// Stress after the last step and after the one before it, in turn.
     pub(super) stress: [Lanes; 2],
-    /// Plastic strain of the last step and of the one before it, in turn.
-    pub(super) plastic_step: [Lanes; 2],
-    /// Largest stable time step.
-    pub(super) stable_step: Lanes,
 }
 
 /// What only flow needs and changes.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Flow {
+    /// Plastic strain of the last step and of the one before it.
+    pub(super) plastic_step: Lanes,
+    pub(super) step_before: Lanes,
     pub(super) plastic_strain: Lanes,
     pub(super) plastic_axial: Lanes,
     pub(super) strain_slope: Lanes,
@@ -151,7 +150,7 @@ pub(super) struct Bundle {
     pub(super) flowing: Vec<(u32, u32)>,
     pub(super) bodies: [Body; 2],
     pub(super) whole: Whole,
-    /// Which of two numbers in turn is the one after the last step.
+    /// Which of the two stresses of an element is the one after the last step.
     pub(super) now: usize,
 }
 

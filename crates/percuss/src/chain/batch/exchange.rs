@@ -90,8 +90,13 @@ impl Bundle {
             node.velocity.0[lane] = 0.0;
         }
         for (spring, flow) in self.springs.iter_mut().zip(&mut self.flows) {
-            let in_turn = spring.stress.iter_mut().chain(&mut spring.plastic_step);
-            for of in in_turn.chain([&mut spring.force]) {
+            let steps = [&mut flow.plastic_step, &mut flow.step_before];
+            for of in spring
+                .stress
+                .iter_mut()
+                .chain(steps)
+                .chain([&mut spring.force])
+            {
                 of.0[lane] = 0.0;
             }
             spring.unloaded_length.0[lane] = 1.0;
@@ -138,14 +143,10 @@ impl Spring {
         for stress in &mut self.stress {
             stress.0[lane] = from.stress;
         }
-        for step in &mut self.plastic_step {
-            step.0[lane] = from.plastic_step;
-        }
     }
 
     fn let_out(&self, lane: usize, to: &mut Element, now: usize) {
         to.unloaded_length = self.unloaded_length.0[lane];
-        to.plastic_step = self.plastic_step[now].0[lane];
         to.axial_force = self.force.0[lane];
         to.stress = self.stress[now].0[lane];
         to.stress_before = self.stress[1 - now].0[lane];
@@ -154,6 +155,8 @@ impl Spring {
 
 impl Flow {
     fn take_in(&mut self, lane: usize, from: &Element) {
+        self.plastic_step.0[lane] = from.plastic_step;
+        self.step_before.0[lane] = from.plastic_step;
         self.plastic_strain.0[lane] = from.plastic_strain;
         self.plastic_axial.0[lane] = from.plastic_axial;
         self.strain_slope.0[lane] = from.yield_point.strain_slope();
@@ -162,6 +165,7 @@ impl Flow {
     }
 
     fn let_out(&self, lane: usize, to: &mut Element, yield_stress: f64) {
+        to.plastic_step = self.plastic_step.0[lane];
         to.plastic_strain = self.plastic_strain.0[lane];
         to.plastic_axial = self.plastic_axial.0[lane];
         to.temperature = self.temperature.0[lane];

@@ -8,7 +8,10 @@ mod accepts;
 mod bundle;
 mod exchange;
 mod lanes;
+// Loops over the lanes run along many arrays at once.
+#[allow(clippy::needless_range_loop)]
 mod spring;
+#[allow(clippy::needless_range_loop)]
 mod step;
 #[cfg(test)]
 mod tests;

@@ -58,7 +58,6 @@ impl Spring {
         let (volume, compliance, slowness) = (body.volume.0, body.compliance.0, body.slowness.0);
         let mut stress = [0.0; LANES];
         let mut force = [0.0; LANES];
-        let mut stable_step = [0.0; LANES];
         let mut flows = 0;
         let mut changes = false;
         for l in 0..LANES {
@@ -70,12 +69,8 @@ impl Spring {
             changes |= stress[l] != stress_before[l];
             let inverse = 1.0 / length;
             force[l] = stress[l] * volume[l] * inverse;
-            stable_step[l] = stable(length, stress[l], compliance[l], slowness[l]);
-            let counts = if beyond {
-                f64::INFINITY
-            } else {
-                stable_step[l]
-            };
+            let limit = stable(length, stress[l], compliance[l], slowness[l]);
+            let counts = if beyond { f64::INFINITY } else { limit };
             pass.stable_step.0[l] = smaller(counts, pass.stable_step.0[l]);
             let approach = (back_velocity[l] - front_velocity[l]).abs() * inverse;
             pass.fastest.0[l] = larger(approach, pass.fastest.0[l]);
@@ -83,16 +78,27 @@ impl Spring {
             pass.longest.0[l] = larger(length, pass.longest.0[l]);
         }
         self.stress[1 - now] = Lanes(stress);
-        self.plastic_step[1 - now] = Lanes::all(0.0);
         self.force = Lanes(force);
-        self.stable_step = Lanes(stable_step);
         Response { flows, changes }
+    }
+
+    /// Largest stable time step where nothing changes.
+    #[inline(always)]
+    pub(super) fn rest(&self, ends: [&Node; 2], body: &Body, now: usize, pass: &mut Pass) {
+        let [back, front] = ends.map(|node| node.position.0);
+        let stress = self.stress[now].0;
+        for l in 0..LANES {
+            let length = front[l] - back[l];
+            let limit = stable(length, stress[l], body.compliance.0[l], body.slowness.0[l]);
+            pass.stable_step.0[l] = smaller(limit, pass.stable_step.0[l]);
+        }
     }
 
     /// What follows from the stress once what flows has flowed.
     #[inline(always)]
     pub(super) fn settle(
         &mut self,
+        flow: &Flow,
         ends: [&Node; 2],
         body: &Body,
         now: usize,
@@ -101,7 +107,7 @@ impl Spring {
     ) {
         let [back, front] = ends.map(|node| node.position.0);
         let (stress_before, stress) = (self.stress[now].0, self.stress[1 - now].0);
-        let (step_before, step) = (self.plastic_step[now].0, self.plastic_step[1 - now].0);
+        let (step_before, step) = (flow.step_before.0, flow.plastic_step.0);
         let (volume, compliance, slowness) = (body.volume.0, body.compliance.0, body.slowness.0);
         let mut force = [0.0; LANES];
         for l in 0..LANES {
@@ -280,9 +286,9 @@ fn flow_eight(
             next_unloaded[p] = unloaded[p] * exponential(-plastic_step[p]);
         }
         spring.stress[1 - now].0[l] = stress[p];
-        spring.plastic_step[1 - now].0[l] = plastic_step[p];
         spring.unloaded_length.0[l] = next_unloaded[p];
         spring.yield_stress.0[l] = next_yield[p];
+        flow.plastic_step.0[l] = plastic_step[p];
         flow.plastic_strain.0[l] = strain[p];
         flow.plastic_axial.0[l] = axial[p];
         flow.strain_slope.0[l] = next_slope[p];

@@ -360,10 +360,8 @@ impl Bundle {
                 self.active[active] = e;
                 active += usize::from(changes);
                 if !changes {
-                    let stable = self.springs[e].stable_step.0;
-                    for l in 0..LANES {
-                        pass.stable_step.0[l] = smaller(stable[l], pass.stable_step.0[l]);
-                    }
+                    let ends = [&self.nodes[e + b], &self.nodes[e + b + 1]];
+                    self.springs[e].rest(ends, &body, now, &mut pass);
                 }
             }
             for &e in &self.active[..active] {
@@ -380,12 +378,17 @@ impl Bundle {
                 self.flowing[flowing..flowing + LANES].copy_from_slice(&places);
                 flowing += response.flows.count_ones() as usize;
             }
+            for &e in &self.working[..working] {
+                self.flows[e].step_before = self.flows[e].plastic_step;
+                self.flows[e].plastic_step = Lanes::all(0.0);
+            }
             let chain = (&mut self.springs[..], &mut self.flows[..], &self.nodes[b..]);
             flow(&mut self.flowing, flowing, chain, &body, &step.rate, now);
             let mut work = Lanes::all(0.0);
             for &e in &self.working[..working] {
                 let ends = [&self.nodes[e + b], &self.nodes[e + b + 1]];
-                self.springs[e].settle(ends, &body, now, &mut work, &mut pass);
+                let flow = &self.flows[e];
+                self.springs[e].settle(flow, ends, &body, now, &mut work, &mut pass);
             }
             for l in 0..LANES {
                 self.whole.plastic_work[b].0[l] += work.0[l];
