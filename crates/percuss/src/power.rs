@@ -32,7 +32,7 @@ const LOG: [f64; 7] = [
 ];
 /// `(2^r − 1) / r` in powers of `r` from −1/2 to 1/2: interpolated at Chebyshev points, 2e-17 of the power.
 const EXP: [f64; 11] = [
-    0.693_147_180_559_945_3,
+    std::f64::consts::LN_2,
     0.240_226_506_959_100_97,
     0.055_504_108_664_821_6,
     0.009_618_129_107_606_888,
