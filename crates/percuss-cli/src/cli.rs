@@ -4,8 +4,8 @@ use clap::{Parser, Subcommand};
 
 use crate::{
     commands::{
-        Compare, Completions, Converge, Judge, Limit, Man, Materials, Models, New, Reproduce, Run,
-        Schema, Sweep, Validate,
+        Calibrate, Compare, Completions, Converge, Judge, Limit, Man, Materials, Models, New,
+        Reproduce, Run, Schema, Sweep, Uncertainty, Validate,
     },
     failure::Failure,
 };
@@ -59,6 +59,8 @@ pub enum Command {
     Compare(Compare),
     Limit(Limit),
     Sweep(Sweep),
+    Calibrate(Calibrate),
+    Uncertainty(Uncertainty),
     Converge(Converge),
     Validate(Validate),
     Judge(Judge),
@@ -78,6 +80,8 @@ impl Command {
             Self::Compare(command) => command.run(),
             Self::Limit(command) => command.run(),
             Self::Sweep(command) => command.run(),
+            Self::Calibrate(command) => command.run(),
+            Self::Uncertainty(command) => command.run(),
             Self::Converge(command) => command.run(),
             Self::Validate(command) => command.run(),
             Self::Judge(command) => command.run(),

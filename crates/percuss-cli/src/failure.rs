@@ -35,6 +35,8 @@ pub enum Failure {
     Stopped { time_us: f64 },
     /// The user stopped a sweep.
     SweepStopped { done: u64, shots: u64 },
+    /// The user stopped something that leaves nothing behind: its name.
+    Interrupted(&'static str),
     /// The command line asks for something that does not exist.
     Usage { message: String, help: String },
 }
@@ -74,7 +76,7 @@ impl Failure {
         ExitCode::from(match self {
             Self::Usage { .. } | Self::NoResult(_) => 2,
             // What shells report of a program that Ctrl-C ended.
-            Self::Stopped { .. } | Self::SweepStopped { .. } => 130,
+            Self::Stopped { .. } | Self::SweepStopped { .. } | Self::Interrupted(_) => 130,
             Self::Library(Error::Numerical(_) | Error::Cancelled { .. }) | Self::Report(_) => 3,
             Self::Library(Error::Read { .. }) | Self::Write { .. } | Self::Output(_) => 4,
             Self::Library(_) => 2,
@@ -131,6 +133,9 @@ impl Failure {
             Self::Library(error @ Error::Checkpoint { remedy, .. }) => {
                 diagnostic::message(&error.to_string(), remedy)
             }
+            Self::Library(Error::Calibration { reason, remedy }) => {
+                diagnostic::message(reason, remedy)
+            }
             Self::Library(error) => diagnostic::message(&error.to_string(), ""),
             Self::Report(error) => diagnostic::message(&error.to_string(), ""),
             Self::Write { path, reason, help } => {
@@ -159,6 +164,9 @@ impl Failure {
                 &format!("the sweep was stopped with {done} of {shots} shots done"),
                 "the same command with `--resume` goes on from there",
             ),
+            Self::Interrupted(what) => {
+                diagnostic::message(&format!("{what} was stopped and left no result"), "")
+            }
             Self::Usage { message, help } => diagnostic::message(message, help),
         };
         diagnostic::print(&text);

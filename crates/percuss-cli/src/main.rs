@@ -10,9 +10,12 @@ mod material_card;
 mod progress;
 mod result_table;
 mod run_folder;
+mod shot_data;
+mod speeds;
 mod table;
 mod terminal;
 mod validation_table;
+mod workers;
 
 use std::process::ExitCode;
 

@@ -221,6 +221,19 @@ fn provenance(material: &Material, text: &mut String) {
         heading("note", text);
         paragraph(&material.note, text);
     }
+    if let Some(calibrated) = &material.calibrated {
+        heading("calibrated", text);
+        row("constants", &calibrated.parameters.join(", "), text);
+        row("from the record", &calibrated.from, text);
+        row("with the model", &calibrated.model, text);
+        row("on", &calibrated.sources.join(", "), text);
+        row("measured values", &calibrated.shots.len().to_string(), text);
+        let by = format!(
+            "percuss {}, seed {}",
+            calibrated.percuss_version, calibrated.seed
+        );
+        row("by", &by, text);
+    }
     if material.sources.is_empty() {
         return;
     }

@@ -615,6 +615,8 @@ fn a_new_case_shows_every_option_at_its_default() {
         "uncertainty",
         "source",
         "note",
+        "key",
+        "normal",
     ];
     let first_of = |header: &str| text.lines().position(|line| line == header).unwrap();
     let (published, materials) = (
@@ -674,6 +676,24 @@ fn the_experiment_of_a_new_case_is_compared() {
     let object = json(&ok(folder.path(), &["compare", "shot.toml", "--json"]));
     assert_eq!(object["experiments"][0]["value"], 0.5, "{case}");
     assert_eq!(object["experiments"][0]["sources"][0], "my-notebook");
+}
+
+#[test]
+fn the_uncertain_speed_of_a_new_case_is_analysed() {
+    let (text, options) = starter();
+    let first = text
+        .lines()
+        .position(|line| line == "# [[uncertainty.parameter]]")
+        .unwrap();
+    let case = uncommented(&text, |number, _| {
+        number == first || ((first..first + 3).contains(&number) && options.contains(&number))
+    });
+    let folder = folder_with(&case);
+    let said = ok(
+        folder.path(),
+        &["uncertainty", "shot.toml", "--samples", "16", "--json"],
+    );
+    assert_eq!(json(&said)["inputs"][0]["median"], 230.0, "{case}");
 }
 
 #[test]
@@ -763,6 +783,7 @@ fn help_fits_and_is_as_approved() {
         &["run"],
         &["compare"],
         &["limit"],
+        &["calibrate"],
         &["judge"],
         &["new"],
         &["models"],

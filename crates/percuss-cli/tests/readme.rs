@@ -32,12 +32,14 @@ fn blocks(text: &str, language: &str) -> Vec<String> {
 #[test]
 fn every_percuss_command_of_the_readme_runs() {
     let folder = tempfile::tempdir().unwrap();
-    // A reader stands in the clone: the case that a command names is there.
-    let case = folder.path().join("cases/paper-table1");
-    fs::create_dir_all(&case).unwrap();
-    for file in fs::read_dir(root().join("cases/paper-table1")).unwrap() {
-        let file = file.unwrap();
-        fs::copy(file.path(), case.join(file.file_name())).unwrap();
+    // A reader stands in the clone: the cases that commands name are there.
+    for name in ["cases/paper-table1", "cases/paper-table1-uncertainty"] {
+        let case = folder.path().join(name);
+        fs::create_dir_all(&case).unwrap();
+        for file in fs::read_dir(root().join(name)).unwrap() {
+            let file = file.unwrap();
+            fs::copy(file.path(), case.join(file.file_name())).unwrap();
+        }
     }
     let commands = blocks(&readme(), "sh");
     let own: Vec<&String> = commands

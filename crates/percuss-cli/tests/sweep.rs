@@ -102,32 +102,6 @@ fn blocks(folder: &Path) -> Vec<PathBuf> {
 }
 
 #[test]
-fn a_sweep_that_is_killed_again_and_again_ends_with_the_same_rows() {
-    let folder = folder();
-    ok(&folder, &["grid.toml", "--out", "whole"]);
-    let whole = merged(&folder, &["whole"]);
-    let out = folder.path().join("killed");
-    let mut killed_midway = 0;
-    let mut random = 12345_u64;
-    for _ in 0..14 {
-        let mut child = spawn(&folder, &["grid.toml", "--out", "killed", "--resume"]);
-        random = random.wrapping_mul(6364136223846793005).wrapping_add(1);
-        thread::sleep(Duration::from_millis(5 + (random >> 33) % 90));
-        let running = child.try_wait().unwrap().is_none();
-        // SIGKILL on Unix: nothing of the program runs any more.
-        child.kill().unwrap();
-        child.wait().unwrap();
-        killed_midway += u32::from(running && blocks(&out).len() < 107);
-    }
-    assert!(killed_midway >= 10, "{killed_midway}");
-    ok(&folder, &["grid.toml", "--out", "killed", "--resume"]);
-    assert!(merged(&folder, &["killed"]) == whole, "rows differ");
-    let leftovers = fs::read_dir(&out).unwrap();
-    let names = leftovers.map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    assert!(names.into_iter().all(|name| !name.ends_with(".tmp")));
-}
-
-#[test]
 fn threads_and_shards_make_no_difference() {
     let folder = folder();
     let run = |out: &str, more: &[&str]| {

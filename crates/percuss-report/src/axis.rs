@@ -59,6 +59,19 @@ impl Axis {
         self
     }
 
+    /// Sets the range to an extent and parts of it more at either end, unless it is set.
+    pub(crate) fn range_around(mut self, (low, high): (f64, f64), more: (f64, f64)) -> Self {
+        // An extent without a length has none to take parts of.
+        let span = if high > low {
+            high - low
+        } else {
+            low.abs().max(1.0)
+        };
+        self.range
+            .get_or_insert((low - more.0 * span, high + more.1 * span));
+        self
+    }
+
     /// Whether a value can be shown.
     pub(crate) fn shows(&self, value: f64) -> bool {
         value.is_finite() && (!self.log || value > 0.0)

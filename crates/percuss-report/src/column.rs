@@ -6,7 +6,7 @@ use parquet::{
     basic::{Compression, LogicalType, Repetition, Type as PhysicalType},
     data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type},
     errors::ParquetError,
-    file::{properties::WriterProperties, writer::SerializedFileWriter},
+    file::{metadata::KeyValue, properties::WriterProperties, writer::SerializedFileWriter},
     schema::types::Type,
 };
 
@@ -113,13 +113,27 @@ pub(crate) fn parquet<R>(
     columns: &[Column<R>],
     rows: &[R],
 ) -> Result<Vec<u8>, ReportError> {
-    encode(columns, rows).map_err(|source| ReportError::Table {
+    parquet_with(table, columns, rows, &[])
+}
+
+/// The same with notes in the file's metadata.
+pub(crate) fn parquet_with<R>(
+    table: &str,
+    columns: &[Column<R>],
+    rows: &[R],
+    notes: &[(&str, String)],
+) -> Result<Vec<u8>, ReportError> {
+    encode(columns, rows, notes).map_err(|source| ReportError::Table {
         table: table.to_owned(),
         source: source.into(),
     })
 }
 
-fn encode<R>(columns: &[Column<R>], rows: &[R]) -> Result<Vec<u8>, ParquetError> {
+fn encode<R>(
+    columns: &[Column<R>],
+    rows: &[R],
+    notes: &[(&str, String)],
+) -> Result<Vec<u8>, ParquetError> {
     let fields = columns.iter().map(|column| {
         let (kind, logical) = match column.value {
             Value::Float(_) | Value::Optional(_) => (PhysicalType::DOUBLE, None),
@@ -180,5 +194,8 @@ fn encode<R>(columns: &[Column<R>], rows: &[R]) -> Result<Vec<u8>, ParquetError>
         writer.close()?;
     }
     group.close()?;
+    for (key, value) in notes {
+        file.append_key_value_metadata(KeyValue::new((*key).to_owned(), value.clone()));
+    }
     file.into_inner()
 }

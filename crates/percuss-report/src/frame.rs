@@ -9,7 +9,7 @@ use kuva::{
         annotations::ReferenceLine,
         layout::{ComputedLayout, Layout, TickFormat},
         plots::Plot,
-        render::{Scene, render_multiple},
+        render::{Primitive, Scene, TextAnchor, render_multiple},
         theme::Theme,
     },
 };
@@ -203,5 +203,23 @@ mod tests {
     fn texts_are_shortened_and_hold_no_formulas() {
         assert_eq!(plain("a  price\nin $", 20), "a price in \\$");
         assert_eq!(plain("one two three", 8), "one two…");
+    }
+}
+
+/// A text at a place, turned by an angle where one is given [deg].
+pub(crate) fn text(
+    place: (f64, f64),
+    content: &str,
+    (size, anchor, rotate): (u32, TextAnchor, Option<f64>),
+) -> Primitive {
+    Primitive::Text {
+        x: place.0,
+        y: place.1,
+        content: content.to_owned(),
+        size,
+        anchor,
+        rotate,
+        bold: false,
+        color: None,
     }
 }

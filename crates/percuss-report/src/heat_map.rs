@@ -1,4 +1,4 @@
-//! Heat maps of a signed quantity over two axes.
+//! Heat maps of a quantity over two axes.
 
 use std::fmt::Write;
 
@@ -6,24 +6,57 @@ use kuva::plot::LinePlot;
 use kuva::render::{
     color::Color,
     layout::ComputedLayout,
-    render::{PathData, Primitive, Scene, TextAnchor},
+    render::{Primitive, Scene, TextAnchor},
     render_utils::generate_ticks,
 };
 
 use crate::{
     Axis, Figure,
-    frame::{Frame, HEIGHT, tick_label},
+    frame::{Frame, HEIGHT, text, tick_label},
     palette,
+    primitives::{border, filled, line},
 };
 
-/// Colours on either side of zero.
-const LEVELS: i32 = 32;
+/// Steps of colour.
+const LEVELS: usize = 64;
 /// Space at the right for the colour bar, its numbers and its label [px].
 const BAR_MARGIN: f64 = 118.0;
 /// Distance of the colour bar from the plot, and its width [px].
 const BAR_PLACE: (f64, f64) = (20.0, 18.0);
 
-/// A heat map on a regular grid, with colours that diverge from zero and a colour bar.
+/// The values that the colours of a map stand for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Scale {
+    low: f64,
+    high: f64,
+    /// Whether colours diverge from the middle, which is zero; they run from light to dark otherwise.
+    diverging: bool,
+}
+
+impl Scale {
+    /// Place of a value between the ends: 0 to 1.
+    fn part(&self, value: f64) -> f64 {
+        ((value - self.low) / (self.high - self.low)).clamp(0.0, 1.0)
+    }
+
+    fn color(&self, part: f64) -> String {
+        if self.diverging {
+            return palette::diverging(2.0 * part - 1.0);
+        }
+        let [r, g, b] = palette::sequential(part);
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
+
+    /// Whether text on the colour of a value has to be white.
+    fn is_dark(&self, value: f64) -> bool {
+        match self.diverging {
+            true => (2.0 * self.part(value) - 1.0).abs() > 0.7,
+            false => self.part(value) > 0.55,
+        }
+    }
+}
+
+/// A heat map on a regular grid, with a colour bar. Colours diverge from zero unless they are told to run between two values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatMap {
     name: String,
@@ -36,13 +69,14 @@ pub struct HeatMap {
     rows: Vec<Vec<f64>>,
     vertical_lines: Vec<f64>,
     texts: Vec<Vec<String>>,
-    limit: Option<f64>,
+    scale: Option<Scale>,
     height: f64,
 }
 
 impl HeatMap {
     /// A heat map: file stem, title, axes, the ranges of `x` and `y` that the grid covers, the label of the colour bar
-    /// and the rows of the grid, the one with the smallest `y` first. A value that is not a number is drawn grey.
+    /// and the rows of the grid, the one with the smallest `y` first. A value that is not a number is drawn grey, an infinite one
+    /// left white.
     pub fn new(
         [name, title]: [&str; 2],
         [x, y]: [Axis; 2],
@@ -61,7 +95,7 @@ impl HeatMap {
             rows,
             vertical_lines: Vec::new(),
             texts: Vec::new(),
-            limit: None,
+            scale: None,
             height: HEIGHT,
         }
     }
@@ -86,7 +120,21 @@ impl HeatMap {
 
     /// Sets the value with the strongest colour, for maps to be compared; chosen from the values otherwise.
     pub fn limit(mut self, limit: f64) -> Self {
-        self.limit = Some(limit);
+        self.scale = Some(Scale {
+            low: -limit,
+            high: limit,
+            diverging: true,
+        });
+        self
+    }
+
+    /// Makes the colours run from light at one value to dark at another.
+    pub fn between(mut self, low: f64, high: f64) -> Self {
+        self.scale = Some(Scale {
+            low,
+            high,
+            diverging: false,
+        });
         self
     }
 
@@ -111,13 +159,20 @@ impl HeatMap {
             legend: Vec::new(),
             marks: Vec::new(),
         };
-        let limit = self.limit.unwrap_or_else(|| self.largest());
+        let scale = self.scale.unwrap_or_else(|| {
+            let limit = self.largest();
+            Scale {
+                low: -limit,
+                high: limit,
+                diverging: true,
+            }
+        });
         // Axes are drawn only for a plot, so there is one without content.
         frame.draw(vec![LinePlot::new().into()], |scene, place| {
-            self.add_cells(scene, place, limit);
-            self.add_texts(scene, place, limit);
+            self.add_cells(scene, place, scale);
+            self.add_texts(scene, place, scale);
             self.add_lines(scene, place);
-            self.add_bar(scene, place, limit);
+            self.add_bar(scene, place, scale);
         })
     }
 
@@ -133,26 +188,25 @@ impl HeatMap {
     }
 
     /// One path for each colour, made of runs of cells of that colour, on a grid of whole numbers: small and seamless.
-    fn add_cells(&self, scene: &mut Scene, place: &ComputedLayout, limit: f64) {
+    fn add_cells(&self, scene: &mut Scene, place: &ComputedLayout, scale: Scale) {
         let columns = self.rows.first().map_or(0, Vec::len);
         if columns == 0 {
             return;
         }
-        let level = |value: f64| {
-            let scaled = (value / limit).clamp(-1.0, 1.0) * f64::from(LEVELS);
-            value.is_finite().then(|| scaled.round() as i32)
+        // Colours, then what has no value; an infinite value stands for a cell that nothing was computed in.
+        let level = |value: f64| match value {
+            _ if value.is_finite() => Some((scale.part(value) * LEVELS as f64).round() as usize),
+            _ if value.is_nan() => Some(LEVELS + 1),
+            _ => None,
         };
-        let index = |level: Option<i32>| level.map_or(0, |level| (level + LEVELS + 1) as usize);
-        let mut paths = vec![String::new(); 2 * LEVELS as usize + 2];
+        let mut paths = vec![String::new(); LEVELS + 2];
         for (j, row) in self.rows.iter().enumerate() {
             let mut start = 0;
             for run in row.chunk_by(|a, b| level(*a) == level(*b)) {
-                // Writing to a string does not fail.
-                let _ = write!(
-                    paths[index(level(run[0]))],
-                    "M{start} {j}h{0}v1h-{0}z",
-                    run.len()
-                );
+                if let Some(level) = level(run[0]) {
+                    // Writing to a string does not fail.
+                    let _ = write!(paths[level], "M{start} {j}h{0}v1h-{0}z", run.len());
+                }
                 start += run.len();
             }
         }
@@ -170,8 +224,8 @@ impl HeatMap {
         for (i, path) in paths.into_iter().enumerate() {
             if !path.is_empty() {
                 let color = match i {
-                    0 => palette::NO_VALUE.to_owned(),
-                    _ => palette::diverging(f64::from(i as i32 - LEVELS - 1) / f64::from(LEVELS)),
+                    ..=LEVELS => scale.color(i as f64 / LEVELS as f64),
+                    _ => palette::NO_VALUE.to_owned(),
                 };
                 scene.add(filled(path, &color));
             }
@@ -180,7 +234,7 @@ impl HeatMap {
     }
 
     /// Texts in the middle of their cells, white where the colour is dark.
-    fn add_texts(&self, scene: &mut Scene, place: &ComputedLayout, limit: f64) {
+    fn add_texts(&self, scene: &mut Scene, place: &ComputedLayout, scale: Scale) {
         let bottom = place.height - place.margin_bottom;
         let height = place.plot_height() / self.rows.len().max(1) as f64;
         for (j, (texts, values)) in self.texts.iter().zip(&self.rows).enumerate() {
@@ -188,8 +242,7 @@ impl HeatMap {
             for (i, (content, value)) in texts.iter().zip(values).enumerate() {
                 let x = place.margin_left + (i as f64 + 0.5) * width;
                 let y = bottom - (j as f64 + 0.5) * height;
-                let dark = (value / limit).abs() > 0.7;
-                let color = dark.then(|| Color::from("white"));
+                let color = scale.is_dark(*value).then(|| Color::from("white"));
                 let mut label = text((x, y + 5.0), content, (14, TextAnchor::Middle, None));
                 if let Primitive::Text {
                     color: of_label, ..
@@ -213,14 +266,13 @@ impl HeatMap {
         scene.add(border(left, top, right - left, bottom - top));
     }
 
-    fn add_bar(&self, scene: &mut Scene, place: &ComputedLayout, limit: f64) {
+    fn add_bar(&self, scene: &mut Scene, place: &ComputedLayout, scale: Scale) {
         let left = place.margin_left + place.plot_width() + BAR_PLACE.0;
         let (top, height) = (place.margin_top, place.plot_height());
-        let steps = 2 * LEVELS + 1;
-        let step = height / f64::from(steps);
-        for i in 0..steps {
-            let color = palette::diverging(f64::from(LEVELS - i) / f64::from(LEVELS));
-            let (y, next) = (top + step * f64::from(i), (step + 0.5).min(height));
+        let step = height / (LEVELS + 1) as f64;
+        for i in 0..=LEVELS {
+            let color = scale.color(1.0 - i as f64 / LEVELS as f64);
+            let (y, next) = (top + step * i as f64, (step + 0.5).min(height));
             let next = next.min(top + height - y);
             scene.add(filled(
                 format!(
@@ -232,8 +284,8 @@ impl HeatMap {
         }
         scene.add(border(left, top, BAR_PLACE.1, height));
         let right = left + BAR_PLACE.1;
-        for value in generate_ticks(-limit, limit, 7) {
-            let y = top + 0.5 * height * (1.0 - value / limit);
+        for value in generate_ticks(scale.low, scale.high, 7) {
+            let y = top + height * (1.0 - scale.part(value));
             scene.add(line((right, y), (right + 4.0, y), 1.0));
             scene.add(text(
                 (right + 7.0, y + 4.0),
@@ -246,58 +298,5 @@ impl HeatMap {
             &self.value_label,
             (14, TextAnchor::Middle, Some(-90.0)),
         ));
-    }
-}
-
-fn filled(path: String, color: &str) -> Primitive {
-    Primitive::Path(Box::new(PathData {
-        d: path,
-        fill: Some(Color::from(color)),
-        stroke: Color::None,
-        stroke_width: 0.0,
-        opacity: None,
-        stroke_dasharray: None,
-    }))
-}
-
-fn border(x: f64, y: f64, width: f64, height: f64) -> Primitive {
-    Primitive::Rect {
-        x,
-        y,
-        width,
-        height,
-        fill: Color::None,
-        stroke: Some(Color::from("black")),
-        stroke_width: Some(1.0),
-        opacity: None,
-    }
-}
-
-fn line(from: (f64, f64), to: (f64, f64), width: f64) -> Primitive {
-    Primitive::Line {
-        x1: from.0,
-        y1: from.1,
-        x2: to.0,
-        y2: to.1,
-        stroke: Color::from("black"),
-        stroke_width: width,
-        stroke_dasharray: None,
-    }
-}
-
-fn text(
-    place: (f64, f64),
-    content: &str,
-    (size, anchor, rotate): (u32, TextAnchor, Option<f64>),
-) -> Primitive {
-    Primitive::Text {
-        x: place.0,
-        y: place.1,
-        content: content.to_owned(),
-        size,
-        anchor,
-        rotate,
-        bold: false,
-        color: None,
     }
 }

@@ -38,6 +38,9 @@ pub(crate) fn symbol_dashes(index: usize) -> Option<Dashes> {
     Some(Dashes { pattern, word })
 }
 
+/// Colour of shots that failed.
+pub(crate) const FAILED: &str = "#b3001b";
+
 /// Colour of what has no value in a heat map.
 pub const NO_VALUE: &str = "#b4b4b4";
 

@@ -38,9 +38,20 @@ pub enum Error {
         /// Time reached [us].
         time_us: f64,
     },
+    /// A model panicked: a fault of the program.
+    #[error("{0}")]
+    Fault(String),
     /// A checkpoint cannot be used.
     #[error("cannot go on from the checkpoint: {reason}")]
     Checkpoint {
+        /// Why, in words.
+        reason: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// A calibration cannot be set up, or finds nothing.
+    #[error("{reason}; {remedy}")]
+    Calibration {
         /// Why, in words.
         reason: String,
         /// What to do.

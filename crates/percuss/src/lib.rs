@@ -19,6 +19,7 @@
 
 pub mod analytic;
 pub mod axi;
+pub mod calibrate;
 pub mod case;
 pub mod chain;
 pub mod check;
@@ -45,6 +46,7 @@ pub mod shapes;
 pub mod shots;
 pub mod summary;
 pub mod sweep;
+pub mod uncertainty;
 pub mod units;
 pub mod v50;
 pub mod validate;

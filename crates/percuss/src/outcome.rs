@@ -20,7 +20,8 @@ pub enum Outcome {
     Rebounded,
     /// The target moved away from the projectile, which still moves forward.
     Separated,
-    /// The crater floor passed the original back face of the target.
+    /// The crater floor passed the original back face of the target, or a plug left it: the hole is open, whether or not the projectile
+    /// follows.
     Perforated,
     /// Nothing of the projectile is left.
     ProjectileEroded,
@@ -33,6 +34,15 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    /// Whether the target was perforated, where that can be said.
+    pub fn perforated(self) -> Option<bool> {
+        match self {
+            Self::Perforated => Some(true),
+            Self::AtRest | Self::Rebounded | Self::ProjectileEroded => Some(false),
+            Self::Separated | Self::OutOfTime | Self::NotApplicable | Self::Failed => None,
+        }
+    }
+
     /// The outcome in words.
     pub fn in_words(self) -> &'static str {
         match self {
@@ -303,6 +313,16 @@ impl RunResult {
             shapes: None,
             warnings: Vec::new(),
             history: None,
+        }
+    }
+
+    /// A quantity that can be measured, in SI units, if the model gives it.
+    pub fn measurable(&self, quantity: BandQuantity) -> Option<f64> {
+        match quantity {
+            BandQuantity::DepthOfPenetration => self.depth_of_penetration,
+            BandQuantity::ResidualVelocity => self.residual_velocity,
+            BandQuantity::BallisticLimit => self.ballistic_limit,
+            BandQuantity::ProjectileFinalLength => self.projectile_final_length,
         }
     }
 

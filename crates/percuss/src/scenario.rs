@@ -151,6 +151,18 @@ impl Scenario {
         }
     }
 
+    /// Whether the constants of one of its materials were calibrated on shots of a source.
+    pub fn is_calibrated_on(&self, source: &str) -> bool {
+        let layers: &[Plate] = match &self.target {
+            TargetBody::Layers { layers, .. } => layers,
+            _ => &[],
+        };
+        std::iter::once(&self.projectile.material)
+            .chain(layers.iter().map(|layer| &layer.material))
+            .filter_map(|material| material.calibrated.as_ref())
+            .any(|calibrated| calibrated.sources.iter().any(|key| key == source))
+    }
+
     /// Thickness of all layers together [m]; `None` for a semi-infinite target, a wall or a constant pressure.
     pub fn target_thickness(&self) -> Option<f64> {
         match &self.target {

@@ -139,6 +139,7 @@ macro_rules! cases {
 
 cases! {
     paper_table1: "paper-table1",
+    paper_table1_uncertainty: "paper-table1-uncertainty",
     copper_on_aluminium_800: "copper-on-aluminium-800",
     taylor_copper_wilkins: "taylor-copper-wilkins",
     elastic_bars: "elastic-bars",
@@ -147,4 +148,5 @@ cases! {
     layered_with_gap: "layered-with-gap",
     concrete_forrestal_1994: "concrete-forrestal-1994",
     weldox_460e_12mm_blunt: "weldox-460e-12mm-blunt",
+    apm2_core_oblique: "apm2-core-oblique",
 }

@@ -4,7 +4,7 @@ mod common;
 
 use std::f64::consts::PI;
 
-use common::{assert_near, paper, run, run_recorded};
+use common::{assert_near, paper, plastic_metal, run, run_recorded};
 use percuss::{analytic::Rods, case, history::Sample, outcome::RunResult};
 
 const RADIUS: f64 = 5e-3;
@@ -193,23 +193,12 @@ fn rods(diameters: u32, strengths_mpa: (f64, f64), velocity: f64, per_diameter: 
         projectile_elements = {}
         target_elements = 120
         target_closure = "diverging-penetrable"
-        [materials.rod]
-        name = "rod"
-        density = "7850 kg/m3"
-        youngs_modulus = "200 GPa"
-        poissons_ratio = 0.3
-        strength.perfectly_plastic = {{ flow_stress = "{} MPa" }}
-        [materials.target]
-        name = "target"
-        density = "7850 kg/m3"
-        youngs_modulus = "200 GPa"
-        poissons_ratio = 0.3
-        strength.perfectly_plastic = {{ flow_stress = "{} MPa" }}
+        {}{}
         "#,
         10 * diameters,
         per_diameter * diameters,
-        strengths_mpa.0,
-        strengths_mpa.1
+        plastic_metal("rod", 7850.0, 200.0, strengths_mpa.0),
+        plastic_metal("target", 7850.0, 200.0, strengths_mpa.1)
     )
 }
 

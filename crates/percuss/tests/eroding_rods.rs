@@ -4,7 +4,7 @@ mod common;
 
 use std::{f64::consts::PI, fmt};
 
-use common::{run, run_recorded, scenario};
+use common::{plastic_metal, run, run_recorded, scenario};
 use percuss::{
     analytic::{Rods, Tate},
     case,
@@ -66,6 +66,7 @@ impl Shot {
     /// Elements are a twentieth of a diameter long.
     fn case(self, options: &str) -> String {
         let elements = 20 * self.length_to_diameter;
+        let metal = |id, density| plastic_metal(id, density, YOUNGS_MODULUS_GPA, FLOW_STRESS_MPA);
         format!(
             r#"
             projectile = {{ material = "rod", length = "{} mm", diameter = "{DIAMETER_MM} mm", velocity = "{} m/s" }}
@@ -75,26 +76,15 @@ impl Shot {
             projectile_elements = {elements}
             target_elements = {}
             {options}
-            [materials.rod]
-            name = "rod"
-            density = "{} kg/m3"
-            youngs_modulus = "{YOUNGS_MODULUS_GPA} GPa"
-            poissons_ratio = 0.3
-            strength.perfectly_plastic = {{ flow_stress = "{FLOW_STRESS_MPA} MPa" }}
-            [materials.target]
-            name = "target"
-            density = "{} kg/m3"
-            youngs_modulus = "{YOUNGS_MODULUS_GPA} GPa"
-            poissons_ratio = 0.3
-            strength.perfectly_plastic = {{ flow_stress = "{FLOW_STRESS_MPA} MPa" }}
+            {}{}
             "#,
             self.length() * 1e3,
             self.speed,
             f64::from(TARGET) * DIAMETER_MM,
             self.constraint,
             20 * TARGET,
-            self.densities.0,
-            self.densities.1,
+            metal("rod", self.densities.0),
+            metal("target", self.densities.1),
         )
     }
 

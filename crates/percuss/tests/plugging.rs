@@ -80,6 +80,31 @@ fn with_its_shear_work_lumped_it_is_recht_and_ipson() {
     }
 }
 
+/// A light projectile bounces off the plug that it drives out: the hole is open all the same.
+#[test]
+fn a_plug_that_leaves_alone_leaves_a_hole() {
+    let chain =
+        "shear_band = { width = \"0.1 mm\", shear_strength = \"100 MPa\", failure_strain = 1.0 }";
+    let mut light = scenario(100.0, "", chain);
+    let mut material = (*light.projectile.material).clone();
+    material.density = percuss::units::Density::new(1000.0);
+    light.projectile.material = material.into();
+    light.projectile.mass *= 1000.0 / 7850.0;
+    light.projectile.length *= 0.2;
+    light.projectile.mass *= 0.2;
+    let result = run(&light);
+    balanced(&result);
+    println!("{} {:?}", result.criterion, result.residual_velocity);
+    assert_eq!(result.outcome, Outcome::Perforated);
+    assert!(result.residual_velocity.unwrap() < 0.0);
+    assert!(result.plug_velocity.unwrap() > 1.0);
+    assert!(
+        result.criterion.contains("open hole"),
+        "{}",
+        result.criterion
+    );
+}
+
 #[test]
 fn a_plug_that_is_free_keeps_its_momentum() {
     let chain =
@@ -157,8 +182,8 @@ fn limit_and_residual_velocity_converge_with_the_mesh() {
         assert!((values[3] / values[2] - 1.0).abs() < 0.01, "{values:?}");
         assert!((values[2] / values[1] - 1.0).abs() < 0.02, "{values:?}");
     }
-    // Blind, against 184.5 m/s measured: 42 % low, told of in the case. A change of it is a change of the prediction.
-    assert!((limits[2] / 107.4 - 1.0).abs() < 0.01, "{limits:?}");
+    // Against 184.5 m/s measured: 28 % low, told of in the case. A change of it is a change of the prediction.
+    assert!((limits[2] / 133.1 - 1.0).abs() < 0.01, "{limits:?}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! One file a command: its arguments, its help and what it does.
 
+mod calibrate;
 mod compare;
 mod completions;
 mod converge;
@@ -13,8 +14,10 @@ mod reproduce;
 mod run;
 mod schema;
 mod sweep;
+mod uncertainty;
 mod validate;
 
+pub use calibrate::Calibrate;
 pub use compare::Compare;
 pub use completions::Completions;
 pub use converge::Converge;
@@ -28,4 +31,5 @@ pub use reproduce::Reproduce;
 pub use run::Run;
 pub use schema::Schema;
 pub use sweep::Sweep;
+pub use uncertainty::Uncertainty;
 pub use validate::Validate;

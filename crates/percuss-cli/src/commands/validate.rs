@@ -1,15 +1,11 @@
-use std::{
-    ops::ControlFlow,
-    path::{Path, PathBuf},
-    sync::Mutex,
-};
+use std::{ops::ControlFlow, path::PathBuf, sync::Mutex};
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     case,
     material::Library,
     model::{self, MODELS, Model},
-    shots::{self, Kind, Shot},
+    shots::{Kind, Shot},
     validate::{self, Group, Grouping, PredictionRecord, Standing, Validation},
 };
 use percuss_report::validation::{self, Origin};
@@ -20,12 +16,10 @@ use crate::{
     failure::Failure,
     progress::Progress,
     run_folder::make_folder,
+    shot_data,
     terminal::{self, bold},
     validation_table,
 };
-
-/// What stands for the program's own shots in place of a file.
-const BUILT_IN: &str = "builtin";
 
 const LONG_ABOUT: &str = "\
 Compute every published shot with every model that applies to it, and say how
@@ -170,45 +164,13 @@ impl Validate {
 
     /// The shots and what they come from.
     fn shots(&self, library: &Library) -> Result<(Vec<Shot>, Vec<String>), Failure> {
-        let built_in = [PathBuf::from(BUILT_IN)];
+        let built_in = [PathBuf::from(shot_data::BUILT_IN)];
         let data = if self.data.is_empty() {
             &built_in[..]
         } else {
             &self.data
         };
-        let (mut shots, mut files): (Vec<Shot>, Vec<String>) = (Vec::new(), Vec::new());
-        for path in data {
-            let (more, name) = if path.as_path() == Path::new(BUILT_IN) {
-                let own = format!("the program's own ({})", shots::built_in().len());
-                (shots::built_in().to_vec(), own)
-            } else {
-                let read = shots::read(path, library)?;
-                let name = format!("{} ({})", path.display(), read.len());
-                (read, name)
-            };
-            if let Some(twice) = more
-                .iter()
-                .find(|shot| shots.iter().any(|s| s.id == shot.id))
-            {
-                return Err(Failure::Usage {
-                    message: format!("two files of --data have a shot named `{}`", twice.id),
-                    help: "ids are unique over all files; rename it, or give one of the files only"
-                        .to_owned(),
-                });
-            }
-            shots.extend(more);
-            files.push(name);
-        }
-        if !self.kind.is_empty() {
-            shots.retain(|shot| self.kind.iter().any(|kind| kind == shot.kind.name()));
-        }
-        if shots.is_empty() {
-            return Err(Failure::Usage {
-                message: format!("the data hold no shot of kind {}", self.kind.join(" or ")),
-                help: "leave out --kind, or add `--data builtin`".to_owned(),
-            });
-        }
-        Ok((shots, files))
+        shot_data::read(data, &self.kind, library)
     }
 
     fn compute(

@@ -19,7 +19,7 @@ use super::{
 use crate::{
     Axis, Figure, ReportError,
     figure::draw_over,
-    frame::{Frame, WIDTH, tick_label},
+    frame::{Frame, WIDTH, text, tick_label},
     run_figures::significant,
 };
 
@@ -212,35 +212,12 @@ fn add_bar(scene: &mut Scene, layout: &ComputedLayout, colors: &Colors) {
         scene.add(text(
             (right + 7.0, y + 4.0),
             &tick_label(value),
-            12,
-            TextAnchor::Start,
-            None,
+            (12, TextAnchor::Start, None),
         ));
     }
     scene.add(text(
         (layout.width - 12.0, top + 0.5 * height),
         colors.quantity.label(),
-        14,
-        TextAnchor::Middle,
-        Some(-90.0),
+        (14, TextAnchor::Middle, Some(-90.0)),
     ));
-}
-
-fn text(
-    place: (f64, f64),
-    content: &str,
-    size: u32,
-    anchor: TextAnchor,
-    rotate: Option<f64>,
-) -> Primitive {
-    Primitive::Text {
-        x: place.0,
-        y: place.1,
-        content: content.to_owned(),
-        size,
-        anchor,
-        rotate,
-        bold: false,
-        color: None,
-    }
 }

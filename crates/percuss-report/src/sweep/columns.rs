@@ -12,7 +12,12 @@ type ReadNumber = fn(&ResultRecord) -> Option<f64>;
 pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
     let mut columns = vec![Column::integer("shot", |row: &Row| row.index as i64)];
     for (i, axis) in sweep.axes.iter().enumerate() {
-        columns.push(Column::float(axis.column(), move |row: &Row| row.inputs[i]));
+        columns.push(match axis.words() {
+            None => Column::float(axis.column(), move |row: &Row| row.inputs[i]),
+            Some(words) => Column::text(axis.column(), move |row: &Row| {
+                words[row.inputs[i] as usize].clone()
+            }),
+        });
     }
     columns.push(text("outcome", |r| word(&r.outcome), "failed"));
     columns.push(text("termination", |r| word(&r.termination), ""));
@@ -97,7 +102,7 @@ fn text(
 }
 
 /// The name that a value has in JSON; empty when there is none.
-fn word(value: &impl Serialize) -> String {
+pub(super) fn word(value: &impl Serialize) -> String {
     json(value).trim_matches('"').replace("null", "")
 }
 

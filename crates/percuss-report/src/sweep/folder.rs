@@ -2,7 +2,7 @@
 
 use std::{
     fs::{self, File, TryLockError},
-    io::Write,
+    io::{ErrorKind, Write},
     path::{Path, PathBuf},
     sync::atomic::{AtomicBool, Ordering},
 };
@@ -15,6 +15,7 @@ use super::{
     block_file,
     columns::columns,
     manifest::{self, Manifest},
+    seal,
 };
 use crate::{ReportError, column, replace_file::replace_file_durably};
 
@@ -160,7 +161,9 @@ impl SweepFolder {
         let shots = sweep.block(block).map(|shot| sweep.shot(shot)).collect();
         let rows = kernel.rows(shots, stop).map_err(|Stopped| None)?;
         let name = block_file(block);
-        let content = column::parquet(&name, &columns(sweep), &rows)?;
+        let notes = seal::notes(&self.manifest, block);
+        let mut content = column::parquet_with(&name, &columns(sweep), &rows, &notes)?;
+        seal::close(&mut content);
         replace_file_durably(&self.path, &name, |file| file.write_all(&content))?;
         done(&rows);
         Ok(())
@@ -207,10 +210,19 @@ pub(super) enum State {
     Done,
 }
 
-/// What there is of a block. The end of a Parquet file says what is in it: one that was cut has none.
+/// What there is of a block. Its checksum tells whether a byte was lost or changed, its name whether it is this block.
 pub(super) fn state(folder: &Path, manifest: &Manifest, block: u64) -> State {
-    let Ok(file) = File::open(folder.join(block_file(block))) else {
-        return State::Missing;
+    let path = folder.join(block_file(block));
+    let content = match fs::read(&path) {
+        Ok(content) => content,
+        Err(error) if error.kind() == ErrorKind::NotFound => return State::Missing,
+        Err(_) => return State::Damaged,
+    };
+    if !seal::is_whole(&content) {
+        return State::Damaged;
+    }
+    let Ok(file) = File::open(path) else {
+        return State::Damaged;
     };
     let Ok(reader) = SerializedFileReader::new(file) else {
         return State::Damaged;
@@ -218,7 +230,11 @@ pub(super) fn state(folder: &Path, manifest: &Manifest, block: u64) -> State {
     let metadata = reader.metadata().file_metadata();
     let fields = metadata.schema_descr().columns();
     let names = fields.iter().map(|field| field.name());
-    let whole = metadata.num_rows() as u64 == manifest.shots_in(block)
+    let notes = metadata.key_value_metadata();
+    let name = notes.and_then(|notes| notes.iter().find(|note| note.key == seal::BLOCK));
+    let of_block = name.is_some_and(|name| name.value == Some(seal::block_name(manifest, block)));
+    let whole = of_block
+        && metadata.num_rows() as u64 == manifest.shots_in(block)
         && reader.num_row_groups() == 1
         && names.eq(manifest.columns.iter().map(|column| column.name.as_str()));
     if whole { State::Done } else { State::Damaged }

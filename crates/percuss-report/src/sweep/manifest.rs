@@ -2,7 +2,7 @@
 
 use std::{fs, path::Path};
 
-use percuss::sweep::Sweep;
+use percuss::sweep::{Axis, Sweep};
 use serde::{Deserialize, Serialize};
 
 use super::columns::columns;
@@ -36,8 +36,27 @@ pub struct Manifest {
     pub sweep_hash: String,
     /// Hash of the base case and its material files without their comments.
     pub case_hash: String,
+    /// What is varied, in the order of the sweep file.
+    pub parameters: Vec<Varied>,
     /// The columns of every file.
     pub columns: Vec<ColumnName>,
+}
+
+/// A number or an option that is varied.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Varied {
+    /// Dotted key in the case.
+    pub key: String,
+    /// Unit of its values; empty for plain numbers and words.
+    pub unit: String,
+    /// Its column.
+    pub column: String,
+    /// What gives its values: `values`, `linear`, `log`, or a distribution.
+    pub kind: String,
+    /// Number of values; null for a distribution.
+    pub count: Option<u64>,
+    /// The words that it can be; empty for numbers.
+    pub words: Vec<String>,
 }
 
 /// A column.
@@ -58,7 +77,7 @@ impl Manifest {
             kind: column.kind().to_owned(),
         };
         Self {
-            format: 1,
+            format: 2,
             percuss_version: env!("CARGO_PKG_VERSION").to_owned(),
             title: sweep.title.clone(),
             case: sweep.case().to_owned(),
@@ -69,6 +88,7 @@ impl Manifest {
             block_size: sweep.block_size,
             sweep_hash: file,
             case_hash: case,
+            parameters: sweep.axes.iter().map(varied).collect(),
             columns: columns(sweep).iter().map(name).collect(),
         }
     }
@@ -116,6 +136,7 @@ impl Manifest {
         ours.iter().find_map(|(name, value)| {
             let other = theirs.get(name)?;
             let words = match name.as_str() {
+                "parameters" => "it varies other numbers".to_owned(),
                 "columns" => "its columns are others".to_owned(),
                 "sweep_hash" => {
                     "it was computed from a sweep file that says something else".to_owned()
@@ -127,6 +148,17 @@ impl Manifest {
             };
             (value != other).then_some(words)
         })
+    }
+}
+
+fn varied(axis: &Axis) -> Varied {
+    Varied {
+        key: axis.key.clone(),
+        unit: axis.unit.clone(),
+        column: axis.column(),
+        kind: axis.kind.to_owned(),
+        count: axis.count(),
+        words: axis.words().unwrap_or_default(),
     }
 }
 

@@ -11,16 +11,14 @@ use parquet::{
     column::writer::ColumnCloseResult,
     errors::ParquetError,
     file::{
+        metadata::KeyValue,
         properties::WriterProperties,
         reader::{FileReader, SerializedFileReader},
         writer::SerializedFileWriter,
     },
 };
 
-use super::{
-    block_file,
-    folder::{State, manifest_of, state},
-};
+use super::{block_file, manifest::Manifest, parts::Parts};
 use crate::{ReportError, replace_file::replace_file_durably};
 
 /// Joins the blocks of folders that hold parts of one sweep into one Parquet file, in the order of the shots: a row group a
@@ -29,43 +27,19 @@ use crate::{ReportError, replace_file::replace_file_durably};
 /// # Errors
 /// [`ReportError::Sweep`] when a folder holds another sweep or a block is missing; [`ReportError::Write`]; [`ReportError::Table`].
 pub fn merge(folders: &[PathBuf], out: &Path) -> Result<u64, ReportError> {
-    let fail = |path: &Path, reason: String, remedy: String| ReportError::Sweep {
-        path: path.to_owned(),
-        reason,
-        remedy,
-    };
-    let Some(first) = folders.first() else {
-        let remedy = "name at least one folder".to_owned();
-        return Err(fail(out, "there is nothing to merge".to_owned(), remedy));
-    };
-    let manifest = manifest_of(first)?;
-    for folder in &folders[1..] {
-        if let Some(difference) = manifest.difference(&manifest_of(folder)?) {
-            let reason = format!(
-                "it holds another sweep than `{}`: {difference}",
-                first.display()
-            );
-            let remedy = "merge folders of one sweep".to_owned();
-            return Err(fail(folder, reason, remedy));
-        }
-    }
-    let of = |block: u64| {
-        let whole = |folder: &&PathBuf| state(folder, &manifest, block) == State::Done;
-        folders
-            .iter()
-            .find(whole)
-            .map(|folder| folder.join(block_file(block)))
-    };
-    let files: Vec<Option<PathBuf>> = (0..manifest.blocks()).map(of).collect();
+    let parts = Parts::open(folders)?;
+    let files: Vec<Option<PathBuf>> = parts.files().collect();
     let missing = files.iter().filter(|file| file.is_none()).count();
     if let Some(block) = files.iter().position(Option::is_none) {
-        let reason = format!(
-            "{missing} of {} blocks are missing or damaged, the first is {}",
-            files.len(),
-            block_file(block as u64)
-        );
-        let remedy = "`percuss sweep SWEEP.toml --out DIR --resume` computes them".to_owned();
-        return Err(fail(first, reason, remedy));
+        return Err(ReportError::Sweep {
+            path: parts.first().to_owned(),
+            reason: format!(
+                "{missing} of {} blocks are missing or damaged, the first is {}",
+                files.len(),
+                block_file(block as u64)
+            ),
+            remedy: "`percuss sweep SWEEP.toml --out DIR --resume` computes them".to_owned(),
+        });
     }
     let files: Vec<PathBuf> = files.into_iter().flatten().collect();
     let name = out.file_name().unwrap_or_default().to_string_lossy();
@@ -75,13 +49,13 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<u64, ReportError> {
     };
     replace_file_durably(folder, &name, |file| {
         // What is wrong with the blocks comes out as an error of the system too: their footers were read before.
-        join(&files, file).map_err(io::Error::other)
+        join(&files, &parts.manifest, file).map_err(io::Error::other)
     })?;
-    Ok(manifest.shots)
+    Ok(parts.manifest.shots)
 }
 
 /// Copies the encoded columns: nothing is decoded, and memory stays flat.
-fn join(files: &[PathBuf], out: &mut File) -> Result<(), ParquetError> {
+fn join(files: &[PathBuf], manifest: &Manifest, out: &mut File) -> Result<(), ParquetError> {
     let open =
         |path: &PathBuf| File::open(path).map_err(|error| ParquetError::General(error.to_string()));
     let Some(first) = files.first() else {
@@ -116,6 +90,11 @@ fn join(files: &[PathBuf], out: &mut File) -> Result<(), ParquetError> {
         }
         copy.close()?;
     }
+    // Whoever gets the file alone learns from it what it is.
+    writer.append_key_value_metadata(KeyValue::new(
+        "percuss.manifest".to_owned(),
+        manifest.text(),
+    ));
     writer.close()?;
     Ok(())
 }

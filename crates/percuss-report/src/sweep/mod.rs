@@ -7,10 +7,15 @@ mod columns;
 mod folder;
 mod manifest;
 mod merge;
+mod parts;
+mod plot;
+mod rows;
+mod seal;
 
 pub use folder::{Status, SweepFolder, status};
-pub use manifest::{ColumnName, Manifest};
+pub use manifest::{ColumnName, Manifest, Varied};
 pub use merge::merge;
+pub use plot::{PlotRequest, PlotStyle, plot};
 
 /// Name of the file of a block.
 fn block_file(block: u64) -> String {

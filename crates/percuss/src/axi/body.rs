@@ -112,7 +112,44 @@ impl Body {
 }
 
 /// Moves and deforms the particles of a chunk; `time_step` 0 leaves them as they are. Then adds them to the chunk's nodes.
+///
+/// Compiled for each width of vectors and chosen when it runs. Nothing is fused or summed in another order, so every processor
+/// comes to the same bits.
 pub(super) fn advance(
+    particles: &mut [Particle],
+    law: &Law,
+    field: &Field,
+    strip: &mut Strip,
+    pass: &Pass,
+) -> Sums {
+    pulp::Arch::new().dispatch(Advance {
+        particles,
+        law,
+        field,
+        strip,
+        pass,
+    })
+}
+
+struct Advance<'a> {
+    particles: &'a mut [Particle],
+    law: &'a Law,
+    field: &'a Field,
+    strip: &'a mut Strip,
+    pass: &'a Pass,
+}
+
+impl pulp::NullaryFnOnce for Advance<'_> {
+    type Output = Sums;
+
+    #[inline(always)]
+    fn call(self) -> Sums {
+        advance_here(self.particles, self.law, self.field, self.strip, self.pass)
+    }
+}
+
+#[inline(always)]
+fn advance_here(
     particles: &mut [Particle],
     law: &Law,
     field: &Field,

@@ -64,7 +64,7 @@ impl Law {
     #[inline(always)]
     pub(super) fn wave_speed_squared(&self, particle: &Particle) -> f64 {
         let shear = 4.0 / 3.0 * self.shear_modulus;
-        let volume = particle.volume / particle.mass;
+        let volume = particle.volume * (1.0 / particle.mass);
         match &self.pressure {
             // dp/dρ is K/ρ₀ at any density.
             Pressure::Linear => self.bulk_modulus / self.density + shear * volume,
@@ -116,10 +116,12 @@ impl Law {
                 - (pressure_before + particle.viscous_pressure) * expansion);
         let mean = std::array::from_fn(|k| 0.5 * (before[k] + trial[k]));
         let shear_work = mean_volume * time_step * shear_power(&mean, &rate);
+        let per_mass = 1.0 / particle.mass;
+        let density = particle.mass / particle.volume;
         let approach = -cell * expansion;
         particle.viscous_pressure = if approach > 0.0 {
             let sound = self.wave_speed_squared(particle).sqrt();
-            particle.mass / particle.volume
+            density
                 * approach
                 * (self.viscosity.quadratic * approach + self.viscosity.linear * sound)
         } else {
@@ -129,7 +131,7 @@ impl Law {
         work.viscous = -particle.viscous_pressure * change;
         let volume_work =
             self.compress(particle, pressure_before, change, shear_work + work.viscous);
-        particle.temperature += self.heating * (work.plastic + work.viscous) / particle.mass;
+        particle.temperature += self.heating * (work.plastic + work.viscous) * per_mass;
         work.total = shear_work + volume_work + work.viscous;
         if self.strength.depends_on_pressure() {
             particle.yield_point.forget();
@@ -146,21 +148,23 @@ impl Law {
     /// New pressure and energy; gives the work of the pressure [J].
     #[inline(always)]
     fn compress(&self, particle: &mut Particle, before: f64, change: f64, other_work: f64) -> f64 {
+        // Divisions take long, and the compiler shares those that are alike.
+        let per_mass = 1.0 / particle.mass;
         match &self.pressure {
             Pressure::Linear => {
                 let density = particle.mass / particle.volume;
                 particle.pressure =
                     whole(particle, self.bulk_modulus * (density / self.density - 1.0));
                 let work = -0.5 * (before + particle.pressure) * change;
-                particle.energy += (work + other_work) / particle.mass;
+                particle.energy += (work + other_work) * per_mass;
                 work
             }
             Pressure::MieGruneisen(state) => {
                 // The pressure is linear in the energy, so the energy that takes half the new pressure's work is explicit.
-                let (cold, slope) = state.coefficients(particle.volume / particle.mass);
-                let specific = change / particle.mass;
+                let (cold, slope) = state.coefficients(particle.volume * per_mass);
+                let specific = change * per_mass;
                 let known =
-                    particle.energy + other_work / particle.mass - 0.5 * (before + cold) * specific;
+                    particle.energy + other_work * per_mass - 0.5 * (before + cold) * specific;
                 particle.energy = known / (1.0 + 0.5 * slope * specific);
                 particle.pressure = whole(particle, cold + slope * particle.energy);
                 -0.5 * (before + particle.pressure) * change

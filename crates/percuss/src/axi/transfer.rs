@@ -40,15 +40,21 @@ pub(super) fn scatter(particle: &Particle, per_cell: f64, axisymmetric: bool, st
         std::array::from_fn(|k| middle[k] + radial.offset * along_r[k] + axial.offset * along_z[k]);
     let first =
         (axial.first - strip.first_row) as usize * strip.columns + (radial.first + 1) as usize;
+    // The first node of the row, then on by one node at a time.
+    let mut start = corner;
     for row in 0..3 {
         let at = first + row * strip.columns;
         let nodes: &mut [Node] = &mut strip.nodes[at..at + 3];
+        let mut value = start;
         for (column, node) in nodes.iter_mut().enumerate() {
             let weight = radial.weights[column] * axial.weights[row];
             for k in 0..6 {
-                let value = corner[k] + column as f64 * along_r[k] + row as f64 * along_z[k];
-                node[k] += weight * value;
+                node[k] += weight * value[k];
+                value[k] += along_r[k];
             }
+        }
+        for k in 0..6 {
+            start[k] += along_z[k];
         }
     }
 }

@@ -181,6 +181,9 @@ impl Case {
             let mut check = check.within(&format!("experiments.{i}"));
             experiment.check(&mut check, &self.target);
         }
+        if let Some(uncertainty) = &self.uncertainty {
+            uncertainty.check(&mut check.within("uncertainty"));
+        }
         self.check_materials(check);
     }
 

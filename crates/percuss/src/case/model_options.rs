@@ -17,6 +17,7 @@ use crate::{
     check::Check,
     fdm::FdmOptions,
     material::MaterialTable,
+    sweep::UncertainInputs,
 };
 
 macro_rules! case_with_model_options {
@@ -47,6 +48,9 @@ macro_rules! case_with_model_options {
             /// What was measured on shots of this case, for comparison; no model sees it.
             #[serde(default, skip_serializing_if = "Vec::is_empty")]
             pub experiments: Vec<Experiment>,
+            /// Which of its numbers are uncertain, for `percuss uncertainty`; no model sees it.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            pub uncertainty: Option<UncertainInputs>,
             /// The user's own materials, by id.
             #[serde(default, skip_serializing_if = "MaterialTable::is_empty")]
             pub materials: MaterialTable,
@@ -84,6 +88,7 @@ macro_rules! case_with_model_options {
                     target,
                     $($name: Default::default(),)*
                     experiments: Vec::new(),
+                    uncertainty: None,
                     materials: MaterialTable::new(),
                     material_files: Vec::new(),
                 }

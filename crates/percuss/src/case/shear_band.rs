@@ -27,7 +27,7 @@ pub enum BorderShearLaw {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ShearBandOptions {
-    /// Width of the band [m]; that of the zone of shear in equilibrium at its adiabatic maximum when not given.
+    /// Width of a band that shears evenly [m]; when not given, the shear spreads as equilibrium, hardening and rate say.
     pub width: Option<Length>,
     /// When the band fails; `damage` where the material has damage, otherwise `instability` when not given.
     pub failure: Option<BandFailure>,

@@ -6,7 +6,12 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::{Case, Document, load, reword::reword};
-use crate::{check::Finding, error::Error, material::Library, scenario::Scenario};
+use crate::{
+    check::Finding,
+    error::Error,
+    material::{Library, Material},
+    scenario::Scenario,
+};
 
 /// A case as a table of values, with the materials that it can name.
 #[derive(Debug, Clone)]
@@ -26,7 +31,9 @@ impl Template {
             file: path.display().to_string(),
             text: load::read_text(path)?,
         };
-        let table: Table = document.parse()?;
+        let mut table: Table = document.parse()?;
+        // No shot depends on what is uncertain.
+        table.remove("uncertainty");
         let mut case: Case = document.parse()?;
         // Its own materials are among the numbers that can be changed: only those of other files are looked up beforehand.
         case.materials.clear();
@@ -49,6 +56,22 @@ impl Template {
         })
     }
 
+    /// A case that comes from no file.
+    pub(crate) fn of_case(name: &str, case: &Case, library: &Library) -> Result<Self, Error> {
+        // There is nothing in a case that TOML could not hold.
+        let table = Table::try_from(case).map_err(|error| Error::Read {
+            path: name.into(),
+            reason: error.to_string(),
+            source: None,
+        })?;
+        Ok(Self {
+            name: name.to_owned(),
+            content: table.to_string(),
+            table,
+            library: library.clone(),
+        })
+    }
+
     /// Name of the case.
     pub(crate) fn name(&self) -> &str {
         &self.name
@@ -56,16 +79,7 @@ impl Template {
 
     /// The scenario with other values under some dotted keys.
     pub(crate) fn scenario(&self, changes: &[(&str, Value)]) -> Result<Scenario, Vec<Finding>> {
-        let mut table = self.table.clone();
-        for (key, value) in changes {
-            put(&mut table, key, value.clone()).map_err(|message| {
-                vec![Finding {
-                    key: (*key).to_owned(),
-                    message,
-                    help: "name a number of the case by the tables that it stands in, such as projectile.velocity".to_owned(),
-                }]
-            })?;
-        }
+        let table = self.changed(changes)?;
         let case = Case::deserialize(table).map_err(|error| {
             let source = changes
                 .last()
@@ -78,6 +92,72 @@ impl Template {
             }]
         })?;
         case.into_scenario(&self.name, &self.library)
+    }
+
+    /// A material of the case with other values under some dotted keys; `None` if there is no such material.
+    pub(crate) fn material(
+        &self,
+        id: &str,
+        changes: &[(&str, Value)],
+    ) -> Result<Option<Material>, Vec<Finding>> {
+        let table = self.changed(changes)?;
+        let own = table.get("materials").and_then(|own| own.get(id));
+        let read = |own: &Value| Material::deserialize(own.clone()).ok();
+        Ok(own.and_then(read).or_else(|| {
+            let entry = self.library.find(id)?;
+            Some((*entry.material).clone())
+        }))
+    }
+
+    fn changed(&self, changes: &[(&str, Value)]) -> Result<Table, Vec<Finding>> {
+        let mut table = self.table.clone();
+        for (key, value) in changes {
+            self.adopt(&mut table, key)
+                .map_err(|finding| vec![finding])?;
+            put(&mut table, key, value.clone()).map_err(|message| {
+                vec![Finding {
+                    key: (*key).to_owned(),
+                    message,
+                    help: "name a number of the case by the tables that it stands in, such as projectile.velocity".to_owned(),
+                }]
+            })?;
+        }
+        Ok(table)
+    }
+
+    /// Puts the library's record of a material into the case that a key changes a number of, unless the case has its own.
+    fn adopt(&self, table: &mut Table, key: &str) -> Result<(), Finding> {
+        let Some((id, _)) = key
+            .strip_prefix("materials.")
+            .and_then(|rest| rest.split_once('.'))
+        else {
+            return Ok(());
+        };
+        let own = table
+            .entry("materials")
+            .or_insert_with(|| Value::Table(Table::new()));
+        let Some(own) = own.as_table_mut().filter(|own| !own.contains_key(id)) else {
+            return Ok(());
+        };
+        let fail = |message: String, help: String| Finding {
+            key: format!("materials.{id}"),
+            message,
+            help,
+        };
+        let entry = self.library.find(id).ok_or_else(|| {
+            let near = self
+                .library
+                .nearest(id)
+                .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+            fail(
+                format!("no material is named `{id}`"),
+                format!("{near}`percuss materials` lists all"),
+            )
+        })?;
+        let record = Value::try_from(&*entry.material)
+            .map_err(|error| fail(error.to_string(), String::new()))?;
+        own.insert(id.to_owned(), record);
+        Ok(())
     }
 }
 

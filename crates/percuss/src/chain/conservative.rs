@@ -1,6 +1,7 @@
 //! Scheme `conservative`: the run from impact to its end.
 
 use super::{
+    between::Moment,
     mesh,
     results::Results,
     solver::StepControl,
@@ -26,10 +27,6 @@ const SMALLEST_COURANT: f64 = 0.05;
 const DEFAULT_EROSION_STRAIN: f64 = 2.0;
 /// Time steps after which a run is ended when a case gives none.
 const DEFAULT_MAX_STEPS: u64 = 20_000_000;
-/// Largest energy residual of a run that counts.
-pub const ENERGY_TOLERANCE: f64 = 1e-3;
-/// Largest momentum residual of a run that counts.
-pub const MOMENTUM_TOLERANCE: f64 = 1e-9;
 /// Steps between two looks at the books.
 pub(super) const AUDIT_INTERVAL: u64 = 128;
 /// Part of the first time step below which a run would never end.
@@ -213,30 +210,23 @@ impl<'a> Conservative<'a> {
     }
 
     fn audit(&mut self) -> Result<(), Failure> {
-        let energy = self.state.energy().residual();
-        let momentum = self.state.momentum().residual();
-        let watch = &mut self.watch;
-        watch.energy_residual = watch.energy_residual.max(energy.abs());
-        watch.momentum_residual = watch.momentum_residual.max(momentum.abs());
-        for (book, residual, tolerance) in [
-            ("energy", energy, ENERGY_TOLERANCE),
-            ("momentum", momentum, MOMENTUM_TOLERANCE),
-        ] {
-            if residual.is_nan() || residual.abs() > tolerance {
-                return Err(Failure::Unbalanced(self.failure(
-                    format!("the {book} book is off by {residual:.2e} of the initial {book}, more than {tolerance:e},"),
-                    format!("lower `chain.courant` (now {})", self.control.courant),
-                )));
-            }
-        }
-        Ok(())
+        let residuals = [
+            self.state.energy().residual(),
+            self.state.momentum().residual(),
+        ];
+        let moment = self.moment();
+        let audited = self
+            .watch
+            .residuals
+            .audit(residuals, moment, self.control.courant);
+        audited.map_err(Failure::Unbalanced)
     }
 
     fn check_time_step(&self) -> Result<(), NumericalError> {
         if self.state.time_step >= COLLAPSED_STEP * self.watch.first_time_step {
             return Ok(());
         }
-        let mut error = self.failure(
+        let mut error = self.moment().failure(
             format!(
                 "the time step has fallen to {:.1e} of the first one, because an element is crushed to nothing,",
                 self.state.time_step / self.watch.first_time_step
@@ -254,7 +244,7 @@ impl<'a> Conservative<'a> {
     }
 
     fn used_up(&self, depth: f64) -> NumericalError {
-        self.failure(
+        self.moment().failure(
             format!(
                 "the column that stands for a semi-infinite target is used up at a depth of {:.2} mm",
                 depth * 1e3
@@ -263,40 +253,23 @@ impl<'a> Conservative<'a> {
         )
     }
 
-    fn failure(&self, what: String, remedy: String) -> NumericalError {
-        NumericalError {
-            what,
-            step: self.state.step,
-            time_us: self.state.time * 1e6,
-            element: None,
-            remedy,
-        }
-    }
-
     fn progress(&self) -> Progress {
-        let (mass, momentum) = self.state.projectile_motion();
-        let slowed = if mass > 0.0 {
-            1.0 - momentum / (mass * self.scenario.impact_speed)
-        } else {
-            1.0
-        };
-        Progress {
-            step: self.state.step,
-            time: self.state.time,
-            fraction: (self.state.time / self.end_time)
-                .max(0.95 * slowed)
-                .clamp(0.0, 1.0),
-            depth: self.watch.largest_depth,
-        }
+        let motion = self.state.projectile_motion();
+        let depth = self.watch.largest_depth;
+        let moment = self.moment();
+        moment.progress(self.end_time, motion, self.scenario.impact_speed, depth)
     }
 
     fn record(&self, recorder: &mut Option<Recorder>) {
-        let Some(recorder) = recorder else { return };
-        if recorder.wants_sample(self.state.step) {
-            recorder.sample(self.state.sample());
-        }
-        if recorder.wants_profile(self.state.step) {
-            recorder.profile(self.state.profile());
+        let state = &self.state;
+        self.moment()
+            .record(recorder, || state.sample(), || state.profile());
+    }
+
+    fn moment(&self) -> Moment {
+        Moment {
+            step: self.state.step,
+            time: self.state.time,
         }
     }
 }

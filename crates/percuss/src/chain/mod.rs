@@ -1,6 +1,10 @@
 //! Model `chain`: the 1-D discrete element model, point masses joined by normal springs.
 
+mod adiabatic;
+mod band;
+mod band_law;
 mod batch;
+mod between;
 mod closure;
 mod cone;
 mod conservative;
@@ -34,9 +38,9 @@ mod tests;
 mod warnings;
 mod watch;
 
+pub use between::{ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
 pub(crate) use closure::{closure_in_use, default_closure};
 use conservative::Conservative;
-pub use conservative::{ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
 pub(crate) use mesh::modelled_thickness;
 pub(crate) use part::constraint_factor;
 pub use published::Published;

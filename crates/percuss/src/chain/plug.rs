@@ -2,12 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{
-    dishing::Dishing,
-    part::Role,
-    shear_band::{BandLaw, Bands},
-    state::State,
-};
+use super::{band_law::BandLaw, dishing::Dishing, part::Role, shear_band::Bands, state::State};
 use crate::{
     case::BorderShearLaw,
     outcome::Detail,
@@ -160,7 +155,7 @@ impl State {
         let law = bands.laws.first();
         let plate = hold.plate.as_ref();
         let details = [
-            law.and_then(|law| detail(WIDTH, "mm", law.width * 1e3)),
+            law.and_then(|law| detail(WIDTH, "mm", law.spread.mean_width() * 1e3)),
             law.and_then(BandLaw::failure_strain).and_then(|strain| {
                 detail(
                     "failure shear strain of shear band, slow and cold",

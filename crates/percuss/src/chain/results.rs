@@ -101,8 +101,8 @@ impl Results<'_> {
             ),
             energy: state.energy(),
             momentum: state.momentum(),
-            energy_residual: watch.energy_residual,
-            momentum_residual: watch.momentum_residual,
+            energy_residual: watch.residuals.energy,
+            momentum_residual: watch.residuals.momentum,
         });
         result.history = recorder.map(|recorder| recorder.finish(state.sample(), state.profile()));
         result.warnings = warnings(scenario, &result, &reached, self.erosion_strain);

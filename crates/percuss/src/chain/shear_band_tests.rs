@@ -1,6 +1,9 @@
 //! One band that is driven by hand.
 
-use super::*;
+use super::{
+    super::{adiabatic::Sheared, band_law::Failure, shear_zone::SQRT_3},
+    *,
+};
 use crate::{case, scenario::TargetBody};
 
 const SPEED: f64 = 100.0;
@@ -27,9 +30,8 @@ fn law(chain: &str) -> Result<BandLaw, String> {
     BandLaw::new(&layers[0], 0.01, SPEED, &scenario.options.chain)
 }
 
-/// Slides a node at a constant speed until its band has ended; returns the bands, the work of the force, and stresses against strains.
+/// Slides a node at a constant speed until its band has ended; returns the bands, the work of the force, and stresses against slips.
 fn slide(law: BandLaw, back: f64) -> (Bands, f64, Vec<[f64; 2]>) {
-    let width = law.width;
     let mut bands = Bands::new(vec![law], PERIMETER, back);
     bands.hold(0, 0.0, [0.0, LENGTH], 0);
     let mut nodes = vec![Node {
@@ -45,7 +47,7 @@ fn slide(law: BandLaw, back: f64) -> (Bands, f64, Vec<[f64; 2]>) {
         assert_eq!(nodes[0].force, -force);
         work += force * SPEED * step;
         let stress = bands.bands[0].stress;
-        curve.push([nodes[0].position / width, stress]);
+        curve.push([nodes[0].position, stress]);
         nodes[0].position += SPEED * step;
         time += step;
         bands.update(&nodes, 0.0, step, time);
@@ -65,15 +67,14 @@ fn its_energy_is_the_integral_of_its_stress_over_slip_and_area() {
         ),
     ] {
         let law = law(chain).unwrap();
-        let width = law.width;
         let (bands, work, curve) = slide(law, back);
         let integral: f64 = curve
             .windows(2)
             .map(|pair| {
-                let slip = 0.5 * (pair[0][0] + pair[1][0]) * width;
+                let slip = 0.5 * (pair[0][0] + pair[1][0]);
                 let held = if back < 0.1 { LENGTH - slip } else { LENGTH };
                 let stress = 0.5 * (pair[0][1] + pair[1][1]);
-                stress * PERIMETER * held * (pair[1][0] - pair[0][0]) * width
+                stress * PERIMETER * held * (pair[1][0] - pair[0][0])
             })
             .sum();
         println!(
@@ -86,28 +87,45 @@ fn its_energy_is_the_integral_of_its_stress_over_slip_and_area() {
     }
 }
 
-/// At a constant rate the band follows the adiabatic curve by which its width was found, and is strongest where that curve is.
+/// At a constant rate an even band follows the adiabatic curve, and is strongest where that curve is.
 #[test]
 fn its_stress_is_largest_at_the_instability() {
-    let law = law("shear_band = { failure = \"never\" }").unwrap();
+    let width = 0.65e-3;
+    let law = law("shear_band = { width = \"0.65 mm\", failure = \"never\" }").unwrap();
     let sheared = Sheared {
         strength: &*law.strength,
         heating: law.heating,
         temperature: law.start_temperature,
         rate_effects: true,
     };
-    let strain = SQRT_3 * sheared.instability(law.width, SPEED).unwrap();
+    let strain = SQRT_3 * sheared.instability(width, SPEED).unwrap();
     let (_, _, curve) = slide(law, LENGTH);
     let largest = curve.iter().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
     println!(
         "largest {:.1} MPa at {:.4}, instability {strain:.4}",
         largest[1] * 1e-6,
-        largest[0]
+        largest[0] / width
     );
     assert!(
-        (largest[0] / strain - 1.0).abs() < 0.01,
+        (largest[0] / width / strain - 1.0).abs() < 0.01,
         "{largest:?} {strain}"
     );
+}
+
+/// A zone is strongest, and fails, at the slip that it gives to the strain of its rim.
+#[test]
+fn a_zone_slips_as_its_rim_strains() {
+    let law = law("shear_band = { failure = \"instability\" }").unwrap();
+    let Failure::Strain(strain) = law.failure else {
+        panic!("{:?}", law.failure)
+    };
+    let slip = SQRT_3 * strain * law.spread.mean_width();
+    let (bands, _, curve) = slide(law, 0.1);
+    let largest = curve.iter().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
+    let last = bands.books.largest_slip;
+    // The elastic slip comes on top, and the maximum is flat.
+    assert!((last / slip - 1.0).abs() < 0.03, "{last} {slip}");
+    assert!(largest[0] > 0.9 * last, "{largest:?} {last}");
 }
 
 /// Perfectly plastic and of one strength: the work is τ A γ w whatever the width, so that the width is the length scale.

@@ -1,197 +1,258 @@
-//! The zone of shear around a plug: how wide it is when the metal at its rim can bear no more.
+//! The zone of shear around the rim of a plug: what slip belongs to a strain of the rim.
 //!
-//! In the plate around a plug of radius a equilibrium asks for `τ r = τ_a a`. The metal hardens, so the strain falls off with the
-//! radius, and the zone ends where the stress is the yield stress. The displacement of the rim is `u = ∫ γ dr`. As the metal heats,
-//! its stress has a maximum; there, with the strain γ_i at the rim, a band of the width `u/γ_i` has the same displacement.
+//! Along the axis equilibrium asks for `τ = τ_a r/a` inside a plug of radius a, whose slices accelerate as one, and `τ = τ_a a/r`
+//! outside. A ring at that stress lags behind the rim as its hardening and its sensitivity to the rate say,
+//! `dε/dε_a = exp{[F(ε_a) − F(ε) − ln(τ_a/τ)]/m}`, F being the logarithm of the adiabatic stress. The slip of the plug's mean motion against the plate is
+//! `u = √3 [∫_a^∞ ε dr + ∫_0^a ε (r/a)² dr]`, so that `τ_a du` is the work of the zone.
 
-use crate::material::{FlowState, PreparedStrength};
+use super::adiabatic::{AdiabaticCurve, Sheared};
 
-/// Step of equivalent plastic strain along the adiabatic curve, and the strain up to which its maximum is looked for.
-const STRAIN_STEP: f64 = 2e-4;
-const LARGEST_STRAIN: f64 = 10.0;
+pub(super) const SQRT_3: f64 = 1.732_050_807_568_877_2;
+/// Step of the rim's strain.
+const STRAIN_STEP: f64 = 0.01;
+/// Rings on each side of the rim, and the width of the first as a part of the radius.
+const RINGS: usize = 50;
+const FIRST_RING: f64 = 1e-4;
+/// Outer radius of the zone over that of the plug: there the stress is a third of the rim's.
+const OUTER_RADIUS: f64 = 3.0;
+/// Smallest rate sensitivity that the rings resolve.
+const LEAST_SENSITIVITY: f64 = 1e-4;
+/// Part of a step to which the strain of a ring is found, and the most steps of a secant that is kept in its bracket.
+const FOUND: f64 = 1e-7;
+const MOST_ITERATIONS: u32 = 60;
+/// Beyond it an exponential is nothing.
+const LEAST_EXPONENT: f64 = -30.0;
+/// The zone ends where it is narrower than this part of its width at the maximum: there heat conduction, left out here, would hold it apart.
+const NARROWEST: f64 = 0.01;
+/// A zone narrower than this part of the radius is no result but the rings'.
+const LEAST_WIDTH: f64 = 1e-3;
+/// Strain at which a metal without a maximum is judged.
+const UNIT_STRAIN: f64 = 1.0;
 /// Repetitions that settle the strain rate, which depends on the width itself, and the change that ends them.
 const MOST_ROUNDS: u32 = 20;
-const SETTLED: f64 = 1e-6;
+const SETTLED: f64 = 1e-4;
 
-/// The zone at the largest stress that its rim can bear.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct ShearZone {
-    /// Width of the band with the same displacement and the strain of the rim [m].
-    pub(super) width: f64,
-    /// Equivalent plastic strain of the rim.
-    pub(super) strain: f64,
+/// How the shear of a band is spread around the rim of the plug.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Spread {
+    /// Evenly over a width [m].
+    Even(f64),
+    /// As equilibrium, hardening and rate say.
+    Zone(ShearZone),
 }
 
-/// A metal that is sheared without losing heat.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Sheared<'a> {
-    pub(super) strength: &'a dyn PreparedStrength,
-    /// Temperature rise per plastic work per volume [K m3/J].
-    pub(super) heating: f64,
-    /// At the start [K].
-    pub(super) temperature: f64,
-    pub(super) rate_effects: bool,
+/// The zone around a plug.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ShearZone {
+    /// Radius of the plug [m].
+    radius: f64,
+    /// Slip per shear strain of the rim in each step of the rim's strain [m].
+    widths: Vec<f64>,
+    /// Slip over shear strain of the rim where the rim's stress is largest [m], or at unit strain where it has no maximum.
+    mean_width: f64,
+}
+
+/// How far the rim is strained.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Extent {
+    /// To its largest stress, which tells the mean width.
+    ToMaximum,
+    Whole,
+}
+
+/// A ring of the zone.
+struct Ring {
+    /// ln(τ_a/τ).
+    below: f64,
+    /// What its strain counts in the slip [m].
+    weight: f64,
+    strain: f64,
+}
+
+impl Spread {
+    /// Slip over shear strain of the rim at its largest stress [m].
+    pub(super) fn mean_width(&self) -> f64 {
+        match self {
+            Self::Even(width) => *width,
+            Self::Zone(zone) => zone.mean_width,
+        }
+    }
+
+    /// Elastic slip over the shear strain of the rim [m]. Around a zone that is the plug's own shear; the plate's is the plate's.
+    pub(super) fn elastic_width(&self) -> f64 {
+        match self {
+            Self::Even(width) => *width,
+            // ∫ (r/a)(r/a)² dr from 0 to a.
+            Self::Zone(zone) => 0.25 * zone.radius,
+        }
+    }
+
+    /// Further slip for a further plastic shear strain of the rim, at an equivalent plastic strain of the rim [m].
+    pub(super) fn width(&self, strain: f64) -> f64 {
+        match self {
+            Self::Even(width) => *width,
+            Self::Zone(zone) => {
+                let last = zone.widths.len() - 1;
+                zone.widths[((strain / STRAIN_STEP) as usize).min(last)]
+            }
+        }
+    }
 }
 
 impl Sheared<'_> {
-    /// The zone around a plug of a radius that starts with a speed; `None` where the stress has no maximum, or no hardening
-    /// before it.
-    pub(super) fn zone(&self, radius: f64, speed: f64) -> Option<ShearZone> {
-        let mut zone = self.zone_at_rate(radius, 0.0)?;
-        if !self.rate_effects {
-            return Some(zone);
+    /// The zone around a plug of a radius that starts with a speed, and the strain at which its rim is strongest; `None` where
+    /// neither hardening nor the rate spreads it.
+    pub(super) fn zone(&self, radius: f64, speed: f64) -> Option<(ShearZone, Option<f64>)> {
+        let at = |width: f64, extent: Extent| {
+            let rate = speed / (SQRT_3 * width);
+            let curve = self.curve(rate);
+            let zone = ShearZone::new(radius, &curve, self.rate_sensitivity(rate), extent);
+            (zone, curve.instability())
+        };
+        let mut width = 0.1 * radius;
+        if self.rate_effects {
+            for _ in 0..MOST_ROUNDS {
+                let (zone, _) = at(width, Extent::ToMaximum);
+                let settled = (zone.mean_width / width - 1.0).abs() < SETTLED;
+                width = zone.mean_width.max(LEAST_WIDTH * radius);
+                if settled {
+                    break;
+                }
+            }
         }
-        for _ in 0..MOST_ROUNDS {
-            let next = self.zone_at_rate(radius, speed / (3.0_f64.sqrt() * zone.width))?;
-            let settled = (next.width / zone.width - 1.0).abs() < SETTLED;
-            zone = next;
-            if settled {
+        let (zone, instability) = at(width, Extent::Whole);
+        (zone.mean_width > LEAST_WIDTH * radius).then_some((zone, instability))
+    }
+
+    /// Strain at which the shear stress of an even band is largest.
+    pub(super) fn instability(&self, width: f64, speed: f64) -> Option<f64> {
+        self.curve(speed / (SQRT_3 * width)).instability()
+    }
+}
+
+impl ShearZone {
+    fn new(radius: f64, curve: &AdiabaticCurve, sensitivity: f64, extent: Extent) -> Self {
+        let sensitivity = sensitivity.max(LEAST_SENSITIVITY);
+        let mut rings = rings(radius);
+        let judged = curve
+            .instability()
+            .unwrap_or_else(|| UNIT_STRAIN.min(curve.end()));
+        let (mut widths, mut slip, mut mean_width) = (Vec::new(), 0.0, None);
+        let steps = ((curve.end() / STRAIN_STEP) as usize).max(1);
+        for i in 1..=steps {
+            let rim = i as f64 * STRAIN_STEP;
+            let mut further = 0.0;
+            for ring in &mut rings {
+                let before = ring.strain;
+                ring.follow(rim, curve, sensitivity);
+                further += ring.weight * (ring.strain - before);
+            }
+            let width = further / STRAIN_STEP;
+            slip += SQRT_3 * further;
+            if mean_width.is_none() && (rim >= judged || i == steps) {
+                mean_width = Some(slip / (SQRT_3 * rim));
+            }
+            widths.push(width);
+            if mean_width.is_some() && extent == Extent::ToMaximum {
+                break;
+            }
+            if let Some(mean) = mean_width.filter(|mean| width < NARROWEST * mean) {
+                widths[i - 1] = NARROWEST * mean;
                 break;
             }
         }
-        Some(zone)
-    }
-
-    /// Strain at which the shear stress of a band of a given width is largest.
-    pub(super) fn instability(&self, width: f64, speed: f64) -> Option<f64> {
-        let rate = match self.rate_effects {
-            true => speed / (3.0_f64.sqrt() * width),
-            false => 0.0,
-        };
-        self.curve_to_maximum(rate).map(|(strain, _)| strain)
-    }
-
-    fn zone_at_rate(&self, radius: f64, rate: f64) -> Option<ShearZone> {
-        let (strain, stresses) = self.curve_to_maximum(rate)?;
-        let largest = *stresses.last()?;
-        let mut displacement = 0.0;
-        for (i, pair) in stresses.windows(2).enumerate() {
-            // A ring between two stresses lies between the radii a σ_a/σ.
-            let ring = radius * largest * (1.0 / pair[0] - 1.0 / pair[1]);
-            displacement += 3.0_f64.sqrt() * (i as f64 + 0.5) * STRAIN_STEP * ring;
+        Self {
+            radius,
+            widths,
+            mean_width: mean_width.unwrap_or_default(),
         }
-        let width = displacement / (3.0_f64.sqrt() * strain);
-        (width > 0.0).then_some(ShearZone { width, strain })
     }
+}
 
-    /// Stresses along the adiabatic curve, from yield to the maximum, and the strain there.
-    fn curve_to_maximum(&self, rate: f64) -> Option<(f64, Vec<f64>)> {
-        let at = |strain: f64, temperature: f64| {
-            let state = FlowState {
-                plastic_strain: strain,
-                strain_rate: rate,
-                temperature,
-                pressure: 0.0,
-            };
-            self.strength.flow_stress(&state).stress
+impl Ring {
+    /// Lets the ring follow a further step of the rim, implicitly: what hardens relaxes to equilibrium faster than a step.
+    fn follow(&mut self, rim: f64, curve: &AdiabaticCurve, sensitivity: f64) {
+        let share = |strain: f64| {
+            let excess = curve.logarithm(rim) - curve.logarithm(strain) - self.below;
+            (excess / sensitivity).min(0.0)
         };
-        let mut temperature = self.temperature;
-        let mut stresses = vec![at(0.0, temperature)];
-        let mut strain = 0.0;
-        while strain < LARGEST_STRAIN {
-            let last = stresses[stresses.len() - 1];
-            let heated = temperature + self.heating * last * STRAIN_STEP;
-            let next = at(strain + STRAIN_STEP, heated);
-            if next <= last {
-                return (strain > 0.0).then_some((strain, stresses));
+        // Nothing flows that would not flow at the least hardened.
+        if share(self.strain) < LEAST_EXPONENT {
+            return;
+        }
+        let lag = |part: f64| part - share(self.strain + part * STRAIN_STEP).exp();
+        let (mut low, mut below) = (0.0, lag(0.0));
+        let (mut high, mut above) = (1.0, lag(1.0));
+        let mut kept = 0;
+        for _ in 0..MOST_ITERATIONS {
+            if high - low < FOUND || below == 0.0 || above == 0.0 {
+                break;
             }
-            temperature += 0.5 * self.heating * (last + next) * STRAIN_STEP;
-            strain += STRAIN_STEP;
-            stresses.push(next);
+            let part = (low * above - high * below) / (above - below);
+            let value = lag(part);
+            if value.abs() < FOUND {
+                (low, below, high, above) = (part, value, part, value);
+            } else if value < 0.0 {
+                (low, below) = (part, value);
+                if kept == -1 {
+                    above *= 0.5;
+                }
+                kept = -1;
+            } else {
+                (high, above) = (part, value);
+                if kept == 1 {
+                    below *= 0.5;
+                }
+                kept = 1;
+            }
         }
-        None
+        let part = match above.abs() < below.abs() {
+            true => high,
+            false => low,
+        };
+        self.strain += part * STRAIN_STEP;
     }
+}
+
+/// Rings on both sides of the rim, wider with the distance from it.
+fn rings(radius: f64) -> Vec<Ring> {
+    let side = |reach: f64, inside: bool| {
+        let growth = growth(reach / FIRST_RING);
+        let mut near = 0.0;
+        (0..RINGS).map(move |i| {
+            let width = FIRST_RING * growth.powi(i as i32);
+            let middle = near + 0.5 * width;
+            near += width;
+            let (below, counts) = match inside {
+                true => (-(1.0 - middle).ln(), (1.0 - middle).powi(2)),
+                false => (middle.ln_1p(), 1.0),
+            };
+            Ring {
+                below,
+                weight: width * radius * counts,
+                strain: 0.0,
+            }
+        })
+    };
+    side(OUTER_RADIUS - 1.0, false)
+        .chain(side(1.0, true))
+        .collect()
+}
+
+/// Factor from ring to ring with which they sum up to a number of first rings.
+fn growth(sum: f64) -> f64 {
+    let (mut low, mut high) = (1.0, 2.0);
+    for _ in 0..60 {
+        let middle: f64 = 0.5 * (low + high);
+        if (middle.powi(RINGS as i32) - 1.0) / (middle - 1.0) < sum {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::material::FlowStress;
-
-    /// `σ = (Y + H ε)(1 − b (T − T₀))` with heating: along the adiabatic curve, `ε = 1/κ` scaled, the maximum is known.
-    #[derive(Debug)]
-    struct Linear {
-        hardening: f64,
-        softening: f64,
-    }
-
-    const YIELD: f64 = 400e6;
-
-    impl PreparedStrength for Linear {
-        fn flow_stress(&self, state: &FlowState) -> FlowStress {
-            let thermal = 1.0 - self.softening * state.temperature;
-            FlowStress {
-                stress: (YIELD + self.hardening * state.plastic_strain) * thermal,
-                strain_slope: self.hardening * thermal,
-                rate_slope: 0.0,
-            }
-        }
-    }
-
-    fn sheared(law: &Linear) -> Sheared<'_> {
-        Sheared {
-            strength: law,
-            heating: 0.25e-6,
-            temperature: 0.0,
-            rate_effects: true,
-        }
-    }
-
-    #[test]
-    fn the_maximum_is_where_hardening_and_softening_balance() {
-        let law = Linear {
-            hardening: 500e6,
-            softening: 8e-4,
-        };
-        let zone = sheared(&law).zone(0.01, 100.0).unwrap();
-        // dσ/dε = 0 where H = s (Y + H ε)², s = b × heating, as dT/dε = heating σ.
-        let s: f64 = law.softening * 0.25e-6;
-        let strain = ((law.hardening / s).sqrt() - YIELD) / law.hardening;
-        assert!(
-            (zone.strain - strain).abs() < 3.0 * STRAIN_STEP,
-            "{zone:?} {strain}"
-        );
-    }
-
-    #[test]
-    fn without_heat_nothing_is_largest_and_without_hardening_nothing_spreads() {
-        let hardening = Linear {
-            hardening: 500e6,
-            softening: 0.0,
-        };
-        assert_eq!(sheared(&hardening).zone(0.01, 100.0), None);
-        let plastic = Linear {
-            hardening: 0.0,
-            softening: 8e-4,
-        };
-        assert_eq!(sheared(&plastic).zone(0.01, 100.0), None);
-    }
-
-    /// The displacement of the rim against a fine quadrature over the radius.
-    #[test]
-    fn the_width_is_the_displacement_over_the_strain() {
-        let law = Linear {
-            hardening: 500e6,
-            softening: 8e-4,
-        };
-        let (radius, metal) = (0.01, sheared(&law));
-        let zone = metal.zone(radius, 100.0).unwrap();
-        let (_, stresses) = metal.curve_to_maximum(0.0).unwrap();
-        let largest = stresses[stresses.len() - 1];
-        let outer = radius * largest / YIELD;
-        let count = 20_000;
-        let step = (outer - radius) / f64::from(count);
-        let mut displacement = 0.0;
-        for i in 0..count {
-            let stress = largest * radius / (radius + (f64::from(i) + 0.5) * step);
-            let k = stresses.partition_point(|&s| s < stress);
-            let part = (stress - stresses[k - 1]) / (stresses[k] - stresses[k - 1]);
-            displacement += 3.0_f64.sqrt() * (k as f64 - 1.0 + part) * STRAIN_STEP * step;
-        }
-        let width = displacement / (3.0_f64.sqrt() * zone.strain);
-        assert!((zone.width / width - 1.0).abs() < 1e-3, "{zone:?} {width}");
-        // And it scales with the plug.
-        let double = metal.zone(2.0 * radius, 100.0).unwrap();
-        assert!((double.width / zone.width - 2.0).abs() < 1e-9);
-    }
-}
+#[path = "shear_zone_tests.rs"]
+mod tests;

@@ -128,8 +128,8 @@ fn warn_of_plug(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<Stri
         return;
     };
     warnings.push(format!(
-        "perforation rests on the shear band, {} mm wide, and on when it fails: compare with half and twice `chain.shear_band.width`, \
-         and with failure = \"never\"",
+        "perforation rests on the shear around the plug, {} mm wide at its largest stress, and on when it fails: compare with half and \
+         twice that as `chain.shear_band.width`, and with failure = \"never\"",
         significant(width, 3)
     ));
     if let (Some(dishing), Some(thickness)) = (detail(plug::DISHING), scenario.target_thickness())

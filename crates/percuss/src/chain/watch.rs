@@ -1,6 +1,7 @@
 //! When a shot is over, and how it ended.
 
 use super::{
+    between::Residuals,
     part::Role,
     state::{End, State},
 };
@@ -24,8 +25,7 @@ pub(super) struct Watch {
     pub(super) peak_force: f64,
     pub(super) first_time_step: f64,
     pub(super) smallest_time_step: f64,
-    pub(super) energy_residual: f64,
-    pub(super) momentum_residual: f64,
+    pub(super) residuals: Residuals,
     /// Time and depth at which the projectile's momentum was first used up.
     pub(super) at_rest: Option<(f64, f64)>,
     /// Time at which the crater floor passed the original back face.
@@ -145,49 +145,59 @@ impl Watch {
             );
             return (Outcome::Perforated, words);
         }
-        match termination {
-            Termination::NothingMoves => {
-                return (Outcome::AtRest, "the impact speed is zero".to_owned());
-            }
-            _ if mass == 0.0 => {
-                let words = "no element of the projectile is left".to_owned();
-                return (Outcome::ProjectileEroded, words);
-            }
-            _ => {}
+        if termination == Termination::NothingMoves {
+            return (Outcome::AtRest, "the impact speed is zero".to_owned());
         }
-        let ratio = momentum / (mass * impact_speed);
         let percent = REST_FRACTION * 100.0;
-        let speed = format!(
-            "the projectile's mean speed at the end is {} % of the impact speed",
-            significant(100.0 * ratio, 3)
-        );
+        let ratio = momentum / (mass * impact_speed);
+        let speed = match mass > 0.0 {
+            true => format!(
+                "the projectile's mean speed at the end is {} % of the impact speed",
+                significant(100.0 * ratio, 3)
+            ),
+            false => "no element of the projectile is left".to_owned(),
+        };
+        let follows = mass > 0.0 && ratio > REST_FRACTION;
         // What flies free is held no more, however the run was ended.
-        if ratio > REST_FRACTION && state.left_the_plate() {
-            let words = match state.plug_free_since() {
+        if state.left_the_plate() {
+            let (_, plug_speed) = state.plug_motion();
+            let plug = plug_speed / impact_speed;
+            let free = match state.plug_free_since() {
                 Some(time) => format!(
-                    "the whole shear band had failed at {} us, and {speed}, above {percent} %",
+                    "the whole shear band had failed at {} us",
                     significant(time * 1e6, 4)
                 ),
-                None => format!(
-                    "{speed}, above {percent} %, and no border shear holds what is ahead of it"
-                ),
+                None => "no border shear holds what is ahead of the projectile".to_owned(),
             };
-            return (Outcome::Perforated, words);
+            if follows {
+                let words = format!("{free}, and {speed}, above {percent} %");
+                return (Outcome::Perforated, words);
+            }
+            if plug > REST_FRACTION {
+                let words = format!(
+                    "{free}, and the plug leaves an open hole at {} % of the impact speed, above {percent} %; {speed}",
+                    significant(100.0 * plug, 3)
+                );
+                return (Outcome::Perforated, words);
+            }
+        }
+        if mass == 0.0 {
+            return (Outcome::ProjectileEroded, speed);
         }
         let unfinished = matches!(termination, Termination::EndTime | Termination::StepLimit);
-        if unfinished && self.at_rest.is_none() && ratio > REST_FRACTION {
+        if unfinished && self.at_rest.is_none() && follows {
             let words = "the projectile still moved forward when the run was ended";
             return (Outcome::OutOfTime, words.to_owned());
         }
         // What a plate still holds does not move away for good.
-        if state.plug_is_held() && ratio > REST_FRACTION {
+        if state.plug_is_held() && follows {
             let words = format!("the shear band still holds the plug, although {speed}");
             return (Outcome::AtRest, words);
         }
         if ratio < -REST_FRACTION {
             let words = format!("{speed}, below -{percent} %");
             (Outcome::Rebounded, words)
-        } else if ratio > REST_FRACTION {
+        } else if follows {
             let words = format!("{speed}, above {percent} %, and it touches the target no more");
             (Outcome::Separated, words)
         } else {

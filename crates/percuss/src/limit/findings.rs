@@ -63,16 +63,18 @@ pub(super) fn unsuited(model: &dyn Model, scenario: &Scenario) -> Option<String>
 
 /// Whether a shot went through.
 pub(super) fn passage(result: &RunResult) -> Passage {
-    let undecided = |reason: &str| Passage::Undecided(reason.to_owned());
-    match result.outcome {
-        Outcome::Perforated => Passage::Perforated,
-        Outcome::AtRest | Outcome::Rebounded | Outcome::ProjectileEroded => Passage::Stopped,
+    let why = match result.outcome {
         Outcome::Separated => {
-            undecided("the target runs away from the projectile, and whether it opens is not said")
+            "the target runs away from the projectile, and whether it opens is not said"
         }
-        Outcome::OutOfTime => undecided("the run ended before the shot did"),
-        Outcome::NotApplicable => undecided("the model does not apply"),
-        Outcome::Failed => undecided("the model failed"),
+        Outcome::OutOfTime => "the run ended before the shot did",
+        Outcome::NotApplicable => "the model does not apply",
+        _ => "the model failed",
+    };
+    match result.outcome.perforated() {
+        Some(true) => Passage::Perforated,
+        Some(false) => Passage::Stopped,
+        None => Passage::Undecided(why.to_owned()),
     }
 }
 
@@ -98,7 +100,7 @@ fn stated(samples: &[Sample<Shot>]) -> Option<f64> {
     samples.iter().find(perforated)?.shot.as_ref()?.stated
 }
 
-/// Residual velocities of shots that perforated.
+/// Residual velocities of shots that perforated; zero where a plug has left and the projectile does not follow it.
 pub(super) fn curve(shots: &[Sample<Shot>]) -> Vec<CurvePoint> {
     let through = shots
         .iter()
@@ -107,7 +109,7 @@ pub(super) fn curve(shots: &[Sample<Shot>]) -> Vec<CurvePoint> {
         .filter_map(|sample| {
             Some(CurvePoint {
                 impact_velocity_m_s: sample.speed,
-                residual_velocity_m_s: sample.shot.as_ref()?.residual?,
+                residual_velocity_m_s: sample.shot.as_ref()?.residual?.max(0.0),
             })
         })
         .collect()

@@ -1,5 +1,6 @@
 //! Materials: elastic constants, a strength law and where every number comes from.
 
+mod calibrated;
 mod cavity;
 mod damage;
 mod equation_of_state;
@@ -20,6 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::units::{Density, Pressure, SpecificHeat, StrainRate, Temperature};
 
+pub use calibrated::Calibrated;
 pub use cavity::{cavity_expansion_pressure, cylindrical_cavity_pressure};
 pub use damage::{Damage, DamageState, PreparedDamage};
 pub use equation_of_state::EquationOfState;
@@ -56,6 +58,9 @@ pub struct Material {
     /// What a user should know before relying on the record.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
+    /// What its constants were calibrated on, where `percuss calibrate` made the record.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub calibrated: Option<Calibrated>,
     /// Density at rest [kg/m3].
     pub density: Density,
     /// Young's modulus [Pa].

@@ -29,40 +29,15 @@ pub fn read(path: impl AsRef<Path>, library: &Library) -> Result<Vec<Shot>, Erro
 /// # Errors
 /// [`Error::Input`] with the place when the text is not valid.
 pub fn read_str(name: &str, text: &str, library: &Library) -> Result<Vec<Shot>, Error> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut reader = csv::ReaderBuilder::new()
-        .flexible(true)
-        .from_reader(text.as_bytes());
-    let mut table = Table {
-        file: name,
-        text,
-        header: Vec::new(),
-    };
-    let unreadable = |error: csv::Error| InputError {
-        file: name.to_owned(),
-        text: text.to_owned(),
-        span: 0..0,
-        key: String::new(),
-        message: format!("it is no table of comma-separated values: {error}"),
-        help: String::new(),
-    };
-    table.header = reader
-        .headers()
-        .map_err(unreadable)?
-        .iter()
-        .map(|name| name.trim().to_owned())
-        .collect();
+    let (table, records) = Table::read(name, text)?;
     header::check(&table)?;
     let mut shots: Vec<Shot> = Vec::new();
     let mut rows: BTreeMap<String, Row<'_>> = BTreeMap::new();
-    for record in reader.records() {
+    for record in records {
         let row = Row {
             table: &table,
-            record: record.map_err(unreadable)?,
+            record,
         };
-        if row.record.iter().all(|field| field.trim().is_empty()) {
-            continue;
-        }
         let shot = shot(&row, library)?;
         if rows.contains_key(&shot.id) {
             return Err(row

@@ -1,4 +1,4 @@
-//! One row of a file of shots: its fields by name, and errors that name their place.
+//! A file of shots as a table: the fields of a row by name, and errors that name their place.
 
 use std::ops::Range;
 
@@ -20,7 +20,34 @@ pub(crate) struct Row<'a> {
     pub(crate) record: csv::StringRecord,
 }
 
-impl Table<'_> {
+impl<'a> Table<'a> {
+    /// The table and its rows that hold anything; `file` stands for it in messages.
+    pub(crate) fn read(
+        file: &'a str,
+        text: &'a str,
+    ) -> Result<(Self, Vec<csv::StringRecord>), Box<InputError>> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut table = Table {
+            file,
+            text,
+            header: Vec::new(),
+        };
+        let mut reader = csv::ReaderBuilder::new()
+            .flexible(true)
+            .from_reader(text.as_bytes());
+        let parsed = reader.headers().cloned().and_then(|header| {
+            let records: Result<Vec<csv::StringRecord>, csv::Error> = reader.records().collect();
+            Ok((header, records?))
+        });
+        let (header, mut records) = parsed.map_err(|error| {
+            let message = format!("it is no table of comma-separated values: {error}");
+            table.error(0..0, "", message, "")
+        })?;
+        records.retain(|record| record.iter().any(|field| !field.trim().is_empty()));
+        table.header = header.iter().map(|name| name.trim().to_owned()).collect();
+        Ok((table, records))
+    }
+
     pub(crate) fn error(
         &self,
         span: Range<usize>,

@@ -60,7 +60,7 @@ impl Shot {
         self.case(record, library).into_scenario(&self.id, library)
     }
 
-    fn case(&self, record: &str, library: &Library) -> Case {
+    pub(crate) fn case(&self, record: &str, library: &Library) -> Case {
         let room = library
             .find(record)
             .map(|entry| entry.material.room_temperature.si());
@@ -175,6 +175,7 @@ impl Properties {
             validity: material::Validity::default(),
             equation_of_state: None,
             damage: None,
+            calibrated: None,
             strength,
         }
     }

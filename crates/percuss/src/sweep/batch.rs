@@ -2,7 +2,10 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::kernel::{Kernel, Row, ScalarKernel, Shot, Stopped};
+use super::{
+    caught::caught,
+    kernel::{Kernel, Row, ScalarKernel, Shot, Stopped},
+};
 use crate::{
     Scenario, chain,
     model::{self, Model},
@@ -50,8 +53,11 @@ impl Kernel for BatchKernel {
             .filter(|(_, prepared)| prepared.is_some())
             .filter_map(|(shot, _)| shot.scenario.as_ref().ok())
             .collect();
-        let results = chain::run_batch(&together, stop).map_err(|chain::Stopped| Stopped)?;
-        let mut results = results.into_iter();
+        // A panic costs the bundle no more than the time: one after the other, its shot alone is at fault.
+        let Ok(results) = caught(|| chain::run_batch(&together, stop)) else {
+            return self.scalar.rows(shots, stop);
+        };
+        let mut results = results.map_err(|chain::Stopped| Stopped)?.into_iter();
         let mut records = Vec::with_capacity(shots.len());
         for (shot, prepared) in shots.iter().zip(prepared) {
             let record = match (&shot.scenario, prepared) {

@@ -1,10 +1,15 @@
 //! Distributions by their quantile functions.
 
-use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::{
+    f64::consts::{FRAC_1_SQRT_2, PI},
+    fmt,
+};
+
+use crate::units::significant;
 
 /// A distribution of a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Distribution {
+pub(crate) enum Distribution {
     Normal {
         mean: f64,
         deviation: f64,
@@ -29,14 +34,22 @@ pub(super) enum Distribution {
 
 /// Where a distribution is cut off.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Cut {
-    pub(super) min: f64,
-    pub(super) max: f64,
+pub(crate) struct Cut {
+    pub(crate) min: f64,
+    pub(crate) max: f64,
+}
+
+impl Cut {
+    /// None at all.
+    pub(super) const NONE: Self = Self {
+        min: f64::NEG_INFINITY,
+        max: f64::INFINITY,
+    };
 }
 
 impl Distribution {
     /// The value that a number stays below with chance `u`, between 0 and 1.
-    pub(super) fn quantile(&self, u: f64) -> f64 {
+    pub(crate) fn quantile(&self, u: f64) -> f64 {
         match *self {
             Self::Normal {
                 mean,
@@ -68,6 +81,37 @@ impl Distribution {
         }
     }
 
+    /// The value at a normal score: the quantile at the chance of staying below that score.
+    pub(super) fn at_score(&self, z: f64) -> f64 {
+        match *self {
+            // Straight, so that normal parameters of normal scores are exactly normal.
+            Self::Normal {
+                mean,
+                deviation,
+                cut: Cut::NONE,
+            } => mean + deviation * z,
+            Self::Lognormal {
+                median,
+                deviation,
+                cut: Cut::NONE,
+            } => median * libm::exp(deviation * z),
+            // The chance of a high score rounds to 1, which has no finite quantile.
+            _ => self.quantile(chance(z).clamp(f64::MIN_POSITIVE, 1.0 - 0.5 * f64::EPSILON)),
+        }
+    }
+
+    /// Standard deviation of a normal distribution that is not cut off.
+    pub(super) fn normal_deviation(&self) -> Option<f64> {
+        match *self {
+            Self::Normal {
+                deviation,
+                cut: Cut::NONE,
+                ..
+            } => Some(deviation),
+            _ => None,
+        }
+    }
+
     /// Part of the distribution that its cut leaves.
     pub(super) fn part_left(&self) -> f64 {
         let between = |low: f64, high: f64| chance(high) - chance(low);
@@ -90,6 +134,115 @@ impl Distribution {
     }
 }
 
+impl Distribution {
+    /// It in words, such as `normal, 230 ± 3 m/s`; the unit may be empty.
+    pub(super) fn in_words(&self, unit: &str) -> String {
+        let number = |value: f64| significant(value, 6);
+        let words = match *self {
+            Self::Normal {
+                mean,
+                deviation,
+                cut,
+            } => format!(
+                "normal{cut}, {} ± {} {unit}",
+                number(mean),
+                number(deviation)
+            ),
+            Self::Lognormal {
+                median,
+                deviation,
+                cut,
+            } => {
+                // The factor of one standard deviation.
+                let percent = significant(100.0 * libm::expm1(deviation), 3);
+                let median = format!("{} {unit}", number(median));
+                format!("lognormal{cut}, {} ± {percent} %", median.trim_end())
+            }
+            Self::Uniform { from, to } => {
+                format!("uniform, {} … {} {unit}", number(from), number(to))
+            }
+            Self::Triangular { from, mode, to } => {
+                let [from, mode, to] = [from, mode, to].map(number);
+                format!("triangular, {from} … {mode} … {to} {unit}")
+            }
+        };
+        words.trim_end().to_owned()
+    }
+}
+
+/// Standard deviations beyond which a normal distribution has next to nothing.
+const FARTHEST: f64 = 8.0;
+
+impl Distribution {
+    /// Logarithm of the density, up to a constant; minus infinity outside.
+    pub(crate) fn ln_density(&self, x: f64) -> f64 {
+        let (low, high) = self.support();
+        if !(low..=high).contains(&x) {
+            return f64::NEG_INFINITY;
+        }
+        match *self {
+            Self::Normal { .. } => -0.5 * self.score(x).powi(2),
+            Self::Lognormal { .. } => -0.5 * self.score(x).powi(2) - libm::log(x),
+            Self::Uniform { .. } => 0.0,
+            Self::Triangular { from, mode, to } if x < mode => {
+                libm::log((x - from) / (mode - from)) - libm::log(to - from)
+            }
+            Self::Triangular { mode, to, from } if x > mode => {
+                libm::log((to - x) / (to - mode)) - libm::log(to - from)
+            }
+            Self::Triangular { from, to, .. } => -libm::log(to - from),
+        }
+    }
+
+    /// Standard deviations of a normal distribution, or of the logarithm of a lognormal one, from its middle; 0 for others.
+    pub(crate) fn score(&self, x: f64) -> f64 {
+        match *self {
+            Self::Normal {
+                mean, deviation, ..
+            } => (x - mean) / deviation,
+            Self::Lognormal {
+                median, deviation, ..
+            } => libm::log(x / median) / deviation,
+            Self::Uniform { .. } | Self::Triangular { .. } => 0.0,
+        }
+    }
+
+    /// Where it is, but for next to nothing.
+    pub(crate) fn support(&self) -> (f64, f64) {
+        match *self {
+            Self::Normal {
+                mean,
+                deviation,
+                cut,
+            } => (
+                cut.min.max(mean - FARTHEST * deviation),
+                cut.max.min(mean + FARTHEST * deviation),
+            ),
+            Self::Lognormal {
+                median,
+                deviation,
+                cut,
+            } => (
+                cut.min.max(median * libm::exp(-FARTHEST * deviation)),
+                cut.max.min(median * libm::exp(FARTHEST * deviation)),
+            ),
+            Self::Uniform { from, to } | Self::Triangular { from, to, .. } => (from, to),
+        }
+    }
+}
+
+impl fmt::Display for Cut {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let number = |value: f64| significant(value, 6);
+        match (self.min.is_finite(), self.max.is_finite()) {
+            (false, false) => Ok(()),
+            (true, false) => write!(f, " from {} up", number(self.min)),
+            (false, true) => write!(f, " up to {}", number(self.max)),
+            (true, true) => write!(f, " from {} to {}", number(self.min), number(self.max)),
+        }
+    }
+}
+
 /// Quantile of the standard normal distribution between two scores.
 fn truncated(u: f64, low: f64, high: f64) -> f64 {
     let (below, above) = (chance(low), chance(high));
@@ -103,7 +256,7 @@ fn chance(z: f64) -> f64 {
 
 /// Quantile of the standard normal distribution: the rational estimate 26.2.23 of Abramowitz and Stegun, made exact by three of
 /// Halley's steps.
-fn score(u: f64) -> f64 {
+pub(super) fn score(u: f64) -> f64 {
     let tail = u.min(1.0 - u);
     if tail <= 0.0 {
         return if u < 0.5 {
@@ -124,125 +277,5 @@ fn score(u: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const UNCUT: Cut = Cut {
-        min: f64::NEG_INFINITY,
-        max: f64::INFINITY,
-    };
-
-    #[test]
-    fn normal_scores_are_the_tabled_ones() {
-        for (u, z) in [
-            (0.5, 0.0),
-            (0.841_344_746_068_542_9, 1.0),
-            (0.975, 1.959_963_984_540_054),
-            (0.995, 2.575_829_303_548_900_4),
-            (0.001, -3.090_232_306_167_813_5),
-            (1e-9, -5.997_807_015_007_686),
-        ] {
-            assert!((score(u) - z).abs() < 1e-14 * (1.0 + z.abs()) * 4.0, "{u}");
-        }
-        for i in 1..2000 {
-            let u = f64::from(i) / 2000.0;
-            assert!((chance(score(u)) / u - 1.0).abs() < 1e-14, "{u}");
-            // 1 - u is rounded.
-            assert!((score(u) + score(1.0 - u)).abs() < 1e-12, "{u}");
-        }
-        let smallest = 2_f64.powi(-53);
-        assert!((chance(score(smallest)) / smallest - 1.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn quantiles_invert_their_distribution_functions() {
-        let normal = Distribution::Normal {
-            mean: 230.0,
-            deviation: 5.0,
-            cut: UNCUT,
-        };
-        let lognormal = Distribution::Lognormal {
-            median: 2.7,
-            deviation: 0.2,
-            cut: UNCUT,
-        };
-        let uniform = Distribution::Uniform {
-            from: -1.0,
-            to: 3.0,
-        };
-        let triangular = Distribution::Triangular {
-            from: 1.0,
-            mode: 2.0,
-            to: 5.0,
-        };
-        for i in 1..100 {
-            let u = f64::from(i) / 100.0;
-            let close = |found: f64| assert!((found - u).abs() < 1e-13, "{found} {u}");
-            close(chance((normal.quantile(u) - 230.0) / 5.0));
-            close(chance((lognormal.quantile(u) / 2.7).ln() / 0.2));
-            close((uniform.quantile(u) + 1.0) / 4.0);
-            let x = triangular.quantile(u);
-            close(if x < 2.0 {
-                (x - 1.0).powi(2) / 4.0
-            } else {
-                1.0 - (5.0 - x).powi(2) / 12.0
-            });
-        }
-        assert_eq!(triangular.quantile(0.25), 2.0);
-    }
-
-    #[test]
-    fn a_cut_distribution_stays_inside_and_keeps_its_shape() {
-        let cut = Cut { min: 1.0, max: 3.5 };
-        let normal = Distribution::Normal {
-            mean: 2.0,
-            deviation: 1.0,
-            cut,
-        };
-        let left = chance(1.5) - chance(-1.0);
-        assert!((normal.part_left() - left).abs() < 1e-15);
-        for i in 0..=1000 {
-            let u = f64::from(i) / 1000.0;
-            let x = normal.quantile(u);
-            assert!((1.0..=3.5).contains(&x), "{x}");
-            assert!(((chance(x - 2.0) - chance(-1.0)) / left - u).abs() < 1e-13);
-        }
-        let lognormal = Distribution::Lognormal {
-            median: 2.0,
-            deviation: 0.5,
-            cut: Cut {
-                min: f64::NEG_INFINITY,
-                max: 2.0,
-            },
-        };
-        assert!((lognormal.part_left() - 0.5).abs() < 1e-15);
-        assert!((lognormal.quantile(0.5) - 2.0 * (0.5 * score(0.25)).exp()).abs() < 1e-14);
-    }
-
-    /// Mean and variance by the midpoint rule against their closed forms.
-    #[test]
-    fn moments_are_the_closed_forms() {
-        let moments = |distribution: Distribution| {
-            let count = 200_000;
-            let at = |i: i32| distribution.quantile((f64::from(i) + 0.5) / f64::from(count));
-            let mean = (0..count).map(at).sum::<f64>() / f64::from(count);
-            let square = (0..count).map(|i| at(i).powi(2)).sum::<f64>() / f64::from(count);
-            (mean, square - mean * mean)
-        };
-        let (mean, variance) = moments(Distribution::Triangular {
-            from: 0.0,
-            mode: 1.0,
-            to: 4.0,
-        });
-        assert!((mean - 5.0 / 3.0).abs() < 1e-6 && (variance - 13.0 / 18.0).abs() < 1e-6);
-        let (mean, variance) = moments(Distribution::Lognormal {
-            median: 1.0,
-            deviation: 0.25,
-            cut: UNCUT,
-        });
-        let s2: f64 = 0.0625;
-        assert!((mean / (s2 / 2.0).exp() - 1.0).abs() < 1e-5, "{mean}");
-        let exact = (s2.exp() - 1.0) * s2.exp();
-        assert!((variance / exact - 1.0).abs() < 1e-3, "{variance}");
-    }
-}
+#[path = "distribution_tests.rs"]
+mod tests;

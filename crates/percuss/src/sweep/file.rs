@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use serde::{Deserialize, Deserializer};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-use crate::units::{shorten, split_number};
+use super::{amount::Amount, correlation::Correlation, entry::Entry};
 
 /// A sweep as its TOML file holds it.
 #[derive(Debug, Clone, Deserialize)]
@@ -24,6 +25,7 @@ pub(super) struct SweepFile {
     pub(super) block_size: Option<u64>,
     #[serde(default)]
     pub(super) parameter: Vec<Parameter>,
+    pub(super) correlation: Option<Correlation>,
 }
 
 /// How the shots are chosen.
@@ -49,123 +51,97 @@ impl Design {
     }
 }
 
-/// A number of the case and the values it takes: just one of the other keys.
-#[derive(Debug, Clone, Deserialize)]
+/// A number or an option of the case and the values it takes: just one of the other keys.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Parameter {
-    pub(super) key: String,
-    pub(super) values: Option<Vec<Amount>>,
-    pub(super) linear: Option<Steps>,
-    pub(super) log: Option<Steps>,
-    pub(super) normal: Option<Normal>,
-    pub(super) lognormal: Option<Lognormal>,
-    pub(super) uniform: Option<Uniform>,
-    pub(super) triangular: Option<Triangular>,
+pub struct Parameter {
+    /// Number of the case by the tables that it stands in, such as `projectile.velocity`; entries of lists count from 0.
+    pub key: String,
+    /// A list.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub values: Option<Vec<Entry>>,
+    /// Values at even steps.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub linear: Option<Steps>,
+    /// Values at even ratios.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub log: Option<Steps>,
+    /// Normal distribution.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal: Option<Normal>,
+    /// Distribution whose logarithm is normal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lognormal: Option<Lognormal>,
+    /// Equally likely in between.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uniform: Option<Uniform>,
+    /// Triangular distribution.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub triangular: Option<Triangular>,
 }
 
 /// Values at even steps, both ends included.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Steps {
-    pub(super) from: Amount,
-    pub(super) to: Amount,
-    pub(super) count: u64,
+pub struct Steps {
+    /// Lower end.
+    pub from: Amount,
+    /// Upper end.
+    pub to: Amount,
+    /// Number of values.
+    pub count: u64,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// A normal distribution, which may be cut off.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Normal {
-    pub(super) mean: Amount,
-    pub(super) standard_deviation: Amount,
-    pub(super) min: Option<Amount>,
-    pub(super) max: Option<Amount>,
+pub struct Normal {
+    /// Mean.
+    pub mean: Amount,
+    /// Standard deviation.
+    pub standard_deviation: Amount,
+    /// Where it is cut off below.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min: Option<Amount>,
+    /// Where it is cut off above.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max: Option<Amount>,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// A lognormal distribution, which may be cut off.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Lognormal {
-    pub(super) median: Amount,
+pub struct Lognormal {
+    /// Median.
+    pub median: Amount,
     /// Standard deviation of the natural logarithm.
-    pub(super) log_standard_deviation: f64,
-    pub(super) min: Option<Amount>,
-    pub(super) max: Option<Amount>,
+    pub log_standard_deviation: f64,
+    /// Where it is cut off below.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min: Option<Amount>,
+    /// Where it is cut off above.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max: Option<Amount>,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// A uniform distribution.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Uniform {
-    pub(super) from: Amount,
-    pub(super) to: Amount,
+pub struct Uniform {
+    /// Lower end.
+    pub from: Amount,
+    /// Upper end.
+    pub to: Amount,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// A triangular distribution.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Triangular {
-    pub(super) from: Amount,
-    pub(super) mode: Amount,
-    pub(super) to: Amount,
-}
-
-/// A number, or a number with a unit in quotes. Whether the unit fits is for the case to say.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Amount {
-    pub(super) value: f64,
-    pub(super) unit: String,
-    /// Whether it is written as a whole number.
-    pub(super) whole: bool,
-}
-
-impl<'de> Deserialize<'de> for Amount {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(AmountVisitor)
-    }
-}
-
-struct AmountVisitor;
-
-impl serde::de::Visitor<'_> for AmountVisitor {
-    type Value = Amount;
-
-    fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("a number, or one with a unit in quotes such as \"230 m/s\"")
-    }
-
-    fn visit_f64<E: serde::de::Error>(self, value: f64) -> Result<Amount, E> {
-        if !value.is_finite() {
-            return Err(E::custom("the number is not finite\nwrite a finite number"));
-        }
-        Ok(Amount {
-            value,
-            unit: String::new(),
-            whole: false,
-        })
-    }
-
-    fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<Amount, E> {
-        Ok(Amount {
-            value: value as f64,
-            unit: String::new(),
-            // Beyond, a float would stand for a neighbour as well.
-            whole: value.unsigned_abs() <= 1 << 53,
-        })
-    }
-
-    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Amount, E> {
-        let bad = |what: &str| {
-            let text = shorten(text);
-            E::custom(format!(
-                "`{text}` {what}\nwrite a number with a unit, such as \"230 m/s\", or without quotes one that has none"
-            ))
-        };
-        match split_number(text.trim()) {
-            Some((value, _)) if !value.is_finite() => Err(bad("is not a finite number")),
-            Some((_, "")) => Err(bad("has no unit")),
-            Some((value, unit)) => Ok(Amount {
-                value,
-                unit: unit.to_owned(),
-                whole: false,
-            }),
-            None => Err(bad("is no number")),
-        }
-    }
+pub struct Triangular {
+    /// Lower end.
+    pub from: Amount,
+    /// Likeliest value.
+    pub mode: Amount,
+    /// Upper end.
+    pub to: Amount,
 }

@@ -5,8 +5,11 @@ use std::{
     sync::atomic::{AtomicBool, Ordering},
 };
 
+use super::{Axis, caught::caught};
 use crate::{
     Error, Scenario,
+    case::Template,
+    check::Finding,
     model::{self, Control, Model},
     summary::ResultRecord,
 };
@@ -20,6 +23,41 @@ pub struct Shot {
     pub inputs: Vec<f64>,
     /// The case with these values, or why they make none.
     pub scenario: Result<Scenario, String>,
+}
+
+impl Shot {
+    /// A case with some of its numbers changed: those of the axes, then `more` under their keys.
+    pub(crate) fn new(
+        template: &Template,
+        axes: &[Axis],
+        index: u64,
+        inputs: Vec<f64>,
+        more: &[(&str, toml::Value)],
+    ) -> Self {
+        let of_axes = axes.iter().zip(&inputs);
+        let changes: Vec<(&str, toml::Value)> = of_axes
+            .map(|(axis, value)| (axis.key.as_str(), axis.written(*value)))
+            .chain(more.iter().cloned())
+            .collect();
+        let made = caught(|| template.scenario(&changes));
+        let scenario = made.and_then(|made| {
+            made.map_err(|findings| {
+                let words = |finding: &Finding| {
+                    let mut text = format!("{}: {}", finding.key, finding.message);
+                    if !finding.help.is_empty() {
+                        text += &format!(" ({})", finding.help);
+                    }
+                    text.trim_start_matches(": ").to_owned()
+                };
+                findings.iter().map(words).collect::<Vec<_>>().join("; ")
+            })
+        });
+        Self {
+            index,
+            inputs,
+            scenario,
+        }
+    }
 }
 
 /// A shot and what became of it.
@@ -71,7 +109,10 @@ impl ScalarKernel {
             progress: Some(&mut watch),
             ..Control::default()
         };
-        match model::run(self.model, scenario, &mut control) {
+        // One shot is what a panic may cost: the other shots of the block, the block and the sweep go on.
+        let result = caught(|| model::run(self.model, scenario, &mut control));
+        let result = result.unwrap_or_else(|said| Err(Error::Fault(said)));
+        match result {
             Ok(result) => Ok(ResultRecord::new(scenario, &result)),
             Err(Error::Cancelled { .. }) => Err(Stopped),
             Err(error) => Ok(ResultRecord::without_result(

@@ -6,6 +6,7 @@ use super::{
     Sweep,
     axis::Axis,
     file::{Design, SweepFile},
+    inputs::{check_values, resolve},
     points::{MAX_SHOTS, Points},
     sobol::MAX_DIMENSIONS,
 };
@@ -31,19 +32,12 @@ pub(super) fn load(path: &Path) -> Result<Sweep, Error> {
     let mut findings = Vec::new();
     let mut check = Check::new(&mut findings);
     check_model(&file, &mut check);
-    let mut axes: Vec<Axis> = Vec::new();
     if file.parameter.is_empty() {
         let help = "write one under [[parameter]]: key = \"projectile.velocity\" and values = [\"200 m/s\", \"230 m/s\"]";
         check.fail("parameter", "the sweep varies nothing", help);
     }
-    for (i, parameter) in file.parameter.iter().enumerate() {
-        let mut check = check.within(&format!("parameter.{i}"));
-        if axes.iter().any(|axis| axis.key == parameter.key) {
-            let message = format!("`{}` is varied twice", parameter.key);
-            check.fail("key", message, "remove one of the two");
-        }
-        axes.extend(parameter.resolve(&mut check, file.design));
-    }
+    let correlation = file.correlation.as_ref();
+    let (axes, copula) = resolve(&file.parameter, correlation, file.design, &mut check);
     let shots = check_design(&file, &axes, &mut check);
     document.report(findings)?;
 
@@ -77,6 +71,7 @@ pub(super) fn load(path: &Path) -> Result<Sweep, Error> {
         block_size,
         content: canonical.to_string(),
         axes,
+        copula,
         template,
     })
 }
@@ -147,28 +142,4 @@ fn check_design(file: &SweepFile, axes: &[Axis], check: &mut Check<'_>) -> u64 {
         );
     }
     shots
-}
-
-/// Tries every value that the file writes down on the base case, one at a time.
-fn check_values(axes: &[Axis], template: &Template, check: &mut Check<'_>) {
-    for (i, axis) in axes.iter().enumerate() {
-        for (key, value) in &axis.samples {
-            let written = axis.written(*value);
-            let Err(findings) = template.scenario(&[(&axis.key, written.clone())]) else {
-                continue;
-            };
-            if let Some(finding) = findings.into_iter().next() {
-                let of = match finding.key.as_str() {
-                    "" => axis.key.clone(),
-                    key => key.to_owned(),
-                };
-                let message = format!(
-                    "with {} = {written} the case is not valid: `{of}`: {}",
-                    axis.key, finding.message
-                );
-                check.fail(&format!("parameter.{i}.{key}"), message, finding.help);
-                return;
-            }
-        }
-    }
 }

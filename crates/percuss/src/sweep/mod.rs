@@ -3,10 +3,16 @@
 //! Shot i of a sweep is a pure function of the sweep file, the base case and i, and so is its row: which thread, process or
 //! machine computes it, and when, makes no difference.
 
+mod amount;
 mod axis;
 mod batch;
+mod caught;
+mod copula;
+mod correlation;
 mod distribution;
+mod entry;
 mod file;
+mod inputs;
 mod kernel;
 mod load;
 mod parameter;
@@ -21,11 +27,21 @@ use std::{
     path::{Path, PathBuf},
 };
 
+pub use amount::Amount;
 pub use axis::Axis;
+pub(crate) use axis::{Values, values};
 pub use batch::BatchKernel;
-pub use file::Design;
+pub(crate) use copula::Copula;
+pub use correlation::Correlation;
+pub(crate) use distribution::{Cut, Distribution};
+pub use entry::Entry;
+pub use file::{Design, Lognormal, Normal, Parameter, Steps, Triangular, Uniform};
+pub use inputs::UncertainInputs;
+pub(crate) use inputs::check_values;
 pub use kernel::{Kernel, Row, ScalarKernel, Shot, Stopped};
-use points::Points;
+pub(crate) use points::Points;
+pub(crate) use random::{bits, permuted, stream};
+pub(crate) use sobol::MAX_DIMENSIONS;
 
 use crate::{Error, case::Template, model::Model};
 
@@ -44,6 +60,7 @@ pub struct Sweep {
     /// Shots in a block; the last block may have fewer.
     pub block_size: u64,
     points: Points,
+    copula: Option<Copula>,
     template: Template,
     content: String,
 }
@@ -90,28 +107,8 @@ impl Sweep {
 
     /// A shot, counted from 0.
     pub fn shot(&self, index: u64) -> Shot {
-        let inputs = self.points.values(&self.axes, index);
-        let changes: Vec<(&str, toml::Value)> = self
-            .axes
-            .iter()
-            .zip(&inputs)
-            .map(|(axis, value)| (axis.key.as_str(), axis.written(*value)))
-            .collect();
-        let scenario = self.template.scenario(&changes).map_err(|findings| {
-            let words = |finding: &crate::check::Finding| {
-                let mut text = format!("{}: {}", finding.key, finding.message);
-                if !finding.help.is_empty() {
-                    text += &format!(" ({})", finding.help);
-                }
-                text.trim_start_matches(": ").to_owned()
-            };
-            findings.iter().map(words).collect::<Vec<_>>().join("; ")
-        });
-        Shot {
-            index,
-            inputs,
-            scenario,
-        }
+        let inputs = self.points.values(&self.axes, self.copula.as_ref(), index);
+        Shot::new(&self.template, &self.axes, index, inputs, &[])
     }
 }
 

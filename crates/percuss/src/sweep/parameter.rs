@@ -1,9 +1,11 @@
 //! Checking a parameter of a sweep file and turning it into an axis.
 
 use super::{
+    amount::Amount,
     axis::{Axis, Values},
     distribution::{Cut, Distribution},
-    file::{Amount, Design, Parameter, Steps},
+    entry::Entry,
+    file::{Design, Parameter, Steps},
 };
 use crate::check::Check;
 
@@ -46,6 +48,37 @@ impl Amounts {
         let value = self.read(check, key, amount);
         self.samples.push((key.to_owned(), value));
         value
+    }
+
+    /// Reads a list that is written down value by value.
+    fn entries(&mut self, check: &mut Check<'_>, entries: &[Entry]) -> Option<Values> {
+        let (mut numbers, mut options) = (Vec::new(), Vec::new());
+        for (i, entry) in entries.iter().enumerate() {
+            let key = format!("values.{i}");
+            match entry {
+                Entry::Amount(amount) => numbers.push(self.sample(check, &key, amount)),
+                Entry::Option(value) if options.contains(value) => {
+                    check.fail(&key, format!("{value} is in the list twice"), "remove one");
+                    return None;
+                }
+                Entry::Option(value) => {
+                    self.samples.push((key.clone(), i as f64));
+                    options.push(value.clone());
+                }
+            }
+            if !numbers.is_empty() && !options.is_empty() {
+                check.fail(
+                    &key,
+                    "the list has numbers and words",
+                    "write numbers only, such as 2.7 or \"230 m/s\", or words only, such as \"column\"",
+                );
+                return None;
+            }
+        }
+        Some(match options.is_empty() {
+            true => Values::List(numbers),
+            false => Values::Options(options),
+        })
     }
 
     fn steps(&mut self, check: &mut Check<'_>, kind: &str, steps: &Steps) -> Option<(f64, f64)> {
@@ -104,32 +137,33 @@ impl Parameter {
     }
 
     /// Checks the parameter; `None` when something is wrong with it.
-    pub(super) fn resolve(&self, check: &mut Check<'_>, design: Design) -> Option<Axis> {
+    pub(crate) fn resolve(&self, check: &mut Check<'_>, design: Design) -> Option<Axis> {
         const WAYS: &str =
             "give one of values, linear, log, normal, lognormal, uniform and triangular";
-        match self.kinds().as_slice() {
+        let kind = match self.kinds().as_slice() {
             [] => {
                 check.fail("", format!("`{}` has no values", self.key), WAYS);
                 return None;
             }
-            [_] => {}
+            [kind] => *kind,
             [first, second, ..] => {
                 let message = format!("values are given twice, by {first} and by {second}");
                 check.fail(second, message, WAYS);
                 return None;
             }
-        }
+        };
         let mut amounts = Amounts {
             unit: None,
             whole: true,
             samples: Vec::new(),
         };
         let values = match self.list(check, &mut amounts) {
-            Some(list) => Values::List(list?),
+            Some(list) => list?,
             None => Values::Distribution(self.distribution(check, &mut amounts, design)?),
         };
         Some(Axis {
             key: self.key.clone(),
+            kind,
             unit: amounts.unit.unwrap_or_default(),
             whole: amounts.whole && matches!(values, Values::List(_)),
             values,
@@ -138,16 +172,13 @@ impl Parameter {
     }
 
     /// The values of a list: `None` when the parameter has a distribution, `Some(None)` when the list is wrong.
-    fn list(&self, check: &mut Check<'_>, amounts: &mut Amounts) -> Option<Option<Vec<f64>>> {
+    fn list(&self, check: &mut Check<'_>, amounts: &mut Amounts) -> Option<Option<Values>> {
         if let Some(values) = &self.values {
             if values.is_empty() {
                 check.fail("values", "the list is empty", "give at least one value");
                 return Some(None);
             }
-            let read = |(i, amount): (usize, &Amount)| {
-                amounts.sample(check, &format!("values.{i}"), amount)
-            };
-            return Some(Some(values.iter().enumerate().map(read).collect()));
+            return Some(amounts.entries(check, values));
         }
         let (kind, steps) = match (&self.linear, &self.log) {
             (Some(steps), _) => ("linear", steps),
@@ -167,7 +198,7 @@ impl Parameter {
                 libm::exp(low + (high - low) * i as f64 / last as f64)
             }
         };
-        Some(Some((0..steps.count).map(value).collect()))
+        Some(Some(Values::List((0..steps.count).map(value).collect())))
     }
 
     fn distribution(

@@ -1,7 +1,8 @@
 //! Designs: which values shot i has.
 
 use super::{
-    axis::{Axis, Values},
+    axis::{Axis, Values, values},
+    copula::Copula,
     file::Design,
     random::{bits, permuted, stream},
     sobol::Directions,
@@ -19,15 +20,16 @@ const SCRAMBLE: u64 = 3;
 
 /// What it takes to make any shot of a design.
 #[derive(Debug, Clone)]
-pub(super) struct Points {
+pub(crate) struct Points {
     pub(super) design: Design,
     pub(super) shots: u64,
     seed: u64,
+    dimensions: usize,
     directions: Vec<Directions>,
 }
 
 impl Points {
-    pub(super) fn new(design: Design, shots: u64, seed: u64, dimensions: usize) -> Self {
+    pub(crate) fn new(design: Design, shots: u64, seed: u64, dimensions: usize) -> Self {
         let directions = match design {
             Design::Sobol => (0..dimensions).map(Directions::of).collect(),
             Design::Grid | Design::LatinHypercube => Vec::new(),
@@ -36,27 +38,29 @@ impl Points {
             design,
             shots,
             seed,
+            dimensions,
             directions,
         }
     }
 
     /// The values of a shot, in the order of the axes.
-    pub(super) fn values(&self, axes: &[Axis], shot: u64) -> Vec<f64> {
+    pub(super) fn values(&self, axes: &[Axis], copula: Option<&Copula>, shot: u64) -> Vec<f64> {
         match self.design {
             Design::Grid => grid(axes, shot),
-            Design::LatinHypercube => axes
-                .iter()
-                .enumerate()
-                .map(|(dimension, axis)| axis.at(self.stratified(dimension, shot)))
-                .collect(),
-            Design::Sobol => axes
-                .iter()
-                .zip(&self.directions)
-                .enumerate()
-                .map(|(dimension, (axis, directions))| {
-                    let stream = stream(self.seed, SCRAMBLE, dimension);
+            Design::LatinHypercube | Design::Sobol => values(axes, copula, &self.unit(shot)),
+        }
+    }
+
+    /// Coordinates of a shot between 0 and 1; a grid has none.
+    pub(crate) fn unit(&self, shot: u64) -> Vec<f64> {
+        let dimensions = 0..self.dimensions;
+        match self.design {
+            Design::Grid => Vec::new(),
+            Design::LatinHypercube => dimensions.map(|d| self.stratified(d, shot)).collect(),
+            Design::Sobol => dimensions
+                .map(|d| {
                     // There are fewer shots than 2^32.
-                    axis.at(directions.scrambled(shot as u32, stream))
+                    self.directions[d].scrambled(shot as u32, stream(self.seed, SCRAMBLE, d))
                 })
                 .collect(),
         }
@@ -84,6 +88,12 @@ fn grid(axes: &[Axis], shot: u64) -> Vec<f64> {
                 let value = list[(rest % count) as usize];
                 rest /= count;
                 value
+            }
+            Values::Options(options) => {
+                let count = options.len() as u64;
+                let place = rest % count;
+                rest /= count;
+                place as f64
             }
             // Grids have lists only; the median would be the one value to take.
             Values::Distribution(distribution) => distribution.quantile(0.5),

@@ -8,12 +8,12 @@ fn mix(z: u64) -> u64 {
 }
 
 /// Bits drawn for an index of a stream.
-pub(super) fn bits(stream: u64, index: u64) -> u64 {
+pub(crate) fn bits(stream: u64, index: u64) -> u64 {
     mix(stream ^ mix(index.wrapping_add(0x9e37_79b9_7f4a_7c15)))
 }
 
 /// A stream of its own for every purpose and dimension.
-pub(super) fn stream(seed: u64, purpose: u64, dimension: usize) -> u64 {
+pub(crate) fn stream(seed: u64, purpose: u64, dimension: usize) -> u64 {
     bits(bits(seed, purpose), dimension as u64)
 }
 
@@ -24,7 +24,7 @@ const ROUNDS: u64 = 6;
 ///
 /// A Feistel network permutes the numbers of an even count of bits that holds `count`; it is applied until the result is one
 /// of the numbers wanted ("cycle walking"), so that no table of the order is kept.
-pub(super) fn permuted(stream: u64, index: u64, count: u64) -> u64 {
+pub(crate) fn permuted(stream: u64, index: u64, count: u64) -> u64 {
     let half = (64 - count.saturating_sub(1).leading_zeros())
         .div_ceil(2)
         .max(1);

@@ -6,7 +6,7 @@
 use super::random::bits;
 
 /// Most dimensions there are points for.
-pub(super) const MAX_DIMENSIONS: usize = 1 + POLYNOMIALS.len();
+pub(crate) const MAX_DIMENSIONS: usize = 1 + POLYNOMIALS.len();
 /// Bits of a Sobol' point before scrambling, which bounds the number of points.
 const BITS: u32 = 32;
 /// Bits of a coordinate after scrambling: with the half that is added it fits a 64-bit float exactly.

@@ -1,6 +1,14 @@
-use std::{collections::BTreeSet, path::PathBuf, sync::atomic::AtomicBool};
+use std::{
+    collections::BTreeSet, path::PathBuf, process::Command, sync::atomic::AtomicBool, thread,
+};
 
 use super::*;
+use crate::{
+    Scenario,
+    guard::Guard,
+    model::Control,
+    outcome::{Outcome, RunResult, Termination},
+};
 
 /// Loads a sweep written into a folder of its own, beside the case that it names.
 fn load(name: &str, text: &str) -> Result<Sweep, Error> {
@@ -15,7 +23,7 @@ fn load(name: &str, text: &str) -> Result<Sweep, Error> {
     sweep
 }
 
-fn sweep(name: &str, head: &str, parameters: &str) -> Sweep {
+pub(super) fn sweep(name: &str, head: &str, parameters: &str) -> Sweep {
     let text = format!("base = 'scenario.toml'\nmodel = 'taylor'\n{head}\n{parameters}");
     load(name, &text).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
@@ -141,6 +149,100 @@ normal = { mean = '100 m/s', standard_deviation = '200 m/s' }
         reason.contains("projectile.velocity") && reason.contains("out of range"),
         "{reason}"
     );
+}
+
+/// A model with a fault above 300 m/s.
+struct Faulty;
+
+impl Model for Faulty {
+    fn name(&self) -> &'static str {
+        "faulty"
+    }
+    fn summary(&self) -> &'static str {
+        "made up"
+    }
+    fn guard(&self) -> &'static Guard {
+        &Guard::OPEN
+    }
+    fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
+        assert!(scenario.impact_speed < 300.0, "a wrong {}", "index");
+        let result = RunResult::new("faulty", "", Outcome::AtRest, Termination::ClosedForm);
+        Ok(result)
+    }
+}
+
+#[test]
+fn a_model_that_panics_costs_one_row() {
+    let sweep = sweep("panic", "design = 'grid'", LISTS);
+    let shots = (0..27).map(|i| sweep.shot(i)).collect();
+    let stop = AtomicBool::new(false);
+    let rows = ScalarKernel::new(&Faulty).rows(shots, &stop).unwrap();
+    assert_eq!(rows.len(), 27);
+    for row in rows {
+        let record = row.record.unwrap();
+        let failed = row.inputs[0] > 300.0;
+        assert_eq!(record.outcome == Outcome::Failed, failed);
+        assert_eq!(record.reason.is_some(), failed);
+        if let Some(reason) = record.reason {
+            assert!(reason.contains("please report it"), "{reason}");
+            assert!(reason.contains("tests.rs:"), "{reason}");
+            assert!(reason.ends_with(": a wrong index"), "{reason}");
+        }
+    }
+    // Any other panic says so as ever; the next test sees it.
+    let elsewhere = thread::spawn(|| panic!("not in a shot")).join();
+    assert!(elsewhere.is_err());
+}
+
+#[test]
+fn a_model_that_panics_prints_nothing() {
+    let output = Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "--nocapture"])
+        .arg("sweep::tests::a_model_that_panics_costs_one_row")
+        .output()
+        .unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("not in a shot"), "{said}");
+    assert!(!said.contains("wrong index"), "{said}");
+}
+
+#[test]
+fn words_and_switches_are_varied_like_numbers() {
+    let text = "
+[[parameter]]
+key = 'projectile.material'
+values = ['copper', '4340-johnson-cook']
+[[parameter]]
+key = 'chain.rate_effects'
+values = [true, false]
+[[parameter]]
+key = 'chain.target_closure'
+values = ['column', 'diverging', 'expanding-cavity']
+";
+    let grid = sweep("words", "design = 'grid'", text);
+    assert_eq!(grid.shots(), 12);
+    assert_eq!(grid.shot(11).inputs, [1.0, 1.0, 2.0]);
+    let scenario = grid.shot(8).scenario.unwrap();
+    assert!(scenario.projectile.material.name.contains("4340"));
+    assert_eq!(scenario.options.chain.rate_effects, Some(true));
+    assert_eq!(
+        scenario.options.chain.target_closure.unwrap().name(),
+        "expanding-cavity"
+    );
+    let words: Vec<_> = grid.axes.iter().filter_map(Axis::words).collect();
+    assert_eq!(words[1], ["true", "false"]);
+    assert_eq!(words[0][1], "4340-johnson-cook");
+    // In a random design every word is as likely as the others.
+    let drawn = sweep(
+        "random-words",
+        "design = 'latin-hypercube'\nsamples = 48",
+        text,
+    );
+    for word in 0..3 {
+        let count = (0..48).filter(|i| drawn.shot(*i).inputs[2] == f64::from(word));
+        assert_eq!(count.count(), 16);
+    }
 }
 
 #[test]

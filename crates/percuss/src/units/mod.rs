@@ -96,6 +96,25 @@ pub fn display<D: Dimension>(si: f64) -> String {
     }
 }
 
+/// Writes an SI value so that it reads back unchanged but for rounding, with six significant digits where they suffice.
+pub(crate) fn written<D: Dimension>(si: f64) -> String {
+    let short = display::<D>(si);
+    let same = |text: &str| {
+        text.parse::<Quantity<D>>()
+            .is_ok_and(|read| (read.si - si).abs() <= 4.0 * f64::EPSILON * si.abs())
+    };
+    if same(&short) {
+        return short;
+    }
+    let unit = short.split_once(' ').and_then(|(_, symbol)| {
+        let mut units = D::UNITS.iter();
+        units.find(|unit| unit.symbol == symbol)
+    });
+    unit.map_or(short, |unit| {
+        format!("{:?} {}", (si - unit.offset) / unit.factor, unit.symbol)
+    })
+}
+
 /// Writes a number with at most `digits` significant digits and no trailing zeros.
 pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
@@ -224,6 +243,14 @@ fn normalise(unit: &str) -> String {
         .join(" ")
 }
 
+/// Whether a text is a unit of any dimension.
+pub(crate) fn is_unit(text: &str) -> bool {
+    let name = normalise(text);
+    ALL_DIMENSIONS
+        .iter()
+        .any(|dimension| find_unit(dimension.units, &name).is_some())
+}
+
 fn find_unit(units: &'static [Unit], name: &str) -> Option<&'static Unit> {
     units
         .iter()
@@ -342,7 +369,7 @@ impl<'de, D: Dimension> Deserialize<'de> for Quantity<D> {
 
 impl<D: Dimension> Serialize for Quantity<D> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(&self.to_string())
+        serializer.collect_str(&written::<D>(self.si))
     }
 }
 

@@ -31,35 +31,14 @@ pub fn read(path: impl AsRef<Path>) -> Result<Vec<Shot>, Error> {
 /// # Errors
 /// [`Error::Input`] with the place when the text is not valid.
 pub fn read_str(name: &str, text: &str) -> Result<Vec<Shot>, Error> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut reader = csv::ReaderBuilder::new()
-        .flexible(true)
-        .from_reader(text.as_bytes());
-    let mut table = Table {
-        file: name,
-        text,
-        header: Vec::new(),
-    };
-    let unreadable = |error: csv::Error| InputError {
-        file: name.to_owned(),
-        text: text.to_owned(),
-        span: 0..0,
-        key: String::new(),
-        message: format!("it is no table of comma-separated values: {error}"),
-        help: String::new(),
-    };
-    let header = reader.headers().map_err(unreadable)?;
-    table.header = header.iter().map(|name| name.trim().to_owned()).collect();
+    let (table, records) = Table::read(name, text)?;
     check_header(&table)?;
     let mut shots = Vec::new();
-    for record in reader.records() {
-        let row = Row {
+    for record in records {
+        shots.push(shot(&Row {
             table: &table,
-            record: record.map_err(unreadable)?,
-        };
-        if row.record.iter().any(|field| !field.trim().is_empty()) {
-            shots.push(shot(&row)?);
-        }
+            record,
+        })?);
     }
     if shots.is_empty() {
         let help = "write one row a shot below the header, such as 184.3,yes";

@@ -8,7 +8,7 @@ use std::{
 use crate::{
     Error, Scenario,
     model::{self, Control, Model},
-    outcome::{BandQuantity, Outcome, RunResult},
+    outcome::Outcome,
     regime::Regime,
     shots::{Kind, Shot, Split},
 };
@@ -38,7 +38,8 @@ pub struct Prediction {
     pub reason: Option<String>,
     /// Warnings that came with the prediction.
     pub warnings: usize,
-    /// Whether the prediction is blind: neither the program's constants nor the model were fitted to the shot's source or chosen on it.
+    /// Whether the prediction is blind: neither the program's constants nor the model were fitted to the shot's source or chosen on it,
+    /// nor were the constants of its materials calibrated on it.
     pub split: Split,
     /// Whether statistics count it, and if not, why.
     pub standing: Standing,
@@ -126,7 +127,10 @@ impl Computed<'_> {
             Standing::Counted if relative_error.is_none() => Standing::MeasuredZero,
             other => other,
         };
-        let split = if model.guard().is_fitted_to(&shot.source) {
+        let calibrated = |scenario: &Scenario| scenario.is_calibrated_on(&shot.source);
+        let split = if model.guard().is_fitted_to(&shot.source)
+            || self.scenario.as_ref().is_ok_and(calibrated)
+        {
             Split::Calibration
         } else {
             shot.split
@@ -208,7 +212,7 @@ fn compute(kind: Kind, scenario: &Scenario, model: &dyn Model, stop: &AtomicBool
         }
         Err(error) => return failed(Outcome::Failed, error.to_string()),
     };
-    match quantity(kind.quantity(), &result) {
+    match result.measurable(kind.quantity()) {
         _ if result.outcome == Outcome::OutOfTime => failed(
             Outcome::OutOfTime,
             "the run ended before the shot did".to_owned(),
@@ -222,15 +226,5 @@ fn compute(kind: Kind, scenario: &Scenario, model: &dyn Model, stop: &AtomicBool
             warnings: result.warnings.len(),
             standing: Standing::Counted,
         },
-    }
-}
-
-/// The main number of a kind of shot, in SI units.
-fn quantity(quantity: BandQuantity, result: &RunResult) -> Option<f64> {
-    match quantity {
-        BandQuantity::DepthOfPenetration => result.depth_of_penetration,
-        BandQuantity::ResidualVelocity => result.residual_velocity,
-        BandQuantity::BallisticLimit => result.ballistic_limit,
-        BandQuantity::ProjectileFinalLength => result.projectile_final_length,
     }
 }

@@ -2,6 +2,8 @@
 
 #![allow(dead_code)] // Each test file uses its own part of this.
 
+pub mod plates;
+
 use percuss::{
     Scenario, case,
     history::Sample,
@@ -100,6 +102,25 @@ pub fn wilkins(velocity: f64) -> String {
         r#"
         projectile = {{ material = "copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "{velocity} m/s" }}
         target = {{ rigid_wall = true }}
+        "#
+    )
+}
+
+/// A perfectly plastic metal of a case.
+pub fn plastic_metal(
+    id: &str,
+    density: f64,
+    youngs_modulus_gpa: f64,
+    flow_stress_mpa: f64,
+) -> String {
+    format!(
+        r#"
+        [materials.{id}]
+        name = "{id}"
+        density = "{density} kg/m3"
+        youngs_modulus = "{youngs_modulus_gpa} GPa"
+        poissons_ratio = 0.3
+        strength.perfectly_plastic = {{ flow_stress = "{flow_stress_mpa} MPa" }}
         "#
     )
 }

@@ -3,7 +3,6 @@ mod head;
 mod kinds;
 mod shown;
 mod single;
-mod speeds;
 mod sweep;
 #[cfg(test)]
 mod tests;
@@ -18,8 +17,10 @@ use percuss::{
     model::{self, MODELS, Model},
 };
 
-use crate::{diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, terminal};
-use speeds::Speeds;
+use crate::{
+    diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, speeds::Speeds,
+    terminal,
+};
 
 const LONG_ABOUT: &str = "\
 Run every model on a case and set their results side by side: which regime the
@@ -119,21 +120,7 @@ impl Compare {
     fn speeds(&self, scenario: &Scenario) -> Result<Vec<f64>, Failure> {
         match &self.velocity {
             None => Ok(vec![scenario.impact_speed]),
-            Some(Speeds::Given(speeds)) => Ok(speeds.clone()),
-            Some(Speeds::OfExperiments) => {
-                let measured = scenario.experiments.iter();
-                let mut speeds: Vec<f64> = measured.filter_map(|m| m.impact_speed).collect();
-                speeds.sort_by(f64::total_cmp);
-                speeds.dedup();
-                if speeds.is_empty() {
-                    return Err(Failure::Usage {
-                        message: "the case has no experiments with a velocity".to_owned(),
-                        help: "add `[[experiments]]` entries, or give speeds such as --velocity 200..1500:27"
-                            .to_owned(),
-                    });
-                }
-                Ok(speeds)
-            }
+            Some(speeds) => speeds.of(scenario),
         }
     }
 

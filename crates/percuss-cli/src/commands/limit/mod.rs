@@ -71,13 +71,14 @@ pub struct Limit {
     tolerance: Tolerance,
     /// Residual velocities to compute above the limit, up to 2.5 times the limit; 0 for none
     #[arg(long, value_name = "COUNT", default_value = "12")]
-    #[arg(value_parser = clap::value_parser!(u16).range(0..=200))]
+    #[arg(value_parser = values::points, allow_hyphen_values = true)]
     points: u16,
     /// CSV file of shots that were stopped or went through
     #[arg(long, value_name = "FILE.csv")]
     shots: Option<PathBuf>,
     /// Widest span of the shots that V50 may be the mean of; 125 ft/s when not given
     #[arg(long, value_name = "SPEED", requires = "shots", value_parser = values::span)]
+    #[arg(allow_hyphen_values = true)]
     span: Option<f64>,
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]

@@ -15,6 +15,8 @@ const TOLERANCE: &str =
 /// Narrowest and widest bracket that can be asked for [m/s], and the same as parts of the speed.
 const WIDTHS: std::ops::RangeInclusive<f64> = 1e-6..=1000.0;
 const PARTS: std::ops::RangeInclusive<f64> = 1e-8..=0.5;
+/// Most residual velocities that can be asked for.
+const MOST_POINTS: u16 = 200;
 
 /// Why a value of the command line means nothing.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -31,27 +33,31 @@ pub enum ValueError {
     Tolerance(QuantityError),
     #[error("`{0}` is no part of a speed\n{TOLERANCE}")]
     Part(String),
-    #[error("`{0}` is no span of speeds: write a speed such as \"38 m/s\"")]
-    Span(String),
+    #[error("{0}\nallowed: a speed such as \"38 m/s\"")]
+    Span(QuantityError),
+    #[error("{0} is out of range: allowed are 1e-6 to 1000 m/s")]
+    LongSpan(String),
+    #[error("`{0}` is no number of points\nallowed: a whole number from 0 to {MOST_POINTS}")]
+    Points(String),
     #[error("{0} is out of range: allowed are 1e-6 to 1000 m/s, or 1e-6 to 50 %")]
     Width(String),
 }
 
-/// `FROM..TO`, with one unit at the end that holds for both.
+/// `FROM..TO`; a unit at the end holds for both where the first has none of its own.
 pub fn range(text: &str) -> Result<Range, ValueError> {
-    let (from, to) = text
-        .split_once("..")
-        .ok_or_else(|| ValueError::NoRange(text.to_owned()))?;
+    let ends = text.split_once("..").filter(|(_, to)| !to.starts_with('.'));
+    let (from, to) = ends.ok_or_else(|| ValueError::NoRange(text.to_owned()))?;
     let (from, to) = (from.trim(), to.trim());
-    // A unit starts with a letter after the last digit.
-    let end = to.rfind(|c: char| c.is_ascii_digit() || c == '.');
-    let unit = match end.map_or("", |at| to[at + 1..].trim()) {
+    let unit = match unit_of(to) {
         "" => "m/s",
         unit => unit,
     };
-    let speed = |number: &str| -> Result<f64, ValueError> {
-        let text = format!("{} {unit}", number.trim_end_matches(unit).trim());
-        let speed = Velocity::from_str(&text).map_err(ValueError::Speed)?;
+    let speed = |end: &str| -> Result<f64, ValueError> {
+        let speed = match unit_of(end) {
+            "" => Velocity::from_str(&format!("{end} {unit}")),
+            _ => Velocity::from_str(end),
+        };
+        let speed = speed.map_err(ValueError::Speed)?;
         match (IMPACT_SPEED.min..=IMPACT_SPEED.max).contains(&speed.si()) {
             true => Ok(speed.si()),
             false => Err(ValueError::OutOfRange(speed)),
@@ -68,6 +74,12 @@ pub fn range(text: &str) -> Result<Range, ValueError> {
             to: to.to_owned(),
         }),
     }
+}
+
+/// What follows the last digit of a number.
+fn unit_of(text: &str) -> &str {
+    let end = text.rfind(|c: char| c.is_ascii_digit() || c == '.');
+    end.map_or("", |at| text[at + 1..].trim())
 }
 
 /// A speed with its unit, or a percentage.
@@ -92,10 +104,19 @@ pub fn tolerance(text: &str) -> Result<Tolerance, ValueError> {
 
 /// A speed with its unit that is no longer than any range of speeds.
 pub fn span(text: &str) -> Result<f64, ValueError> {
-    match tolerance(text)? {
-        Tolerance::Absolute(span) => Ok(span),
-        Tolerance::Relative(_) => Err(ValueError::Span(text.to_owned())),
+    let span = Velocity::from_str(text).map_err(ValueError::Span)?.si();
+    match WIDTHS.contains(&span) {
+        true => Ok(span),
+        false => Err(ValueError::LongSpan(text.trim().to_owned())),
     }
+}
+
+/// A number of residual velocities.
+pub fn points(text: &str) -> Result<u16, ValueError> {
+    let count = text.trim().parse().ok();
+    count
+        .filter(|count| *count <= MOST_POINTS)
+        .ok_or_else(|| ValueError::Points(text.to_owned()))
 }
 
 /// The tolerance as it can be given.
@@ -117,6 +138,7 @@ mod tests {
         assert_eq!(ends(" 0 .. 1.5 km/s"), (0.0, 1500.0));
         assert_eq!(ends("100 m/s..400 m/s"), (100.0, 400.0));
         assert_eq!(ends("1e2..4e2 m/s"), (100.0, 400.0));
+        assert_eq!(ends("100 m/s..0.4 km/s"), (100.0, 400.0));
         for (text, words) in [
             ("400", "is no range"),
             ("400..100", "not above"),
@@ -124,6 +146,8 @@ mod tests {
             ("0..100 mph", "mph"),
             ("0..20 km/s", "out of range"),
             ("-5..20", "out of range"),
+            ("100 kg..300 m/s", "`kg` is a unit of mass"),
+            ("100...300", "is no range"),
         ] {
             let error = range(text).unwrap_err().to_string();
             assert!(error.contains(words), "{text}: {error}");
@@ -144,6 +168,24 @@ mod tests {
         ] {
             let error = tolerance(text).unwrap_err().to_string();
             assert!(error.contains(words), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn spans_are_speeds_and_points_are_counted() {
+        assert_eq!(span("38 m/s"), Ok(38.0));
+        for (text, words) in [
+            ("5", "such as \"38 m/s\""),
+            ("2 %", "such as \"38 m/s\""),
+            ("-1 m/s", "out of range"),
+        ] {
+            let error = span(text).unwrap_err().to_string();
+            assert!(error.contains(words), "{text}: {error}");
+        }
+        assert_eq!((points("0"), points("200")), (Ok(0), Ok(200)));
+        for text in ["-1", "201", "1e9", "1.5", "few"] {
+            let error = points(text).unwrap_err().to_string();
+            assert!(error.contains("from 0 to 200"), "{text}: {error}");
         }
     }
 }

@@ -121,15 +121,20 @@ fn held_error(cells: f64, supports: Supports) -> f64 {
             .map(|p| -p.mass * p.velocity[1] * (number * p.position[1]).sin())
             .sum()
     };
-    let mut before = (0.0, amplitude(&solver));
+    let time = time_to_rest(&mut solver, amplitude);
+    assert!(solver.momentum().residual().abs() < 1e-12);
+    time / LENGTH * (modulus / solid.density).sqrt() - 1.0
+}
+
+/// Time at which the amplitude of a wave first falls to nothing [s].
+fn time_to_rest(solver: &mut Solver, amplitude: impl Fn(&Solver) -> f64) -> f64 {
+    let mut before = (0.0, amplitude(solver));
     loop {
         let half = 0.5 * solver.time_step;
         assert!(solver.advance());
-        let now = (solver.time - half, amplitude(&solver));
+        let now = (solver.time - half, amplitude(solver));
         if now.1 <= 0.0 {
-            let time = before.0 + (now.0 - before.0) * before.1 / (before.1 - now.1);
-            assert!(solver.momentum().residual().abs() < 1e-12);
-            return time / LENGTH * (modulus / solid.density).sqrt() - 1.0;
+            return before.0 + (now.0 - before.0) * before.1 / (before.1 - now.1);
         }
         before = now;
     }
@@ -190,18 +195,9 @@ fn edge_error(cells: f64) -> f64 {
             .map(|p| p.mass * p.velocity[0] * (number * (edge - p.position[0])).sin())
             .sum()
     };
-    let mut before = (0.0, amplitude(&solver));
-    loop {
-        let half = 0.5 * solver.time_step;
-        assert!(solver.advance());
-        let now = (solver.time - half, amplitude(&solver));
-        if now.1 <= 0.0 {
-            let time = before.0 + (now.0 - before.0) * before.1 / (before.1 - now.1);
-            assert!(solver.energy().residual().abs() < ENERGY);
-            return time / LENGTH * (modulus / solid.density).sqrt() - 1.0;
-        }
-        before = now;
-    }
+    let time = time_to_rest(&mut solver, amplitude);
+    assert!(solver.energy().residual().abs() < ENERGY);
+    time / LENGTH * (modulus / solid.density).sqrt() - 1.0
 }
 
 #[test]

@@ -24,7 +24,7 @@ use self::{
     state::{Books, State},
 };
 use super::{
-    ENERGY_TOLERANCE, MOMENTUM_TOLERANCE,
+    between::Moment,
     cone::{Cone, Grading},
     mesh::modelled_thickness,
     state::End,
@@ -32,7 +32,6 @@ use super::{
 use crate::{
     Error, Scenario,
     case::{BackFace, ErosionStrain},
-    error::NumericalError,
     history::Recorder,
     model::{Control, Progress},
     outcome::{RunResult, Termination},
@@ -211,53 +210,38 @@ impl<'a> Expanding<'a> {
     }
 
     fn audit(&mut self) -> Result<(), Error> {
-        let energy = self.state.energy().residual();
-        let momentum = self.state.momentum().residual();
-        self.watch.residuals[0] = self.watch.residuals[0].max(energy.abs());
-        self.watch.residuals[1] = self.watch.residuals[1].max(momentum.abs());
-        for (book, residual, tolerance) in [
-            ("energy", energy, ENERGY_TOLERANCE),
-            ("momentum", momentum, MOMENTUM_TOLERANCE),
-        ] {
-            if residual.is_nan() || residual.abs() > tolerance {
-                return Err(NumericalError {
-                    what: format!("the {book} book is off by {residual:.2e} of the initial {book}, more than {tolerance:e},"),
-                    step: self.state.step,
-                    time_us: self.state.time * 1e6,
-                    element: None,
-                    remedy: format!("lower `chain.courant` (now {})", self.courant),
-                }
-                .into());
-            }
+        let residuals = [
+            self.state.energy().residual(),
+            self.state.momentum().residual(),
+        ];
+        let moment = self.moment();
+        Ok(self
+            .watch
+            .residuals
+            .audit(residuals, moment, self.courant)?)
+    }
+
+    fn moment(&self) -> Moment {
+        Moment {
+            step: self.state.step,
+            time: self.state.time,
         }
-        Ok(())
     }
 
     fn progress(&self, end_time: f64) -> Progress {
-        let (mass, momentum) = self.state.rod.motion();
-        let slowed = if mass > 0.0 {
-            1.0 - momentum / (mass * self.scenario.impact_speed)
-        } else {
-            1.0
-        };
-        Progress {
-            step: self.state.step,
-            time: self.state.time,
-            fraction: (self.state.time / end_time)
-                .max(0.95 * slowed)
-                .clamp(0.0, 1.0),
-            depth: self.watch.largest_depth,
-        }
+        let motion = self.state.rod.motion();
+        let depth = self.watch.largest_depth;
+        self.moment()
+            .progress(end_time, motion, self.scenario.impact_speed, depth)
     }
 
     fn record(&self, recorder: &mut Option<Recorder>) {
-        let Some(recorder) = recorder else { return };
-        if recorder.wants_sample(self.state.step) {
-            recorder.sample(results::sample(&self.state));
-        }
-        if recorder.wants_profile(self.state.step) {
-            recorder.profile(results::profile(&self.state));
-        }
+        let state = &self.state;
+        self.moment().record(
+            recorder,
+            || results::sample(state),
+            || results::profile(state),
+        );
     }
 }
 

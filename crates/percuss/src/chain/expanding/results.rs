@@ -1,7 +1,10 @@
 //! When a shot is over, and what comes of it.
 
 use super::{
-    super::warnings::{Reached, warnings_of_cavity},
+    super::{
+        between::Residuals,
+        warnings::{Reached, warnings_of_cavity},
+    },
     parted,
     state::State,
 };
@@ -24,8 +27,7 @@ pub(super) struct Watch {
     peak_force: f64,
     smallest_time_step: f64,
     first_time_step: f64,
-    /// Of energy and momentum.
-    pub(super) residuals: [f64; 2],
+    pub(super) residuals: Residuals,
     /// Time at which the projectile's momentum was first used up.
     at_rest: Option<f64>,
     window_start: f64,
@@ -168,8 +170,8 @@ pub(super) fn sum_up(
         largest_temperature: (temperature, state.ground.temperature),
         energy: state.energy(),
         momentum: state.momentum(),
-        energy_residual: watch.residuals[0],
-        momentum_residual: watch.residuals[1],
+        energy_residual: watch.residuals.energy,
+        momentum_residual: watch.residuals.momentum,
     });
     result.history = recorder.map(|recorder| recorder.finish(sample(state), profile(state)));
     result.warnings = warnings_of_cavity(scenario, &result, &reached, erosion_strain);

@@ -3,11 +3,14 @@
 use std::str::FromStr;
 
 use percuss::{
+    Scenario,
     check::limits::IMPACT_SPEED,
     units::{Dimension, OfVelocity, significant},
 };
 
-/// Impact speeds to compare at.
+use crate::failure::Failure;
+
+/// Impact speeds to compute at.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Speeds {
     /// These [m/s], rising.
@@ -16,7 +19,7 @@ pub enum Speeds {
     OfExperiments,
 }
 
-/// Most speeds of one comparison.
+/// Most speeds at once.
 const MOST: usize = 1000;
 const EXPERIMENTS: &str = "experiments";
 
@@ -48,6 +51,27 @@ const ALLOWED: &str = "allowed: FROM..TO:COUNT such as 200..1500:27 or \"0.2..1.
 fn units() -> String {
     let symbols: Vec<&str> = OfVelocity::UNITS.iter().map(|unit| unit.symbol).collect();
     symbols.join(", ")
+}
+
+impl Speeds {
+    /// The speeds for a case [m/s], rising.
+    pub fn of(&self, scenario: &Scenario) -> Result<Vec<f64>, Failure> {
+        let Self::Given(speeds) = self else {
+            let measured = scenario.experiments.iter();
+            let mut speeds: Vec<f64> = measured.filter_map(|m| m.impact_speed).collect();
+            speeds.sort_by(f64::total_cmp);
+            speeds.dedup();
+            if speeds.is_empty() {
+                return Err(Failure::Usage {
+                    message: "the case has no experiments with a velocity".to_owned(),
+                    help: "add `[[experiments]]` entries, or give speeds such as --velocity 200..1500:27"
+                        .to_owned(),
+                });
+            }
+            return Ok(speeds);
+        };
+        Ok(speeds.clone())
+    }
 }
 
 impl FromStr for Speeds {

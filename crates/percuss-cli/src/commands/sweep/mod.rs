@@ -1,11 +1,9 @@
+mod plot;
+
 use std::{
     collections::BTreeMap,
     path::{Path, PathBuf},
-    process,
-    sync::{
-        Arc, Mutex, PoisonError,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::{Mutex, PoisonError},
     time::Instant,
 };
 
@@ -20,6 +18,7 @@ use crate::{
     failure::Failure,
     progress::Progress,
     terminal::{self, bold},
+    workers,
 };
 
 const LONG_ABOUT: &str = "\
@@ -43,6 +42,7 @@ Examples:
   percuss sweep my-sweep.toml --out rows-2 --shard 2/8 --threads 4
   percuss sweep status rows
   percuss sweep merge rows --out rows.parquet
+  percuss sweep plot rows
 
 Exit codes: 0 ok, 2 bad input, 4 a file could not be read or written, 130 the
 sweep was stopped";
@@ -91,6 +91,7 @@ enum What {
         #[arg(long, value_name = "FILE.parquet")]
         out: PathBuf,
     },
+    Plot(plot::Plot),
 }
 
 impl Sweep {
@@ -102,6 +103,7 @@ impl Sweep {
                 let rows = terminal::counted(rows as usize, "row");
                 terminal::print(&format!("wrote {rows} to {}\n", out.display()))
             }
+            (Some(What::Plot(plot)), ..) => plot.run(),
             (None, Some(file), Some(out)) => self.compute(file, out),
             _ => Err(Failure::Usage {
                 message: "a sweep file and --out DIR are due".to_owned(),
@@ -136,15 +138,8 @@ impl Sweep {
             board.progress.update(fraction, &words);
         };
         hear(&[]);
-        let mut pool = rayon::ThreadPoolBuilder::new();
-        if let Some(threads) = self.threads {
-            pool = pool.num_threads(usize::from(threads));
-        }
-        let pool = pool.build().map_err(|error| Failure::Usage {
-            message: format!("cannot start the threads: {error}"),
-            help: "ask for fewer with --threads".to_owned(),
-        })?;
-        let stop = stop_on_request();
+        let pool = workers::pool(self.threads)?;
+        let stop = workers::stop_on_request();
         let kernel = BatchKernel::new(sweep.model);
         let complete = pool.install(|| folder.compute(&sweep, &kernel, &missing, &stop, &hear));
         let board = board.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -202,19 +197,6 @@ impl Board {
             *self.outcomes.entry(outcome.in_words()).or_default() += 1;
         }
     }
-}
-
-/// Becomes true on the first Ctrl-C, or request of the system to end; the second one ends the program at once.
-fn stop_on_request() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    // Without a handler Ctrl-C just ends the program, which loses no block that is written.
-    let _ = ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            process::exit(130);
-        }
-    });
-    stop
 }
 
 fn print_status(folder: &Path) -> Result<(), Failure> {

@@ -1,0 +1,339 @@
+mod table;
+
+use std::{
+    ops::ControlFlow,
+    path::PathBuf,
+    sync::{Mutex, PoisonError, atomic::Ordering},
+};
+
+use clap::{Args, builder::PossibleValuesParser};
+use percuss::{
+    Error,
+    calibrate::{
+        self, Calibration, Fitted, Noise, Observations, Problem, Record, Sampling, Settings, Stage,
+    },
+    case,
+    material::Library,
+    model::{MODELS, model},
+    shots::Kind,
+};
+
+use crate::{
+    diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, shot_data, terminal,
+    workers,
+};
+
+const LONG_ABOUT: &str = "\
+Fit numbers of cases to what was measured: constants of materials, options of
+models. Measured values are the [[experiments]] of case files and the shots of
+--data. Where constants of a material are fitted, only shots with that material
+are taken; suspect and repeated ones are left out.
+
+--fit KEY=LOW..HIGH names a number by the tables that it stands in, with its
+unit behind the range, in which it is evenly likely beforehand; or a TOML file
+of [[parameter]] tables with key and uniform, normal, lognormal or triangular,
+as sweeps have them. Constants of library materials are
+materials.ID.strength.LAW.NAME.
+
+Least squares (Levenberg-Marquardt) give the best values; an ensemble sampler
+(stretch move) the posterior, with split R-hat and effective sample size. Values
+scatter about the model by a Gaussian: their stated standard deviation, and a
+relative scatter that is estimated unless --noise says otherwise. Sources that
+--hold-out names are not fitted to: they test the result. Parameters that the
+data do not determine are named.
+
+With --out DIR the result (calibration.json), tables of parameters and
+predictions, the sample (sample.parquet), the calibrated materials
+(material.toml, for `material_files` of a case or `--materials` of commands)
+and figures are written to DIR. A calibrated material says what it was
+calibrated on, and validation does not count that as blind.";
+
+const AFTER_HELP: &str = "\
+Examples:
+  percuss calibrate --data builtin --hold-out wilkins1973 \\
+    --model wilkins_guinan --out copper --fit \\
+    \"materials.ofhc-copper-johnson-cook.strength.johnson_cook.a=20..300 MPa\"
+  percuss calibrate my-shot/scenario.toml --fit chain.constraint_factor=1..4
+  percuss calibrate a.toml b.toml --fit priors.toml --least-squares --json
+
+Exit codes: 0 ok, 2 bad input, 4 a file could not be read or written, 130 the
+calibration was stopped";
+
+/// Fit numbers of cases to what was measured
+#[derive(Debug, Args)]
+#[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
+pub struct Calibrate {
+    /// Case files with [[experiments]]
+    #[arg(value_name = "CASE.toml", required_unless_present = "data")]
+    cases: Vec<PathBuf>,
+    /// What is fitted: a number of the cases with its range, or a TOML file of them
+    #[arg(long, value_name = "KEY=LOW..HIGH", required = true)]
+    fit: Vec<String>,
+    /// CSV file of shots, or `builtin` for the program's own
+    #[arg(long, value_name = "FILE")]
+    data: Vec<PathBuf>,
+    /// File of materials that the shots name, beside the library
+    #[arg(long, value_name = "FILE.toml")]
+    materials: Vec<PathBuf>,
+    /// Kind of shot; all of them when not given
+    #[arg(long, value_name = "KIND", requires = "data")]
+    #[arg(value_parser = PossibleValuesParser::new(Kind::ALL.map(Kind::name)))]
+    kind: Vec<String>,
+    /// Source to take, all when not given; those of --hold-out are taken as well
+    #[arg(long, value_name = "KEY")]
+    source: Vec<String>,
+    /// Source to keep out of the fit and to test it with
+    #[arg(long, value_name = "KEY")]
+    hold_out: Vec<String>,
+    /// Model that computes the cases
+    #[arg(long, value_name = "NAME", default_value = "chain")]
+    #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
+    model: String,
+    /// Scatter about the model: `estimated`, a part such as "2 %", or `stated` for stated uncertainties alone
+    #[arg(long, value_name = "SCATTER", default_value = "estimated", value_parser = noise)]
+    noise: Noise,
+    /// Least squares only, without a sample of the posterior
+    #[arg(long)]
+    least_squares: bool,
+    /// Independent ensembles
+    #[arg(long, value_name = "N", default_value = "4")]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=64))]
+    ensembles: u16,
+    /// Walkers of an ensemble, an even number; four for each parameter when not given, and at least 12
+    #[arg(long, value_name = "N", value_parser = walkers)]
+    walkers: Option<usize>,
+    /// Steps of each walker that are kept; a third as many come before them
+    #[arg(long, value_name = "N", default_value = "600")]
+    #[arg(value_parser = clap::value_parser!(u32).range(4..=10_000_000))]
+    steps: u32,
+    /// What decides over everything drawn at random
+    #[arg(long, value_name = "N", default_value = "0")]
+    seed: u64,
+    /// Id of the calibrated material; the old one with `-calibrated` when not given
+    #[arg(long, value_name = "ID", value_parser = material_id)]
+    name: Option<String>,
+    /// Write numbers, materials and figures to a folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print one JSON object and nothing else on standard output
+    #[arg(long)]
+    json: bool,
+    /// No table and no progress: a line of NAME=VALUE pairs a parameter
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Calibrate {
+    pub fn run(&self) -> Result<(), Failure> {
+        let problem = self.problem()?;
+        let settings = self.settings(&problem)?;
+        let folder = match &self.out {
+            Some(out) => Some(RunFolder::create_for(out, None)?),
+            None => None,
+        };
+        let calibration = self.solve(&problem, &settings)?;
+        let records =
+            calibrate::records(&problem, &calibration, self.name.as_deref()).map_err(|reason| {
+                Failure::Usage {
+                    message: format!("the best values make no material: {reason}"),
+                    help: "narrow the ranges".to_owned(),
+                }
+            })?;
+        let files = match folder {
+            Some(folder) => self.write(folder, &calibration, &records)?,
+            None => Vec::new(),
+        };
+        self.print(&calibration, &records, &files)
+    }
+
+    fn problem(&self) -> Result<Problem, Failure> {
+        let mut fitted = Vec::new();
+        for text in &self.fit {
+            fitted.extend(Fitted::read(text)?);
+        }
+        let mut library = Library::built_in().clone();
+        for path in &self.materials {
+            library.add(&case::load_materials(path)?, &path.display().to_string());
+        }
+        let mut observations = Observations::default();
+        for path in &self.cases {
+            observations.add_case(path)?;
+        }
+        if !self.data.is_empty() {
+            let (shots, _) = shot_data::read(&self.data, &self.kind, &library)?;
+            observations.add_shots(&shots, &library, &fitted)?;
+        }
+        let wanted = |found: &[String]| {
+            let mut keys = self.source.iter().chain(&self.hold_out);
+            self.source.is_empty() || keys.any(|key| found.contains(key))
+        };
+        let known = observations.sources().join(", ");
+        if let Some(key) = self
+            .source
+            .iter()
+            .find(|key| !observations.sources().contains(&key.as_str()))
+        {
+            return Err(no_source(key, &known));
+        }
+        observations.used.retain(|value| wanted(&value.sources));
+        observations
+            .hold_out(&self.hold_out)
+            .map_err(|key| no_source(&key, &known))?;
+        Ok(Problem::new(
+            model(&self.model)?,
+            fitted,
+            observations,
+            self.noise,
+        )?)
+    }
+
+    fn settings(&self, problem: &Problem) -> Result<Settings, Failure> {
+        let dimensions = problem.fitted.len() + usize::from(self.noise == Noise::Estimated);
+        let least = 2 * dimensions;
+        let walkers = self.walkers.unwrap_or((4 * dimensions).max(12));
+        if walkers < least && !self.least_squares {
+            return Err(Failure::Usage {
+                message: format!("{walkers} walkers are too few for {dimensions} parameters"),
+                help: format!("allowed: {least} or more, an even number"),
+            });
+        }
+        let steps = self.steps as usize;
+        let sampling = Sampling {
+            ensembles: usize::from(self.ensembles),
+            walkers,
+            steps,
+            burn_in: steps / 3,
+        };
+        Ok(Settings {
+            sampling: (!self.least_squares).then_some(sampling),
+            seed: self.seed,
+        })
+    }
+
+    fn solve(&self, problem: &Problem, settings: &Settings) -> Result<Calibration, Failure> {
+        let stop = workers::stop_on_request();
+        let board = Mutex::new((Stage::LeastSquares, Progress::new(!self.quiet)));
+        let watch = |stage: Stage, part: f64, runs: u64| {
+            // A bar that another thread is drawing has no need of this one.
+            if let Ok(mut board) = board.try_lock() {
+                if board.0 != stage {
+                    let before =
+                        std::mem::replace(&mut *board, (stage, Progress::new(!self.quiet)));
+                    before.1.finish();
+                }
+                let what = match stage {
+                    Stage::LeastSquares => "least squares",
+                    Stage::Sampling => "sampling",
+                    Stage::Predicting => "predicting",
+                };
+                board.1.update(part, &format!("{what}, {runs} runs"));
+            }
+            match stop.load(Ordering::Relaxed) {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        };
+        let result = calibrate::run(problem, settings, &watch);
+        let board = board.into_inner().unwrap_or_else(PoisonError::into_inner);
+        board.1.finish();
+        match result {
+            Err(Error::Cancelled { .. }) => Err(Failure::Interrupted("the calibration")),
+            other => Ok(other?),
+        }
+    }
+
+    fn write(
+        &self,
+        mut folder: RunFolder,
+        calibration: &Calibration,
+        records: &[Record],
+    ) -> Result<Vec<PathBuf>, Failure> {
+        let json = terminal::json(calibration)?;
+        folder.put("calibration.json", json.as_bytes())?;
+        folder.add(percuss_report::calibration::write(
+            folder.path(),
+            calibration,
+        )?);
+        if !records.is_empty() {
+            let text: String = records.iter().map(Record::toml).collect();
+            folder.put("material.toml", text.as_bytes())?;
+        }
+        for figure in percuss_report::calibration::figures(calibration) {
+            folder.add(figure.write(folder.path())?);
+        }
+        Ok(folder.written())
+    }
+
+    fn print(
+        &self,
+        calibration: &Calibration,
+        records: &[Record],
+        files: &[PathBuf],
+    ) -> Result<(), Failure> {
+        let wrote: String = files
+            .iter()
+            .map(|file| format!("  {}\n", file.display()))
+            .collect();
+        if self.json {
+            terminal::print_json(calibration)?;
+            if !files.is_empty() && !self.quiet {
+                diagnostic::print(&format!("wrote\n{wrote}"));
+            }
+            return Ok(());
+        }
+        if self.quiet {
+            return terminal::print(&table::lines(calibration));
+        }
+        let mut text = table::text(calibration);
+        if self.out.is_none() {
+            for record in records {
+                let heading = terminal::bold(format!("material {}", record.id));
+                text += &format!("{heading}\n{}\n", record.toml());
+            }
+        }
+        if !files.is_empty() {
+            text += &format!("{}\n{wrote}", terminal::bold("wrote"));
+        }
+        terminal::print(&text)
+    }
+}
+
+fn no_source(key: &str, known: &str) -> Failure {
+    Failure::Usage {
+        message: format!("no measured value comes from `{key}`"),
+        help: match known {
+            "" => "there is no measured value at all".to_owned(),
+            known => format!("sources: {known}"),
+        },
+    }
+}
+
+fn noise(text: &str) -> Result<Noise, String> {
+    const ALLOWED: &str = "allowed: estimated, stated, or a part such as \"2 %\", up to 100 %";
+    match text.trim() {
+        "estimated" => Ok(Noise::Estimated),
+        "stated" => Ok(Noise::Stated),
+        part => part
+            .strip_suffix('%')
+            .and_then(|number| number.trim().parse::<f64>().ok())
+            .map(|percent| percent / 100.0)
+            .filter(|part| (1e-6..=1.0).contains(part))
+            .map(Noise::Relative)
+            .ok_or_else(|| ALLOWED.to_owned()),
+    }
+}
+
+fn walkers(text: &str) -> Result<usize, String> {
+    let number = text.parse::<usize>().ok();
+    number
+        .filter(|number| number % 2 == 0 && (4..=10_000).contains(number))
+        .ok_or_else(|| "allowed: an even number, 4 to 10000".to_owned())
+}
+
+fn material_id(text: &str) -> Result<String, String> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    match !text.is_empty() && text.chars().all(plain) {
+        true => Ok(text.to_owned()),
+        false => Err("allowed: letters, digits, hyphens and underscores".to_owned()),
+    }
+}

@@ -1,0 +1,54 @@
+//! Shots that a command is given: the program's own, and files.
+
+use std::path::{Path, PathBuf};
+
+use percuss::{
+    material::Library,
+    shots::{self, Shot},
+};
+
+use crate::failure::Failure;
+
+/// What stands for the program's own shots in place of a file.
+pub const BUILT_IN: &str = "builtin";
+
+/// The shots of these files and of these kinds, all kinds when none is named; and what they come from.
+pub fn read(
+    data: &[PathBuf],
+    kinds: &[String],
+    library: &Library,
+) -> Result<(Vec<Shot>, Vec<String>), Failure> {
+    let (mut shots, mut files): (Vec<Shot>, Vec<String>) = (Vec::new(), Vec::new());
+    for path in data {
+        let (more, name) = if path.as_path() == Path::new(BUILT_IN) {
+            let own = format!("the program's own ({})", shots::built_in().len());
+            (shots::built_in().to_vec(), own)
+        } else {
+            let read = shots::read(path, library)?;
+            let name = format!("{} ({})", path.display(), read.len());
+            (read, name)
+        };
+        if let Some(twice) = more
+            .iter()
+            .find(|shot| shots.iter().any(|s| s.id == shot.id))
+        {
+            return Err(Failure::Usage {
+                message: format!("two files of --data have a shot named `{}`", twice.id),
+                help: "ids are unique over all files; rename it, or give one of the files only"
+                    .to_owned(),
+            });
+        }
+        shots.extend(more);
+        files.push(name);
+    }
+    if !kinds.is_empty() {
+        shots.retain(|shot| kinds.iter().any(|kind| kind == shot.kind.name()));
+    }
+    if shots.is_empty() && !data.is_empty() {
+        return Err(Failure::Usage {
+            message: format!("the data hold no shot of kind {}", kinds.join(" or ")),
+            help: "leave out --kind, or add `--data builtin`".to_owned(),
+        });
+    }
+    Ok((shots, files))
+}

@@ -1,0 +1,251 @@
+//! `percuss calibrate`: from shots to a material with its provenance.
+
+mod support;
+
+use std::{fs, process::Command, thread, time::Duration};
+
+use serde_json::Value;
+use support::{Said, percuss};
+use tempfile::TempDir;
+
+const YIELD: &str = "materials.ofhc-copper-johnson-cook.strength.johnson_cook.a=20..300 MPa";
+const WILKINS: [&str; 8] = [
+    "calibrate",
+    "--data",
+    "builtin",
+    "--source",
+    "wilkins1973",
+    "--model",
+    "wilkins_guinan",
+    "--fit",
+];
+
+fn calibrate(folder: &TempDir, fit: &str, more: &[&str]) -> Said {
+    let arguments = [&WILKINS[..], &[fit], more].concat();
+    percuss(folder.path(), arguments)
+}
+
+fn ok(said: Said) -> String {
+    assert_eq!(
+        (said.code, said.stderr.as_str()),
+        (0, ""),
+        "{}",
+        said.stdout
+    );
+    said.stdout
+}
+
+#[test]
+fn least_squares_say_what_they_found() {
+    let folder = TempDir::new().unwrap();
+    let more = ["--least-squares", "--hold-out", "zelepugin2023"];
+    let text = ok(calibrate(&folder, YIELD, &more));
+    for words in [
+        "best ± error",
+        "held out",
+        "left out",
+        "[ofhc-copper-johnson-cook-calibrated]",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    let json = ok(calibrate(
+        &folder,
+        YIELD,
+        &[&more[..], &["--json"]].concat(),
+    ));
+    let found: Value = serde_json::from_str(&json).unwrap();
+    let stress = found["parameters"][0]["best"].as_f64().unwrap();
+    assert!((60.0..250.0).contains(&stress), "{stress}");
+    assert_eq!(found["training"]["count"], 6);
+    assert!(found["training"]["rms"].as_f64() < found["training"]["rms_before"].as_f64());
+    let held_out = found["predictions"].as_array().unwrap().iter();
+    let held_out = held_out.filter(|value| value["held_out"] == true).count();
+    assert_eq!(found["hold_out"]["count"], held_out);
+    let line = ok(calibrate(&folder, YIELD, &[&more[..], &["-q"]].concat()));
+    assert!(
+        line.starts_with("key=materials.ofhc-copper-johnson-cook"),
+        "{line}"
+    );
+}
+
+/// The files of a calibration: the same from the same seed, and a material that a case can use at once.
+#[test]
+fn the_folder_holds_a_material_that_a_case_takes() {
+    let folder = TempDir::new().unwrap();
+    let sample = [
+        "--ensembles",
+        "2",
+        "--walkers",
+        "4",
+        "--steps",
+        "30",
+        "--name",
+        "my-copper",
+    ];
+    for out in ["one", "two"] {
+        ok(calibrate(
+            &folder,
+            YIELD,
+            &[&sample[..], &["--out", out, "-q"]].concat(),
+        ));
+    }
+    for file in [
+        "calibration.json",
+        "parameters.csv",
+        "predictions.csv",
+        "sample.parquet",
+        "material.toml",
+        "trace.svg",
+        "corner.svg",
+        "predictive.svg",
+    ] {
+        let read = |out: &str| fs::read(folder.path().join(out).join(file)).unwrap();
+        assert_eq!(read("one"), read("two"), "{file}");
+    }
+    assert!(folder.path().join("one/corner.png").is_file());
+    let case = "
+material_files = ['one/material.toml']
+projectile = { material = 'my-copper', length = '23.47 mm', diameter = '7.62 mm', velocity = '183 m/s' }
+target = { rigid_wall = true }
+";
+    fs::write(folder.path().join("case.toml"), case).unwrap();
+    let said = ok(percuss(
+        folder.path(),
+        ["run", "case.toml", "--model", "wilkins_guinan", "--json"],
+    ));
+    let run: Value = serde_json::from_str(&said).unwrap();
+    let length = run["results"][0]["projectile_final_length_mm"]
+        .as_f64()
+        .unwrap();
+    let table = fs::read_to_string(folder.path().join("one/calibration.json")).unwrap();
+    let found: Value = serde_json::from_str(&table).unwrap();
+    let mut fitted = found["predictions"].as_array().unwrap().iter();
+    let fitted = fitted
+        .find(|value| value["impact_velocity_m_s"] == 183.0)
+        .unwrap();
+    let best = fitted["best"].as_f64().unwrap();
+    assert!((length / best - 1.0).abs() < 1e-5, "{length} {best}");
+
+    let card = ok(percuss(
+        folder.path(),
+        ["materials", "show", "my-copper", "--case", "case.toml"],
+    ));
+    assert!(
+        card.contains("wilkins_guinan") && card.contains("wilkins1973"),
+        "{card}"
+    );
+}
+
+#[test]
+fn a_case_with_experiments_is_data() {
+    let folder = TempDir::new().unwrap();
+    let case = "
+projectile = { material = 'copper', length = '23.47 mm', diameter = '7.62 mm', velocity = '183 m/s' }
+target = { rigid_wall = true }
+";
+    fs::write(folder.path().join("case.toml"), case).unwrap();
+    let fit = [
+        "--fit",
+        "taylor.dynamic_yield_stress=50..2000 MPa",
+        "--model",
+        "taylor",
+    ];
+    let said = percuss(
+        folder.path(),
+        [&["calibrate", "case.toml"], &fit[..]].concat(),
+    );
+    assert_eq!(said.code, 2);
+    assert!(
+        said.stderr.contains("the case has no measured value"),
+        "{}",
+        said.stderr
+    );
+    let measured = "[[experiments]]\nvelocity = '183 m/s'\nprojectile_final_length = '16.81 mm'\nsource = 'wilkins1973'\n";
+    fs::write(folder.path().join("case.toml"), format!("{case}{measured}")).unwrap();
+    let said = percuss(
+        folder.path(),
+        [&["calibrate", "case.toml"], &fit[..]].concat(),
+    );
+    assert_eq!(said.code, 2);
+    assert!(said.stderr.contains("their own scatter"), "{}", said.stderr);
+    let more = ["--noise", "2 %", "--least-squares", "--json"];
+    let json = ok(percuss(
+        folder.path(),
+        [&["calibrate", "case.toml"], &fit[..], &more[..]].concat(),
+    ));
+    let found: Value = serde_json::from_str(&json).unwrap();
+    assert!(found["training"]["rms"].as_f64().unwrap() < 1e-8);
+}
+
+#[test]
+fn bad_input_is_answered_with_its_place() {
+    let folder = TempDir::new().unwrap();
+    let priors = "[[parameter]]\nkey = 'materials.ofhc-copper-johnson-cook.strength.johnson_cook.a'\nvalues = ['90 MPa']\n";
+    fs::write(folder.path().join("priors.toml"), priors).unwrap();
+    for (fit, more, words) in [
+        ("a", &[][..], "there is no `=` after the key"),
+        (
+            "materials.ofhc-coper.density=8..9 g/cm3",
+            &[],
+            "did you mean",
+        ),
+        (
+            "materials.ofhc-copper-johnson-cook.strength.johnson_cook.a=20..300 mm",
+            &[],
+            "`mm` is a unit of",
+        ),
+        ("priors.toml", &[], "priors.toml:1"),
+        ("nothing.toml", &[], "there is no such file"),
+        (
+            YIELD,
+            &["--hold-out", "nobody1999"],
+            "no measured value comes from `nobody1999`",
+        ),
+        (YIELD, &["--noise", "stated"], "no stated uncertainty"),
+        (YIELD, &["--noise", "2"], "allowed: estimated, stated"),
+        (YIELD, &["--walkers", "5"], "an even number"),
+        (
+            YIELD,
+            &["--model", "poncelet"],
+            "there is no measured value to fit to",
+        ),
+    ] {
+        let mut arguments = WILKINS.to_vec();
+        if more.contains(&"--model") {
+            arguments.drain(5..7);
+        }
+        let said = percuss(folder.path(), [&arguments[..], &[fit], more].concat());
+        assert!(matches!(said.code, 2 | 4), "{fit}: {}", said.stderr);
+        assert!(said.stderr.contains(words), "{fit}: {}", said.stderr);
+        assert_eq!(said.stdout, "", "{fit}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_it() {
+    let folder = TempDir::new().unwrap();
+    let arguments = [&WILKINS[..], &[YIELD, "--steps", "1000000", "--out", "out"]].concat();
+    let child = Command::new(assert_cmd::cargo::cargo_bin("percuss"))
+        .args(arguments)
+        .current_dir(folder.path())
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The handler stands before the first run of a model.
+    thread::sleep(Duration::from_secs(2));
+    let id = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.contains("the calibration was stopped after"), "{said}");
+    assert_eq!(fs::read_dir(folder.path().join("out")).unwrap().count(), 0);
+}

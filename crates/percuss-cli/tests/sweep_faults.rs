@@ -1,0 +1,431 @@
+//! `percuss sweep` when something goes wrong around it: it is killed, the disk is full, the folder cannot be written to, files are lost
+//! or damaged, or several processes want the same folder. The result is right or there is a clear error.
+#![cfg(unix)]
+
+mod support;
+
+use std::{
+    fs::{self, File, Permissions},
+    os::unix::{
+        fs::{MetadataExt, PermissionsExt},
+        process::CommandExt,
+    },
+    path::{Path, PathBuf},
+    process::{Child, Command, Output, Stdio},
+    thread,
+    time::Duration,
+};
+
+use parquet::{
+    file::reader::{FileReader, SerializedFileReader},
+    record::RowAccessor,
+};
+use support::{Said, percuss};
+use tempfile::TempDir;
+
+const CASE: &str = "
+projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }
+target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
+chain = { projectile_elements = 20, target_elements = 40 }
+";
+
+/// The user that a test is who must not write everywhere.
+const NOBODY: u32 = 65534;
+
+/// A sweep in blocks of two shots.
+fn folder(samples: u32) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    let sweep = format!(
+        "base = 'scenario.toml'\nmodel = 'chain'\ndesign = 'sobol'\nsamples = {samples}\nblock_size = 2
+[[parameter]]\nkey = 'projectile.velocity'\nuniform = {{ from = '150 m/s', to = '400 m/s' }}
+[[parameter]]\nkey = 'chain.target_closure'\nvalues = ['column', 'diverging', 'expanding-cavity']\n"
+    );
+    fs::write(folder.path().join("scenario.toml"), CASE).unwrap();
+    fs::write(folder.path().join("sweep.toml"), sweep).unwrap();
+    folder
+}
+
+fn sweep(folder: &TempDir, arguments: &[&str]) -> Said {
+    percuss(folder.path(), [&["sweep"], arguments].concat())
+}
+
+fn ok(folder: &TempDir, arguments: &[&str]) -> String {
+    let said = sweep(folder, arguments);
+    assert_eq!((said.code, said.stderr.as_str()), (0, ""), "{arguments:?}");
+    said.stdout
+}
+
+/// What a command that fails says, on one line.
+fn fails(folder: &TempDir, arguments: &[&str], code: i32) -> String {
+    let said = sweep(folder, arguments);
+    assert_eq!(said.code, code, "{arguments:?}: {}", said.stderr);
+    flat(&said.stderr)
+}
+
+fn flat(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn compute(folder: &TempDir, out: &str) {
+    ok(folder, &["sweep.toml", "--out", out, "--quiet"]);
+}
+
+fn resume(folder: &TempDir, out: &str) {
+    ok(folder, &["sweep.toml", "--out", out, "--quiet", "--resume"]);
+}
+
+/// The merged rows of folders.
+fn merged(folder: &TempDir, parts: &[&str]) -> Vec<u8> {
+    ok(
+        folder,
+        &[&["merge"], parts, &["--out", "rows.parquet"]].concat(),
+    );
+    fs::read(folder.path().join("rows.parquet")).unwrap()
+}
+
+fn block(folder: &TempDir, out: &str, block: u32) -> PathBuf {
+    folder
+        .path()
+        .join(format!("{out}/block-{block:06}.parquet"))
+}
+
+fn program() -> &'static Path {
+    assert_cmd::cargo::cargo_bin!("percuss")
+}
+
+fn spawn(folder: &TempDir, arguments: &[&str]) -> Child {
+    Command::new(program())
+        .arg("sweep")
+        .args(arguments)
+        .current_dir(folder.path())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap()
+}
+
+fn count_blocks(path: &Path) -> usize {
+    let Ok(entries) = fs::read_dir(path) else {
+        return 0;
+    };
+    let names = entries.map(|entry| entry.unwrap().file_name());
+    names
+        .filter(|name| name.to_string_lossy().starts_with("block-"))
+        .count()
+}
+
+/// Numbers that look drawn, the same in every run.
+struct Draw(u64);
+
+impl Draw {
+    fn below(&mut self, end: u64) -> u64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (self.0 >> 33) % end
+    }
+}
+
+/// Kills a sweep at random moments, each time at least one block further on. `PERCUSS_KILLS` sets how often, 6 otherwise.
+#[test]
+fn a_sweep_that_is_killed_at_random_moments_loses_and_doubles_no_row() {
+    let kills: u32 = std::env::var("PERCUSS_KILLS").map_or(6, |text| text.parse().unwrap());
+    let folder = folder(24 * kills);
+    compute(&folder, "whole");
+    let whole = merged(&folder, &["whole"]);
+    let out = folder.path().join("killed");
+    let mut draw = Draw(7);
+    let mut midway = 0;
+    for _ in 0..kills {
+        let before = count_blocks(&out);
+        let mut child = spawn(
+            &folder,
+            &["sweep.toml", "--out", "killed", "--resume", "--quiet"],
+        );
+        while count_blocks(&out) == before && child.try_wait().unwrap().is_none() {
+            thread::sleep(Duration::from_millis(1));
+        }
+        thread::sleep(Duration::from_micros(draw.below(60_000)));
+        midway += u32::from(child.try_wait().unwrap().is_none());
+        // SIGKILL: nothing of the program runs any more.
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    println!(
+        "{midway} of {kills} kills hit a sweep at work, {} blocks were left",
+        count_blocks(&out)
+    );
+    assert!(3 * midway >= 2 * kills, "{midway} of {kills}");
+    resume(&folder, "killed");
+    let left = fs::read_dir(&out).unwrap();
+    let mut left = left.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    assert!(left.all(|name| !name.ends_with(".tmp")));
+    assert!(merged(&folder, &["killed"]) == whole, "rows differ");
+    let reader = SerializedFileReader::new(File::open(folder.path().join("rows.parquet")).unwrap());
+    let rows = reader.unwrap();
+    let shots = rows
+        .get_row_iter(None)
+        .unwrap()
+        .map(|row| row.unwrap().get_long(0).unwrap());
+    assert!(shots.eq(0..i64::from(24 * kills)));
+}
+
+/// All parts at once, two of them killed and run again.
+#[test]
+fn parts_in_processes_at_once_make_the_whole() {
+    let folder = folder(48);
+    compute(&folder, "whole");
+    let whole = merged(&folder, &["whole"]);
+    let run = |part: u32| {
+        let (out, shard) = (format!("part-{part}"), format!("{part}/4"));
+        let arguments = [
+            "sweep.toml",
+            "--out",
+            &out,
+            "--shard",
+            &shard,
+            "--threads",
+            "1",
+            "--resume",
+        ];
+        spawn(&folder, &arguments)
+    };
+    let mut children: Vec<Child> = (1..=4).map(run).collect();
+    for part in [1_usize, 2] {
+        let out = folder.path().join(format!("part-{part}"));
+        while count_blocks(&out) == 0 {
+            thread::sleep(Duration::from_millis(1));
+        }
+        children[part - 1].kill().unwrap();
+    }
+    for (part, child) in children.iter_mut().enumerate() {
+        assert_eq!(child.wait().unwrap().success(), part > 1, "{part}");
+    }
+    let parts = ["part-1", "part-2", "part-3", "part-4"];
+    let said = fails(
+        &folder,
+        &[&["merge"], &parts[..], &["--out", "x.parquet"]].concat(),
+        2,
+    );
+    assert!(said.contains("of 24 blocks are missing"), "{said}");
+    for part in [1, 2] {
+        assert!(run(part).wait().unwrap().success());
+    }
+    assert!(merged(&folder, &parts) == whole);
+    // A part that is gone, or was never there.
+    fs::remove_dir_all(folder.path().join("part-3")).unwrap();
+    let said = fails(
+        &folder,
+        &[&["merge"], &parts[..], &["--out", "x.parquet"]].concat(),
+        2,
+    );
+    assert!(
+        said.contains("part-3") && said.contains("no manifest.json"),
+        "{said}"
+    );
+    let said = fails(
+        &folder,
+        &["merge", "part-1", "part-2", "part-4", "--out", "x.parquet"],
+        2,
+    );
+    assert!(
+        said.contains("6 of 24 blocks are missing or damaged"),
+        "{said}"
+    );
+    assert!(!folder.path().join("x.parquet").exists());
+}
+
+#[test]
+fn a_damaged_block_is_seen_wherever_the_damage_is() {
+    let folder = folder(8);
+    compute(&folder, "rows");
+    let whole = merged(&folder, &["rows"]);
+    let path = block(&folder, "rows", 1);
+    let good = fs::read(&path).unwrap();
+    let other = fs::read(block(&folder, "rows", 2)).unwrap();
+    let mut draw = Draw(3);
+    let mut damaged: Vec<Vec<u8>> = vec![Vec::new(), good[..good.len() - 1].to_vec(), other];
+    for _ in 0..6 {
+        let mut bytes = good.clone();
+        let place = draw.below(bytes.len() as u64) as usize;
+        bytes[place] ^= 1 << draw.below(8);
+        damaged.push(bytes);
+        damaged.push(good[..draw.below(good.len() as u64) as usize].to_vec());
+    }
+    // A page of zeros, as a file system may leave it.
+    let mut zeros = good.clone();
+    let middle = zeros.len() / 2;
+    zeros[middle..middle + 512].fill(0);
+    damaged.push(zeros);
+    for (i, bytes) in damaged.iter().enumerate() {
+        fs::write(&path, bytes).unwrap();
+        let said = ok(&folder, &["status", "rows"]);
+        assert!(said.contains("1 damaged file"), "{i}: {said}");
+        let said = fails(&folder, &["merge", "rows", "--out", "x.parquet"], 2);
+        assert!(
+            said.contains("the first is block-000001.parquet"),
+            "{i}: {said}"
+        );
+        resume(&folder, "rows");
+        assert!(fs::read(&path).unwrap() == good, "{i}");
+    }
+    assert!(merged(&folder, &["rows"]) == whole);
+    // What stands where a block should and is no file is not touched.
+    fs::remove_file(&path).unwrap();
+    fs::create_dir(&path).unwrap();
+    let said = fails(&folder, &["sweep.toml", "--out", "rows", "--resume"], 4);
+    assert!(
+        said.contains("cannot write") && said.contains("block-000001.parquet"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_damaged_manifest_is_an_error() {
+    let folder = folder(4);
+    compute(&folder, "rows");
+    let manifest = folder.path().join("rows/manifest.json");
+    let text = fs::read_to_string(&manifest).unwrap();
+    for (bad, words) in [
+        (text[..text.len() / 2].to_owned(), "no manifest of a sweep"),
+        (
+            text.replace("\"shots\": 4", "\"shots\": 6"),
+            "its `shots` is 6, not 4",
+        ),
+        (
+            text.replace("\"format\": 2", "\"format\": 1"),
+            "its `format` is 1, not 2",
+        ),
+    ] {
+        fs::write(&manifest, bad).unwrap();
+        let said = fails(&folder, &["sweep.toml", "--out", "rows", "--resume"], 2);
+        assert!(said.contains(words), "{said}");
+    }
+}
+
+/// A limit to the size of files stands for a disk that gets full: writing fails midway in the same way.
+#[test]
+fn a_full_disk_is_a_clear_error_and_nothing_half_written_stays() {
+    let folder = folder(8);
+    compute(&folder, "whole");
+    let whole = merged(&folder, &["whole"]);
+    let limited = |blocks: u64, arguments: &str| -> Output {
+        // Blocks of 512 bytes; without a handler of its own the program would be killed by SIGXFSZ.
+        let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" sweep {arguments}");
+        let mut command = Command::new("sh");
+        command.args(["-c", &script]).arg(program());
+        command.current_dir(folder.path()).output().unwrap()
+    };
+    let size = fs::metadata(block(&folder, "whole", 0)).unwrap().len();
+    let manifest = fs::metadata(folder.path().join("whole/manifest.json"))
+        .unwrap()
+        .len();
+    assert!(
+        manifest + 2048 < size,
+        "the limit has to lie between {manifest} and {size}"
+    );
+    let failed = |output: &Output, file: &str| {
+        let said = flat(&String::from_utf8_lossy(&output.stderr));
+        assert_eq!(output.status.code(), Some(4), "{said}");
+        assert!(
+            said.contains("cannot write") && said.contains(file),
+            "{said}"
+        );
+        assert!(said.contains("File too large"), "{said}");
+    };
+    let output = limited(manifest / 512 + 2, "sweep.toml --out rows");
+    failed(&output, "block-");
+    let left = fs::read_dir(folder.path().join("rows")).unwrap();
+    let mut left: Vec<_> = left.map(|entry| entry.unwrap().file_name()).collect();
+    left.sort();
+    assert_eq!(left, ["lock", "manifest.json"]);
+    let said = fails(&folder, &["sweep.toml", "--out", "rows"], 2);
+    assert!(said.contains("--resume"), "{said}");
+    resume(&folder, "rows");
+    let output = limited(size / 512 + 4, "merge rows --out big.parquet");
+    failed(&output, "big.parquet");
+    assert!(!folder.path().join("big.parquet").exists());
+    assert!(merged(&folder, &["rows"]) == whole);
+    let output = limited(0, "sweep.toml --out empty");
+    failed(&output, "manifest.json");
+    // The folder has no manifest yet: it is as if the sweep had never begun.
+    compute(&folder, "empty");
+    assert!(merged(&folder, &["empty"]) == whole);
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_to_is_a_clear_error_and_can_be_read() {
+    let folder = folder(4);
+    compute(&folder, "rows");
+    let rows = folder.path().join("rows");
+    fs::remove_file(block(&folder, "rows", 1)).unwrap();
+    let open = |path: &Path, mode| fs::set_permissions(path, Permissions::from_mode(mode)).unwrap();
+    open(folder.path(), 0o755);
+    // Root may write anywhere, so it becomes nobody, who may not be allowed to reach the program where it was built.
+    let root = fs::metadata(&rows).unwrap().uid() == 0;
+    let own = folder.path().join("percuss");
+    fs::copy(program(), &own).unwrap();
+    open(&own, 0o755);
+    open(&rows, 0o555);
+    let run = |arguments: &[&str]| -> Output {
+        let mut command = Command::new(&own);
+        command
+            .arg("sweep")
+            .args(arguments)
+            .current_dir(folder.path());
+        if root {
+            command.uid(NOBODY).gid(NOBODY);
+        }
+        command.output().unwrap()
+    };
+    let before = count_blocks(&rows);
+    let output = run(&["sweep.toml", "--out", "rows", "--resume"]);
+    let said = flat(&String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.status.code(), Some(4), "{said}");
+    assert!(
+        said.contains("cannot write `rows") && said.contains("ermission denied"),
+        "{said}"
+    );
+    let output = run(&["status", "rows"]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        output.status.success() && said.contains("2 of 4 shots done"),
+        "{said}"
+    );
+    let output = run(&["plot", "rows"]);
+    let said = flat(&String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.status.code(), Some(4), "{said}");
+    assert!(said.contains("ermission denied"), "{said}");
+    assert_eq!(count_blocks(&rows), before);
+    open(&rows, 0o755);
+    resume(&folder, "rows");
+}
+
+#[test]
+fn of_two_processes_on_one_folder_one_computes_and_the_other_is_refused() {
+    let folder = folder(48);
+    compute(&folder, "whole");
+    let whole = merged(&folder, &["whole"]);
+    // Both begin at once, again and again; which of them is first is not known.
+    let mut refused = 0;
+    for _ in 0..3 {
+        let _ = fs::remove_dir_all(folder.path().join("rows"));
+        let start = || {
+            spawn(
+                &folder,
+                &["sweep.toml", "--out", "rows", "--resume", "--threads", "1"],
+            )
+        };
+        let mut both = [start(), start()];
+        let codes = both.each_mut().map(|child| child.wait().unwrap().code());
+        assert!(codes.contains(&Some(0)), "{codes:?}");
+        assert!(
+            codes.iter().all(|code| matches!(code, Some(0 | 2))),
+            "{codes:?}"
+        );
+        refused += u32::from(codes.contains(&Some(2)));
+        assert!(merged(&folder, &["rows"]) == whole);
+    }
+    assert!(refused > 0);
+}

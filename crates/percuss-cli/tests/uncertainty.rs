@@ -1,0 +1,341 @@
+//! `percuss uncertainty`: what uncertain numbers of a case do to its results.
+
+mod support;
+
+use std::{fs, path::Path};
+
+use serde_json::Value;
+use support::{Said, percuss};
+use tempfile::TempDir;
+
+const CASE: &str = "
+projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }
+target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
+chain = { projectile_elements = 20, target_elements = 40 }
+[[uncertainty.parameter]]
+key = 'projectile.velocity'
+normal = { mean = '230 m/s', standard_deviation = '3 m/s' }
+[[uncertainty.parameter]]
+key = 'projectile.length'
+uniform = { from = '12.5 mm', to = '13 mm' }
+";
+const CORRELATION: &str = "
+[uncertainty.correlation]
+parameters = ['projectile.velocity', 'projectile.length']
+matrix = [[1, 0.5], [0.5, 1]]
+";
+const BLUNT: &str = "
+projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', velocity = '187 m/s' }
+target = { material = 'weldox-460-e', thickness = '12 mm', back_face = 'free' }
+recht_ipson = { ballistic_limit = '184.5 m/s' }
+[[experiments]]
+velocity = '184.8 m/s'
+residual_velocity = '0 m/s'
+source = 'borvik2002a'
+[[uncertainty.parameter]]
+key = 'projectile.velocity'
+normal = { mean = '187 m/s', standard_deviation = '5 m/s' }
+[[uncertainty.parameter]]
+key = 'recht_ipson.ballistic_limit'
+normal = { mean = '184.5 m/s', standard_deviation = '5 m/s' }
+";
+
+fn folder() -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("case.toml"), CASE).unwrap();
+    fs::write(
+        folder.path().join("joint.toml"),
+        format!("{CASE}{CORRELATION}"),
+    )
+    .unwrap();
+    fs::write(folder.path().join("blunt.toml"), BLUNT).unwrap();
+    folder
+}
+
+fn run(folder: &TempDir, arguments: &[&str]) -> Said {
+    percuss(folder.path(), [&["uncertainty"], arguments].concat())
+}
+
+fn ok(folder: &TempDir, arguments: &[&str]) -> String {
+    let said = run(folder, arguments);
+    assert_eq!((said.code, said.stderr.as_str()), (0, ""), "{arguments:?}");
+    said.stdout
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+/// A text without its line breaks.
+fn flat(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn tables_json_and_pairs_say_the_same() {
+    let folder = folder();
+    let arguments = ["case.toml", "--samples", "32", "--seed", "5"];
+    let object = json(&ok(&folder, &[&arguments[..], &["--json"]].concat()));
+    assert_eq!(object["shots"], 1 + 4 + 32 * 4);
+    assert_eq!(object["inputs"][1]["distribution"], "uniform, 12.5 … 13 mm");
+    let depth = &object["quantities"][0];
+    assert_eq!(depth["quantity"], "depth_of_penetration_mm");
+    let mean = depth["statistics"]["mean"].as_f64().unwrap();
+    assert!((0.15..0.3).contains(&mean), "{mean}");
+    assert_eq!(
+        depth["statistics"]["percentiles"].as_array().unwrap().len(),
+        7
+    );
+    assert_eq!(depth["indices"]["rows"], 32);
+    assert_eq!(object["perforation"]["probability"], 0.0);
+    assert_eq!(object["failures"]["shots"], 0);
+
+    let quiet = ok(&folder, &[&arguments[..], &["--quiet"]].concat());
+    assert!(
+        quiet.starts_with("quantity=depth_of_penetration_mm mean=0."),
+        "{quiet}"
+    );
+    let of_quiet: f64 = quiet
+        .split("mean=")
+        .nth(1)
+        .unwrap()
+        .split(' ')
+        .next()
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert!((of_quiet / mean - 1.0).abs() < 1e-5);
+
+    let text = flat(&ok(&folder, &arguments));
+    for part in [
+        "statistics of 32 shots, seed 5, 133 shots in all",
+        "normal, 230 ± 3 m/s",
+        "chance of perforation 0 % (0 …",
+        "what moves the depth of penetration",
+        "first order",
+        "The model's own error comes on top",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+}
+
+#[test]
+fn threads_make_no_difference() {
+    let folder = folder();
+    let with = |threads| {
+        let arguments = [
+            "case.toml",
+            "--samples",
+            "16",
+            "--json",
+            "--threads",
+            threads,
+        ];
+        ok(&folder, &arguments)
+    };
+    assert_eq!(with("1"), with("3"));
+}
+
+#[test]
+fn correlated_parameters_have_all_but_indices() {
+    let folder = folder();
+    let text = ok(&folder, &["joint.toml", "--samples", "16"]);
+    assert!(
+        flat(&text).contains("no Sobol' indices: the parameters are correlated"),
+        "{text}"
+    );
+    let object = json(&ok(&folder, &["joint.toml", "--samples", "16", "--json"]));
+    assert_eq!(
+        (object["correlated"].as_bool(), object["shots"].as_u64()),
+        (Some(true), Some(21))
+    );
+    assert!(object["quantities"][0]["indices"].is_null());
+}
+
+#[test]
+fn a_folder_holds_numbers_and_figures() {
+    let folder = folder();
+    let arguments = [
+        "blunt.toml",
+        "--model",
+        "recht_ipson",
+        "--velocity",
+        "160..210",
+        "--out",
+        "found",
+    ];
+    let text = ok(&folder, &arguments);
+    assert!(text.contains("over speed, 256 shots each"), "{text}");
+    let found = folder.path().join("found");
+    let mut names: Vec<String> = fs::read_dir(&found)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    let figures = [
+        "bands-residual-velocity",
+        "histogram-residual-velocity",
+        "indices-residual-velocity",
+        "perforation",
+        "tornado-residual-velocity",
+    ];
+    let mut expected: Vec<String> = figures
+        .iter()
+        .flat_map(|name| [format!("{name}.svg"), format!("{name}.png")])
+        .collect();
+    let tables = [
+        "bands.csv",
+        "case-as-run.toml",
+        "samples.csv",
+        "sensitivity.csv",
+        "statistics.csv",
+    ];
+    expected.extend(tables.map(str::to_owned));
+    expected.push("uncertainty.json".to_owned());
+    expected.sort();
+    assert_eq!(names, expected);
+    let samples = fs::read_to_string(found.join("samples.csv")).unwrap();
+    assert_eq!(samples.lines().count(), 1025);
+    assert!(
+        samples.starts_with("projectile.velocity_m_s,recht_ipson.ballistic_limit_m_s,outcome,"),
+        "{samples}"
+    );
+    let object = json(&fs::read_to_string(found.join("uncertainty.json")).unwrap());
+    // Half of the difference of two normal variables over its deviation of 7.07 m/s.
+    let probability = object["perforation"]["probability"].as_f64().unwrap();
+    assert!((probability - 0.638).abs() < 0.004, "{probability}");
+    let chances: Vec<f64> = object["bands"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|band| band["perforation"]["probability"].as_f64().unwrap())
+        .collect();
+    assert_eq!(chances.len(), 11);
+    assert!(
+        chances.is_sorted() && chances[0] == 0.0 && chances[10] == 1.0,
+        "{chances:?}"
+    );
+    for name in figures {
+        let svg = fs::read_to_string(found.join(format!("{name}.svg"))).unwrap();
+        assert!(svg.contains("</svg>") && !svg.contains("NaN"), "{name}");
+    }
+}
+
+#[test]
+fn what_cannot_be_computed_is_refused() {
+    let folder = folder();
+    for (arguments, part) in [
+        (
+            &["case.toml", "--samples", "15"][..],
+            "15 is not in 16..=1048576",
+        ),
+        (
+            &["case.toml", "--quantity", "depth"],
+            "invalid value 'depth'",
+        ),
+        (
+            &["case.toml", "--velocity", "400..150"],
+            "which is not above its start",
+        ),
+        (
+            &["case.toml", "--velocity", "experiments"],
+            "no experiments with a velocity",
+        ),
+        (
+            &[
+                "case.toml",
+                "--samples",
+                "16",
+                "--no-indices",
+                "--quantity",
+                "plug_mass_g",
+            ],
+            "no shot of model `chain` has a value of plug_mass_g",
+        ),
+        (
+            &["case.toml", "--model", "forrestal_concrete"],
+            "does not apply to this case",
+        ),
+    ] {
+        let said = run(&folder, arguments);
+        assert_eq!((said.code, said.stdout.as_str()), (2, ""), "{arguments:?}");
+        assert!(
+            flat(&said.stderr).contains(part),
+            "{arguments:?}: {}",
+            said.stderr
+        );
+    }
+}
+
+#[test]
+fn wrong_tables_are_refused_with_their_place() {
+    let bad = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad-uncertainties");
+    let mut names: Vec<String> = fs::read_dir(&bad)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    assert!(names.len() >= 7, "{}", names.len());
+    for name in names {
+        let said = percuss(&bad, ["uncertainty", &name]);
+        assert_eq!(said.code, 2, "{name}: {}", said.stderr);
+        assert!(
+            said.stderr.contains(&format!("--> {name}")),
+            "{name}: {}",
+            said.stderr
+        );
+        insta::with_settings!({
+            snapshot_path => "snapshots/bad-uncertainties",
+            prepend_module_to_snapshot => false,
+            omit_expression => true,
+        }, {
+            insta::assert_snapshot!(name.trim_end_matches(".toml"), said.stderr);
+        });
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn ctrl_c_ends_it_and_leaves_no_result() {
+    use std::{
+        process::{Command, Stdio},
+        thread,
+        time::Duration,
+    };
+    let folder = folder();
+    let child = Command::new(assert_cmd::cargo::cargo_bin!("percuss"))
+        .args([
+            "uncertainty",
+            "case.toml",
+            "--samples",
+            "1048576",
+            "--out",
+            "found",
+        ])
+        .current_dir(folder.path())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The copy of the case is written just before the first shot.
+    while !folder.path().join("found/case-as-run.toml").exists() {
+        thread::sleep(Duration::from_millis(5));
+    }
+    thread::sleep(Duration::from_millis(300));
+    let id = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(
+        said.contains("the analysis was stopped and left no result"),
+        "{said}"
+    );
+    assert!(!folder.path().join("found/uncertainty.json").exists());
+}

@@ -1,0 +1,181 @@
+//! Charts of horizontal bars in named rows.
+
+use kuva::plot::LinePlot;
+use kuva::render::render::TextAnchor;
+
+use crate::{
+    Axis, Figure, Mark,
+    frame::{Frame, plain, text},
+    primitives::{area_entry, bar, border, line, mark, mark_entry},
+};
+
+/// Most characters of a name.
+const NAME_CHARS: usize = 46;
+/// Height of a row, and of what surrounds the rows [px].
+const ROW: f64 = 42.0;
+const SURROUNDINGS: f64 = 150.0;
+/// Part of a row that its bars fill.
+const FILLED: f64 = 0.66;
+/// Half the length of the caps of an interval [px].
+const CAP: f64 = 3.5;
+/// Size of the texts at the ends of bars, and their distance from it [px].
+const TEXT_SIZE: u32 = 11;
+const TEXT_GAP: f64 = 6.0;
+/// Width of a character [px].
+const TEXT_WIDTH: f64 = 6.6;
+
+/// A bar of a row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bar {
+    /// Where it starts and where it ends.
+    pub ends: (f64, f64),
+    /// Its colour.
+    pub color: String,
+    /// Lane of the row that it lies in, counted from the top.
+    pub lane: usize,
+    /// Interval drawn over its end.
+    pub interval: Option<(f64, f64)>,
+    /// Text beyond its end.
+    pub text: String,
+}
+
+/// A chart of horizontal bars in named rows, the first row at the top.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BarRows {
+    name: String,
+    title: String,
+    caption: String,
+    x: Axis,
+    lanes: usize,
+    rows: Vec<(String, Vec<Bar>)>,
+    colors: Vec<(String, String)>,
+    marks: Vec<Mark>,
+}
+
+impl BarRows {
+    /// An empty chart: file stem, title, the axis of the values and the number of lanes in a row.
+    pub fn new(name: impl Into<String>, title: impl Into<String>, x: Axis, lanes: usize) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            caption: String::new(),
+            x,
+            lanes: lanes.max(1),
+            rows: Vec::new(),
+            colors: Vec::new(),
+            marks: Vec::new(),
+        }
+    }
+
+    /// Sets the line below the title.
+    pub fn caption(mut self, caption: impl Into<String>) -> Self {
+        self.caption = caption.into();
+        self
+    }
+
+    /// Adds a row.
+    pub fn row(mut self, name: impl Into<String>, bars: impl IntoIterator<Item = Bar>) -> Self {
+        self.rows.push((name.into(), bars.into_iter().collect()));
+        self
+    }
+
+    /// Says in the legend what a colour stands for.
+    pub fn color(mut self, name: impl Into<String>, color: impl Into<String>) -> Self {
+        self.colors.push((name.into(), color.into()));
+        self
+    }
+
+    /// Adds a vertical line.
+    pub fn mark(mut self, mark: Mark) -> Self {
+        self.marks.push(mark);
+        self
+    }
+
+    /// Draws the chart.
+    pub fn draw(&self) -> Figure {
+        let count = self.rows.len().max(1) as f64;
+        let bars = || self.rows.iter().flat_map(|row| &row.1);
+        let values = bars().flat_map(|bar| {
+            let (low, high) = bar.interval.unwrap_or(bar.ends);
+            [bar.ends.0, bar.ends.1, low, high]
+        });
+        let extent = self
+            .x
+            .extent(values.chain(self.marks.iter().map(|mark| mark.value)));
+        let x = self.x.clone().range_around(extent, self.space_for_texts());
+        let names = self.rows.iter().rev().map(|row| plain(&row.0, NAME_CHARS));
+        let y = Axis::new("").range(0.5, count + 0.5).names(names);
+        let legend = self
+            .colors
+            .iter()
+            .map(|(name, color)| area_entry(name, color));
+        let marks = self.marks.iter().filter(|mark| !mark.name.is_empty());
+        let frame = Frame {
+            name: &self.name,
+            title: &self.title,
+            caption: &self.caption,
+            x: &x,
+            y: &y,
+            x_extent: extent,
+            y_extent: (0.5, count + 0.5),
+            height: SURROUNDINGS + ROW * count.max(2.0),
+            right_margin: None,
+            legend: legend
+                .chain(marks.map(|mark| mark_entry(&mark.name)))
+                .collect(),
+            marks: Vec::new(),
+        };
+        // Axes are drawn only for a plot, so there is one without content.
+        frame.draw(vec![LinePlot::new().into()], |scene, place| {
+            let height = FILLED / self.lanes as f64;
+            for (i, bars) in self.rows.iter().map(|row| &row.1).enumerate() {
+                for one in bars {
+                    let top = count - i as f64 + 0.5 * FILLED - height * one.lane as f64;
+                    let (from, to) = (place.map_x(one.ends.0), place.map_x(one.ends.1));
+                    let (above, below) = (place.map_y(top), place.map_y(top - height));
+                    let middle = 0.5 * (above + below);
+                    scene.add(bar((from, above + 1.0), (to, below - 1.0), &one.color));
+                    let mut ends = (to.min(from), to.max(from));
+                    if let Some((low, high)) = one.interval {
+                        let (low, high) = (place.map_x(low), place.map_x(high));
+                        scene.add(line((low, middle), (high, middle), 1.2));
+                        for x in [low, high] {
+                            scene.add(line((x, middle - CAP), (x, middle + CAP), 1.2));
+                        }
+                        ends = (ends.0.min(low), ends.1.max(high));
+                    }
+                    let (x, anchor) = match to < from {
+                        true => (ends.0 - TEXT_GAP, TextAnchor::End),
+                        false => (ends.1 + TEXT_GAP, TextAnchor::Start),
+                    };
+                    scene.add(text(
+                        (x, middle + 4.0),
+                        &one.text,
+                        (TEXT_SIZE, anchor, None),
+                    ));
+                }
+            }
+            for at in &self.marks {
+                scene.add(mark(place, at.value));
+            }
+            let (left, top) = (place.margin_left, place.margin_top);
+            scene.add(border(left, top, place.plot_width(), place.plot_height()));
+        })
+    }
+
+    /// Part of the width that texts take at the left and at the right of the bars.
+    fn space_for_texts(&self) -> (f64, f64) {
+        // What names, legend and margins leave of the canvas, near enough [px].
+        const PLOT_WIDTH: f64 = 320.0;
+        let bars = || self.rows.iter().flat_map(|row| &row.1);
+        let longest = |left: bool| {
+            let texts = bars().filter(|bar| (bar.ends.1 < bar.ends.0) == left);
+            texts.map(|bar| bar.text.chars().count()).max().unwrap_or(0) as f64
+        };
+        let part = |chars: f64| match chars {
+            0.0 => 0.03,
+            chars => ((chars * TEXT_WIDTH + 2.0 * TEXT_GAP) / PLOT_WIDTH).min(0.3),
+        };
+        (part(longest(true)), part(longest(false)))
+    }
+}

@@ -1,0 +1,120 @@
+//! Tables of a calibration.
+
+use std::path::{Path, PathBuf};
+
+use percuss::calibrate::{Calibration, ParameterRecord, Prediction};
+
+use crate::{
+    ReportError,
+    column::{self, Column},
+    replace_file::replace_file,
+};
+
+/// A state of the sample with the place that it was drawn at.
+struct State {
+    ensemble: i64,
+    step: i64,
+    walker: i64,
+    values: Vec<f64>,
+}
+
+/// Writes `parameters.csv`, `predictions.csv` and, of a sample, `sample.parquet`.
+///
+/// # Errors
+/// [`ReportError::Write`]; [`ReportError::Table`].
+pub fn write(folder: &Path, calibration: &Calibration) -> Result<Vec<PathBuf>, ReportError> {
+    let (parameters, predictions) = ("parameters.csv", "predictions.csv");
+    let table = column::csv(parameters, &parameter_columns(), &calibration.parameters)?;
+    let mut written = vec![replace_file(folder, parameters, &table)?];
+    let table = column::csv(predictions, &prediction_columns(), &calibration.predictions)?;
+    written.push(replace_file(folder, predictions, &table)?);
+    if let Some(states) = states(calibration) {
+        let name = "sample.parquet";
+        let table = column::parquet(name, &state_columns(calibration), &states)?;
+        written.push(replace_file(folder, name, &table)?);
+    }
+    Ok(written)
+}
+
+fn parameter_columns() -> Vec<Column<ParameterRecord>> {
+    let marginal = |name: &str, of: fn(&percuss::calibrate::Marginal) -> f64| {
+        Column::optional(name, move |p: &ParameterRecord| {
+            p.posterior.as_ref().map(of)
+        })
+    };
+    vec![
+        Column::text("key", |p: &ParameterRecord| p.key.clone()),
+        Column::text("unit", |p: &ParameterRecord| p.unit.clone()),
+        Column::float("prior_2_5", |p: &ParameterRecord| p.prior[0]),
+        Column::float("prior_97_5", |p: &ParameterRecord| p.prior[2]),
+        Column::float("best", |p: &ParameterRecord| p.best),
+        Column::optional("standard_error", |p: &ParameterRecord| p.standard_error),
+        marginal("mean", |m| m.mean),
+        marginal("standard_deviation", |m| m.standard_deviation),
+        marginal("quantile_2_5", |m| m.quantiles[0]),
+        marginal("quantile_50", |m| m.quantiles[1]),
+        marginal("quantile_97_5", |m| m.quantiles[2]),
+        marginal("r_hat", |m| m.r_hat),
+        marginal("effective_size", |m| m.effective_size),
+    ]
+}
+
+fn prediction_columns() -> Vec<Column<Prediction>> {
+    let end = |name: &str, of: fn(&Prediction) -> Option<f64>| Column::optional(name, of);
+    vec![
+        Column::text("id", |p: &Prediction| p.id.clone()),
+        Column::text("sources", |p: &Prediction| p.sources.join(" ")),
+        Column::text("part", |p: &Prediction| {
+            if p.held_out { "hold-out" } else { "training" }.to_owned()
+        }),
+        Column::text("quantity", |p: &Prediction| {
+            p.quantity.in_words().to_owned()
+        }),
+        Column::text("unit", |p: &Prediction| p.unit.to_owned()),
+        Column::float("impact_velocity_m_s", |p: &Prediction| {
+            p.impact_velocity_m_s
+        }),
+        Column::float("measured", |p: &Prediction| p.measured),
+        end("uncertainty", |p| p.uncertainty),
+        end("before", |p| p.before),
+        end("best", |p| p.best),
+        end("relative_error", |p| p.relative_error),
+        end("model_2_5", |p| p.model_band.map(|band| band[0])),
+        end("model_97_5", |p| p.model_band.map(|band| band[1])),
+        end("predictive_2_5", |p| p.predictive_band.map(|band| band[0])),
+        end("predictive_50", |p| p.predictive_median),
+        end("predictive_97_5", |p| p.predictive_band.map(|band| band[1])),
+    ]
+}
+
+fn state_columns(calibration: &Calibration) -> Vec<Column<State>> {
+    let mut columns = vec![
+        Column::integer("ensemble", |s: &State| s.ensemble),
+        Column::integer("step", |s: &State| s.step),
+        Column::integer("walker", |s: &State| s.walker),
+    ];
+    for (i, parameter) in calibration.parameters.iter().enumerate() {
+        columns.push(Column::float(parameter.key.clone(), move |s: &State| {
+            s.values[i]
+        }));
+    }
+    if calibration.scatter.estimated {
+        let last = calibration.parameters.len();
+        columns.push(Column::float("scatter", move |s: &State| {
+            s.values[last].exp()
+        }));
+    }
+    columns
+}
+
+fn states(calibration: &Calibration) -> Option<Vec<State>> {
+    let sample = calibration.sample.as_ref()?;
+    let (steps, walkers) = (sample.sampling.steps, sample.sampling.walkers);
+    let state = |(i, values): (usize, &[f64])| State {
+        ensemble: (i / (steps * walkers)) as i64,
+        step: (i / walkers % steps) as i64,
+        walker: (i % walkers) as i64,
+        values: values.to_vec(),
+    };
+    Some(sample.kept().enumerate().map(state).collect())
+}

@@ -1,0 +1,87 @@
+//! Measured values against what the calibrated model says of them.
+
+use percuss::{
+    calibrate::{Calibration, Prediction},
+    outcome::BandQuantity,
+};
+
+use crate::{Axis, Figure, LineChart, Mark, Series, Style, palette};
+
+/// Draws the relative errors over the impact speed with their 95 % predictive bands, as `predictive`.
+pub(super) fn figure(calibration: &Calibration) -> Figure {
+    let mut chart = LineChart::new(
+        "predictive",
+        format!(
+            "Model {} after calibration, less what was measured",
+            calibration.model
+        ),
+        Axis::new("impact speed [m/s]"),
+        Axis::new("error [% of the measured value]"),
+    )
+    .caption(caption(calibration))
+    .mark(Mark::horizontal("", 0.0));
+    for (name, held_out, color) in [
+        ("fitted to", false, palette::SERIES[0]),
+        ("held out", true, palette::SERIES[1]),
+    ] {
+        let of_kind = || {
+            let all = calibration.predictions.iter();
+            all.filter(move |prediction| prediction.held_out == held_out)
+                .filter_map(|prediction| Some((prediction, prediction.best?)))
+        };
+        let points: Vec<(f64, f64)> = of_kind()
+            .map(|(p, best)| (p.impact_velocity_m_s, percent(p, best - p.measured)))
+            .collect();
+        if points.is_empty() {
+            continue;
+        }
+        let bars = of_kind().map(|(p, best)| {
+            p.predictive_band.map_or((0.0, 0.0), |[low, high]| {
+                (percent(p, best - low), percent(p, high - best))
+            })
+        });
+        let series = Series::new(name, points).style(Style::Markers).color(color);
+        chart = chart.series(series.error_bars(bars));
+    }
+    let before = calibration.predictions.iter().filter_map(|p| {
+        let error = p.before? - p.measured;
+        Some((p.impact_velocity_m_s, percent(p, error)))
+    });
+    let before = Series::new("before the fit", before);
+    chart
+        .series(before.style(Style::Cloud).color("#9a9a9a"))
+        .draw()
+}
+
+/// A difference in percent of what relative errors are relative to.
+fn percent(prediction: &Prediction, difference: f64) -> f64 {
+    let scale = match prediction.quantity {
+        BandQuantity::ResidualVelocity => prediction.impact_velocity_m_s,
+        _ => prediction.measured,
+    };
+    100.0 * difference / scale
+}
+
+fn caption(calibration: &Calibration) -> String {
+    let of = |quality: &percuss::calibrate::Quality| {
+        let inside = quality
+            .inside
+            .map_or_else(String::new, |inside| format!(", {inside} in their bands"));
+        format!(
+            "RMS {:.1} % of {}{inside}",
+            100.0 * quality.rms,
+            quality.count
+        )
+    };
+    let bars = match calibration.sample {
+        Some(_) => "; bars: where 95 % of measured values are expected",
+        None => "",
+    };
+    let held_out = calibration
+        .hold_out
+        .as_ref()
+        .map_or_else(String::new, |quality| {
+            format!("; held out: {}", of(quality))
+        });
+    format!("fitted to: {}{held_out}{bars}", of(&calibration.training))
+}

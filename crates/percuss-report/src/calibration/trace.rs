@@ -1,0 +1,72 @@
+//! Traces: how the ensembles moved through each parameter.
+
+use percuss::calibrate::Sample;
+
+use super::{
+    Column,
+    panel::{Drawing, Panel},
+};
+use crate::{Figure, frame::WIDTH, palette};
+
+/// Height of a panel and of what stands above and below all [px].
+const PANEL: f64 = 170.0;
+const ABOVE: f64 = 62.0;
+const BELOW: f64 = 52.0;
+const GAP: f64 = 14.0;
+/// Colour of the steps that are not kept.
+const BURN_IN: &str = "#ececec";
+/// Most points of a line.
+const POINTS: usize = 800;
+
+/// Draws the first walker of each ensemble over the steps, as `trace`.
+pub(super) fn figure(sample: &Sample, columns: &[Column]) -> Figure {
+    let count = columns.len() as f64;
+    let height = ABOVE + count * PANEL + (count - 1.0) * GAP + BELOW;
+    let mut drawing = Drawing::new(WIDTH, height);
+    let sampling = sample.sampling;
+    let steps = sampling.burn_in + sampling.steps;
+    for (row, column) in columns.iter().enumerate() {
+        let series: Vec<Vec<Vec<f64>>> = (0..sampling.ensembles)
+            .map(|ensemble| sample.steps(ensemble, column.index))
+            .collect();
+        let every = (steps / POINTS).max(1);
+        // What is drawn decides on the range: a walker that strayed in the burn-in would flatten the rest.
+        let shown = series
+            .iter()
+            .flatten()
+            .skip(sampling.burn_in.min(steps / 4));
+        let (low, high) = shown.flat_map(|step| step.iter().take(1)).fold(
+            (f64::INFINITY, f64::NEG_INFINITY),
+            |(low, high), stored| {
+                let value = column.value(*stored);
+                (low.min(value), high.max(value))
+            },
+        );
+        let margin = 0.05 * (high - low).max(f64::MIN_POSITIVE);
+        let panel = Panel {
+            left: 92.0,
+            top: ABOVE + row as f64 * (PANEL + GAP),
+            width: WIDTH - 92.0 - 24.0,
+            height: PANEL,
+            x: (0.0, steps as f64),
+            y: (low - margin, high + margin),
+        };
+        let kept = panel.map_x(sampling.burn_in as f64);
+        drawing.area((panel.left, panel.top), (kept - panel.left, PANEL), BURN_IN);
+        for (ensemble, series) in series.iter().enumerate() {
+            let color = palette::series(ensemble);
+            let places = series.iter().enumerate().step_by(every).map(|(i, step)| {
+                let y = column.value(step[0]).clamp(panel.y.0, panel.y.1);
+                (panel.map_x(i as f64), panel.map_y(y))
+            });
+            drawing.curve(places, color);
+        }
+        let last = row + 1 == columns.len();
+        panel.frame(&mut drawing, last.then_some("step"), Some(&column.label));
+    }
+    let caption = format!(
+        "one of {} walkers of each of {} ensembles; the grey steps are not kept",
+        sampling.walkers, sampling.ensembles
+    );
+    drawing.finish("trace", "Traces of the sample", &caption)
+}

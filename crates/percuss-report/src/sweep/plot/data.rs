@@ -1,0 +1,215 @@
+//! What is drawn: the rows with what they stand for.
+
+use std::collections::BTreeMap;
+
+use super::{
+    super::{
+        manifest::{Manifest, Varied},
+        rows::Rows,
+    },
+    label, quantity,
+};
+use crate::Axis;
+
+/// Most names along an axis.
+const NAMES: usize = 12;
+
+/// The rows of a sweep with a number of theirs.
+pub(super) struct Data<'a> {
+    manifest: &'a Manifest,
+    pub(super) quantity: &'a str,
+    pub(super) rows: Rows,
+}
+
+/// Values of shots that have the same place in a figure.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Group {
+    pub(super) count: u32,
+    sum: f64,
+    pub(super) low: f64,
+    pub(super) high: f64,
+    /// Shots that failed.
+    pub(super) failed: u32,
+    /// Shots that did not fail and do not have the number.
+    pub(super) without: u32,
+}
+
+impl Default for Group {
+    fn default() -> Self {
+        Self {
+            count: 0,
+            sum: 0.0,
+            low: f64::INFINITY,
+            high: f64::NEG_INFINITY,
+            failed: 0,
+            without: 0,
+        }
+    }
+}
+
+impl Group {
+    pub(super) fn add(&mut self, value: f64, failed: bool) {
+        match (value.is_finite(), failed) {
+            (true, _) => {
+                self.count += 1;
+                self.sum += value;
+                self.low = self.low.min(value);
+                self.high = self.high.max(value);
+            }
+            (false, true) => self.failed += 1,
+            (false, false) => self.without += 1,
+        }
+    }
+
+    /// Mean of the values; NaN when there are none.
+    pub(super) fn mean(&self) -> f64 {
+        match self.count {
+            0 => f64::NAN,
+            // The mean of one value, or of equal ones, is that value to the last digit.
+            _ => (self.sum / f64::from(self.count)).clamp(self.low, self.high),
+        }
+    }
+}
+
+impl<'a> Data<'a> {
+    pub(super) fn new(manifest: &'a Manifest, quantity: &'a str, rows: Rows) -> Self {
+        Self {
+            manifest,
+            quantity,
+            rows,
+        }
+    }
+
+    pub(super) fn parameters(&self) -> &'a [Varied] {
+        &self.manifest.parameters
+    }
+
+    /// The parameters that take more than one value.
+    pub(super) fn varied(&self) -> Vec<usize> {
+        let all = self.parameters().iter().enumerate();
+        all.filter(|(_, p)| p.count != Some(1))
+            .map(|(i, _)| i)
+            .collect()
+    }
+
+    pub(super) fn is_numeric(&self, parameter: usize) -> bool {
+        self.parameters()[parameter].words.is_empty()
+    }
+
+    /// Whether a parameter takes the values of a list.
+    pub(super) fn is_list(&self, parameter: usize) -> bool {
+        self.parameters()[parameter].count.is_some()
+    }
+
+    /// Number of values of a list; a distribution has as many as one likes.
+    pub(super) fn count(&self, parameter: usize) -> usize {
+        let count = self.parameters()[parameter].count;
+        count.map_or(usize::MAX, |count| count as usize)
+    }
+
+    /// The different values that a parameter takes, in order.
+    pub(super) fn values(&self, parameter: usize) -> Vec<f64> {
+        let mut values = self.rows.inputs[parameter].clone();
+        values.retain(|value| value.is_finite());
+        values.sort_by(f64::total_cmp);
+        values.dedup();
+        values
+    }
+
+    /// Shots by what a parameter and their own values make their place.
+    pub(super) fn grouped<K: Ord>(&self, place: impl Fn(usize) -> K) -> BTreeMap<K, Group> {
+        let mut groups = BTreeMap::new();
+        for (i, (value, failed)) in self.rows.values.iter().zip(&self.rows.failed).enumerate() {
+            let group: &mut Group = groups.entry(place(i)).or_default();
+            group.add(*value, *failed);
+        }
+        groups
+    }
+
+    /// All shots together.
+    pub(super) fn all(&self) -> Group {
+        self.grouped(|_| ())
+            .into_values()
+            .next()
+            .unwrap_or_default()
+    }
+
+    /// Axis of a parameter: words stand at 1, 2, 3, …
+    pub(super) fn axis(&self, parameter: usize) -> Axis {
+        let varied = &self.parameters()[parameter];
+        let axis = Axis::new(label(varied));
+        match (varied.words.is_empty(), varied.kind.as_str()) {
+            (false, _) => axis
+                .names(varied.words.iter().cloned())
+                .range(0.5, varied.words.len() as f64 + 0.5),
+            (true, "log") => axis.log(),
+            _ => axis,
+        }
+    }
+
+    /// Place of a value on the axis of its parameter.
+    pub(super) fn at(&self, parameter: usize, value: f64) -> f64 {
+        match self.is_numeric(parameter) {
+            true => value,
+            false => value + 1.0,
+        }
+    }
+
+    /// A value of a parameter in words.
+    pub(super) fn word(&self, parameter: usize, value: f64) -> String {
+        let varied = &self.parameters()[parameter];
+        match varied.words.get(value as usize) {
+            Some(word) => word.clone(),
+            None => crate::frame::tick_label(value),
+        }
+    }
+
+    pub(super) fn value_axis(&self) -> Axis {
+        Axis::new(quantity::label(self.quantity))
+    }
+
+    pub(super) fn title(&self) -> String {
+        match self.manifest.title.as_str() {
+            "" => quantity::label(self.quantity),
+            title => title.to_owned(),
+        }
+    }
+
+    /// What the figure rests on: how many shots, and what became of those that it cannot show.
+    pub(super) fn caption(&self, more: &str) -> String {
+        let all = self.all();
+        let rows = self.rows.values.len();
+        let mut text = format!(
+            "{}, model {}, {}: {rows} shots",
+            self.manifest.case, self.manifest.model, self.manifest.design
+        );
+        for (count, what) in [
+            (u64::from(all.failed), "failed"),
+            (u64::from(all.without), "without this number"),
+            (self.rows.missing, "more not computed yet"),
+        ] {
+            if count > 0 {
+                text += &format!(", {count} {what}");
+            }
+        }
+        if !more.is_empty() {
+            text += &format!("; {more}");
+        }
+        text
+    }
+
+    /// Name of the figure's file.
+    pub(super) fn name(&self, style: super::PlotStyle) -> String {
+        format!("{}-{}", style.name(), self.quantity)
+    }
+}
+
+/// Names of values along an axis, at 1, 2, 3, …: no more than there is room for.
+pub(super) fn names(words: impl ExactSizeIterator<Item = String>) -> Vec<String> {
+    let every = words.len().div_ceil(NAMES).max(1);
+    let shown = |(i, word): (usize, String)| match i % every {
+        0 => word,
+        _ => String::new(),
+    };
+    words.enumerate().map(shown).collect()
+}

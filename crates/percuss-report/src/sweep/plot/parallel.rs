@@ -1,0 +1,309 @@
+//! Parallel coordinates: every parameter an axis, every shot a line in the colour of its number.
+
+use std::fmt::Write;
+
+use kuva::render::render_utils::generate_ticks;
+
+use super::{PlotStyle, data::Data, quantity};
+use crate::{
+    Figure,
+    frame::{HEIGHT, WIDTH, plain, tick_label},
+    page::html::escape,
+    palette,
+};
+
+/// Most lines; of more shots some are drawn.
+const LINES: usize = 1200;
+/// Least distance of axes [px].
+const APART: f64 = 128.0;
+/// Space around the axes: left, right, top, bottom [px].
+const MARGINS: [f64; 4] = [78.0, 92.0, 118.0, 62.0];
+/// Width of the bar of colours [px].
+const BAR: f64 = 14.0;
+/// Places of shots that have no number, below the axis of numbers [px].
+const BELOW: [f64; 2] = [20.0, 36.0];
+
+/// Draws all parameters that are varied, and the number.
+pub(super) fn draw(data: &Data<'_>) -> Figure {
+    let varied = data.varied();
+    let gaps = varied.len().max(1) as f64;
+    let width = WIDTH.max(MARGINS[0] + MARGINS[1] + APART * gaps);
+    let apart = (width - MARGINS[0] - MARGINS[1]) / gaps;
+    let at = |axis: usize| MARGINS[0] + apart * axis as f64;
+    let scales: Vec<Scale> = varied
+        .iter()
+        .map(|i| Scale::of_parameter(data, *i))
+        .collect();
+    let number = Scale::new(data.rows.values.iter().copied(), false);
+    let shots = data.rows.values.len();
+    let every = shots.div_ceil(LINES).max(1);
+    let mut svg = String::new();
+    // Writing to a string does not fail.
+    let mut lines = |wanted: bool| {
+        for shot in (0..shots).step_by(every) {
+            let value = data.rows.values[shot];
+            if value.is_finite() != wanted {
+                continue;
+            }
+            let mut path = String::new();
+            for (axis, (i, scale)) in varied.iter().zip(&scales).enumerate() {
+                let letter = if axis == 0 { 'M' } else { 'L' };
+                let mut value = data.rows.inputs[*i][shot];
+                if !data.is_numeric(*i) {
+                    value += spread(shot);
+                }
+                let y = scale.y(value);
+                let _ = write!(path, "{letter}{:.1} {y:.1}", at(axis));
+            }
+            let (color, end) = match (wanted, data.rows.failed[shot]) {
+                (true, _) => (hex(number.part(value)), number.y(value)),
+                (false, true) => (palette::FAILED.to_owned(), bottom() + BELOW[0]),
+                (false, false) => (palette::MARK.to_owned(), bottom() + BELOW[1]),
+            };
+            let dashes = if wanted {
+                ""
+            } else {
+                r#" stroke-dasharray="4 3""#
+            };
+            let _ = write!(
+                svg,
+                r#"<path d="{path}L{:.1} {end:.1}" fill="none" stroke="{color}" stroke-opacity="0.6"{dashes}/>"#,
+                at(varied.len())
+            );
+        }
+    };
+    lines(true);
+    lines(false);
+    for (axis, (i, scale)) in varied.iter().zip(&scales).enumerate() {
+        let varied = &data.parameters()[*i];
+        let name = match varied.key.rsplit_once('.') {
+            Some((table, name)) => [format!("{table}."), name.to_owned()],
+            None => [String::new(), varied.key.clone()],
+        };
+        let unit = match varied.unit.as_str() {
+            "" => String::new(),
+            unit => format!("[{unit}]"),
+        };
+        svg += &axis_of(
+            at(axis),
+            &[&name[0], &name[1], &unit],
+            &scale.ticks(data, *i),
+            false,
+        );
+    }
+    let place = at(varied.len());
+    let label = quantity::label(data.quantity);
+    let (name, unit) = label.split_once(" [").unwrap_or((&label, ""));
+    let unit = if unit.is_empty() {
+        String::new()
+    } else {
+        format!("[{unit}")
+    };
+    let (first, second) = halves(name);
+    svg += &bar(place);
+    svg += &axis_of(place, &[&first, &second, &unit], &number.numbers(), true);
+    let all = data.all();
+    for (count, what, color, below) in [
+        (all.failed, "failed", palette::FAILED, BELOW[0]),
+        (all.without, "no value", palette::MARK, BELOW[1]),
+    ] {
+        if count > 0 {
+            let text = format!("{what} ({count})");
+            svg += &label_at(
+                place + 10.0,
+                bottom() + below + 4.0,
+                "start",
+                12,
+                color,
+                &text,
+            );
+        }
+    }
+    let more = match every {
+        1 => String::new(),
+        _ => format!("one line in {every} drawn"),
+    };
+    let chars = |size: f64| (width / (0.6 * size)) as usize;
+    let (title, caption) = (data.title(), data.caption(&more));
+    svg += &label_at(
+        0.5 * width,
+        30.0,
+        "middle",
+        17,
+        "black",
+        &shorten(&title, chars(17.0)),
+    );
+    svg += &label_at(
+        0.5 * width,
+        52.0,
+        "middle",
+        12,
+        "black",
+        &shorten(&caption, chars(12.0)),
+    );
+    Figure {
+        name: data.name(PlotStyle::Parallel),
+        title: format!("{title}: {caption}"),
+        svg: format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{HEIGHT}" font-family="DejaVu Sans, Arial, sans-serif"><rect width="{width}" height="{HEIGHT}" fill="white"/>{svg}</svg>"#
+        ),
+    }
+}
+
+/// Where in the room of its word a line runs, so that not all run through one point.
+fn spread(shot: usize) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_895;
+    0.6 * ((shot as f64 * GOLDEN).fract() - 0.5)
+}
+
+/// Height of the foot of the axes.
+const fn bottom() -> f64 {
+    HEIGHT - MARGINS[3]
+}
+
+/// Where values stand on an axis.
+struct Scale {
+    low: f64,
+    high: f64,
+    log: bool,
+}
+
+impl Scale {
+    fn new(values: impl Iterator<Item = f64>, log: bool) -> Self {
+        let finite = values.filter(|value| value.is_finite());
+        let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (low.min(v), high.max(v))
+        });
+        match low < high {
+            true => Self { low, high, log },
+            // One value stands in the middle.
+            false if low.is_finite() => Self {
+                low: low - 1.0,
+                high: low + 1.0,
+                log: false,
+            },
+            false => Self {
+                low: 0.0,
+                high: 1.0,
+                log: false,
+            },
+        }
+    }
+
+    fn of_parameter(data: &Data<'_>, parameter: usize) -> Self {
+        let varied = &data.parameters()[parameter];
+        match varied.words.len() {
+            0 => Self::new(data.values(parameter).into_iter(), varied.kind == "log"),
+            // Room for the lines of a word beside each other.
+            words => Self::new([-0.5, words as f64 - 0.5].into_iter(), false),
+        }
+    }
+
+    fn part(&self, value: f64) -> f64 {
+        match self.log {
+            true => (value / self.low).ln() / (self.high / self.low).ln(),
+            false => (value - self.low) / (self.high - self.low),
+        }
+    }
+
+    fn y(&self, value: f64) -> f64 {
+        bottom() - self.part(value) * (bottom() - MARGINS[2])
+    }
+
+    fn numbers(&self) -> Vec<(f64, String)> {
+        let values = match self.log {
+            true => {
+                let middle = (self.low * self.high).sqrt();
+                vec![self.low, middle, self.high]
+            }
+            false => generate_ticks(self.low, self.high, 5),
+        };
+        let tick = |value: f64| {
+            let digits: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+            (self.y(value), tick_label(digits))
+        };
+        values.into_iter().map(tick).collect()
+    }
+
+    fn ticks(&self, data: &Data<'_>, parameter: usize) -> Vec<(f64, String)> {
+        let words = &data.parameters()[parameter].words;
+        match words.is_empty() {
+            true => self.numbers(),
+            false => {
+                let tick = |(i, word): (usize, &String)| (self.y(i as f64), word.clone());
+                words.iter().enumerate().map(tick).collect()
+            }
+        }
+    }
+}
+
+/// An axis with its name above it and its ticks at the left of it, or at the right of the bar of colours.
+fn axis_of(x: f64, name: &[&str], ticks: &[(f64, String)], right: bool) -> String {
+    let mut svg = format!(
+        r#"<path d="M{x:.1} {}V{}" stroke="black" stroke-width="1.2"/>"#,
+        MARGINS[2],
+        bottom()
+    );
+    let lines: Vec<&&str> = name.iter().filter(|line| !line.is_empty()).collect();
+    for (i, line) in lines.iter().enumerate() {
+        let y = MARGINS[2] - 14.0 - 15.0 * (lines.len() - 1 - i) as f64;
+        svg += &label_at(x, y, "middle", 12, "black", &shorten(line, 19));
+    }
+    for (y, text) in ticks {
+        let (tick, place, anchor) = match right {
+            true => (x + BAR, x + BAR + 8.0, "start"),
+            false => (x - 5.0, x - 8.0, "end"),
+        };
+        let halo = r#"paint-order="stroke" stroke="white" stroke-width="3" "#;
+        let text = escape(&shorten(text, 20));
+        let _ = write!(
+            svg,
+            r#"<path d="M{tick:.1} {y:.1}h5" stroke="black"/><text x="{place:.1}" y="{:.1}" font-size="11" text-anchor="{anchor}" {halo}>{text}</text>"#,
+            y + 4.0
+        );
+    }
+    svg
+}
+
+/// The colours of the numbers along their axis.
+fn bar(x: f64) -> String {
+    const STEPS: u32 = 40;
+    let height = (bottom() - MARGINS[2]) / f64::from(STEPS);
+    (0..STEPS)
+        .map(|i| {
+            let color = hex((f64::from(i) + 0.5) / f64::from(STEPS));
+            let y = bottom() - height * f64::from(i + 1);
+            format!(
+                r#"<rect x="{x:.1}" y="{y:.2}" width="{BAR}" height="{:.2}" fill="{color}"/>"#,
+                height + 0.3
+            )
+        })
+        .collect()
+}
+
+fn label_at(x: f64, y: f64, anchor: &str, size: u32, color: &str, text: &str) -> String {
+    let text = escape(text);
+    format!(
+        r#"<text x="{x:.1}" y="{y:.1}" font-size="{size}" text-anchor="{anchor}" fill="{color}">{text}</text>"#
+    )
+}
+
+/// A text on one line of at most so many characters.
+fn shorten(text: &str, most: usize) -> String {
+    plain(text, most).replace("\\$", "$")
+}
+
+/// A name on two lines.
+fn halves(name: &str) -> (String, String) {
+    let middle = name.len() / 2;
+    let spaces = name.match_indices(' ').map(|(place, _)| place);
+    match spaces.min_by_key(|place| place.abs_diff(middle)) {
+        Some(place) => (name[..place].to_owned(), name[place + 1..].to_owned()),
+        None => (String::new(), name.to_owned()),
+    }
+}
+
+fn hex(part: f64) -> String {
+    let [r, g, b] = palette::sequential(part);
+    format!("#{r:02x}{g:02x}{b:02x}")
+}

@@ -1,0 +1,151 @@
+//! Figures over a range of impact speeds.
+
+use percuss::{
+    Scenario,
+    outcome::BandQuantity,
+    uncertainty::{QuantityResult, Statistics, Uncertainty},
+};
+
+use super::stem;
+use crate::{Axis, Figure, LineChart, Mark, Series, Style, palette, run_figures::caption};
+
+/// Percentiles against speed, with what was measured.
+pub(super) fn bands(
+    scenario: &Scenario,
+    found: &Uncertainty,
+    quantity: &QuantityResult,
+) -> Option<Figure> {
+    let what = quantity.what();
+    let at = |band: &percuss::uncertainty::Band| -> Option<Statistics> {
+        let of = band.quantities.iter().find(|q| q.quantity == what.name)?;
+        of.statistics.clone()
+    };
+    let points: Vec<(f64, Option<Statistics>)> = found
+        .bands
+        .iter()
+        .map(|band| (band.velocity_m_s, at(band)))
+        .collect();
+    points.iter().find(|(_, statistics)| statistics.is_some())?;
+    let percentile = |percent: f64| {
+        points.iter().map(move |(speed, statistics)| {
+            let value = statistics.as_ref().map(|s| s.percentile(percent).value);
+            (*speed, value.unwrap_or(f64::NAN))
+        })
+    };
+    let between = |low: f64, high: f64| {
+        let ends = percentile(low).zip(percentile(high));
+        ends.map(|(low, high)| (low.1, high.1))
+    };
+    let color = palette::SERIES[0];
+    let mut chart = LineChart::new(
+        format!("bands-{}", stem(what.name)),
+        format!("Spread of the {} over speed: {}", what.in_words, found.case),
+        Axis::new("impact speed [m/s]"),
+        Axis::new(format!("{} [{}]", what.in_words, what.unit)),
+    )
+    .caption(format!(
+        "{}; bands hold 50 % and 90 % of the shots, the speed itself is exact",
+        caption(scenario, None)
+    ))
+    .series(
+        Series::new("median", percentile(50.0))
+            .color(color)
+            .band(between(5.0, 95.0)),
+    )
+    .series(
+        Series::new("", percentile(50.0))
+            .color(color)
+            .band(between(25.0, 75.0)),
+    )
+    .series(
+        Series::new("5 and 95 %", percentile(5.0))
+            .color(color)
+            .width(0.8)
+            .style(Style::Dashed),
+    )
+    .series(
+        Series::new("", percentile(95.0))
+            .color(color)
+            .width(0.8)
+            .style(Style::Dashed),
+    );
+    let measured: Vec<_> = scenario
+        .experiments
+        .iter()
+        .filter(|m| of_name(m.quantity) == what.name)
+        .filter_map(|m| Some((m.impact_speed?, m)))
+        .collect();
+    if !measured.is_empty() {
+        let points = measured
+            .iter()
+            .map(|(speed, m)| (*speed, m.quantity.in_unit(m.value)));
+        let errors = measured.iter().map(|(_, m)| {
+            let error = m.uncertainty.map_or(0.0, |u| m.quantity.in_unit(u));
+            (error, error)
+        });
+        chart = chart.series(
+            Series::new("experiment", points)
+                .style(Style::Markers)
+                .color(palette::EXPERIMENT)
+                .error_bars(errors),
+        );
+    }
+    Some(chart.draw())
+}
+
+/// Name of a measured quantity among results.
+fn of_name(quantity: BandQuantity) -> &'static str {
+    match quantity {
+        BandQuantity::DepthOfPenetration => "depth_of_penetration_mm",
+        BandQuantity::ResidualVelocity => "residual_velocity_m_s",
+        BandQuantity::BallisticLimit => "ballistic_limit_m_s",
+        BandQuantity::ProjectileFinalLength => "projectile_final_length_mm",
+    }
+}
+
+/// Chance of perforation against speed; `None` where no shot perforates, or nothing decides.
+pub(super) fn perforation(scenario: &Scenario, found: &Uncertainty) -> Option<Figure> {
+    let decided: Vec<_> = found
+        .bands
+        .iter()
+        .filter_map(|band| Some((band.velocity_m_s, band.perforation?)))
+        .collect();
+    decided.iter().find(|(_, p)| p.perforated > 0)?;
+    let curve = decided
+        .iter()
+        .map(|(speed, p)| (*speed, 100.0 * p.probability));
+    let band = decided.iter().map(|(_, p)| (100.0 * p.low, 100.0 * p.high));
+    let mut chart = LineChart::new(
+        "perforation",
+        format!("Chance of perforation: {}", found.case),
+        Axis::new("impact speed [m/s]"),
+        Axis::new("chance of perforation [%]").range(-4.0, 104.0),
+    )
+    .caption(format!(
+        "{}; band: 95 % interval of the number of shots",
+        caption(scenario, None)
+    ))
+    .series(Series::new(format!("model {}", found.model), curve).band(band));
+    let shots = scenario
+        .experiments
+        .iter()
+        .filter(|m| m.quantity == BandQuantity::ResidualVelocity);
+    let shots: Vec<(f64, f64)> = shots
+        .filter_map(|m| Some((m.impact_speed?, if m.value > 0.0 { 100.0 } else { 0.0 })))
+        .collect();
+    if !shots.is_empty() {
+        chart = chart.series(
+            Series::new("experiment", shots)
+                .style(Style::Markers)
+                .color(palette::EXPERIMENT),
+        );
+    }
+    let limit = scenario
+        .experiments
+        .iter()
+        .find(|m| m.quantity == BandQuantity::BallisticLimit);
+    if let Some(limit) = limit {
+        chart = chart.mark(Mark::vertical("measured limit", limit.value));
+    }
+    Some(chart.draw())
+}

@@ -1,0 +1,149 @@
+//! Figures of the spread of a quantity and of what causes it.
+
+use percuss::{
+    Scenario,
+    uncertainty::{Estimate, QuantityResult, TornadoBar, Uncertainty},
+    units::significant,
+};
+
+use super::stem;
+use crate::{Axis, Bar, BarRows, Figure, Histogram, Mark, palette, run_figures::caption};
+
+fn axis(quantity: &QuantityResult) -> Axis {
+    let what = quantity.what();
+    Axis::new(format!("{} [{}]", what.in_words, what.unit))
+}
+
+fn title(start: &str, quantity: &QuantityResult, found: &Uncertainty) -> String {
+    format!("{start} {}: {}", quantity.what().in_words, found.case)
+}
+
+fn with_unit(value: f64, unit: &str) -> String {
+    format!("{} {unit}", significant(value, 4))
+        .trim_end()
+        .to_owned()
+}
+
+/// How often which value came out, with mean, percentiles and the nominal shot.
+pub(super) fn histogram(
+    scenario: &Scenario,
+    found: &Uncertainty,
+    quantity: &QuantityResult,
+) -> Figure {
+    let what = quantity.what();
+    let statistics = &quantity.statistics;
+    let values = found.draws.iter().filter_map(|draw| draw.value(what));
+    let named = |name: &str, value: f64| {
+        Mark::vertical(format!("{name} {}", with_unit(value, what.unit)), value)
+    };
+    let title = title("Spread of the", quantity, found);
+    let mut chart = Histogram::new(
+        format!("histogram-{}", stem(quantity.quantity)),
+        title,
+        axis(quantity),
+        values,
+    )
+    .caption(format!(
+        "{}; {} shots, model {}, standard deviation {}",
+        caption(scenario, None),
+        statistics.shots,
+        found.model,
+        with_unit(statistics.standard_deviation, what.unit)
+    ))
+    .mark(named("5 % below", statistics.percentile(5.0).value))
+    .mark(named("mean", statistics.mean))
+    .mark(named("95 % below", statistics.percentile(95.0).value));
+    if let Some(nominal) = quantity.nominal {
+        chart = chart.mark(named("all at median", nominal));
+    }
+    chart.draw()
+}
+
+/// What each parameter does alone, from low to high.
+pub(super) fn tornado(
+    scenario: &Scenario,
+    found: &Uncertainty,
+    quantity: &QuantityResult,
+) -> Figure {
+    let nominal = quantity
+        .nominal
+        .unwrap_or(quantity.statistics.percentile(50.0).value);
+    let [low_color, high_color] = [palette::SERIES[0], palette::SERIES[5]];
+    let name = format!("tornado-{}", stem(quantity.quantity));
+    let mut chart = BarRows::new(
+        name,
+        title("What moves the", quantity, found),
+        axis(quantity),
+        1,
+    )
+    .caption(format!(
+        "{}; each parameter at its 5th and 95th percentile, all others at their medians",
+        caption(scenario, None)
+    ))
+    .color("at its 5th percentile", low_color)
+    .color("at its 95th percentile", high_color)
+    .mark(Mark::vertical("all at their medians", nominal));
+    for TornadoBar {
+        key,
+        at_low,
+        at_high,
+    } in &quantity.tornado
+    {
+        let Some(input) = found.inputs.iter().find(|input| input.key == *key) else {
+            continue;
+        };
+        let bar = |end: Option<f64>, at: f64, color: &str| {
+            end.map(|end| Bar {
+                ends: (nominal, end),
+                color: color.to_owned(),
+                lane: 0,
+                interval: None,
+                text: with_unit(at, &input.unit),
+            })
+        };
+        let bars = [
+            bar(*at_low, input.low, low_color),
+            bar(*at_high, input.high, high_color),
+        ];
+        chart = chart.row(found.label(key), bars.into_iter().flatten());
+    }
+    chart.draw()
+}
+
+/// Sobol' indices with their intervals.
+pub(super) fn indices(
+    scenario: &Scenario,
+    found: &Uncertainty,
+    quantity: &QuantityResult,
+) -> Option<Figure> {
+    let indices = quantity.indices.as_ref()?;
+    let [first_color, total_color] = [palette::SERIES[2], palette::SERIES[4]];
+    let name = format!("indices-{}", stem(quantity.quantity));
+    let x = Axis::new("part of the variance");
+    let mut chart = BarRows::new(name, title("Sobol' indices of the", quantity, found), x, 2)
+        .caption(format!(
+            "{}; {} rows of points, with 95 % intervals",
+            caption(scenario, None),
+            indices.rows
+        ))
+        .color("alone (first order)", first_color)
+        .color("with others as well (total)", total_color)
+        .mark(Mark::vertical("", 0.0));
+    let mut sorted: Vec<_> = indices.parameters.iter().collect();
+    sorted.sort_by(|a, b| b.total.value.total_cmp(&a.total.value));
+    for index in sorted {
+        let bar = |lane: usize, estimate: Estimate, color: &str| Bar {
+            ends: (0.0, estimate.value.max(0.0)),
+            color: color.to_owned(),
+            lane,
+            interval: Some((estimate.low, estimate.high)),
+            text: format!("{:.2}", estimate.value + 0.0).replace("-0.00", "0.00"),
+        };
+        let bars = [
+            bar(0, index.first_order, first_color),
+            bar(1, index.total, total_color),
+        ];
+        chart = chart.row(found.label(&index.key), bars);
+    }
+    Some(chart.draw())
+}

@@ -1,0 +1,164 @@
+//! Tables of an analysis of uncertainty.
+
+use std::path::{Path, PathBuf};
+
+use percuss::uncertainty::{
+    Draw, Estimate, PERCENTS, QUANTITIES, QuantityResult, Statistics, Uncertainty,
+};
+
+use crate::{
+    ReportError,
+    column::{self, Column},
+    replace_file::replace_file,
+};
+
+/// A quantity at a speed, or of the whole sample.
+struct Spread {
+    speed: Option<f64>,
+    quantity: &'static str,
+    statistics: Option<Statistics>,
+}
+
+/// What is said of a parameter and a quantity.
+struct Influence {
+    quantity: &'static str,
+    key: String,
+    at_low: Option<f64>,
+    at_high: Option<f64>,
+    first_order: Option<Estimate>,
+    total: Option<Estimate>,
+}
+
+/// Writes `samples.csv` (a row a shot), `statistics.csv` (a row a quantity), `sensitivity.csv` (a row a quantity and parameter)
+/// and, where there are speeds, `bands.csv` (a row a speed and quantity) to a folder, which is made if it does not exist. Files
+/// of these names are replaced. What does not exist is empty.
+///
+/// # Errors
+/// [`ReportError::Write`]; [`ReportError::Table`].
+pub fn write_uncertainty(folder: &Path, found: &Uncertainty) -> Result<Vec<PathBuf>, ReportError> {
+    let whole: Vec<Spread> = found
+        .quantities
+        .iter()
+        .map(|q| Spread {
+            speed: None,
+            quantity: q.quantity,
+            statistics: Some(q.statistics.clone()),
+        })
+        .collect();
+    let influences: Vec<Influence> = found.quantities.iter().flat_map(influences).collect();
+    let mut written = vec![
+        write(folder, "samples.csv", &sample_columns(found), &found.draws)?,
+        write(folder, "statistics.csv", &spread_columns(), &whole)?,
+        write(folder, "sensitivity.csv", &influence_columns(), &influences)?,
+    ];
+    if !found.bands.is_empty() {
+        let of_band = found.bands.iter().flat_map(|band| {
+            band.quantities.iter().map(|q| Spread {
+                speed: Some(band.velocity_m_s),
+                quantity: q.quantity,
+                statistics: q.statistics.clone(),
+            })
+        });
+        let of_band: Vec<Spread> = of_band.collect();
+        let mut columns = spread_columns();
+        columns.insert(
+            0,
+            Column::optional("impact_velocity_m_s", |s: &Spread| s.speed),
+        );
+        written.push(write(folder, "bands.csv", &columns, &of_band)?);
+    }
+    Ok(written)
+}
+
+fn write<R>(
+    folder: &Path,
+    name: &str,
+    columns: &[Column<R>],
+    rows: &[R],
+) -> Result<PathBuf, ReportError> {
+    replace_file(folder, name, &column::csv(name, columns, rows)?)
+}
+
+fn sample_columns(found: &Uncertainty) -> Vec<Column<Draw>> {
+    let mut columns = Vec::new();
+    for (i, input) in found.inputs.iter().enumerate() {
+        columns.push(Column::float(input.column.as_str(), move |draw: &Draw| {
+            draw.inputs[i]
+        }));
+    }
+    columns.push(Column::text("outcome", |draw: &Draw| {
+        draw.outcome.in_words().to_owned()
+    }));
+    for (i, quantity) in QUANTITIES.iter().enumerate() {
+        if found.draws.iter().any(|draw| draw.values[i].is_some()) {
+            columns.push(Column::optional(quantity.name, move |draw: &Draw| {
+                draw.values[i]
+            }));
+        }
+    }
+    columns.push(Column::text("error", |draw: &Draw| draw.error.clone()));
+    columns
+}
+
+fn spread_columns() -> Vec<Column<Spread>> {
+    let number = |name: &str, of: fn(&Statistics) -> f64| {
+        Column::optional(name, move |s: &Spread| s.statistics.as_ref().map(of))
+    };
+    let mut columns = vec![
+        Column::text("quantity", |s: &Spread| s.quantity.to_owned()),
+        number("shots", |s| s.shots as f64),
+        number("mean", |s| s.mean),
+        number("standard_error", |s| s.standard_error),
+        number("standard_deviation", |s| s.standard_deviation),
+        number("smallest", |s| s.smallest),
+        number("largest", |s| s.largest),
+    ];
+    for percent in PERCENTS {
+        columns.push(Column::optional(
+            format!("p{percent:02}"),
+            move |s: &Spread| s.statistics.as_ref().map(|s| s.percentile(percent).value),
+        ));
+    }
+    columns
+}
+
+fn influences(result: &QuantityResult) -> Vec<Influence> {
+    let of = |bar: &percuss::uncertainty::TornadoBar| {
+        let indices = result.indices.as_ref();
+        let index = indices.and_then(|i| i.parameters.iter().find(|index| index.key == bar.key));
+        Influence {
+            quantity: result.quantity,
+            key: bar.key.clone(),
+            at_low: bar.at_low,
+            at_high: bar.at_high,
+            first_order: index.map(|index| index.first_order),
+            total: index.map(|index| index.total),
+        }
+    };
+    result.tornado.iter().map(of).collect()
+}
+
+fn influence_columns() -> Vec<Column<Influence>> {
+    let mut columns = vec![
+        Column::text("quantity", |i: &Influence| i.quantity.to_owned()),
+        Column::text("parameter", |i: &Influence| i.key.clone()),
+        Column::optional("at_5_percent", |i: &Influence| i.at_low),
+        Column::optional("at_95_percent", |i: &Influence| i.at_high),
+    ];
+    type Of = fn(&Influence) -> Option<Estimate>;
+    let kinds: [(&str, Of); 2] = [("first_order", |i| i.first_order), ("total", |i| i.total)];
+    for (name, of) in kinds {
+        columns.push(Column::optional(name, move |i: &Influence| {
+            of(i).map(|e| e.value)
+        }));
+        columns.push(Column::optional(
+            format!("{name}_low"),
+            move |i: &Influence| of(i).map(|e| e.low),
+        ));
+        columns.push(Column::optional(
+            format!("{name}_high"),
+            move |i: &Influence| of(i).map(|e| e.high),
+        ));
+    }
+    columns
+}

@@ -1,0 +1,283 @@
+//! What is fitted: a number of the cases by its dotted key, and what is known of it beforehand.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use toml::Value;
+
+use super::least_squares::Bounds;
+use crate::{
+    case::{Document, Template, read_text},
+    check::{Check, Finding},
+    error::{Error, InputError},
+    sweep::{Amount, Axis, Design, Distribution, Parameter, Uniform, Values},
+    units::split_number,
+};
+
+const EXAMPLE: &str = "write KEY=LOW..HIGH with the unit behind it, such as \
+                       materials.copper.strength.power_law.coefficient=100..900 MPa, or name a TOML file of [[parameter]] tables";
+
+/// A number to fit with its prior distribution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fitted {
+    pub(super) axis: Axis,
+    pub(super) prior: Distribution,
+    /// Where it is written, for errors that only a case can find.
+    place: Place,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Place {
+    file: String,
+    text: String,
+    /// Dotted key of the parameter in the file; empty when the text is the parameter.
+    table: String,
+}
+
+/// A file of parameters.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FitFile {
+    #[serde(default)]
+    parameter: Vec<Parameter>,
+}
+
+impl Fitted {
+    /// Reads `KEY=LOW..HIGH UNIT`, evenly likely in between, or a TOML file whose `[[parameter]]` tables have a `key` and one of
+    /// `uniform`, `normal`, `lognormal` and `triangular` as those of a sweep.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with the place; [`Error::Read`].
+    pub fn read(text: &str) -> Result<Vec<Self>, Error> {
+        if text.contains('=') {
+            return Ok(vec![Self::inline(text)?]);
+        }
+        if !text.ends_with(".toml") {
+            return Err(inline_error(text, text, "there is no `=` after the key", EXAMPLE).into());
+        }
+        Self::file(Path::new(text))
+    }
+
+    fn inline(text: &str) -> Result<Self, Error> {
+        let refuse = |part: &str, message: &str, help: &str| {
+            Err(inline_error(text, part, message, help).into())
+        };
+        let Some((key, range)) = text.split_once('=') else {
+            return refuse(text, "there is no `=` after the key", EXAMPLE);
+        };
+        let key = key.trim();
+        if key.is_empty() {
+            return refuse(text, "the key is missing", EXAMPLE);
+        }
+        let Some((low, high)) = range.split_once("..") else {
+            return refuse(range, "it is no range", EXAMPLE);
+        };
+        let (Some((low, first)), Some((high, unit))) =
+            (split_number(low.trim()), split_number(high.trim()))
+        else {
+            return refuse(range, "an end of the range is no number", EXAMPLE);
+        };
+        if !first.is_empty() && first != unit {
+            return refuse(
+                range,
+                "the ends of the range have two units",
+                "write it once, behind the range",
+            );
+        }
+        if !(low.is_finite() && high.is_finite()) {
+            return refuse(range, "an end of the range is not finite", EXAMPLE);
+        }
+        let amount = |value: f64| Amount {
+            value,
+            unit: unit.to_owned(),
+            whole: false,
+        };
+        let parameter = Parameter {
+            key: key.to_owned(),
+            uniform: Some(Uniform {
+                from: amount(low),
+                to: amount(high),
+            }),
+            values: None,
+            linear: None,
+            log: None,
+            normal: None,
+            lognormal: None,
+            triangular: None,
+        };
+        let place = Place {
+            file: "--fit".to_owned(),
+            text: text.to_owned(),
+            table: String::new(),
+        };
+        Self::of(&parameter, place)
+    }
+
+    fn file(path: &Path) -> Result<Vec<Self>, Error> {
+        let document = Document {
+            file: path.display().to_string(),
+            text: read_text(path)?,
+        };
+        let file: FitFile = document.parse()?;
+        if file.parameter.is_empty() {
+            let finding = Finding {
+                key: String::new(),
+                message: "the file names nothing to fit".to_owned(),
+                help: "write a [[parameter]] table with key and uniform, normal, lognormal or triangular"
+                    .to_owned(),
+            };
+            return Err(document.place(finding).into());
+        }
+        let of = |(i, parameter): (usize, &Parameter)| {
+            let place = Place {
+                file: document.file.clone(),
+                text: document.text.clone(),
+                table: format!("parameter.{i}"),
+            };
+            Self::of(parameter, place)
+        };
+        file.parameter.iter().enumerate().map(of).collect()
+    }
+
+    fn of(parameter: &Parameter, place: Place) -> Result<Self, Error> {
+        let mut findings = Vec::new();
+        let mut check = Check::new(&mut findings);
+        let axis = parameter.resolve(&mut check, Design::LatinHypercube);
+        if let Some(Axis {
+            values: Values::List(_),
+            ..
+        }) = &axis
+        {
+            check.fail(
+                "",
+                format!("`{}` has a list of values", parameter.key),
+                "what is fitted has a prior: give uniform, normal, lognormal or triangular",
+            );
+        }
+        let axis = match (findings.into_iter().next(), axis) {
+            (None, Some(axis)) => axis,
+            (finding, _) => return Err(place.error(finding, &parameter.key).into()),
+        };
+        let Values::Distribution(prior) = axis.values.clone() else {
+            return Err(place.error(None, &parameter.key).into());
+        };
+        Ok(Self { axis, prior, place })
+    }
+
+    /// Dotted key of the number.
+    pub fn key(&self) -> &str {
+        &self.axis.key
+    }
+
+    /// Unit of its values; empty for plain numbers.
+    pub fn unit(&self) -> &str {
+        &self.axis.unit
+    }
+
+    /// Value that the number is below with a chance of `u` before anything was measured.
+    pub(super) fn quantile(&self, u: f64) -> f64 {
+        self.prior.quantile(u)
+    }
+
+    /// Half of the range that holds 68 % beforehand: the standard deviation of a normal distribution.
+    pub(super) fn prior_deviation(&self) -> f64 {
+        const ONE_BELOW: f64 = 0.158_655_253_931_457_05;
+        0.5 * (self.quantile(1.0 - ONE_BELOW) - self.quantile(ONE_BELOW))
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        let (low, high) = self.prior.support();
+        Bounds { low, high }
+    }
+
+    /// Id of the material whose constant it is, and the key within its record.
+    pub(super) fn material(&self) -> Option<(&str, &str)> {
+        self.axis.key.strip_prefix("materials.")?.split_once('.')
+    }
+
+    /// A value as a case has it.
+    pub(super) fn change(&self, value: f64) -> (&str, Value) {
+        (&self.axis.key, self.axis.written(value))
+    }
+
+    /// Makes sure that a case can have the ends of its range.
+    pub(super) fn check(&self, template: &Template) -> Result<(), Error> {
+        for (written_at, value) in &self.axis.samples {
+            let (key, written) = self.change(*value);
+            let Err(findings) = template.scenario(&[(key, written.clone())]) else {
+                continue;
+            };
+            let finding = findings.into_iter().next().map(|finding| {
+                let of = match finding.key.as_str() {
+                    "" => key,
+                    found => found,
+                };
+                Finding {
+                    message: format!(
+                        "with {key} = {written} the case `{}` is not valid: `{of}`: {}",
+                        template.name(),
+                        finding.message
+                    ),
+                    key: written_at.clone(),
+                    help: finding.help,
+                }
+            });
+            return Err(self.place.error(finding, key).into());
+        }
+        Ok(())
+    }
+
+    /// An error at the place where the number is written.
+    pub(super) fn error(&self, message: &str, help: &str) -> Error {
+        let finding = Finding {
+            key: "key".to_owned(),
+            message: message.to_owned(),
+            help: help.to_owned(),
+        };
+        self.place.error(Some(finding), self.key()).into()
+    }
+}
+
+impl Place {
+    fn error(&self, finding: Option<Finding>, key: &str) -> InputError {
+        let Finding {
+            key: at,
+            message,
+            help,
+        } = finding.unwrap_or_else(|| Finding {
+            key: String::new(),
+            message: "it cannot be fitted".to_owned(),
+            help: EXAMPLE.to_owned(),
+        });
+        if self.table.is_empty() {
+            let part = match at.as_str() {
+                "key" | "" => key,
+                _ => self.text.split_once('=').map_or("", |(_, range)| range),
+            };
+            return inline_error(&self.text, part, &message, &help);
+        }
+        let document = Document {
+            file: self.file.clone(),
+            text: self.text.clone(),
+        };
+        let key = [self.table.as_str(), at.as_str()].join(".");
+        document.place(Finding {
+            key: key.trim_end_matches('.').to_owned(),
+            message,
+            help,
+        })
+    }
+}
+
+/// An error that points at a part of what was given on the command line.
+fn inline_error(text: &str, part: &str, message: &str, help: &str) -> InputError {
+    let start = text.find(part).unwrap_or(0);
+    InputError {
+        file: "--fit".to_owned(),
+        text: text.to_owned(),
+        span: start..start + part.len(),
+        key: String::new(),
+        message: message.to_owned(),
+        help: help.to_owned(),
+    }
+}

@@ -1,0 +1,208 @@
+//! What the calibrated model says of each measured value, and how well that fits.
+
+use std::sync::atomic::AtomicUsize;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::{Counter, Observation, Problem, noise::deviation, sampler::Sample};
+use crate::outcome::BandQuantity;
+
+/// Most states of the posterior that are put through the model.
+const DRAWS: usize = 400;
+/// Chances between which 95 % lie, and the middle.
+pub(super) const CHANCES: [f64; 3] = [0.025, 0.5, 0.975];
+
+/// A measured value and what the calibrated model says of it, in the unit of the quantity.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Prediction {
+    /// Id of the shot, or name of the case with the number of its entry.
+    pub id: String,
+    /// Where it comes from.
+    pub sources: Vec<String>,
+    /// Whether it was kept out of the fit.
+    pub held_out: bool,
+    /// What was measured.
+    pub quantity: BandQuantity,
+    /// Unit of the values.
+    pub unit: &'static str,
+    /// Impact speed [m/s].
+    pub impact_velocity_m_s: f64,
+    /// The measured value.
+    pub measured: f64,
+    /// Its standard deviation, where it is stated.
+    pub uncertainty: Option<f64>,
+    /// What the model gives for the case as it is written.
+    pub before: Option<f64>,
+    /// What it gives with the best values.
+    pub best: Option<f64>,
+    /// `(best − measured)/measured`, relative to the impact speed for a speed behind the target.
+    pub relative_error: Option<f64>,
+    /// Where the model's value lies with a chance of 95 %, the parameters being uncertain.
+    pub model_band: Option<[f64; 2]>,
+    /// Where a measured value would lie with a chance of 95 %, the scatter included.
+    pub predictive_band: Option<[f64; 2]>,
+    /// Median of such a value.
+    pub predictive_median: Option<f64>,
+}
+
+impl Prediction {
+    /// Whether the measured value lies in its predictive band.
+    pub fn is_inside(&self) -> Option<bool> {
+        let [low, high] = self.predictive_band?;
+        Some((low..=high).contains(&self.measured))
+    }
+}
+
+/// How well a set of measured values is met.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Quality {
+    /// Number of values.
+    pub count: usize,
+    /// Root mean square of the relative errors before, with the cases as they are written.
+    pub rms_before: Option<f64>,
+    /// Root mean square of the relative errors of the best values.
+    pub rms: f64,
+    /// Mean of those errors.
+    pub bias: f64,
+    /// Values in their 95 % predictive bands.
+    pub inside: Option<usize>,
+}
+
+impl Quality {
+    /// Quality of the predictions of one kind; nothing if there are none.
+    pub(super) fn of<'a>(predictions: impl Iterator<Item = &'a Prediction>) -> Option<Self> {
+        let all: Vec<&Prediction> = predictions.filter(|p| p.relative_error.is_some()).collect();
+        if all.is_empty() {
+            return None;
+        }
+        let mean = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>() / all.len() as f64;
+        let errors = || all.iter().filter_map(|p| p.relative_error);
+        let before: Option<Vec<f64>> = all
+            .iter()
+            .map(|p| {
+                // The relative error tells the scale that it is relative to.
+                let scale = match p.quantity {
+                    BandQuantity::ResidualVelocity => p.impact_velocity_m_s,
+                    _ => p.measured,
+                };
+                Some((p.before? - p.measured) / scale)
+            })
+            .collect();
+        let inside: Option<Vec<bool>> = all.iter().map(|p| p.is_inside()).collect();
+        Some(Self {
+            count: all.len(),
+            rms_before: before.map(|e| mean(&mut e.iter().map(|e| e * e)).sqrt()),
+            rms: mean(&mut errors().map(|e| e * e)).sqrt(),
+            bias: mean(&mut errors()),
+            inside: inside.map(|inside| inside.into_iter().filter(|inside| *inside).count()),
+        })
+    }
+}
+
+/// What the model says of all measured values, those kept out of the fit included.
+pub(super) fn predictions(
+    problem: &Problem,
+    best: &[f64],
+    sample: Option<&Sample>,
+    report: &(dyn Fn(f64) + Sync),
+) -> Vec<Prediction> {
+    let counter = Counter {
+        done: AtomicUsize::new(0),
+        total: problem.observations.len(),
+        report,
+    };
+    let draws: Vec<&[f64]> = sample.map_or_else(Vec::new, |sample| {
+        let every = (sample.kept().count() / DRAWS).max(1);
+        sample.kept().step_by(every).collect()
+    });
+    let predict = |observation: &Observation| {
+        let unit = |si: f64| observation.quantity.in_unit(si);
+        let found = problem.prediction(observation, best).ok();
+        let fitted = problem.fitted.len();
+        // A state that the model fails with has no density, except for a value that was kept out.
+        let drawn: Vec<(f64, f64)> = draws
+            .par_iter()
+            .filter_map(|state| {
+                let value = problem.prediction(observation, &state[..fitted]).ok()?;
+                Some((value, deviation(observation, problem.scatter_in(state))))
+            })
+            .collect();
+        counter.count();
+        let banded = !drawn.is_empty();
+        let model: Vec<f64> = drawn.iter().map(|(value, _)| *value).collect();
+        let band = |of: &dyn Fn(f64) -> f64| banded.then(|| CHANCES.map(|chance| unit(of(chance))));
+        let predictive = band(&|chance| mixture_quantile(&drawn, chance));
+        Prediction {
+            id: observation.id.clone(),
+            sources: observation.sources.clone(),
+            held_out: observation.held_out,
+            quantity: observation.quantity,
+            unit: observation.quantity.unit(),
+            impact_velocity_m_s: observation.impact_speed,
+            measured: unit(observation.measured),
+            uncertainty: observation.uncertainty.map(unit),
+            before: problem.as_written(observation).map(unit),
+            best: found.map(unit),
+            relative_error: found.map(|value| (value - observation.measured) / observation.scale()),
+            model_band: band(&|chance| quantile(&model, chance)).map(|[low, _, high]| [low, high]),
+            predictive_band: predictive.map(|[low, _, high]| [low, high]),
+            predictive_median: predictive.map(|[_, median, _]| median),
+        }
+    };
+    problem.observations.par_iter().map(predict).collect()
+}
+
+/// Value that a part of the values lies below, interpolated between neighbours.
+pub(super) fn quantile(values: &[f64], chance: f64) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let place = chance * (sorted.len() - 1) as f64;
+    let (below, part) = (place as usize, place.fract());
+    let next = sorted[(below + 1).min(sorted.len() - 1)];
+    sorted[below] + part * (next - sorted[below])
+}
+
+/// Quantile of normal distributions, given as means and standard deviations, that are equally likely.
+fn mixture_quantile(parts: &[(f64, f64)], chance: f64) -> f64 {
+    let below = |y: f64| {
+        let part = |(mean, deviation): &(f64, f64)| {
+            0.5 * libm::erfc((mean - y) / deviation * std::f64::consts::FRAC_1_SQRT_2)
+        };
+        parts.iter().map(part).sum::<f64>() / parts.len() as f64
+    };
+    let ends = |sign: f64| {
+        parts
+            .iter()
+            .map(move |(mean, deviation)| mean + sign * 9.0 * deviation)
+    };
+    let mut low = ends(-1.0).fold(f64::INFINITY, f64::min);
+    let mut high = ends(1.0).fold(f64::NEG_INFINITY, f64::max);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if below(middle) < chance {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_the_tabled_ones() {
+        assert_eq!(quantile(&[3.0, 1.0, 2.0], 0.5), 2.0);
+        assert_eq!(quantile(&[0.0, 1.0], 0.25), 0.25);
+        let one = [(10.0, 2.0)];
+        assert!(
+            (mixture_quantile(&one, 0.975) - (10.0 + 2.0 * 1.959_963_984_540_054)).abs() < 1e-9
+        );
+        // Two that are far apart: 97.5 % of both together is 95 % of the upper one.
+        let two = [(0.0, 1.0), (100.0, 1.0)];
+        assert!((mixture_quantile(&two, 0.975) - (100.0 + 1.644_853_626_951_472_7)).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,155 @@
+//! What the shear bands of a layer have in common: strength, spread and failure, from its material and the options.
+
+use crate::{
+    case::{BandFailure, ChainOptions},
+    material::{DamageState, Material, PreparedDamage, PreparedStrength, perfectly_plastic},
+    scenario::Plate,
+};
+
+use super::{
+    adiabatic::Sheared,
+    part,
+    shear_zone::{SQRT_3, Spread},
+};
+
+/// When a band fails.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Failure {
+    /// At an equivalent plastic strain.
+    Strain(f64),
+    Damage(PreparedDamage),
+    Never,
+}
+
+/// What the bands of a layer have in common.
+#[derive(Debug)]
+pub(super) struct BandLaw {
+    pub(super) spread: Spread,
+    pub(super) shear_modulus: f64,
+    pub(super) strength: Box<dyn PreparedStrength>,
+    pub(super) heating: f64,
+    pub(super) start_temperature: f64,
+    pub(super) rate_effects: bool,
+    pub(super) failure: Failure,
+}
+
+impl BandLaw {
+    /// The law of a layer around a plug of a radius that starts with a speed.
+    ///
+    /// # Errors
+    /// In words, why the material does not give what the options leave to it.
+    pub(super) fn new(
+        plate: &Plate,
+        radius: f64,
+        speed: f64,
+        options: &ChainOptions,
+    ) -> Result<Self, String> {
+        let material = &*plate.material;
+        let band = options.shear_band.unwrap_or_default();
+        if material
+            .strength
+            .law()
+            .initial_yield_stress(material)
+            .is_none()
+            && band.shear_strength.is_none()
+        {
+            return Err(format!(
+                "`{}` never yields: give `chain.shear_band.shear_strength`, or a material that flows",
+                plate.material_id
+            ));
+        }
+        let strength = match band.shear_strength {
+            Some(stress) => perfectly_plastic(SQRT_3 * stress.si()),
+            None => material.strength.law().prepare(material, 1.0),
+        };
+        let heating = part::heating(material, options, 1.0);
+        let sheared = Sheared {
+            strength: &*strength,
+            heating,
+            temperature: material.room_temperature.si(),
+            rate_effects: options.rate_effects.unwrap_or(true),
+        };
+        let (spread, instability) = match band.width {
+            Some(width) => (
+                Spread::Even(width.si()),
+                sheared.instability(width.si(), speed),
+            ),
+            None => {
+                let (zone, instability) =
+                    sheared.zone(radius, speed).ok_or_else(|| no_width(plate))?;
+                (Spread::Zone(zone), instability)
+            }
+        };
+        let failure = failure(plate, options, instability)?;
+        Ok(Self {
+            spread,
+            shear_modulus: material.shear_modulus(),
+            heating,
+            start_temperature: material.room_temperature.si(),
+            rate_effects: sheared.rate_effects,
+            failure,
+            strength,
+        })
+    }
+
+    /// Shear stress for an elastic slip [Pa/m].
+    pub(super) fn stiffness(&self) -> f64 {
+        self.shear_modulus / self.spread.elastic_width()
+    }
+
+    /// Plastic shear strain at which the band fails when its stress never changes sign, rate and temperature left out; `None` when it
+    /// never does.
+    pub(super) fn failure_strain(&self) -> Option<f64> {
+        match self.failure {
+            Failure::Strain(strain) => Some(SQRT_3 * strain),
+            Failure::Damage(damage) => Some(
+                SQRT_3
+                    * damage.failure_strain(&DamageState {
+                        triaxiality: 0.0,
+                        strain_rate: 0.0,
+                        temperature: self.start_temperature,
+                    }),
+            ),
+            Failure::Never => None,
+        }
+    }
+}
+
+fn no_width(plate: &Plate) -> String {
+    format!(
+        "`{}` neither hardens nor resists faster shear more, so that nothing spreads its shear around the plug: give \
+         `chain.shear_band.width`, or a strength law that does one or the other",
+        plate.material_id
+    )
+}
+
+fn failure(
+    plate: &Plate,
+    options: &ChainOptions,
+    instability: Option<f64>,
+) -> Result<Failure, String> {
+    let band = options.shear_band.unwrap_or_default();
+    if let Some(strain) = band.failure_strain {
+        return Ok(Failure::Strain(strain / SQRT_3));
+    }
+    let material: &Material = &plate.material;
+    let damage = material.damage.as_ref();
+    let natural = match damage {
+        Some(_) => BandFailure::Damage,
+        None => BandFailure::Instability,
+    };
+    match (band.failure.unwrap_or(natural), damage, instability) {
+        (BandFailure::Never, ..) => Ok(Failure::Never),
+        (BandFailure::Damage, Some(damage), _) => Ok(Failure::Damage(damage.prepare(material))),
+        (BandFailure::Damage, None, _) => Err(format!(
+            "`{}` has no damage: give another `chain.shear_band.failure`, or its damage constants",
+            plate.material_id
+        )),
+        (BandFailure::Instability, _, Some(strain)) => Ok(Failure::Strain(strain)),
+        (BandFailure::Instability, _, None) => Err(format!(
+            "the shear stress of `{}` has no adiabatic maximum, at which the shear band would fail: give \
+             `chain.shear_band.failure_strain`, or failure = \"never\"",
+            plate.material_id
+        )),
+    }
+}

@@ -1,0 +1,276 @@
+//! An analysis from its shots to what they say.
+
+use std::sync::atomic::AtomicU64;
+
+use super::{
+    bands,
+    design::{MAX_PARAMETERS, Rows},
+    indices::{SobolIndices, indices},
+    perforation::Perforation,
+    quantity::{QUANTITIES, Quantity},
+    result::{Draw, Failures, Input, Nominal, QuantityResult, Uncertainty},
+    runner::{Runner, Watch},
+    statistics::Statistics,
+    study::{Settings, Study},
+    tornado::{self, ENDS},
+};
+use crate::{
+    Error,
+    model::Model,
+    outcome::Outcome,
+    sweep::{Axis, Kernel, Shot, Stopped, values},
+};
+
+/// Longest key that is not shortened.
+const LONGEST_LABEL: usize = 30;
+/// Most reasons of failed shots that are kept.
+const REASONS: usize = 3;
+
+/// Computes a study by a kernel, which has to compute by `model`.
+///
+/// # Errors
+/// [`Error::NotApplicable`] when the model does not apply to the case with its uncertain numbers at their medians;
+/// [`Error::Cancelled`].
+pub fn analyse(
+    study: &Study,
+    model: &dyn Model,
+    kernel: &dyn Kernel,
+    settings: &Settings,
+    watch: &Watch<'_>,
+) -> Result<Uncertainty, Error> {
+    let cancelled = |_: Stopped| Error::Cancelled {
+        step: 0,
+        time_us: 0.0,
+    };
+    let no_indices = no_indices(study, settings);
+    let rows = Rows::new(settings.samples, settings.seed, study.axes.len());
+    let width = match no_indices {
+        None => rows.width(),
+        Some(_) => 1,
+    };
+    let at_speeds = settings.speeds.len() as u64 * settings.samples.min(bands::SHOTS);
+    let runner = Runner {
+        study,
+        kernel,
+        watch,
+        total: 2 * study.axes.len() as u64 + settings.samples * width + at_speeds,
+        done: AtomicU64::new(0),
+    };
+    let (nominal, nominal_draw) = nominal(study, model, kernel, watch, &cancelled)?;
+    let lows_and_highs = tornado::shots(&runner).map_err(cancelled)?;
+    let copula = study.copula.as_ref();
+    let inputs = |i: u64| {
+        let point = match width {
+            1 => rows.first(i),
+            _ => rows.point(i / width, i % width),
+        };
+        values(&study.axes, copula, &point)
+    };
+    let mixed = runner
+        .run(settings.samples * width, &inputs, None)
+        .map_err(cancelled)?;
+    let at_speeds =
+        bands::shots(&runner, &settings.speeds, &rows, settings.samples).map_err(cancelled)?;
+
+    let draws: Vec<Draw> = mixed.iter().step_by(width as usize).cloned().collect();
+    let quantities = chosen(settings, &draws);
+    let keys: Vec<&str> = study.axes.iter().map(|axis| axis.key.as_str()).collect();
+    let of = |quantity: &&'static Quantity| -> Option<QuantityResult> {
+        let found = draws.iter().filter_map(|draw| draw.value(quantity));
+        let statistics = Statistics::of(found)?;
+        let indices = no_indices.is_none().then(|| {
+            let rows = complete_rows(&mixed, width as usize, quantity);
+            indices(&rows, &keys, settings.seed)
+        });
+        let (indices, why): (Option<SobolIndices>, Option<String>) = match indices {
+            None => (None, None),
+            Some(Ok(found)) => (Some(found), None),
+            Some(Err(why)) => (None, Some(why)),
+        };
+        let failed = draws.iter().filter(|draw| draw.is_failed()).count();
+        Some(QuantityResult {
+            quantity: quantity.name,
+            nominal: nominal_draw.value(quantity),
+            without_value: draws.len() - failed - statistics.shots,
+            statistics,
+            tornado: tornado::bars(&runner, &lows_and_highs, quantity),
+            indices,
+            no_indices: why,
+        })
+    };
+    let mut found = Uncertainty {
+        case: study.scenario.name.clone(),
+        percuss_version: env!("CARGO_PKG_VERSION"),
+        model: model.name(),
+        samples: settings.samples,
+        seed: settings.seed,
+        shots: runner.total + 1,
+        inputs: inputs_of(&study.axes),
+        correlated: study.is_correlated(),
+        nominal,
+        failures: failures(&draws),
+        perforation: Perforation::of(draws.iter().map(|draw| draw.outcome)),
+        quantities: quantities.iter().filter_map(of).collect(),
+        no_indices,
+        bands: at_speeds
+            .iter()
+            .map(|(speed, shots)| bands::band(*speed, shots, &quantities))
+            .collect(),
+        warnings: Vec::new(),
+        draws,
+    };
+    found.warnings = warnings(&found);
+    Ok(found)
+}
+
+/// Why there are no Sobol' indices, whatever the quantity.
+fn no_indices(study: &Study, settings: &Settings) -> Option<String> {
+    let count = study.axes.len();
+    if !settings.indices {
+        Some("they were not asked for".to_owned())
+    } else if study.is_correlated() {
+        Some("the parameters are correlated, and a variance does not fall into parts of single parameters then".to_owned())
+    } else if count > MAX_PARAMETERS {
+        Some(format!(
+            "{count} parameters are more than the {MAX_PARAMETERS} that there are points for"
+        ))
+    } else {
+        None
+    }
+}
+
+/// The shot at the medians, and what is kept of it.
+fn nominal(
+    study: &Study,
+    model: &dyn Model,
+    kernel: &dyn Kernel,
+    watch: &Watch<'_>,
+    cancelled: &dyn Fn(Stopped) -> Error,
+) -> Result<(Nominal, Draw), Error> {
+    let shot = Shot::new(&study.template, &study.axes, 0, study.medians(), &[]);
+    let rows = kernel.rows(vec![shot], watch.stop).map_err(cancelled)?;
+    let mut nominal = Nominal {
+        outcome: Outcome::Failed,
+        reason: None,
+        expected_error: None,
+        warnings: Vec::new(),
+    };
+    let Some(row) = rows.into_iter().next() else {
+        return Err(cancelled(Stopped));
+    };
+    match &row.record {
+        Ok(record) if record.outcome == Outcome::NotApplicable => {
+            return Err(Error::NotApplicable {
+                model: model.name(),
+                reason: record.reason.clone().unwrap_or_default(),
+            });
+        }
+        Ok(record) => {
+            nominal = Nominal {
+                outcome: record.outcome,
+                reason: record.reason.clone(),
+                expected_error: record.expected_error.clone(),
+                warnings: record.warnings.clone(),
+            };
+        }
+        Err(reason) => nominal.reason = Some(reason.clone()),
+    }
+    Ok((nominal, Draw::of(row)))
+}
+
+/// The quantities asked for; otherwise the main ones that the model gives, without those that are the same in all shots.
+fn chosen(settings: &Settings, draws: &[Draw]) -> Vec<&'static Quantity> {
+    if !settings.quantities.is_empty() {
+        return settings.quantities.clone();
+    }
+    let spread = |quantity: &Quantity| {
+        let values = || draws.iter().filter_map(|draw| draw.value(quantity));
+        let first = values().next()?;
+        Some(values().any(|value| value != first))
+    };
+    let given = || QUANTITIES.iter().filter(|q| q.main && spread(q).is_some());
+    let varying: Vec<&Quantity> = given().filter(|q| spread(q) == Some(true)).collect();
+    match varying.is_empty() {
+        true => given().collect(),
+        false => varying,
+    }
+}
+
+/// Values of the rows in which no shot lacks one.
+fn complete_rows(shots: &[Draw], width: usize, quantity: &Quantity) -> Vec<Vec<f64>> {
+    let row = |row: &[Draw]| row.iter().map(|shot| shot.value(quantity)).collect();
+    shots.chunks(width).filter_map(row).collect()
+}
+
+fn inputs_of(axes: &[Axis]) -> Vec<Input> {
+    let short: Vec<String> = axes.iter().map(|axis| without_middle(&axis.key)).collect();
+    let label = |axis: &Axis| {
+        let label = without_middle(&axis.key);
+        match short.iter().filter(|other| **other == label).count() {
+            1 => label,
+            _ => axis.key.clone(),
+        }
+    };
+    let input = |axis: &Axis| Input {
+        key: axis.key.clone(),
+        unit: axis.unit.clone(),
+        distribution: axis.in_words(),
+        low: axis.at(ENDS[0]),
+        median: axis.at(0.5),
+        high: axis.at(ENDS[1]),
+        label: label(axis),
+        column: axis.column(),
+    };
+    axes.iter().map(input).collect()
+}
+
+/// A long key by its first two parts and its last one.
+fn without_middle(key: &str) -> String {
+    let parts: Vec<&str> = key.split('.').collect();
+    match parts.as_slice() {
+        [first, second, _, .., last] if key.len() > LONGEST_LABEL => {
+            format!("{first}.{second} … {last}")
+        }
+        _ => key.to_owned(),
+    }
+}
+
+fn failures(draws: &[Draw]) -> Failures {
+    let failed = || draws.iter().filter(|draw| draw.is_failed());
+    let mut reasons: Vec<String> = Vec::new();
+    for draw in failed() {
+        if reasons.len() < REASONS && !reasons.contains(&draw.error) {
+            reasons.push(draw.error.clone());
+        }
+    }
+    Failures {
+        shots: failed().count(),
+        reasons,
+    }
+}
+
+fn warnings(found: &Uncertainty) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let failed = found.failures.shots;
+    if failed > 0 {
+        warnings.push(format!(
+            "{failed} of {} shots have no result and are left out of all statistics, which speak of the others only; the first reason: {}",
+            found.samples, found.failures.reasons[0]
+        ));
+    }
+    for quantity in found.quantities.iter().filter(|q| q.without_value > 0) {
+        let why = match (quantity.quantity, &found.perforation) {
+            ("depth_of_penetration_mm", Some(p)) if p.perforated == quantity.without_value => {
+                " because they go through"
+            }
+            _ => "",
+        };
+        warnings.push(format!(
+            "{} of {} shots have no {}{why}: its statistics are those of the others",
+            quantity.without_value,
+            found.samples,
+            quantity.what().in_words
+        ));
+    }
+    warnings
+}

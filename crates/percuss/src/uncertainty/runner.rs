@@ -1,0 +1,63 @@
+//! Computing many shots of a study.
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use rayon::prelude::*;
+
+use super::{result::Draw, study::Study};
+use crate::sweep::{Kernel, Shot, Stopped};
+
+/// Blocks that there are at least, where there are as many shots: they are what threads share.
+const BLOCKS: u64 = 64;
+/// Most shots in a block.
+const LARGEST_BLOCK: u64 = 256;
+/// Key of the impact speed.
+pub(super) const SPEED: &str = "projectile.velocity";
+
+/// What a caller wants of an analysis: progress and a way to stop it.
+pub struct Watch<'a> {
+    /// Ends the analysis when it becomes true.
+    pub stop: &'a AtomicBool,
+    /// Called now and then from any thread with the shots that are done and all of them.
+    pub progress: &'a (dyn Fn(u64, u64) + Sync),
+}
+
+/// Computes shots in blocks, in parallel.
+pub(super) struct Runner<'a> {
+    pub(super) study: &'a Study,
+    pub(super) kernel: &'a dyn Kernel,
+    pub(super) watch: &'a Watch<'a>,
+    pub(super) total: u64,
+    pub(super) done: AtomicU64,
+}
+
+impl Runner<'_> {
+    /// Shots whose values are given by their number, at the case's own speed or at another one.
+    pub(super) fn run(
+        &self,
+        count: u64,
+        inputs: &(dyn Fn(u64) -> Vec<f64> + Sync),
+        speed: Option<f64>,
+    ) -> Result<Vec<Draw>, Stopped> {
+        let size = count.div_ceil(BLOCKS).clamp(1, LARGEST_BLOCK);
+        let more: Vec<(&str, toml::Value)> = speed
+            .map(|speed| (SPEED, toml::Value::String(format!("{speed:?} m/s"))))
+            .into_iter()
+            .collect();
+        let blocks: Result<Vec<Vec<Draw>>, Stopped> = (0..count.div_ceil(size))
+            .into_par_iter()
+            .map(|block| {
+                let range = block * size..((block + 1) * size).min(count);
+                let shots = range.map(|i| {
+                    Shot::new(&self.study.template, &self.study.axes, i, inputs(i), &more)
+                });
+                let rows = self.kernel.rows(shots.collect(), self.watch.stop)?;
+                let of_block = rows.len() as u64;
+                let done = self.done.fetch_add(of_block, Ordering::Relaxed) + of_block;
+                (self.watch.progress)(done, self.total);
+                Ok(rows.into_iter().map(Draw::of).collect())
+            })
+            .collect();
+        Ok(blocks?.into_iter().flatten().collect())
+    }
+}
