@@ -119,16 +119,31 @@ pub(crate) fn run_in(
     regime: &Regime,
     control: &mut Control<'_>,
 ) -> Result<RunResult, Error> {
-    let refuse = |reason: String| Error::NotApplicable {
+    let warnings =
+        applicability_in(model, scenario, regime).map_err(|reason| refusal(model, reason))?;
+    let result = model.run(scenario, control)?;
+    complete(model, scenario, regime, warnings, result)
+}
+
+fn refusal(model: &dyn Model, reason: String) -> Error {
+    Error::NotApplicable {
         model: model.name(),
         reason,
-    };
-    let warnings = applicability_in(model, scenario, regime).map_err(refuse)?;
-    let mut result = model.run(scenario, control)?;
+    }
+}
+
+/// What [`run_in`] makes of the model's own result, for a case to which the model applies with some warnings.
+pub(crate) fn complete(
+    model: &dyn Model,
+    scenario: &Scenario,
+    regime: &Regime,
+    warnings: Vec<String>,
+    mut result: RunResult,
+) -> Result<RunResult, Error> {
     if let Some(depth) = result.depth_of_penetration
         && let Some(reason) = model.guard().depth_at_back_face(scenario, depth)
     {
-        return Err(refuse(reason));
+        return Err(refusal(model, reason));
     }
     result.warnings.splice(0..0, warnings);
     if result.depth_of_penetration.is_some() {
@@ -145,7 +160,7 @@ pub fn applicability(model: &dyn Model, scenario: &Scenario) -> Result<Vec<Strin
     applicability_in(model, scenario, &Regime::of(scenario))
 }
 
-fn applicability_in(
+pub(crate) fn applicability_in(
     model: &dyn Model,
     scenario: &Scenario,
     regime: &Regime,

@@ -28,21 +28,23 @@ const DEFAULT_EROSION_STRAIN: f64 = 2.0;
 /// Time steps after which a run is ended when a case gives none.
 const DEFAULT_MAX_STEPS: u64 = 20_000_000;
 /// Steps between two looks at the books.
-const AUDIT_INTERVAL: u64 = 128;
+pub(super) const AUDIT_INTERVAL: u64 = 128;
 /// Part of the first time step below which a run would never end.
 const COLLAPSED_STEP: f64 = 1e-4;
 
 /// A run of the conservative scheme.
 #[derive(Debug)]
 pub struct Conservative<'a> {
-    scenario: &'a Scenario,
+    pub(super) scenario: &'a Scenario,
     pub(super) state: State,
-    control: StepControl,
-    watch: Watch,
+    pub(super) control: StepControl,
+    pub(super) watch: Watch,
+    pub(super) end_time: f64,
+    pub(super) max_steps: u64,
 }
 
 /// Why a run gave no result.
-enum Failure {
+pub(super) enum Failure {
     /// The books do not balance: a smaller time step may help.
     Unbalanced(NumericalError),
     Other(Error),
@@ -97,15 +99,22 @@ impl<'a> Conservative<'a> {
             state,
             control,
             watch: Watch::default(),
+            end_time: end_time(scenario),
+            max_steps: options.max_steps.unwrap_or(DEFAULT_MAX_STEPS),
         }
     }
 
-    /// Runs to the end.
+    /// Runs to the end from the state as it is.
     ///
     /// # Errors
     /// [`Error::Numerical`] when an element inverts, the time step collapses, a semi-infinite target is used up or the
     /// books do not balance; [`Error::Cancelled`].
     pub fn run(mut self, control: &mut Control<'_>) -> Result<RunResult, Error> {
+        self.run_on(control)
+    }
+
+    /// Runs to the end, and leaves the last state behind.
+    pub(super) fn run_on(&mut self, control: &mut Control<'_>) -> Result<RunResult, Error> {
         loop {
             let courant = self.control.courant;
             match self.attempt(control) {
@@ -121,7 +130,7 @@ impl<'a> Conservative<'a> {
                     if self.scenario.options.chain.courant.is_none()
                         && 0.5 * courant >= SMALLEST_COURANT =>
                 {
-                    self = Self::with_courant(self.scenario, 0.5 * courant);
+                    *self = Self::with_courant(self.scenario, 0.5 * courant);
                 }
                 Err(Failure::Unbalanced(error)) => return Err(error.into()),
                 Err(Failure::Other(error)) => return Err(error),
@@ -131,13 +140,6 @@ impl<'a> Conservative<'a> {
 
     fn attempt(&mut self, control: &mut Control<'_>) -> Result<RunResult, Failure> {
         let mut recorder = control.record.then(Recorder::new);
-        let end_time = self.end_time();
-        let max_steps = self
-            .scenario
-            .options
-            .chain
-            .max_steps
-            .unwrap_or(DEFAULT_MAX_STEPS);
         self.record(&mut recorder);
         let termination = if self.scenario.impact_speed == 0.0 {
             Termination::NothingMoves
@@ -146,33 +148,57 @@ impl<'a> Conservative<'a> {
                 self.state.advance(&self.control)?;
                 self.watch.follow(&self.state, self.scenario);
                 self.record(&mut recorder);
-                match event(&self.state, self.scenario) {
-                    Ok(None) => {}
-                    Ok(Some(termination)) => break termination,
-                    Err(depth) => return Err(self.used_up(depth).into()),
-                }
-                if self.state.time >= end_time {
-                    break Termination::EndTime;
-                }
-                if self.state.step >= max_steps {
-                    break Termination::StepLimit;
-                }
-                if self.state.step.is_multiple_of(AUDIT_INTERVAL) {
-                    self.audit()?;
-                    self.check_time_step()?;
-                    control.report(self.progress(end_time))?;
-                }
-                if self.watch.is_quiet(&self.state, self.scenario, end_time) {
-                    let state = &self.state;
-                    break match state.tip_segment().map(|tip| state.joints.get(tip)) {
-                        Some(_) if state.left_the_plate() => Termination::PlugFree,
-                        Some(Some(joint)) if !joint.closed => Termination::Parted,
-                        Some(_) => Termination::Quiescent,
-                        None => Termination::ProjectileConsumed,
-                    };
+                if let Some(termination) = self.ended(control)? {
+                    break termination;
                 }
             }
         };
+        self.finish(termination, recorder)
+    }
+
+    /// Whether the shot is over after a step that the watch has followed.
+    pub(super) fn ended(
+        &mut self,
+        control: &mut Control<'_>,
+    ) -> Result<Option<Termination>, Failure> {
+        match event(&self.state, self.scenario) {
+            Ok(None) => {}
+            Ok(ended) => return Ok(ended),
+            Err(depth) => return Err(self.used_up(depth).into()),
+        }
+        if self.state.time >= self.end_time {
+            return Ok(Some(Termination::EndTime));
+        }
+        if self.state.step >= self.max_steps {
+            return Ok(Some(Termination::StepLimit));
+        }
+        if self.state.step.is_multiple_of(AUDIT_INTERVAL) {
+            self.audit()?;
+            self.check_time_step()?;
+            control.report(self.progress())?;
+        }
+        if !self
+            .watch
+            .is_quiet(&self.state, self.scenario, self.end_time)
+        {
+            return Ok(None);
+        }
+        let state = &self.state;
+        let tip = state.tip_segment().map(|tip| state.joints.get(tip));
+        Ok(Some(match tip {
+            Some(_) if state.left_the_plate() => Termination::PlugFree,
+            Some(Some(joint)) if !joint.closed => Termination::Parted,
+            Some(_) => Termination::Quiescent,
+            None => Termination::ProjectileConsumed,
+        }))
+    }
+
+    /// Looks at the books a last time and sums up.
+    pub(super) fn finish(
+        &mut self,
+        termination: Termination,
+        recorder: Option<Recorder>,
+    ) -> Result<RunResult, Failure> {
         self.audit()?;
         let results = Results {
             scenario: self.scenario,
@@ -181,30 +207,6 @@ impl<'a> Conservative<'a> {
             erosion_strain: self.control.erosion_strain,
         };
         Ok(results.sum_up(termination, recorder))
-    }
-
-    /// Time at which a run without an `end_time` gives up: many times what waves and the shot itself take.
-    fn end_time(&self) -> f64 {
-        if let Some(time) = self.scenario.options.chain.end_time {
-            return time.si();
-        }
-        let rod = &self.scenario.projectile;
-        let speed = self.scenario.impact_speed.max(1.0);
-        let mut time = 2.0 * rod.length / rod.material.bar_wave_speed() + 2.0 * rod.length / speed;
-        match &self.scenario.target {
-            TargetBody::Layers { layers, .. } => {
-                for plate in layers {
-                    let thickness = mesh::modelled_thickness(plate, self.scenario);
-                    time += 2.0 * thickness / plate.material.bar_wave_speed()
-                        + 2.0 * (thickness + plate.gap) / speed;
-                }
-            }
-            TargetBody::RigidWall => {}
-            TargetBody::ConstantPressure(pressure) => {
-                time += rod.material.density.si() * rod.length * speed / pressure;
-            }
-        }
-        20.0 * time
     }
 
     fn audit(&mut self) -> Result<(), Failure> {
@@ -251,11 +253,11 @@ impl<'a> Conservative<'a> {
         )
     }
 
-    fn progress(&self, end_time: f64) -> Progress {
+    fn progress(&self) -> Progress {
         let motion = self.state.projectile_motion();
         let depth = self.watch.largest_depth;
         let moment = self.moment();
-        moment.progress(end_time, motion, self.scenario.impact_speed, depth)
+        moment.progress(self.end_time, motion, self.scenario.impact_speed, depth)
     }
 
     fn record(&self, recorder: &mut Option<Recorder>) {
@@ -270,4 +272,28 @@ impl<'a> Conservative<'a> {
             time: self.state.time,
         }
     }
+}
+
+/// Time at which a run without an `end_time` gives up: many times what waves and the shot itself take.
+fn end_time(scenario: &Scenario) -> f64 {
+    if let Some(time) = scenario.options.chain.end_time {
+        return time.si();
+    }
+    let rod = &scenario.projectile;
+    let speed = scenario.impact_speed.max(1.0);
+    let mut time = 2.0 * rod.length / rod.material.bar_wave_speed() + 2.0 * rod.length / speed;
+    match &scenario.target {
+        TargetBody::Layers { layers, .. } => {
+            for plate in layers {
+                let thickness = mesh::modelled_thickness(plate, scenario);
+                time += 2.0 * thickness / plate.material.bar_wave_speed()
+                    + 2.0 * (thickness + plate.gap) / speed;
+            }
+        }
+        TargetBody::RigidWall => {}
+        TargetBody::ConstantPressure(pressure) => {
+            time += rod.material.density.si() * rod.length * speed / pressure;
+        }
+    }
+    20.0 * time
 }

@@ -4,6 +4,7 @@ use super::{part::Part, state::Element};
 use crate::{
     case::Kinematics,
     material::{FlowState, Trial},
+    power::{exponential, log_ratio},
 };
 
 impl Element {
@@ -14,11 +15,15 @@ impl Element {
     /// that, kinetic, elastic and plastic energy of a chain of small strain add up to rounding.
     pub(super) fn deform(&mut self, part: &Part, length: f64, time_step: f64) -> f64 {
         self.length = length;
-        self.strain = match part.kinematics {
-            Kinematics::Logarithmic => (self.rest_length / length).ln(),
-            Kinematics::SmallStrain => (self.rest_length - length) / self.rest_length,
+        let elastic = match part.kinematics {
+            // Plastic strain changes the unloaded length, so that the logarithm is one of a small strain.
+            Kinematics::Logarithmic => log_ratio(self.unloaded_length, length),
+            Kinematics::SmallStrain => {
+                (self.rest_length - length) / self.rest_length - self.plastic_axial
+            }
         };
-        let trial = part.modulus * (self.strain - self.plastic_axial);
+        self.strain = self.plastic_axial + elastic;
+        let trial = part.modulus * elastic;
         self.stress_before = self.stress;
         self.stress = trial;
         let step_before = self.plastic_step;
@@ -27,7 +32,7 @@ impl Element {
             self.flow(part, trial, time_step);
         }
         self.axial_force = match part.kinematics {
-            Kinematics::Logarithmic => self.stress * self.rest_area * self.rest_length / length,
+            Kinematics::Logarithmic => self.stress * self.volume * (1.0 / length),
             Kinematics::SmallStrain => self.stress * self.rest_area,
         };
         0.5 * self.stress_before * (step_before + self.plastic_step)
@@ -56,8 +61,9 @@ impl Element {
         self.plastic_step = increment.copysign(trial);
         self.stress = trial - part.modulus * self.plastic_step;
         self.plastic_axial += self.plastic_step;
+        self.unloaded_length *= exponential(-self.plastic_step);
         self.plastic_strain += increment;
-        self.largest_rate = self.largest_rate.max(increment / time_step);
+        self.largest_rate = self.largest_rate.max(increment * (1.0 / time_step));
         let work = 0.5 * (self.stress_before + self.stress).abs() * increment;
         self.temperature += part.heating * work;
     }
@@ -75,7 +81,7 @@ impl Element {
         match part.kinematics {
             // The force grows faster than the stress as the area grows: the tangent is E + σ, and 1/sqrt(1 + x) > 1 − x/2.
             Kinematics::Logarithmic => {
-                let stiffening = 0.5 * (self.stress / part.modulus).clamp(0.0, 1.0);
+                let stiffening = 0.5 * (self.stress * part.compliance).clamp(0.0, 1.0);
                 self.length * part.slowness * (1.0 - stiffening)
             }
             Kinematics::SmallStrain => self.rest_length * part.slowness,
@@ -85,7 +91,7 @@ impl Element {
     /// Current cross-sectional area [m2].
     pub(super) fn area(&self, part: &Part) -> f64 {
         match part.kinematics {
-            Kinematics::Logarithmic => self.rest_area * self.rest_length / self.length,
+            Kinematics::Logarithmic => self.volume / self.length,
             Kinematics::SmallStrain => self.rest_area,
         }
     }

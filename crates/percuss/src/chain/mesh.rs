@@ -267,12 +267,22 @@ fn assemble(
         for e in first_element..first_element + count {
             let node = e + p;
             let (back, front) = (state.nodes[node].position, state.nodes[node + 1].position);
-            let (rest_area, end_masses) = match widens {
-                Some((cone, _)) => (
-                    cone.area_between(back, front),
-                    cone.volumes_between(back, front).map(|v| part.density * v),
+            let (rest_area, volume, end_masses) = match widens {
+                Some((cone, _)) => {
+                    let area = cone.area_between(back, front);
+                    let volumes = cone.volumes_between(back, front);
+                    (
+                        area,
+                        area * (front - back),
+                        volumes.map(|v| part.density * v),
+                    )
+                }
+                // All elements alike: their lengths differ by rounding, as positions do.
+                None => (
+                    part.area,
+                    part.area * size,
+                    [0.5 * part.density * part.area * size; 2],
                 ),
-                None => (part.area, [0.5 * part.density * part.area * size; 2]),
             };
             let half_friction = 0.5 * part.friction_per_length * size;
             for (node, mass) in state.nodes[node..=node + 1].iter_mut().zip(end_masses) {
@@ -282,6 +292,8 @@ fn assemble(
             state.elements[e] = Element {
                 rest_length: front - back,
                 rest_area,
+                volume,
+                unloaded_length: front - back,
                 end_masses,
                 length: front - back,
                 initial_position: 0.5 * (front + back),

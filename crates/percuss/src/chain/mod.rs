@@ -3,6 +3,7 @@
 mod adiabatic;
 mod band;
 mod band_law;
+mod batch;
 mod between;
 mod closure;
 mod cone;
@@ -44,6 +45,10 @@ pub(crate) use mesh::modelled_thickness;
 pub(crate) use part::constraint_factor;
 pub use published::Published;
 pub(crate) use warnings::held_back;
+
+use std::sync::atomic::AtomicBool;
+
+pub(crate) use batch::Stopped;
 
 use crate::{
     Error, Scenario,
@@ -113,19 +118,43 @@ impl Model for Chain {
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        let mut result = match scenario.options.chain.scheme {
+        let result = match scenario.options.chain.scheme {
             Scheme::Conservative if is_expanding(scenario) => {
                 expanding::Expanding::run(scenario, control)?
             }
             Scheme::Conservative => Conservative::new(scenario).run(control)?,
             Scheme::Published => Published::new(scenario)?.run(control)?,
         };
-        if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction {
-            let thin = Range::COLUMN.finding(scenario);
-            result.warnings.splice(0..0, thin);
-        }
-        Ok(result)
+        Ok(with_warning_of_thin_plate(scenario, result))
     }
+}
+
+fn with_warning_of_thin_plate(scenario: &Scenario, mut result: RunResult) -> RunResult {
+    if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction {
+        let thin = Range::COLUMN.finding(scenario);
+        result.warnings.splice(0..0, thin);
+    }
+    result
+}
+
+/// Whether a shot is one of those that [`run_batch`] computes.
+pub(crate) fn is_for_batch(scenario: &Scenario) -> bool {
+    batch::accepts(scenario)
+}
+
+/// What [`Chain`] says of shots that are for the batch, side by side, to the last bit.
+///
+/// # Errors
+/// [`Stopped`]: `stop` has become true.
+pub(crate) fn run_batch(
+    scenarios: &[&Scenario],
+    stop: &AtomicBool,
+) -> Result<Vec<Result<RunResult, Error>>, Stopped> {
+    let results = batch::run(scenarios, stop)?;
+    let with_warnings = |(scenario, result): (&&Scenario, Result<RunResult, Error>)| {
+        result.map(|result| with_warning_of_thin_plate(scenario, result))
+    };
+    Ok(scenarios.iter().zip(results).map(with_warnings).collect())
 }
 
 fn is_expanding(scenario: &Scenario) -> bool {

@@ -23,6 +23,8 @@ pub(super) struct Part {
     /// Number of elements; a rigid wall has none.
     pub(super) elements: usize,
     pub(super) modulus: f64,
+    /// Inverse of the modulus [1/Pa].
+    pub(super) compliance: f64,
     pub(super) density: f64,
     pub(super) wave_speed: f64,
     /// Inverse of the wave speed [s/m].
@@ -65,6 +67,7 @@ impl Part {
             role,
             elements,
             modulus: material.youngs_modulus.si(),
+            compliance: 1.0 / material.youngs_modulus.si(),
             density: material.density.si(),
             wave_speed: material.bar_wave_speed(),
             slowness: 1.0 / material.bar_wave_speed(),

@@ -170,10 +170,11 @@ impl State {
     }
 
     pub(super) fn kick_free(&mut self, i: usize, kick: f64) {
-        let change = self.nodes[i].force * kick / self.nodes[i].mass;
+        let ratio = kick / self.nodes[i].mass;
+        let change = self.nodes[i].force * ratio;
         self.nodes[i].velocity = if self.nodes[i].friction > 0.0 {
             let before = self.nodes[i].velocity;
-            let limit = self.nodes[i].friction * kick / self.nodes[i].mass;
+            let limit = self.nodes[i].friction * ratio;
             let after = rub(before, change, limit);
             let impulse = self.book_friction(self.nodes[i].mass, before, change, after);
             if self.tip_friction > 0.0 {
@@ -232,6 +233,8 @@ impl State {
     fn drift(&mut self, control: &StepControl, time_step: f64) -> Result<(), NumericalError> {
         let viscous = control.is_viscous();
         let mut stable_step = f64::INFINITY;
+        // Largest rate at which the ends of an element approach or part, as a part of its length [1/s].
+        let mut fastest = 0.0_f64;
         let limit = self.penetration_limit();
         for segment in &self.segments {
             let part = &self.parts[segment.part];
@@ -257,24 +260,21 @@ impl State {
                 if length <= 0.0 {
                     return Err(inverted(self.step, self.time, first_element + i));
                 }
-                let volume = element.rest_area * element.rest_length;
-                plastic_work += volume * element.deform(part, length, time_step);
+                plastic_work += element.volume * element.deform(part, length, time_step);
                 let approach =
                     pair[0].velocity - pair[1].velocity - element.advance_step / time_step;
                 let mut limit = element.stable_step(part);
                 if viscous {
                     limit *= control.damp(element, part, approach);
                 }
-                if part.kinematics == Kinematics::Logarithmic
-                    && approach.abs() * limit > LARGEST_STRAIN_STEP * length
-                {
-                    limit = LARGEST_STRAIN_STEP * length / approach.abs();
+                if part.kinematics == Kinematics::Logarithmic {
+                    fastest = fastest.max(approach.abs() * (1.0 / length));
                 }
                 stable_step = stable_step.min(limit);
             }
             self.books.plastic[part.role as usize] += plastic_work;
         }
-        self.stable_step = stable_step;
+        self.stable_step = stable_step.min(LARGEST_STRAIN_STEP / fastest);
         Ok(())
     }
 }
@@ -293,6 +293,7 @@ fn inverted(step: u64, time: f64, element: usize) -> NumericalError {
 /// Time step after one of length `previous`, when `allowed` is the largest one allowed.
 ///
 /// Every change of the time step costs a little energy, so small changes are not made.
+#[inline(always)]
 pub(super) fn choose_time_step(previous: f64, allowed: f64) -> f64 {
     if previous == 0.0 || allowed < previous {
         STEP_MARGIN * allowed

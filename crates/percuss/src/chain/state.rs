@@ -73,6 +73,10 @@ pub(super) struct Element {
     pub(super) rest_length: f64,
     /// Area at rest [m2].
     pub(super) rest_area: f64,
+    /// [m3]; plastic flow does not change it.
+    pub(super) volume: f64,
+    /// Length without stress [m].
+    pub(super) unloaded_length: f64,
     /// What it gives to the masses of its two nodes [kg].
     pub(super) end_masses: [f64; 2],
     pub(super) length: f64,
@@ -229,9 +233,8 @@ impl State {
 
     /// Elastic energy of an element between two steps: the form that central differences conserve.
     pub(super) fn elastic_energy(&self, element: usize, part: &Part) -> f64 {
-        let volume = self.elements[element].rest_area * self.elements[element].rest_length;
-        volume * self.elements[element].stress_before * self.elements[element].stress
-            / (2.0 * part.modulus)
+        let element = &self.elements[element];
+        element.volume * element.stress_before * element.stress / (2.0 * part.modulus)
     }
 
     pub(super) fn energy(&self) -> EnergyLedger {

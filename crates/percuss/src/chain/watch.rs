@@ -33,7 +33,7 @@ pub(super) struct Watch {
     /// Time during which the projectile touched the target [s].
     pub(super) contact_time: f64,
     /// Whether the projectile touched the target at any time since the window began.
-    touched: bool,
+    pub(super) touched: bool,
     /// How often ends had met when the window began.
     window_meetings: u64,
     window_start: f64,
@@ -76,11 +76,15 @@ impl Watch {
         }
     }
 
+    /// Time from which [`Self::is_quiet`] looks again.
+    pub(super) fn next_look(&self, scenario: &Scenario) -> f64 {
+        let rod = &scenario.projectile;
+        self.window_start + 2.0 * rod.length / rod.material.bar_wave_speed()
+    }
+
     /// Whether the shot is over: looked at once in a round trip of a wave in the projectile.
     pub(super) fn is_quiet(&mut self, state: &State, scenario: &Scenario, end_time: f64) -> bool {
-        let rod = &scenario.projectile;
-        let window = 2.0 * rod.length / rod.material.bar_wave_speed();
-        if state.time < self.window_start + window {
+        if state.time < self.next_look(scenario) {
             return false;
         }
         let books = &state.books;

@@ -30,7 +30,7 @@ pub use library::{Library, MaterialEntry};
 pub use references::{Reference, references};
 pub use strength::*;
 pub use tensile::tensile_strength;
-pub(crate) use yield_point::{Trial, YieldPoint};
+pub(crate) use yield_point::{Trial, YieldPoint, is_last};
 
 /// One parameter set of a material, as a file holds it.
 ///

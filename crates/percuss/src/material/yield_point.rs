@@ -33,7 +33,30 @@ pub(crate) struct YieldPoint {
     is_slow: bool,
 }
 
+/// Whether a step of Newton's method may be the last one.
+///
+/// Powers of strain and strain rate are not more curved than slope over strain and slope over rate: `curvature` is the sum of the
+/// two, `per` times.
+#[inline(always)]
+pub(crate) fn is_last(trial: f64, excess: f64, step: f64, curvature: f64, per: f64) -> bool {
+    (excess.abs() <= LARGEST_EXCESS * trial)
+        & (0.5 * step * step * curvature <= TOLERANCE * trial * per)
+}
+
 impl YieldPoint {
+    /// A point whose slow flow stress and slope with plastic strain [Pa] are known.
+    pub(crate) fn known(stress: f64, strain_slope: f64) -> Self {
+        Self {
+            flow: FlowStress {
+                stress,
+                strain_slope,
+                rate_slope: 0.0,
+            },
+            strain_rate: 0.0,
+            is_slow: true,
+        }
+    }
+
     /// The slow flow stress in a state.
     pub(crate) fn slow(strength: &dyn PreparedStrength, state: &FlowState) -> Self {
         Self {
@@ -49,6 +72,11 @@ impl YieldPoint {
     /// Flow stress [Pa].
     pub(crate) fn stress(&self) -> f64 {
         self.flow.stress
+    }
+
+    /// Slope with the plastic strain [Pa].
+    pub(crate) fn strain_slope(&self) -> f64 {
+        self.flow.strain_slope
     }
 
     /// Says that the state has changed without flow, and the flow stress with it.
@@ -100,11 +128,9 @@ impl YieldPoint {
             let excess = trial.stress - trial.modulus * increment - flow.stress;
             let step = excess / (trial.modulus + flow.strain_slope + rate_slope);
             let newton = increment + step;
-            // Powers of strain and strain rate are not more curved than this.
-            let curvature =
-                flow.strain_slope / (start.plastic_strain + increment) + rate_slope / increment;
-            let is_last = excess.abs() <= LARGEST_EXCESS * trial.stress
-                && 0.5 * curvature * step * step <= TOLERANCE * trial.stress;
+            let strain = start.plastic_strain + increment;
+            let curvature = flow.strain_slope * increment + rate_slope * strain;
+            let is_last = is_last(trial.stress, excess, step, curvature, strain * increment);
             if (is_last && newton > 0.0) || left == 0 {
                 let increment = newton.max(low).min(high);
                 *self = Self {

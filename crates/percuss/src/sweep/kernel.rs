@@ -96,7 +96,11 @@ impl ScalarKernel {
         Self { model }
     }
 
-    fn record(&self, scenario: &Scenario, stop: &AtomicBool) -> Result<ResultRecord, Stopped> {
+    pub(super) fn record(
+        &self,
+        scenario: &Scenario,
+        stop: &AtomicBool,
+    ) -> Result<ResultRecord, Stopped> {
         let mut watch = |_: model::Progress| match stop.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),

@@ -5,6 +5,7 @@
 
 mod amount;
 mod axis;
+mod batch;
 mod caught;
 mod copula;
 mod correlation;
@@ -29,6 +30,7 @@ use std::{
 pub use amount::Amount;
 pub use axis::Axis;
 pub(crate) use axis::{Values, values};
+pub use batch::BatchKernel;
 pub(crate) use copula::Copula;
 pub use correlation::Correlation;
 pub(crate) use distribution::{Cut, Distribution};

@@ -260,3 +260,36 @@ fn blocks_cover_all_shots() {
     let all: Vec<u64> = (0..sweep.blocks()).flat_map(|b| sweep.block(b)).collect();
     assert_eq!((sweep.blocks(), all), (7, (0..27).collect()));
 }
+
+#[test]
+fn rows_do_not_depend_on_the_kernel_nor_on_the_blocks() {
+    // Columns ride side by side, expanding cavities are left to the single run.
+    let head = "base = 'scenario.toml'\nmodel = 'chain'\ndesign = 'grid'";
+    let mesh = "[[parameter]]\nkey = 'chain.projectile_elements'\nvalues = [8, 10]\n[[parameter]]\nkey = 'chain.target_elements'\nvalues = [16]";
+    let speeds = "[[parameter]]\nkey = 'projectile.velocity'\nlinear = { from = '60 m/s', to = '400 m/s', count = 5 }";
+    let shear = "[[parameter]]\nkey = 'chain.border_shear'\nvalues = [0.0, 0.577]";
+    for (name, parameters) in [
+        ("columns", format!("{speeds}\n{shear}\n{mesh}")),
+        ("cavities", format!("{speeds}\n{mesh}")),
+    ] {
+        let sweep = load(name, &format!("{head}\n{parameters}")).unwrap();
+        let shots = |from, to| (from..to).map(|i| sweep.shot(i)).collect::<Vec<Shot>>();
+        let stop = AtomicBool::new(false);
+        let count = sweep.shots();
+        let expected = ScalarKernel::new(sweep.model).rows(shots(0, count), &stop);
+        let kernel = BatchKernel::new(sweep.model);
+        assert_eq!(kernel.rows(shots(0, count), &stop), expected, "{name}");
+        let expected = expected.unwrap();
+        for size in [1, 7] {
+            let mut rows = Vec::new();
+            for from in (0..count).step_by(size as usize) {
+                rows.extend(
+                    kernel
+                        .rows(shots(from, count.min(from + size)), &stop)
+                        .unwrap(),
+                );
+            }
+            assert_eq!(rows, expected, "{name} in blocks of {size}");
+        }
+    }
+}

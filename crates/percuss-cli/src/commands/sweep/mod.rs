@@ -10,7 +10,7 @@ use std::{
 use clap::{Args, Subcommand};
 use percuss::{
     outcome::Outcome,
-    sweep::{self, Row, ScalarKernel},
+    sweep::{self, BatchKernel, Row},
 };
 use percuss_report::sweep::{SweepFolder, merge, status};
 
@@ -140,7 +140,7 @@ impl Sweep {
         hear(&[]);
         let pool = workers::pool(self.threads)?;
         let stop = workers::stop_on_request();
-        let kernel = ScalarKernel::new(sweep.model);
+        let kernel = BatchKernel::new(sweep.model);
         let complete = pool.install(|| folder.compute(&sweep, &kernel, &missing, &stop, &hear));
         let board = board.into_inner().unwrap_or_else(PoisonError::into_inner);
         board.progress.finish();

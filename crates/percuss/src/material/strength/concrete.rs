@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{FlowState, FlowStress, PreparedStrength, StrengthLaw};
+use super::{FlowState, FlowStress, Hardening, PreparedStrength, StrengthLaw};
 use crate::{
     check::{Check, limits},
     material::Material,
@@ -34,6 +34,10 @@ impl PreparedStrength for Prepared {
 
     fn depends_on_strain_only(&self) -> bool {
         true
+    }
+
+    fn hardening(&self) -> Option<Hardening> {
+        Some(Hardening::none(self.stress))
     }
 }
 

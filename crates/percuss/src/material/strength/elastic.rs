@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{FlowState, FlowStress, PreparedStrength, StrengthLaw};
+use super::{FlowState, FlowStress, Hardening, PreparedStrength, StrengthLaw};
 use crate::{check::Check, material::Material};
 
 /// Linear elastic behaviour without a limit.
@@ -20,6 +20,10 @@ impl PreparedStrength for Elastic {
 
     fn depends_on_strain_only(&self) -> bool {
         true
+    }
+
+    fn hardening(&self) -> Option<Hardening> {
+        Some(Hardening::none(f64::INFINITY))
     }
 }
 

@@ -22,7 +22,7 @@ pub use johnson_cook::{JohnsonCook, RateForm};
 pub use own::OwnLaw;
 pub use perfectly_plastic::PerfectlyPlastic;
 pub(crate) use perfectly_plastic::perfectly_plastic;
-pub use power_law::PowerLaw;
+pub use power_law::{Hardening, PowerLaw};
 pub use steinberg_guinan::SteinbergGuinan;
 
 /// State that a flow stress depends on.
@@ -57,6 +57,11 @@ pub trait PreparedStrength: fmt::Debug + Send + Sync {
     /// Whether neither strain rate nor temperature nor pressure matter: then one evaluation a step is enough.
     fn depends_on_strain_only(&self) -> bool {
         false
+    }
+
+    /// The law as a power of the plastic strain alone, if it is one.
+    fn hardening(&self) -> Option<Hardening> {
+        None
     }
 
     /// Whether the flow stress changes with the pressure, without any flow.

@@ -5,6 +5,7 @@ use super::{FlowState, FlowStress, PreparedStrength, StrengthLaw};
 use crate::{
     check::{Check, limits},
     material::Material,
+    power::power,
     units::Pressure,
 };
 
@@ -28,20 +29,42 @@ impl PowerLaw {
     }
 }
 
-#[derive(Debug)]
-struct Prepared {
-    coefficient: f64,
-    exponent: f64,
-    yield_strain: f64,
+/// `Y = K (ε_0 + ε_p)ⁿ`: a flow stress that is a power of the plastic strain, or constant where `n` is 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hardening {
+    /// Stress at unit strain K, constraint factor included [Pa].
+    pub coefficient: f64,
+    /// Exponent n.
+    pub exponent: f64,
+    /// Strain where the plastic strain is 0, ε_0.
+    pub first_strain: f64,
 }
 
-impl PreparedStrength for Prepared {
+impl Hardening {
+    /// A flow stress that stays what it is [Pa].
+    pub fn none(flow_stress: f64) -> Self {
+        Self {
+            coefficient: flow_stress,
+            exponent: 0.0,
+            first_strain: 1.0,
+        }
+    }
+
+    /// Flow stress and its slope with the plastic strain [Pa].
+    #[inline(always)]
+    pub fn at(&self, plastic_strain: f64) -> (f64, f64) {
+        let strain = self.first_strain + plastic_strain;
+        let stress = self.coefficient * power(strain, self.exponent);
+        (stress, self.exponent * stress / strain)
+    }
+}
+
+impl PreparedStrength for Hardening {
     fn flow_stress(&self, state: &FlowState) -> FlowStress {
-        let strain = self.yield_strain + state.plastic_strain;
-        let stress = self.coefficient * strain.powf(self.exponent);
+        let (stress, strain_slope) = self.at(state.plastic_strain);
         FlowStress {
             stress,
-            strain_slope: self.exponent * stress / strain,
+            strain_slope,
             rate_slope: 0.0,
         }
     }
@@ -49,14 +72,18 @@ impl PreparedStrength for Prepared {
     fn depends_on_strain_only(&self) -> bool {
         true
     }
+
+    fn hardening(&self) -> Option<Hardening> {
+        Some(*self)
+    }
 }
 
 impl StrengthLaw for PowerLaw {
     fn prepare(&self, material: &Material, factor: f64) -> Box<dyn PreparedStrength> {
-        Box::new(Prepared {
+        Box::new(Hardening {
             coefficient: factor * self.coefficient.si(),
             exponent: self.exponent,
-            yield_strain: self.yield_strain(material.youngs_modulus.si(), factor),
+            first_strain: self.yield_strain(material.youngs_modulus.si(), factor),
         })
     }
 

@@ -1,0 +1,180 @@
+//! The state of eight shots on meshes alike.
+
+use super::lanes::{LANES, Lanes};
+use crate::{
+    case::BackFace,
+    scenario::{Scenario, TargetBody},
+};
+
+/// What shots must have in common to ride together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Mesh {
+    /// Elements of projectile and target.
+    pub(super) elements: [usize; 2],
+    pub(super) back: Back,
+}
+
+/// What holds the back of the target.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Back {
+    Free,
+    Fixed,
+    Open,
+}
+
+impl Mesh {
+    pub(super) fn of(scenario: &Scenario) -> Self {
+        let chain = &scenario.options.chain;
+        let back = match &scenario.target {
+            TargetBody::Layers { back_face, .. } => match back_face {
+                BackFace::Free => Back::Free,
+                BackFace::Fixed => Back::Fixed,
+                BackFace::NonReflecting => Back::Open,
+            },
+            _ => Back::Free,
+        };
+        Self {
+            elements: [chain.projectile_elements(), chain.target_elements()],
+            back,
+        }
+    }
+}
+
+/// A point mass.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Node {
+    pub(super) position: Lanes,
+    pub(super) velocity: Lanes,
+}
+
+/// What every step needs of an element.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Spring {
+    pub(super) unloaded_length: Lanes,
+    pub(super) yield_stress: Lanes,
+    pub(super) force: Lanes,
+    /// Stress after the last step and after the one before it, in turn.
+    pub(super) stress: [Lanes; 2],
+}
+
+/// What only flow needs and changes.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Flow {
+    /// Plastic strain of the last step and of the one before it.
+    pub(super) plastic_step: Lanes,
+    pub(super) step_before: Lanes,
+    pub(super) plastic_strain: Lanes,
+    pub(super) plastic_axial: Lanes,
+    pub(super) strain_slope: Lanes,
+    pub(super) temperature: Lanes,
+    pub(super) largest_rate: Lanes,
+}
+
+/// What is the same for all of a projectile or target.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Body {
+    pub(super) modulus: Lanes,
+    pub(super) compliance: Lanes,
+    pub(super) slowness: Lanes,
+    /// Volume of an element.
+    pub(super) volume: Lanes,
+    /// Mass of a node, and of one at an end.
+    pub(super) mass: Lanes,
+    pub(super) end_mass: Lanes,
+    /// Largest friction on a node, on the first and on the last one.
+    pub(super) friction: Lanes,
+    pub(super) first_friction: Lanes,
+    pub(super) last_friction: Lanes,
+    pub(super) heating: Lanes,
+    pub(super) coefficient: Lanes,
+    pub(super) exponent: Lanes,
+    pub(super) first_strain: Lanes,
+    /// Lengths at which an element erodes.
+    pub(super) shortest: Lanes,
+    pub(super) longest: Lanes,
+}
+
+/// What there is one of in every shot.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Whole {
+    pub(super) courant: Lanes,
+    pub(super) time: Lanes,
+    pub(super) step: Lanes,
+    pub(super) time_step: Lanes,
+    pub(super) stable_step: Lanes,
+    /// 1 where projectile and target touch, 0 where they do not.
+    pub(super) closed: Lanes,
+    pub(super) meetings: Lanes,
+    pub(super) contact_force: Lanes,
+    pub(super) impedance: Lanes,
+    pub(super) plastic_work: [Lanes; 2],
+    pub(super) friction_work: Lanes,
+    pub(super) friction_impulse: Lanes,
+    pub(super) contact_loss: Lanes,
+    pub(super) support_impulse: Lanes,
+    pub(super) boundary_work: Lanes,
+    pub(super) largest_depth: Lanes,
+    pub(super) peak_force: Lanes,
+    pub(super) smallest_time_step: Lanes,
+    pub(super) contact_time: Lanes,
+    /// 1 where they have touched since the window began.
+    pub(super) touched: Lanes,
+    pub(super) back_position: Lanes,
+    /// Depth and step at which a shot is over, time at which it is looked at.
+    pub(super) perforated: Lanes,
+    pub(super) most_steps: Lanes,
+    pub(super) next_look: Lanes,
+    /// Speed of the tail below which the projectile may be at rest; −∞ once it has been.
+    pub(super) slow_tail: Lanes,
+}
+
+/// Eight shots.
+#[derive(Debug)]
+pub(super) struct Bundle {
+    pub(super) mesh: Mesh,
+    /// Of the projectile, then of the target.
+    pub(super) nodes: Vec<Node>,
+    pub(super) springs: Vec<Spring>,
+    pub(super) flows: Vec<Flow>,
+    /// Whether a node moves in any lane.
+    pub(super) moves: Vec<bool>,
+    /// Whether an update of an element to the same length would change nothing, in any lane.
+    pub(super) settled: Vec<bool>,
+    /// Elements that a pass takes up.
+    pub(super) active: Vec<usize>,
+    /// Whether an element flowed in the last step, in any lane.
+    pub(super) flowed: Vec<bool>,
+    /// Those that flow or flowed in the last step.
+    pub(super) working: Vec<usize>,
+    /// Where something flows: elements and lanes.
+    pub(super) flowing: Vec<(u32, u32)>,
+    pub(super) bodies: [Body; 2],
+    pub(super) whole: Whole,
+    /// Which of the two stresses of an element is the one after the last step.
+    pub(super) now: usize,
+}
+
+impl Bundle {
+    pub(super) fn new(mesh: Mesh) -> Self {
+        let elements = mesh.elements[0] + mesh.elements[1];
+        let mut bundle = Self {
+            mesh,
+            nodes: vec![Node::default(); elements + 2],
+            springs: vec![Spring::default(); elements],
+            flows: vec![Flow::default(); elements],
+            moves: vec![false; elements + 2],
+            settled: vec![false; elements],
+            active: vec![0; elements],
+            flowed: vec![false; elements],
+            working: vec![0; elements],
+            flowing: vec![(0, 0); (elements + 1) * LANES],
+            bodies: [Body::default(); 2],
+            whole: Whole::default(),
+            now: 0,
+        };
+        for lane in 0..LANES {
+            bundle.park(lane);
+        }
+        bundle
+    }
+}

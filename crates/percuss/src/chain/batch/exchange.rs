@@ -1,0 +1,286 @@
+//! How a shot gets into a lane and out of it again.
+
+use super::bundle::{Body, Bundle, Flow, Spring, Whole};
+use crate::{
+    chain::{
+        conservative::Conservative,
+        part::Part,
+        state::{Element, End},
+    },
+    material::{Hardening, YieldPoint},
+    power::log_ratio,
+};
+
+/// A strain is compared with the erosion strain only where the length says that it is this close.
+const CLOSE: f64 = 1.0 + 1e-9;
+
+impl Bundle {
+    /// Puts a shot at the moment of impact into a lane.
+    pub(super) fn take_in(&mut self, lane: usize, run: &Conservative<'_>) {
+        let state = &run.state;
+        for (node, from) in self.nodes.iter_mut().zip(&state.nodes) {
+            node.position.0[lane] = from.position;
+            node.velocity.0[lane] = from.velocity;
+        }
+        let elements = self.springs.iter_mut().zip(&mut self.flows);
+        for ((spring, flow), from) in elements.zip(&state.elements) {
+            spring.take_in(lane, from);
+            flow.take_in(lane, from);
+        }
+        let [projectile, _] = self.mesh.elements;
+        for (body, part) in self.bodies.iter_mut().zip(&state.parts) {
+            body.take_in(lane, part);
+        }
+        for (b, (first, count)) in [(0, projectile), (projectile, self.mesh.elements[1])]
+            .into_iter()
+            .enumerate()
+        {
+            let body = &mut self.bodies[b];
+            let element = &state.elements[first];
+            let nodes = &state.nodes[first + b..=first + b + count];
+            let half = element.end_masses[0];
+            body.volume.0[lane] = element.volume;
+            body.end_mass.0[lane] = half;
+            body.mass.0[lane] = half + half;
+            body.friction.0[lane] = nodes[1.min(count - 1)].friction;
+            body.first_friction.0[lane] = nodes[0].friction;
+            body.last_friction.0[lane] = nodes[count].friction;
+            let length = element.rest_length;
+            let stretch = run.control.erosion_strain.exp();
+            body.shortest.0[lane] = length / stretch * CLOSE;
+            body.longest.0[lane] = length * stretch / CLOSE;
+        }
+        self.whole.take_in(lane, run);
+        self.settled.fill(false);
+    }
+
+    /// Keeps up what the single run has done with a lane that was let out.
+    pub(super) fn follow(&mut self, lane: usize, run: &Conservative<'_>) {
+        self.whole.follow(lane, run);
+    }
+
+    /// Puts a lane into the state of its shot; false when an element has no length any more.
+    pub(super) fn let_out(&self, lane: usize, run: &mut Conservative<'_>) -> bool {
+        let state = &mut run.state;
+        for (node, to) in self.nodes.iter().zip(&mut state.nodes) {
+            to.position = node.position.0[lane];
+            to.velocity = node.velocity.0[lane];
+        }
+        let mut is_sound = true;
+        for segment in &state.segments {
+            for e in segment.elements() {
+                let node = e + segment.shift;
+                let to = &mut state.elements[e];
+                to.length = state.nodes[node + 1].position - state.nodes[node].position;
+                is_sound &= to.length > 0.0;
+                self.springs[e].let_out(lane, to, self.now);
+                self.flows[e].let_out(lane, to, self.springs[e].yield_stress.0[lane]);
+            }
+        }
+        self.whole.let_out(lane, run);
+        is_sound
+    }
+
+    /// Leaves a lane to a chain on which nothing ever happens.
+    pub(super) fn park(&mut self, lane: usize) {
+        let [projectile, _] = self.mesh.elements;
+        for (i, node) in self.nodes.iter_mut().enumerate() {
+            // Tip and face stand in one place.
+            node.position.0[lane] = (i - usize::from(i > projectile)) as f64;
+            node.velocity.0[lane] = 0.0;
+        }
+        for (spring, flow) in self.springs.iter_mut().zip(&mut self.flows) {
+            let steps = [&mut flow.plastic_step, &mut flow.step_before];
+            for of in spring
+                .stress
+                .iter_mut()
+                .chain(steps)
+                .chain([&mut spring.force])
+            {
+                of.0[lane] = 0.0;
+            }
+            spring.unloaded_length.0[lane] = 1.0;
+            spring.yield_stress.0[lane] = f64::INFINITY;
+            flow.plastic_strain.0[lane] = 0.0;
+            flow.strain_slope.0[lane] = 0.0;
+        }
+        for body in &mut self.bodies {
+            for of in [
+                &mut body.modulus,
+                &mut body.compliance,
+                &mut body.slowness,
+                &mut body.volume,
+                &mut body.mass,
+                &mut body.end_mass,
+                &mut body.first_strain,
+            ] {
+                of.0[lane] = 1.0;
+            }
+            for of in [
+                &mut body.friction,
+                &mut body.first_friction,
+                &mut body.last_friction,
+                &mut body.heating,
+                &mut body.coefficient,
+                &mut body.exponent,
+                &mut body.shortest,
+            ] {
+                of.0[lane] = 0.0;
+            }
+            body.longest.0[lane] = f64::INFINITY;
+        }
+        self.whole.park(lane);
+        self.settled.fill(false);
+    }
+}
+
+impl Spring {
+    fn take_in(&mut self, lane: usize, from: &Element) {
+        self.unloaded_length.0[lane] = from.unloaded_length;
+        self.yield_stress.0[lane] = from.yield_point.stress();
+        self.force.0[lane] = from.axial_force;
+        // At the moment of impact nothing has changed yet.
+        for stress in &mut self.stress {
+            stress.0[lane] = from.stress;
+        }
+    }
+
+    fn let_out(&self, lane: usize, to: &mut Element, now: usize) {
+        to.unloaded_length = self.unloaded_length.0[lane];
+        to.axial_force = self.force.0[lane];
+        to.stress = self.stress[now].0[lane];
+        to.stress_before = self.stress[1 - now].0[lane];
+    }
+}
+
+impl Flow {
+    fn take_in(&mut self, lane: usize, from: &Element) {
+        self.plastic_step.0[lane] = from.plastic_step;
+        self.step_before.0[lane] = from.plastic_step;
+        self.plastic_strain.0[lane] = from.plastic_strain;
+        self.plastic_axial.0[lane] = from.plastic_axial;
+        self.strain_slope.0[lane] = from.yield_point.strain_slope();
+        self.temperature.0[lane] = from.temperature;
+        self.largest_rate.0[lane] = from.largest_rate;
+    }
+
+    fn let_out(&self, lane: usize, to: &mut Element, yield_stress: f64) {
+        to.plastic_step = self.plastic_step.0[lane];
+        to.plastic_strain = self.plastic_strain.0[lane];
+        to.plastic_axial = self.plastic_axial.0[lane];
+        to.temperature = self.temperature.0[lane];
+        to.largest_rate = self.largest_rate.0[lane];
+        to.strain = to.plastic_axial + log_ratio(to.unloaded_length, to.length);
+        to.yield_point = YieldPoint::known(yield_stress, self.strain_slope.0[lane]);
+    }
+}
+
+impl Body {
+    fn take_in(&mut self, lane: usize, part: &Part) {
+        let law = part.strength.hardening().unwrap_or(Hardening::none(0.0));
+        self.modulus.0[lane] = part.modulus;
+        self.compliance.0[lane] = part.compliance;
+        self.slowness.0[lane] = part.slowness;
+        self.heating.0[lane] = part.heating;
+        self.coefficient.0[lane] = law.coefficient;
+        self.exponent.0[lane] = law.exponent;
+        self.first_strain.0[lane] = law.first_strain;
+    }
+}
+
+impl Whole {
+    fn take_in(&mut self, lane: usize, run: &Conservative<'_>) {
+        self.park(lane);
+        let state = &run.state;
+        self.courant.0[lane] = run.control.courant;
+        self.stable_step.0[lane] = state.stable_step;
+        self.closed.0[lane] = f64::from(state.joints[0].closed);
+        if let End::Open { impedance, .. } = state.end {
+            self.impedance.0[lane] = impedance;
+        }
+        self.back_position.0[lane] = state.back_position;
+        self.most_steps.0[lane] = run.max_steps as f64;
+        if run.scenario.target_thickness().is_some() {
+            self.perforated.0[lane] = state.back_position;
+        }
+        // The single run looks at the first step.
+        self.next_look.0[lane] = 0.0;
+    }
+
+    fn let_out(&self, lane: usize, run: &mut Conservative<'_>) {
+        let state = &mut run.state;
+        state.time = self.time.0[lane];
+        state.step = self.step.0[lane] as u64;
+        state.time_step = self.time_step.0[lane];
+        state.stable_step = self.stable_step.0[lane];
+        state.contact_force = self.contact_force.0[lane];
+        state.joints[0].closed = self.closed.0[lane] > 0.0;
+        state.meetings = self.meetings.0[lane] as u64;
+        let books = &mut state.books;
+        books.plastic = self.plastic_work.map(|work| work.0[lane]);
+        books.friction_work = self.friction_work.0[lane];
+        books.friction_impulse = self.friction_impulse.0[lane];
+        books.contact_loss = self.contact_loss.0[lane];
+        books.support_impulse = self.support_impulse.0[lane];
+        books.boundary_work = self.boundary_work.0[lane];
+        let watch = &mut run.watch;
+        watch.largest_depth = self.largest_depth.0[lane];
+        watch.peak_force = self.peak_force.0[lane];
+        watch.smallest_time_step = self.smallest_time_step.0[lane];
+        watch.contact_time = self.contact_time.0[lane];
+        watch.touched = self.touched.0[lane] > 0.0;
+    }
+
+    fn follow(&mut self, lane: usize, run: &Conservative<'_>) {
+        let watch = &run.watch;
+        self.largest_depth.0[lane] = watch.largest_depth;
+        self.peak_force.0[lane] = watch.peak_force;
+        self.smallest_time_step.0[lane] = watch.smallest_time_step;
+        self.contact_time.0[lane] = watch.contact_time;
+        self.touched.0[lane] = f64::from(watch.touched);
+        self.next_look.0[lane] = watch.next_look(run.scenario).min(run.end_time);
+        self.slow_tail.0[lane] = match watch.at_rest {
+            None => 0.5 * run.scenario.impact_speed,
+            Some(_) => f64::NEG_INFINITY,
+        };
+    }
+
+    fn park(&mut self, lane: usize) {
+        for of in [
+            &mut self.time,
+            &mut self.step,
+            &mut self.time_step,
+            &mut self.closed,
+            &mut self.meetings,
+            &mut self.contact_force,
+            &mut self.impedance,
+            &mut self.friction_work,
+            &mut self.friction_impulse,
+            &mut self.contact_loss,
+            &mut self.support_impulse,
+            &mut self.boundary_work,
+            &mut self.largest_depth,
+            &mut self.peak_force,
+            &mut self.smallest_time_step,
+            &mut self.contact_time,
+            &mut self.touched,
+            &mut self.back_position,
+        ]
+        .into_iter()
+        .chain(&mut self.plastic_work)
+        {
+            of.0[lane] = 0.0;
+        }
+        for of in [&mut self.courant, &mut self.stable_step, &mut self.closed] {
+            of.0[lane] = 1.0;
+        }
+        for of in [
+            &mut self.perforated,
+            &mut self.most_steps,
+            &mut self.next_look,
+        ] {
+            of.0[lane] = f64::INFINITY;
+        }
+        self.slow_tail.0[lane] = f64::NEG_INFINITY;
+    }
+}

@@ -1,0 +1,185 @@
+//! Many independent shots at once: eight of them side by side, each in a lane of the processor's vector unit.
+//!
+//! [`Bundle`] advances the state of eight shots by the equations of the single run, in the same order, lane by lane: no lane knows
+//! of another one, so that a shot ends with the same bits in whatever company it was computed. Whatever is rare (the books, the end
+//! of a shot, erosion) is left to the single run: the lane's state is put into its [`Conservative`] and goes on there.
+
+mod accepts;
+mod bundle;
+mod exchange;
+mod lanes;
+// Loops over the lanes run along many arrays at once.
+#[allow(clippy::needless_range_loop)]
+mod spring;
+#[allow(clippy::needless_range_loop)]
+mod step;
+#[cfg(test)]
+mod tests;
+
+use std::{
+    collections::BTreeMap,
+    ops::ControlFlow,
+    sync::atomic::{AtomicBool, Ordering},
+};
+
+use pulp::{Arch, NullaryFnOnce};
+
+pub(crate) use accepts::accepts;
+use bundle::{Bundle, Mesh};
+use lanes::LANES;
+
+use super::conservative::{AUDIT_INTERVAL, Conservative};
+use crate::{
+    Error, Scenario,
+    model::{Control, Progress},
+    outcome::RunResult,
+};
+
+/// The caller stopped the batch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Stopped;
+
+/// A shot in a lane.
+struct Passenger<'a> {
+    /// Its place among the shots.
+    shot: usize,
+    run: Conservative<'a>,
+}
+
+/// Results of shots that [`accepts`] accepts, in their order: those of [`Conservative::run`].
+///
+/// # Errors
+/// [`Stopped`].
+pub(crate) fn run(
+    scenarios: &[&Scenario],
+    stop: &AtomicBool,
+) -> Result<Vec<Result<RunResult, Error>>, Stopped> {
+    let mut results: Vec<Option<Result<RunResult, Error>>> = Vec::new();
+    results.resize_with(scenarios.len(), || None);
+    let mut meshes: BTreeMap<Mesh, Vec<usize>> = BTreeMap::new();
+    for (shot, scenario) in scenarios.iter().enumerate() {
+        meshes.entry(Mesh::of(scenario)).or_default().push(shot);
+    }
+    for (mesh, mut shots) in meshes {
+        // Shots that resemble each other have their waves in the same places: less is computed in vain. The slowest goes first.
+        shots.sort_by(|&a, &b| {
+            let speed = |shot: usize| scenarios[shot].impact_speed;
+            speed(a).total_cmp(&speed(b))
+        });
+        let mut ride = Ride {
+            bundle: Bundle::new(mesh),
+            lanes: [const { None }; LANES],
+            scenarios,
+            results: &mut results,
+            stop,
+        };
+        ride.run(shots)?;
+    }
+    let results = results.into_iter();
+    // Every shot is in one of the lists and leaves its lane with a result.
+    Ok(results.flatten().collect())
+}
+
+struct Ride<'a, 'b> {
+    bundle: Bundle,
+    lanes: [Option<Passenger<'a>>; LANES],
+    scenarios: &'b [&'a Scenario],
+    results: &'b mut [Option<Result<RunResult, Error>>],
+    stop: &'b AtomicBool,
+}
+
+impl Ride<'_, '_> {
+    fn run(&mut self, mut waiting: Vec<usize>) -> Result<(), Stopped> {
+        let arch = Arch::new();
+        loop {
+            for lane in 0..LANES {
+                if self.lanes[lane].is_none()
+                    && let Some(shot) = waiting.pop()
+                {
+                    let run = Conservative::new(self.scenarios[shot]);
+                    self.bundle.take_in(lane, &run);
+                    self.lanes[lane] = Some(Passenger { shot, run });
+                }
+            }
+            if self.lanes.iter().all(Option::is_none) {
+                return Ok(());
+            }
+            // Lanes change passengers between these stages, so that the books of all are due at the same time.
+            let mut left = AUDIT_INTERVAL;
+            while left > 0 {
+                let bundle = &mut self.bundle;
+                let calls = arch.dispatch(Advance {
+                    bundle,
+                    left: &mut left,
+                });
+                for (lane, calls) in calls.into_iter().enumerate() {
+                    if calls || left == 0 {
+                        self.attend(lane)?;
+                    }
+                }
+            }
+            if self.stop.load(Ordering::Relaxed) {
+                return Err(Stopped);
+            }
+        }
+    }
+
+    /// Lets the single run look at a lane after a step.
+    fn attend(&mut self, lane: usize) -> Result<(), Stopped> {
+        let Some(passenger) = &mut self.lanes[lane] else {
+            return Ok(());
+        };
+        let run = &mut passenger.run;
+        let stop = self.stop;
+        let mut watch = |_: Progress| match stop.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        };
+        let mut control = Control {
+            progress: Some(&mut watch),
+            ..Control::default()
+        };
+        let shot = passenger.shot;
+        let result = if self.bundle.let_out(lane, run) {
+            run.state.erode(run.control.erosion_strain);
+            run.watch.follow(&run.state, self.scenarios[shot]);
+            match run.ended(&mut control) {
+                Ok(None) if !run.state.elements.iter().any(|e| e.eroded) => {
+                    self.bundle.follow(lane, run);
+                    return Ok(());
+                }
+                // The single run goes on from here.
+                Ok(None) => Some(run.run_on(&mut control)),
+                Ok(Some(termination)) => run.finish(termination, None).ok().map(Ok),
+                Err(_) => None,
+            }
+        } else {
+            None
+        };
+        // What fails does so in the single run too, which knows what comes next.
+        let result =
+            result.unwrap_or_else(|| Conservative::new(self.scenarios[shot]).run_on(&mut control));
+        if let Err(Error::Cancelled { .. }) = result {
+            return Err(Stopped);
+        }
+        self.results[shot] = Some(result);
+        self.lanes[lane] = None;
+        self.bundle.park(lane);
+        Ok(())
+    }
+}
+
+/// Steps until a lane calls or none are left, compiled once for every instruction set.
+struct Advance<'b> {
+    bundle: &'b mut Bundle,
+    left: &'b mut u64,
+}
+
+impl NullaryFnOnce for Advance<'_> {
+    type Output = [bool; LANES];
+
+    #[inline(always)]
+    fn call(self) -> [bool; LANES] {
+        self.bundle.advance(self.left)
+    }
+}

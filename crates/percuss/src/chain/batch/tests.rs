@@ -1,0 +1,136 @@
+use std::sync::atomic::AtomicBool;
+
+use super::{LANES, accepts, run};
+use crate::{Error, Scenario, case, chain::conservative::Conservative, model::Control};
+
+/// A shot of the paper's rod and plate with other numbers.
+fn shot(rod: &str, target: &str, velocity: f64, options: &str) -> Scenario {
+    let text = format!(
+        "projectile = {{ material = '{rod}', length = '12.74 mm', diameter = '4.8 mm', velocity = '{velocity} m/s' }}\n\
+         target = {{ {target} }}\n[chain]\ntarget_closure = 'column'\n{options}\n[materials.elastic]\nname = 'e'\n\
+         density = '8000 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\nstrength.elastic = {{}}\n\
+         [materials.perfect]\nname = 'p'\ndensity = '8000 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\n\
+         specific_heat = '400 J/(kg K)'\nstrength.perfectly_plastic = {{ flow_stress = '600 MPa' }}\n"
+    );
+    case::load_str("shot", &text).unwrap_or_else(|error| panic!("{error}"))
+}
+
+const PLATE: &str = "material = 'aluminium-2024-t351', thickness = '25 mm'";
+
+/// Shots over speeds, materials, meshes, closures, back faces and ends.
+fn shots() -> Vec<Scenario> {
+    let coarse = "projectile_elements = 10\ntarget_elements = 20";
+    let mut shots = Vec::new();
+    for velocity in [20.0, 150.0, 190.0, 230.0, 310.0, 400.0] {
+        for more in ["", "border_shear = 0.0", "constraint_factor = 1.0"] {
+            let options = format!("{coarse}\n{more}");
+            shots.push(shot("copper", PLATE, velocity, &options));
+        }
+    }
+    let free = "material = 'aluminium-2024-t351', thickness = '9 mm', back_face = 'free'";
+    let thin = "material = 'aluminium-2024-t351', thickness = '3 mm', back_face = 'free'";
+    let endless = "material = 'aluminium-2024-t351', thickness = 'semi-infinite'";
+    let elastic = "material = 'elastic', thickness = '25 mm'";
+    let perfect = "material = 'perfect', thickness = '25 mm', column_diameter = '6 mm'";
+    for (rod, target, velocity, more) in [
+        ("copper", PLATE, 900.0, ""),
+        ("copper", PLATE, 600.0, "erosion_strain = 'never'"),
+        ("copper", PLATE, 300.0, "courant = 0.3"),
+        ("copper", PLATE, 300.0, "max_steps = 77"),
+        ("copper", PLATE, 300.0, "end_time = '9 us'"),
+        ("copper", free, 350.0, "border_shear = 0.0"),
+        (
+            "copper",
+            free,
+            350.0,
+            "border_shear = 0.1\nconstraint_factor = 1.0",
+        ),
+        (
+            "copper",
+            thin,
+            400.0,
+            "border_shear = 0.05\nconstraint_factor = 1.0",
+        ),
+        ("copper", endless, 300.0, ""),
+        ("copper", endless, 2500.0, "border_shear = 0.0"),
+        ("elastic", elastic, 100.0, "border_shear = 0.0"),
+        ("elastic", PLATE, 250.0, ""),
+        ("perfect", perfect, 250.0, "adiabatic_heating = false"),
+        ("perfect", PLATE, 180.0, "erosion_strain = 0.3"),
+    ] {
+        shots.push(shot(rod, target, velocity, &format!("{coarse}\n{more}")));
+    }
+    for (rod, target) in [(1, 1), (2, 3), (7, 5)] {
+        let mesh = format!("projectile_elements = {rod}\ntarget_elements = {target}");
+        shots.push(shot("copper", PLATE, 230.0, &mesh));
+    }
+    shots
+}
+
+/// Everything that a run says, in words that are the same only for the same bits.
+fn words(result: &Result<crate::outcome::RunResult, Error>) -> String {
+    format!("{result:?}")
+}
+
+fn together(shots: &[&Scenario]) -> Vec<String> {
+    let results = run(shots, &AtomicBool::new(false)).unwrap();
+    assert_eq!(results.len(), shots.len());
+    results.iter().map(words).collect()
+}
+
+#[test]
+fn shots_side_by_side_end_with_the_bits_of_single_runs() {
+    let shots = shots();
+    assert!(shots.len() > 3 * LANES && shots.iter().all(accepts));
+    let results = together(&shots.iter().collect::<Vec<_>>());
+    for (shot, result) in shots.iter().zip(&results) {
+        let alone = Conservative::new(shot).run(&mut Control::default());
+        assert_eq!(result, &words(&alone), "{:?}", shot.options.chain);
+    }
+    let said = |what: &str| results.iter().filter(|words| words.contains(what)).count();
+    // The shots are worth something as a test only if they end in many ways.
+    for outcome in ["Rebounded", "Perforated", "StepLimit", "EndTime"] {
+        assert!(said(outcome) > 0, "none is {outcome}");
+    }
+    assert!(said("eroded_elements: (0, 0)") < results.len());
+}
+
+#[test]
+fn a_shot_knows_nothing_of_its_company() {
+    let shots = shots();
+    let all: Vec<&Scenario> = shots.iter().collect();
+    let expected = together(&all);
+    let mut backwards: Vec<&Scenario> = all.iter().rev().copied().collect();
+    let mut results = together(&backwards);
+    results.reverse();
+    assert_eq!(results, expected);
+    for size in [1, 3, 11] {
+        let parts: Vec<String> = all.chunks(size).flat_map(together).collect();
+        assert_eq!(parts, expected, "{size} at once");
+    }
+    backwards.truncate(5);
+    backwards.extend(all.iter().take(2));
+    assert_eq!(together(&backwards)[5..], expected[..2]);
+}
+
+#[test]
+fn shots_that_need_more_are_left_to_the_single_run() {
+    for more in [
+        "damping_ratio = 0.1",
+        "local_damping = 0.1",
+        "kinematics = 'small-strain'",
+        "artificial_viscosity.linear = 0.1",
+        "erosion_closure = 'tate'",
+        "failure.spall = { strength = '1 GPa' }",
+    ] {
+        assert!(!accepts(&shot("copper", PLATE, 200.0, more)), "{more}");
+    }
+    assert!(accepts(&shot("copper", PLATE, 200.0, "")));
+}
+
+#[test]
+fn a_stopped_batch_says_so() {
+    let shots = shots();
+    let all: Vec<&Scenario> = shots.iter().collect();
+    assert!(run(&all, &AtomicBool::new(true)).is_err());
+}
