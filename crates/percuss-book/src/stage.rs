@@ -3,9 +3,10 @@
 use std::{fs, io, path::Path};
 
 /// What readers of the guide are sent to, besides `docs/`.
-const BESIDE: [&str; 6] = [
+const BESIDE: [&str; 7] = [
     "cases",
     "crates/percuss/data",
+    "examples",
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
@@ -23,7 +24,13 @@ pub(crate) fn gather(root: &Path, to: &Path) -> io::Result<()> {
     let contents = to.join("docs/SUMMARY.md");
     let text = fs::read_to_string(&contents)?;
     fs::remove_file(&contents)?;
-    fs::write(to.join("SUMMARY.md"), from_root(&text))
+    fs::write(to.join("SUMMARY.md"), with_index_pages(&from_root(&text)))
+}
+
+/// The first page of a folder is its `index.md`: that is what its links lead to in a book.
+fn with_index_pages(page: &str) -> String {
+    page.replace("README.md)", "index.md)")
+        .replace("README.md#", "index.md#")
 }
 
 /// A table of contents whose links lead from the root of the repository, not from `docs/`.
@@ -39,7 +46,15 @@ fn copy(from: &Path, to: &Path) -> io::Result<()> {
         if let Some(folder) = to.parent() {
             fs::create_dir_all(folder)?;
         }
-        return fs::copy(from, to).map(|_| ());
+        if from.extension().is_none_or(|end| end != "md") {
+            return fs::copy(from, to).map(|_| ());
+        }
+        let page = with_index_pages(&fs::read_to_string(from)?);
+        let is_first = from.file_name().is_some_and(|name| name == "README.md");
+        return match is_first {
+            true => fs::write(to.with_file_name("index.md"), page),
+            false => fs::write(to, page),
+        };
     }
     for entry in fs::read_dir(from)? {
         let entry = entry?;

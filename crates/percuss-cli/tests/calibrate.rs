@@ -246,6 +246,6 @@ fn an_interrupt_ends_it() {
     let output = child.wait_with_output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(130), "{said}");
-    assert!(said.contains("the calibration was stopped after"), "{said}");
+    assert!(said.contains("the calibration was stopped"), "{said}");
     assert_eq!(fs::read_dir(folder.path().join("out")).unwrap().count(), 0);
 }

@@ -9,7 +9,7 @@ use std::{
     },
 };
 
-use percuss::sweep::{Row, ScalarKernel, Sweep as Loaded};
+use percuss::sweep::{BatchKernel, Row, Sweep as Loaded};
 use percuss_cli::Failure;
 use percuss_report::sweep::{self, Block, SweepFolder as Folder};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyBytes};
@@ -61,7 +61,7 @@ impl Sweep {
             return Err(PyValueError::new_err(format!("there is no block {block}")));
         }
         let stop = AtomicBool::new(false);
-        let kernel = ScalarKernel::new(self.sweep.model);
+        let kernel = BatchKernel::new(self.sweep.model);
         let computed = py.detach(|| Block::compute(&self.sweep, &kernel, block, &stop));
         match computed.map_err(|error| raise(py, error))? {
             Some(computed) => Ok(PyBytes::new(py, &computed.content)),
@@ -146,7 +146,7 @@ pub fn compute_sweep(
                 message: format!("cannot start the threads: {error}"),
                 help: "ask for fewer threads".to_owned(),
             })?;
-        let kernel = ScalarKernel::new(sweep.model);
+        let kernel = BatchKernel::new(sweep.model);
         Ok(pool.install(|| folder.compute(sweep, &kernel, &blocks, board.stop(), &hear))?)
     })
 }

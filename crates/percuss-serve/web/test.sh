@@ -12,6 +12,7 @@ if [ -z "$chromium" ]; then
     chromium=/usr/bin/chromium
 fi
 export CHROMIUM="$chromium"
+command -v npm >/dev/null || { echo "npm is missing: install Node.js with npm to test the page" >&2; exit 1; }
 
 npm ci --no-audit --no-fund --loglevel=error
 npx tsc --noEmit

@@ -8,7 +8,7 @@ use std::{
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     model::{self, MODELS, Model},
-    sweep::ScalarKernel,
+    sweep::BatchKernel,
     uncertainty::{
         self, MAX_SAMPLES, MIN_SAMPLES, QUANTITIES, Quantity, Settings, Study,
         Uncertainty as Found, Watch,
@@ -168,7 +168,7 @@ impl Uncertainty {
                 );
             },
         };
-        let kernel = ScalarKernel::new(model);
+        let kernel = BatchKernel::new(model);
         let found = pool.install(|| uncertainty::analyse(study, model, &kernel, &settings, &watch));
         board
             .into_inner()
