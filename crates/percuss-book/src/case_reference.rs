@@ -131,10 +131,10 @@ impl Reference<'_> {
 }
 
 /// Required keys first.
-fn in_order<'a>(
-    properties: &'a Map<String, Value>,
+fn in_order(
+    properties: &Map<String, Value>,
     required: impl Fn(&str) -> bool,
-) -> Vec<(&'a String, &'a Value)> {
+) -> Vec<(&String, &Value)> {
     let mut keys: Vec<(&String, &Value)> = properties.iter().collect();
     keys.sort_by_key(|(key, _)| !required(key));
     keys
