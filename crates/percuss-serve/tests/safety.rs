@@ -3,7 +3,7 @@
 mod support;
 
 use std::{
-    io::Write,
+    io::{Read, Write},
     net::{IpAddr, Ipv4Addr, SocketAddr},
     thread,
     time::{Duration, Instant},
@@ -399,7 +399,14 @@ fn runs_have_places_and_free_them_when_nobody_waits() {
     let request = post_request(served.address, "/api/study/run", long.as_bytes(), "");
     let mut waiting = served.connect();
     waiting.write_all(&request).unwrap();
-    thread::sleep(Duration::from_millis(500));
+    // What it says of its progress shows that the run has its place.
+    let mut said = Vec::new();
+    while !String::from_utf8_lossy(&said).contains("progress") {
+        let mut some = [0; 512];
+        let count = waiting.read(&mut some).unwrap();
+        assert!(count > 0, "{}", String::from_utf8_lossy(&said));
+        said.extend_from_slice(&some[..count]);
+    }
     let busy = served.post_bytes("/api/answer", &body(), "");
     assert_eq!(busy.status, 503);
     assert_eq!(busy.problem(), "1 runs are under way, the most at a time");
