@@ -45,7 +45,7 @@ const EXP: [f64; 11] = [
     4.454_960_598_186_518_6e-10,
 ];
 
-/// `x^n` of a positive number, 0 of zero: within 2 units in the last place for exponents up to 1 in magnitude, on average 0.15.
+/// `x^n` of a positive number, 0 of zero, no number of what is none: within 2 units in the last place for exponents up to 1 in magnitude, on average 0.15.
 ///
 /// `x` is 0 or normal, and `x^n` neither overflows nor becomes subnormal. Beyond 1 the error grows with the exponent.
 #[inline(always)]
@@ -73,7 +73,7 @@ pub(crate) fn power(x: f64, n: f64) -> f64 {
     let high = (EXP[8] + r * EXP[9]) + r2 * EXP[10];
     let scaled = 1.0 + r * (low + r4 * (middle + r4 * high));
     let result = f64::from_bits(scaled.to_bits().wrapping_add(shifted.to_bits() << 52));
-    if x > 0.0 { result } else { 0.0 }
+    if x > 0.0 { result } else { x }
 }
 
 /// Largest `(a − b)/(a + b)` for which [`small_log_ratio`] is exact to the last places.

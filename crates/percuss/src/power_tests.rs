@@ -41,6 +41,7 @@ fn powers_that_are_known_exactly() {
         assert_eq!(power(2.0_f64.powi(4 * k), 0.25), 2.0_f64.powi(k));
     }
     assert_eq!(power(0.0, 0.1), 0.0);
+    assert!(power(f64::NAN, 0.1).is_nan());
     assert_eq!(power(1.0, 0.7), 1.0);
 }
 
