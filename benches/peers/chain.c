@@ -1,0 +1,154 @@
+/*
+ * Chains of masses and springs by central differences. POWER names the file with the function `power`:
+ *     cc -O3 -march=native -fopenmp -DPOWER='"power_polynomial.h"' chain.c -o chain -lm
+ * Usage: chain PROBLEM one|batch power|linear THREADS END
+ */
+#include <math.h>
+#include <omp.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "chain.h"
+#include POWER
+
+static void fail(const char *what)
+{
+    fprintf(stderr, "chain: %s\n", what);
+    exit(1);
+}
+
+static void *reserve(size_t bytes)
+{
+    void *memory = aligned_alloc(64, (bytes + 63) / 64 * 64);
+    if (!memory)
+        fail("no memory left");
+    memset(memory, 0, bytes);
+    return memory;
+}
+
+/* Time [s] that processors have spent on this process. */
+static double processor_time(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return time.tv_sec + 1e-9 * time.tv_nsec;
+}
+
+static Problem *read_problem(const char *path)
+{
+    Problem *p = reserve(sizeof *p);
+    FILE *file = fopen(path, "r");
+    if (!file)
+        fail("cannot open the problem");
+    if (fscanf(file, "%d %d %ld %ld %lf", &p->springs, &p->rod, &p->chains, &p->steps, &p->time_step) != 5
+        || p->springs < 1 || p->springs > MOST_SPRINGS)
+        fail("the problem has no proper first line");
+    for (int i = 0; i < p->springs; i++) {
+        double mass, length;
+        if (fscanf(file, "%lf %lf %lf %lf %lf", &mass, &length, &p->stiffness[i], &p->coefficient[i], &p->exponent[i]) != 5)
+            fail("the problem lacks springs");
+        p->kick[i] = p->time_step / mass;
+        p->per_length[i] = 1.0 / length;
+    }
+    p->speed = reserve(sizeof(double) * p->chains);
+    for (long c = 0; c < p->chains; c++)
+        if (fscanf(file, "%lf", &p->speed[c]) != 1)
+            fail("the problem lacks speeds");
+    fclose(file);
+    return p;
+}
+
+/* Force of spring i at a strain. */
+static inline __attribute__((always_inline)) double force(const Problem *p, int i, double strain, bool linear)
+{
+    if (linear)
+        return p->stiffness[i] * strain;
+    double size = fabs(strain);
+    double elastic = p->stiffness[i] * size;
+    double flow = p->coefficient[i] * power(size, p->exponent[i]);
+    return copysign(flow < elastic ? flow : elastic, strain);
+}
+
+/* One chain, springs side by side. */
+static inline __attribute__((always_inline)) void advance_one(const Problem *p, long chain, double *end, bool linear)
+{
+    _Alignas(64) double u[MOST_SPRINGS + 1] = {0}, v[MOST_SPRINGS] = {0}, forces[MOST_SPRINGS + 1] = {0};
+    const int springs = p->springs;
+    const double time_step = p->time_step;
+    for (int i = 0; i < p->rod; i++)
+        v[i] = p->speed[chain];
+    for (long step = 0; step < p->steps; step++) {
+#pragma omp simd
+        for (int i = 0; i < springs; i++)
+            forces[i + 1] = force(p, i, (u[i] - u[i + 1]) * p->per_length[i], linear);
+#pragma omp simd
+        for (int i = 0; i < springs; i++) {
+            v[i] += (forces[i] - forces[i + 1]) * p->kick[i];
+            u[i] += v[i] * time_step;
+        }
+    }
+    memcpy(end, u, sizeof(double) * springs);
+}
+
+/* LANES chains, one in each lane: chains side by side. */
+static inline __attribute__((always_inline)) void advance_lanes(const Problem *p, long chain, double *end, bool linear)
+{
+    _Alignas(64) double u[MOST_SPRINGS + 1][LANES] = {0}, v[MOST_SPRINGS][LANES] = {0};
+    const int springs = p->springs;
+    const double time_step = p->time_step;
+    for (int i = 0; i < p->rod; i++)
+        for (int l = 0; l < LANES; l++)
+            v[i][l] = p->speed[chain + l];
+    for (long step = 0; step < p->steps; step++) {
+        _Alignas(64) double behind[LANES] = {0};
+        for (int i = 0; i < springs; i++) {
+#pragma omp simd simdlen(LANES)
+            for (int l = 0; l < LANES; l++) {
+                double ahead = force(p, i, (u[i][l] - u[i + 1][l]) * p->per_length[i], linear);
+                v[i][l] += (behind[l] - ahead) * p->kick[i];
+                u[i][l] += v[i][l] * time_step;
+                behind[l] = ahead;
+            }
+        }
+    }
+    for (int l = 0; l < LANES; l++)
+        for (int i = 0; i < springs; i++)
+            end[l * springs + i] = u[i][l];
+}
+
+/* The loops once for every law, so that the law is no question inside them. */
+static __attribute__((noinline)) void one_power(const Problem *p, long c, double *end) { advance_one(p, c, end, false); }
+static __attribute__((noinline)) void one_linear(const Problem *p, long c, double *end) { advance_one(p, c, end, true); }
+static __attribute__((noinline)) void lanes_power(const Problem *p, long c, double *end) { advance_lanes(p, c, end, false); }
+static __attribute__((noinline)) void lanes_linear(const Problem *p, long c, double *end) { advance_lanes(p, c, end, true); }
+
+int main(int count, char **words)
+{
+    if (count != 6)
+        fail("usage: chain PROBLEM one|batch power|linear THREADS END");
+    Problem *p = read_problem(words[1]);
+    bool batch = !strcmp(words[2], "batch"), linear = !strcmp(words[3], "linear");
+    omp_set_num_threads(atoi(words[4]));
+    long together = batch ? LANES : 1;
+    if (p->chains % together)
+        fail("a batch is a multiple of 8 chains");
+    void (*advance)(const Problem *, long, double *)
+        = batch ? (linear ? lanes_linear : lanes_power) : (linear ? one_linear : one_power);
+    double *end = reserve(sizeof(double) * p->chains * p->springs);
+    /* Threads start before the clock does. */
+#pragma omp parallel
+    {
+    }
+    double start = omp_get_wtime(), start_of_work = processor_time();
+#pragma omp parallel for schedule(dynamic)
+    for (long c = 0; c < p->chains; c += together)
+        advance(p, c, end + c * p->springs);
+    printf("%.9f %.9f\n", omp_get_wtime() - start, processor_time() - start_of_work);
+    FILE *file = fopen(words[5], "wb");
+    if (!file || fwrite(end, sizeof(double), p->chains * p->springs, file) != (size_t)(p->chains * p->springs) || fclose(file))
+        fail("cannot write where the chains end");
+    return 0;
+}
