@@ -31,7 +31,7 @@ pub(crate) struct Problem {
     pub(crate) speeds: Vec<f64>,
 }
 
-/// Reads what `runner/problem.py` has written.
+/// Reads what `runner/work.py` has written.
 pub(crate) fn read(path: &str) -> Outcome<Problem> {
     let text = fs::read_to_string(path)?;
     let mut words = text.split_ascii_whitespace();
