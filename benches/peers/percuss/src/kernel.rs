@@ -1,6 +1,6 @@
 //! The work of the other programs, by percuss's power function and in lanes like those of its batch engine.
 
-use percuss::power::ScaledLogarithm;
+use percuss::power::{Exponent, Logarithm, Split};
 use pulp::{Arch, NullaryFnOnce};
 use rayon::prelude::*;
 
@@ -12,14 +12,18 @@ use crate::{
 /// Chains side by side.
 const LANES: usize = 8;
 
-/// Springs whose powers are computed together: all logarithms, then all that is left. Half as long a chain of dependent operations lets the
-/// processor work on more of them at a time.
+/// Springs whose powers are computed together, a stage for all of them before the next one.
 const TILE: usize = 12;
+
+/// Springs that a loop over the lanes takes at once. One would be too little for a compiler to see that the lanes are the vector.
+const GROUP: usize = 2;
 
 /// A number of every lane, where one load brings all of them.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C, align(64))]
 struct Lanes([f64; LANES]);
+
+type Group = [Lanes; GROUP];
 
 /// The way to advance the chains of a problem: the result is where their masses end [m], chain by chain.
 pub(crate) fn choose(together: &str, law: &str) -> Outcome<fn(&Problem) -> Vec<f64>> {
@@ -52,7 +56,7 @@ fn side_by_side(problem: &Problem) -> Vec<f64> {
 
 /// Force of a spring: the power law, capped by the elastic line.
 #[inline(always)]
-fn force(spring: &Spring, strain: f64, logarithm: ScaledLogarithm) -> f64 {
+fn force(spring: &Spring, strain: f64, logarithm: Logarithm) -> f64 {
     let elastic = spring.stiffness * strain.abs();
     let flow = spring.coefficient * logarithm.raise();
     let smaller = if flow < elastic { flow } else { elastic };
@@ -77,17 +81,17 @@ impl<const LINEAR: bool> NullaryFnOnce for One<'_, LINEAR> {
         let column = |of: fn(&Spring) -> f64| springs.iter().map(of).collect::<Vec<f64>>();
         let (kick, per_length) = (column(|s| s.kick), column(|s| s.per_length));
         let (stiffness, coefficient) = (column(|s| s.stiffness), column(|s| s.coefficient));
-        let exponent = column(|s| s.exponent);
+        let exponents = column(|s| s.exponent.value());
         // The last place is the wall, and nothing pulls at the front of the chain.
         let (mut positions, mut velocities) = (vec![0.0; count + 1], vec![0.0; count]);
         let (mut strains, mut forces) = (vec![0.0; count], vec![0.0; count + 1]);
-        let (mut whole, mut part) = (vec![0.0; count], vec![0.0; count]);
+        let (mut first, mut second) = (vec![0.0; count], vec![0.0; count]);
         velocities[..self.problem.rod].fill(self.speed);
         // Slices of one length, so that no loop has bounds to check.
         let (kick, per_length) = (&kick[..count], &per_length[..count]);
         let (stiffness, coefficient) = (&stiffness[..count], &coefficient[..count]);
-        let (exponent, strains) = (&exponent[..count], &mut strains[..count]);
-        let (whole, part) = (&mut whole[..count], &mut part[..count]);
+        let (exponents, strains) = (&exponents[..count], &mut strains[..count]);
+        let (first, second) = (&mut first[..count], &mut second[..count]);
         for _ in 0..self.problem.steps {
             let (here, next) = (&positions[..count], &positions[1..][..count]);
             let ahead = &mut forces[1..][..count];
@@ -96,19 +100,25 @@ impl<const LINEAR: bool> NullaryFnOnce for One<'_, LINEAR> {
                 if LINEAR {
                     ahead[i] = stiffness[i] * strains[i];
                 } else {
-                    let logarithm = ScaledLogarithm::new(strains[i].abs(), exponent[i]);
-                    (whole[i], part[i]) = (logarithm.whole, logarithm.part);
+                    let Split { binary, ratio } = Split::of(strains[i].abs());
+                    (first[i], second[i]) = (binary, ratio);
                 }
             }
             if !LINEAR {
+                for i in 0..count {
+                    let (binary, ratio) = (first[i], second[i]);
+                    let Logarithm { whole, part } =
+                        Split { binary, ratio }.logarithm(Exponent::new(exponents[i]));
+                    (first[i], second[i]) = (whole, part);
+                }
                 for i in 0..count {
                     let spring = Spring {
                         stiffness: stiffness[i],
                         coefficient: coefficient[i],
                         ..Spring::default()
                     };
-                    let (whole, part) = (whole[i], part[i]);
-                    ahead[i] = force(&spring, strains[i], ScaledLogarithm { whole, part });
+                    let (whole, part) = (first[i], second[i]);
+                    ahead[i] = force(&spring, strains[i], Logarithm { whole, part });
                 }
             }
             let (behind, ahead) = (&forces[..count], &forces[1..][..count]);
@@ -145,36 +155,56 @@ impl NullaryFnOnce for Bundle<'_> {
         let mut positions = vec![Lanes::default(); springs.len() * TILE + 1];
         let mut velocities = vec![Lanes::default(); springs.len() * TILE];
         velocities[..self.problem.rod].fill(self.lanes);
-        let mut strains = [Lanes::default(); TILE];
-        let (mut whole, mut part) = (strains, strains);
+        let mut strains = [Group::default(); TILE / GROUP];
+        let (mut firsts, mut seconds) = (strains, strains);
         for _ in 0..self.problem.steps {
             let mut behind = Lanes::default();
-            let tiles = springs.iter().zip(velocities.as_chunks_mut::<TILE>().0);
-            for (tile, (springs, velocities)) in tiles.enumerate() {
-                let positions = &mut positions[tile * TILE..][..=TILE];
-                for i in 0..TILE {
-                    let spring = &springs[i];
-                    let (here, next) = (positions[i], positions[i + 1]);
+            for (tile, springs) in springs.iter().enumerate() {
+                let springs = springs.as_chunks::<GROUP>().0;
+                let start = tile * TILE;
+                for (group, springs) in springs.iter().enumerate() {
+                    let positions = &positions[start + group * GROUP..][..=GROUP];
+                    let mut strain = Group::default();
+                    let (mut first, mut second) = (strain, strain);
                     for l in 0..LANES {
-                        let strain = (here.0[l] - next.0[l]) * spring.per_length;
-                        let logarithm = ScaledLogarithm::new(strain.abs(), spring.exponent);
-                        strains[i].0[l] = strain;
-                        whole[i].0[l] = logarithm.whole;
-                        part[i].0[l] = logarithm.part;
+                        for (i, spring) in springs.iter().enumerate() {
+                            let change = positions[i].0[l] - positions[i + 1].0[l];
+                            strain[i].0[l] = change * spring.per_length;
+                            let split = Split::of(strain[i].0[l].abs());
+                            (first[i].0[l], second[i].0[l]) = (split.binary, split.ratio);
+                        }
                     }
+                    (strains[group], firsts[group], seconds[group]) = (strain, first, second);
                 }
-                for i in 0..TILE {
-                    let spring = &springs[i];
-                    let (strain, whole, part) = (strains[i].0, whole[i].0, part[i].0);
-                    let (mut here, mut velocity) = (positions[i], velocities[i]);
-                    let mut ahead = Lanes::default();
+                for (group, springs) in springs.iter().enumerate() {
+                    let (mut first, mut second) = (firsts[group], seconds[group]);
                     for l in 0..LANES {
-                        let (whole, part) = (whole[l], part[l]);
-                        ahead.0[l] = force(spring, strain[l], ScaledLogarithm { whole, part });
-                        velocity.0[l] += (behind.0[l] - ahead.0[l]) * spring.kick;
-                        here.0[l] += velocity.0[l] * time_step;
+                        for (i, spring) in springs.iter().enumerate() {
+                            let (binary, ratio) = (first[i].0[l], second[i].0[l]);
+                            let log = Split { binary, ratio }.logarithm(spring.exponent);
+                            (first[i].0[l], second[i].0[l]) = (log.whole, log.part);
+                        }
                     }
-                    (positions[i], velocities[i], behind) = (here, velocity, ahead);
+                    (firsts[group], seconds[group]) = (first, second);
+                }
+                for (group, springs) in springs.iter().enumerate() {
+                    let positions = &mut positions[start + group * GROUP..][..GROUP];
+                    let velocities = &mut velocities[start + group * GROUP..][..GROUP];
+                    let (strain, first, second) = (strains[group], firsts[group], seconds[group]);
+                    let (mut position, mut velocity) = (Group::default(), Group::default());
+                    position.copy_from_slice(positions);
+                    velocity.copy_from_slice(velocities);
+                    for l in 0..LANES {
+                        for (i, spring) in springs.iter().enumerate() {
+                            let (whole, part) = (first[i].0[l], second[i].0[l]);
+                            let ahead = force(spring, strain[i].0[l], Logarithm { whole, part });
+                            velocity[i].0[l] += (behind.0[l] - ahead) * spring.kick;
+                            position[i].0[l] += velocity[i].0[l] * time_step;
+                            behind.0[l] = ahead;
+                        }
+                    }
+                    positions.copy_from_slice(&position);
+                    velocities.copy_from_slice(&velocity);
                 }
             }
         }
