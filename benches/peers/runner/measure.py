@@ -9,7 +9,7 @@ import sys
 from dataclasses import dataclass
 
 import work
-from prepare import BATCH, ONE_POWER, PEERS, ROOT, TARGET, Program
+from prepare import BATCH, ONE_POWER, PEERS, ROOT, TARGET, Missing, Program
 
 REFERENCE = "percuss"
 STEPS = 5000
@@ -69,14 +69,15 @@ def run(program: Program, kind: Work, chains: int) -> tuple[Timing, array.array]
 
 
 def answer(words: list[str], environment: dict[str, str]) -> list[float]:
-    done = subprocess.run(words, stdout=subprocess.PIPE, text=True, env=os.environ | environment)
+    done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ | environment)
     if done.returncode:
-        raise SystemExit(f"`{' '.join(words)}` failed")
+        said = done.stderr.strip().splitlines()
+        raise Missing(f"`{' '.join(words)}` failed: {said[-1] if said else 'without a word'}")
     return [float(word) for word in done.stdout.split()]
 
 
-def check(programs: list[Program]) -> list[Checked]:
-    """Runs every program on every kind of work that it knows, and compares the ends."""
+def check(programs: list[Program], skipped: dict[str, str]) -> list[Checked]:
+    """Runs every program on every kind of work that it knows, and compares the ends. What fails joins the programs that are skipped."""
     for old in TARGET.glob("chains_*.txt"):
         old.unlink()
     reference = next(program for program in programs if program.name == REFERENCE)
@@ -84,7 +85,12 @@ def check(programs: list[Program]) -> list[Checked]:
     for program in programs:
         for kind in program.works:
             _, wanted = run(reference, (*kind[:2], 1), program.chains)
-            timing, ends = run(program, kind, program.chains)
+            try:
+                timing, ends = run(program, kind, program.chains)
+            except Missing as missing:
+                skipped[f"{program.name}, {words_of(kind)}"] = missing.why
+                print(f"{program.name}, {words_of(kind)}: skipped: {missing.why}", file=sys.stderr)
+                continue
             off = difference(wanted, ends)
             checked.append(Checked(program, kind, off, timing))
             verdict = "agrees" if checked[-1].agrees else f"DOES NOT AGREE within {program.tolerance:g}: not timed"

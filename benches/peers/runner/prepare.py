@@ -32,11 +32,12 @@ class Program:
     environment: dict[str, str] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
 class Missing(Exception):
     """Why a program is skipped."""
 
-    why: str
+    @property
+    def why(self) -> str:
+        return str(self)
 
 
 def said(command: list[str], **options: object) -> None:
