@@ -1,6 +1,7 @@
 /*
  * Chains of masses and springs by central differences. POWER names the file with the function `power`:
  *     cc -O3 -march=native -fopenmp -DPOWER='"power_polynomial.h"' chain.c -o chain -lm
+ * An own power is computed in stages, or with -DPLAIN in one go.
  * Usage: chain PROBLEM one|batch power|linear THREADS END
  */
 #include <math.h>
@@ -13,6 +14,11 @@
 
 #include "chain.h"
 #include POWER
+
+#ifdef STAGES
+/* An own power, in one go. */
+static inline __attribute__((always_inline)) double power(double x, double n) { return raise(logarithm(split(x), n)); }
+#endif
 
 static void fail(const char *what)
 {
@@ -93,15 +99,28 @@ static inline __attribute__((always_inline)) void advance_one(const Problem *p, 
     memcpy(end, u, sizeof(double) * springs);
 }
 
+/* Chains that start, one in each lane. */
+static inline void set_out(const Problem *p, long chain, double v[][LANES])
+{
+    for (int i = 0; i < p->rod; i++)
+        for (int l = 0; l < LANES; l++)
+            v[i][l] = p->speed[chain + l];
+}
+
+static inline void arrive(const Problem *p, double u[][LANES], double *end)
+{
+    for (int l = 0; l < LANES; l++)
+        for (int i = 0; i < p->springs; i++)
+            end[l * p->springs + i] = u[i][l];
+}
+
 /* LANES chains, one in each lane: chains side by side. */
 static inline __attribute__((always_inline)) void advance_lanes(const Problem *p, long chain, double *end, bool linear)
 {
     _Alignas(64) double u[MOST_SPRINGS + 1][LANES] = {0}, v[MOST_SPRINGS][LANES] = {0};
     const int springs = p->springs;
     const double time_step = p->time_step;
-    for (int i = 0; i < p->rod; i++)
-        for (int l = 0; l < LANES; l++)
-            v[i][l] = p->speed[chain + l];
+    set_out(p, chain, v);
     for (long step = 0; step < p->steps; step++) {
         _Alignas(64) double behind[LANES] = {0};
         for (int i = 0; i < springs; i++) {
@@ -114,15 +133,69 @@ static inline __attribute__((always_inline)) void advance_lanes(const Problem *p
             }
         }
     }
-    for (int l = 0; l < LANES; l++)
-        for (int i = 0; i < springs; i++)
-            end[l * springs + i] = u[i][l];
+    arrive(p, u, end);
 }
+
+#if defined STAGES && !defined PLAIN
+enum { TILE = 12 };
+
+/* The same, with the stages of the powers of TILE springs one after the other: shorter chains of dependent operations overlap better. */
+static inline __attribute__((always_inline)) void advance_staged(const Problem *p, long chain, double *end)
+{
+    _Alignas(64) double u[MOST_SPRINGS + 1][LANES] = {0}, v[MOST_SPRINGS][LANES] = {0};
+    _Alignas(64) double strain[TILE][LANES], first[TILE][LANES], second[TILE][LANES];
+    const int springs = p->springs;
+    const double time_step = p->time_step;
+    set_out(p, chain, v);
+    for (long step = 0; step < p->steps; step++) {
+        _Alignas(64) double behind[LANES] = {0};
+        for (int start = 0; start < springs; start += TILE) {
+            const int stop = springs - start < TILE ? springs - start : TILE;
+            for (int t = 0; t < stop; t++) {
+                const int i = start + t;
+#pragma omp simd simdlen(LANES)
+                for (int l = 0; l < LANES; l++) {
+                    strain[t][l] = (u[i][l] - u[i + 1][l]) * p->per_length[i];
+                    Pair x = split(fabs(strain[t][l]));
+                    first[t][l] = x.first;
+                    second[t][l] = x.second;
+                }
+            }
+            for (int t = 0; t < stop; t++) {
+                const int i = start + t;
+#pragma omp simd simdlen(LANES)
+                for (int l = 0; l < LANES; l++) {
+                    Pair y = logarithm((Pair){first[t][l], second[t][l]}, p->exponent[i]);
+                    first[t][l] = y.first;
+                    second[t][l] = y.second;
+                }
+            }
+            for (int t = 0; t < stop; t++) {
+                const int i = start + t;
+#pragma omp simd simdlen(LANES)
+                for (int l = 0; l < LANES; l++) {
+                    double elastic = p->stiffness[i] * fabs(strain[t][l]);
+                    double flow = p->coefficient[i] * raise((Pair){first[t][l], second[t][l]});
+                    double ahead = copysign(flow < elastic ? flow : elastic, strain[t][l]);
+                    v[i][l] += (behind[l] - ahead) * p->kick[i];
+                    u[i][l] += v[i][l] * time_step;
+                    behind[l] = ahead;
+                }
+            }
+        }
+    }
+    arrive(p, u, end);
+}
+#endif
 
 /* The loops once for every law, so that the law is no question inside them. */
 static __attribute__((noinline)) void one_power(const Problem *p, long c, double *end) { advance_one(p, c, end, false); }
 static __attribute__((noinline)) void one_linear(const Problem *p, long c, double *end) { advance_one(p, c, end, true); }
+#if defined STAGES && !defined PLAIN
+static __attribute__((noinline)) void lanes_power(const Problem *p, long c, double *end) { advance_staged(p, c, end); }
+#else
 static __attribute__((noinline)) void lanes_power(const Problem *p, long c, double *end) { advance_lanes(p, c, end, false); }
+#endif
 static __attribute__((noinline)) void lanes_linear(const Problem *p, long c, double *end) { advance_lanes(p, c, end, true); }
 
 int main(int count, char **words)

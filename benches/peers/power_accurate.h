@@ -3,23 +3,23 @@
  *
  * For positive normal x. At x = 0 it is some small positive number, which the cap by the elastic line takes away.
  */
-#include "bits.h"
+#include "stages.h"
 
-static inline __attribute__((always_inline)) double power(double x, double n)
+/* n log2 x as a sum of which the first part is exact. log2 m = s L(s^2), the first term of L in two numbers. */
+static inline __attribute__((always_inline)) Pair logarithm(Pair x, double n)
 {
-    /* x = 2^k m with m from sqrt(1/2) to sqrt(2); k by the low bits of 2^52 + k. */
-    uint64_t bits = as_bits(x), moved = bits + (0x3ff0000000000000 - 0x3fe6a09e667f3bcd);
-    double k = as_number(moved >> 52 | 0x4330000000000000) - (0x1p52 + 1023.0);
-    double m = as_number(bits - (moved & 0xfff0000000000000) + 0x3ff0000000000000);
-    /* log2 m = s L(s^2), s = (m - 1)/(m + 1), the first term of L in two numbers. */
-    double s = (m - 1.0) / (m + 1.0), z = s * s, z2 = z * z;
+    double k = x.first, s = x.second, z = s * s, z2 = z * z;
     double low = (0.961796693925976 + z * 0.5770780163541355) + z2 * (0.412198583898078 + z * 0.32059873801756367);
     double high = (0.2623236397004895 + z * 0.221189987214124) + z2 * 0.21087079476015172;
     double log = s * 2.8853900817779268 + s * (4.0710547481862066e-17 + z * (low + z2 * z2 * high));
-    /* n (k + log) less the nearest whole number, which stands in the low bits of the sum with 1.5 * 2^52. */
     double n_high = as_number(as_bits(n) & 0xfffffffff8000000);
-    double whole = n_high * k, part = (n - n_high) * k + n * log;
-    double shifted = (whole + part) + 0x1.8p52, r = (whole - (shifted - 0x1.8p52)) + part;
+    return (Pair){n_high * k, (n - n_high) * k + n * log};
+}
+
+/* Two to the sum, less the nearest whole number, which stands in the low bits of the sum with 1.5 * 2^52. */
+static inline __attribute__((always_inline)) double raise(Pair y)
+{
+    double shifted = (y.first + y.second) + 0x1.8p52, r = (y.first - (shifted - 0x1.8p52)) + y.second;
     double r2 = r * r, r4 = r2 * r2;
     double first = (0.6931471805599453 + r * 0.24022650695910097) + r2 * (0.0555041086648216 + r * 0.009618129107606888);
     double next = (0.0013333558146416936 + r * 0.0001540353044173605) + r2 * (1.525273382983612e-05 + r * 1.321544258792169e-06);

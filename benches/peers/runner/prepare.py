@@ -61,12 +61,14 @@ def built_percuss() -> list[Program]:
     return [Program("percuss", [str(ROOT / target / "release" / "percuss-peers")])]
 
 
+NO_TRAPS = ["-fno-math-errno", "-fno-trapping-math"]
 # Name, file of the power, flags beyond those of all.
 IN_C = [
     ("C, libm", "power_library.h", []),
     ("C, libmvec", "power_library.h", ["-ffast-math"]),
-    ("C, own polynomial, 10 digits", "power_polynomial.h", ["-fno-math-errno", "-fno-trapping-math"]),
-    ("C, own polynomial, 16 digits", "power_accurate.h", ["-fno-math-errno", "-fno-trapping-math"]),
+    ("C, 10 digits, plain loop", "power_polynomial.h", [*NO_TRAPS, "-DPLAIN"]),
+    ("C, 10 digits, in stages", "power_polynomial.h", NO_TRAPS),
+    ("C, 16 digits, in stages", "power_accurate.h", NO_TRAPS),
 ]
 
 
@@ -74,7 +76,7 @@ def compiled(name: str, power: str, flags: list[str]) -> list[Program]:
     compiler = os.environ.get("CC", "gcc")
     if not shutil.which(compiler):
         raise Missing(f"{compiler} is not installed (CC names another compiler)")
-    program = TARGET / power.removesuffix(".h").replace("power_", f"chain_{len(flags)}_")
+    program = TARGET / name.lower().replace(",", "").replace(" ", "-")
     # Vectors of 512 bits where the processor has them: gcc would often rather take shorter ones.
     common = ["-std=gnu11", "-O3", "-march=native", "-mprefer-vector-width=512", "-fopenmp", f'-DPOWER="{power}"']
     said([compiler, *common, *flags, str(PEERS / "chain.c"), "-o", str(program), "-lm"])
