@@ -12,13 +12,29 @@
 #include <string.h>
 #include <time.h>
 
-#include "chain.h"
 #include POWER
 
 #ifdef STAGES
 /* An own power, in one go. */
 static inline __attribute__((always_inline)) double power(double x, double n) { return raise(logarithm(split(x), n)); }
 #endif
+
+enum { LANES = 8, MOST_SPRINGS = 1024 };
+
+/* A chain, ready for the loop: a spring's constants at the same place of every array. */
+typedef struct {
+    int springs;
+    int rod;
+    long chains;
+    long steps;
+    double time_step;
+    double kick[MOST_SPRINGS];        /* time step over mass */
+    double per_length[MOST_SPRINGS];  /* 1 / length */
+    double stiffness[MOST_SPRINGS];   /* elastic force at strain 1 */
+    double coefficient[MOST_SPRINGS]; /* force of the power law at strain 1 */
+    double exponent[MOST_SPRINGS];
+    double *speed; /* of every chain */
+} Problem;
 
 static void fail(const char *what)
 {

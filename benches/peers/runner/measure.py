@@ -6,10 +6,11 @@ import os
 import statistics
 import subprocess
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import work
-from prepare import BATCH, ONE_POWER, PEERS, ROOT, TARGET, Missing, Program
+from prepare import BATCH, BATCH_ON_TWO, ONE_POWER, PEERS, TARGET, Missing, Program
 
 REFERENCE = "percuss"
 STEPS = 5000
@@ -114,12 +115,13 @@ def words_of(kind: Work) -> str:
 def rounds(checked: list[Checked], count: int, seconds: float) -> dict[tuple[str, Work], list[Timing]]:
     """Times all programs in turn, so many times. Each run takes about as long."""
     plans = [(c, chains_for(c, seconds)) for c in checked]
+    percuss = next(c.program for c in checked if c.program.name == REFERENCE)
     results: dict[tuple[str, Work], list[Timing]] = {}
     for number in range(1, count + 1):
         print(f"round {number} of {count}", file=sys.stderr)
         for c, chains in plans:
             results.setdefault((c.program.name, c.work), []).append(run(c.program, c.work, chains)[0])
-        for name, kind, timing in shots(seconds):
+        for name, kind, timing in shots(percuss, seconds):
             results.setdefault((name, kind), []).append(timing)
     return results
 
@@ -133,18 +135,25 @@ def chains_for(checked: Checked, seconds: float) -> int:
     return max(64, 16 * cores * round(enough / (16 * cores)))
 
 
+BLOCK = 64
+"""Shots of a block of `percuss sweep`."""
 RUNS, SHOTS = "percuss run, to rest", "percuss sweep, to rest"
 
 
-def shots(seconds: float):
+def shots(percuss: Program, seconds: float) -> Iterator[tuple[str, Work, Timing]]:
     """percuss's own shots of the same case, which it computes with large strain, contact, border shear and books: for information."""
-    command = next(iter((ROOT / "target" / "release").glob("percuss-peers")), None)
-    if command is None:
-        return
-    for name, what, kind, each in ((RUNS, "runs", ONE_POWER, 6e-3), (SHOTS, "shots", BATCH, 2e-3), (SHOTS, "shots", (*BATCH[:2], 2), 2e-3)):
-        count = max(8, round(seconds * kind[2] / each / 64) * 64 if what == "shots" else round(seconds / each))
-        clock, processor, amount = answer([str(command), str(PEERS / "shots.toml"), what, str(count), str(kind[2])], {})
-        yield name, kind, Timing(clock, processor, amount, kind[2])
+    # About how long a shot takes [s].
+    run, shot = 6e-3, 2e-3
+    for name, what, kind, each in (
+        (RUNS, "runs", ONE_POWER, run),
+        (SHOTS, "shots", BATCH, shot),
+        (SHOTS, "shots", BATCH_ON_TWO, shot),
+    ):
+        cores = kind[2]
+        count = max(1, round(seconds * cores / each / BLOCK)) * BLOCK if what == "shots" else max(8, round(seconds / each))
+        words = [*percuss.command, str(PEERS / "shots.toml"), what, str(count), str(cores)]
+        clock, processor, amount = answer(words, {})
+        yield name, kind, Timing(clock, processor, amount, cores)
 
 
 def ratio(results: dict[tuple[str, Work], list[Timing]], name: str, kind: Work) -> float:

@@ -57,22 +57,23 @@ def built_percuss() -> list[Program]:
         raise Missing("cargo is not installed")
     if subprocess.run([cargo, "build", "--release", "--locked", "-p", "percuss-peers"], cwd=ROOT).returncode:
         raise Missing("cargo could not build it")
-    target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
-    return [Program("percuss", [str(ROOT / target / "release" / "percuss-peers")])]
+    target = ROOT / os.environ.get("CARGO_TARGET_DIR", "target")
+    return [Program("percuss", [str(target / "release" / "percuss-peers")])]
 
 
 NO_TRAPS = ["-fno-math-errno", "-fno-trapping-math"]
-# Name, file of the power, flags beyond those of all.
+BATCHES = (BATCH, BATCH_ON_TWO)
+# Name, file of the power, flags beyond those of all, kinds of work: without those in which another one is the same program.
 IN_C = [
-    ("C, libm", "power_library.h", []),
-    ("C, libmvec", "power_library.h", ["-ffast-math"]),
-    ("C, 10 digits, plain loop", "power_polynomial.h", [*NO_TRAPS, "-DPLAIN"]),
-    ("C, 10 digits, in stages", "power_polynomial.h", NO_TRAPS),
-    ("C, 16 digits, in stages", "power_accurate.h", NO_TRAPS),
+    ("C, libm", "power_library.h", [], (ONE_POWER, *BATCHES)),
+    ("C, libmvec", "power_library.h", ["-ffast-math"], (ONE_POWER, *BATCHES)),
+    ("C, 10 digits, plain loop", "power_polynomial.h", [*NO_TRAPS, "-DPLAIN"], (ONE_POWER, ONE_LINEAR, *BATCHES)),
+    ("C, 10 digits, in stages", "power_polynomial.h", NO_TRAPS, BATCHES),
+    ("C, 16 digits, in stages", "power_accurate.h", NO_TRAPS, BATCHES),
 ]
 
 
-def compiled(name: str, power: str, flags: list[str]) -> list[Program]:
+def compiled(name: str, power: str, flags: list[str], works: tuple[tuple[str, str, int], ...]) -> list[Program]:
     compiler = os.environ.get("CC", "gcc")
     if not shutil.which(compiler):
         raise Missing(f"{compiler} is not installed (CC names another compiler)")
@@ -80,15 +81,15 @@ def compiled(name: str, power: str, flags: list[str]) -> list[Program]:
     # Vectors of 512 bits where the processor has them: gcc would often rather take shorter ones.
     common = ["-std=gnu11", "-O3", "-march=native", "-mprefer-vector-width=512", "-fopenmp", f'-DPOWER="{power}"']
     said([compiler, *common, *flags, str(PEERS / "chain.c"), "-o", str(program), "-lm"])
-    return [Program(name, [str(program)])]
+    return [Program(name, [str(program)], works)]
 
 
 def environment() -> Path:
-    """A virtual environment, new where there is none or where it is another Python's."""
+    """The Python of a virtual environment."""
     folder = TARGET / "venv"
     python = folder / "bin" / "python"
     if not python.exists():
-        said([sys.executable, "-m", "venv", "--clear", str(folder)])
+        said([sys.executable, "-m", "venv", str(folder)])
     return python
 
 
