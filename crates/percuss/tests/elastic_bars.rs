@@ -1,8 +1,6 @@
 //! Ladder 1: elastic bars have exact solutions.
 
-mod common;
-
-use common::{assert_near, mean, run_recorded};
+use crate::common::{assert_near, mean, run_recorded};
 use percuss::outcome::Outcome;
 
 /// Two elastic bars with the elastic constants of Table 1, in small strain.

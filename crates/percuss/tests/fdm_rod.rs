@@ -1,8 +1,6 @@
 //! The finite-difference rod against exact solutions and against the chain.
 
-mod common;
-
-use common::{assert_near, fdm, fdm_recorded, mean, paper, run, wilkins};
+use crate::common::{assert_near, fdm, fdm_recorded, mean, paper, run, wilkins};
 use percuss::{
     model::{self, Control},
     outcome::{Outcome, RunResult},
@@ -309,7 +307,7 @@ fn finer_meshes_agree_better() {
 fn a_rod_that_erodes_is_refused_unless_the_case_asks_for_no_erosion() {
     let model = model::model("fdm").unwrap();
     let run = |options: &str| {
-        let scenario = common::scenario(&paper(1000.0, (10, 20), options));
+        let scenario = crate::common::scenario(&paper(1000.0, (10, 20), options));
         model::run(model, &scenario, &mut Control::default())
     };
     let refused = run("").unwrap_err().to_string();

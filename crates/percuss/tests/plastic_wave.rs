@@ -1,8 +1,6 @@
 //! Ladder 2: every level of strain travels at its own speed, `sqrt((dσ/dε)/ρ)` (von Kármán, Rakhmatulin).
 
-mod common;
-
-use common::{assert_near, run_recorded};
+use crate::common::{assert_near, run_recorded};
 
 const MODULUS: f64 = 100e9;
 const DENSITY: f64 = 8000.0;

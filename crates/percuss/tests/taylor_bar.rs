@@ -1,8 +1,6 @@
 //! Ladder 3: a rod on a rigid wall.
 
-mod common;
-
-use common::{assert_near, run, wilkins};
+use crate::common::{assert_near, run, wilkins};
 
 /// A rigid, perfectly plastic rod: Taylor's moving front in the true-stress, constant-volume form.
 ///

@@ -19,8 +19,8 @@ use percuss::{
 };
 
 use crate::{
-    diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, shot_data, terminal,
-    workers,
+    failure::Failure, progress::Progress, run_folder::RunFolder, shot_data, terminal, workers,
+    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
@@ -270,16 +270,9 @@ impl Calibrate {
         records: &[Record],
         files: &[PathBuf],
     ) -> Result<(), Failure> {
-        let wrote: String = files
-            .iter()
-            .map(|file| format!("  {}\n", file.display()))
-            .collect();
+        let written = Written::new(files);
         if self.json {
-            terminal::print_json(calibration)?;
-            if !files.is_empty() && !self.quiet {
-                diagnostic::print(&format!("wrote\n{wrote}"));
-            }
-            return Ok(());
+            return written.print_json(calibration, self.quiet);
         }
         if self.quiet {
             return terminal::print(&table::lines(calibration));
@@ -291,10 +284,7 @@ impl Calibrate {
                 text += &format!("{heading}\n{}\n", record.toml());
             }
         }
-        if !files.is_empty() {
-            text += &format!("{}\n{wrote}", terminal::bold("wrote"));
-        }
-        terminal::print(&text)
+        written.print_under(text)
     }
 }
 
