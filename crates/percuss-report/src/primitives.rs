@@ -6,7 +6,7 @@ use kuva::render::{
     render::{PathData, Primitive, TextAnchor},
 };
 
-use crate::{frame::plain, palette};
+use crate::frame::plain;
 
 /// Most characters of a name in the legend.
 const NAME_CHARS: usize = 34;

@@ -29,6 +29,15 @@ impl Range {
         because: "a thin plate is plugged or bent, and a column can do neither: it says nothing of perforation",
     };
 
+    /// A warning on targets that are not much thicker than the projectile, for models whose resistance is that of an infinite body.
+    pub(crate) const INFINITE_BODY: Self = Self {
+        measure: Measure::ThicknessToDiameter,
+        min: 5.0,
+        max: f64::INFINITY,
+        outside: Outside::Warning,
+        because: "the resistance is that of an infinite body: free surfaces within a few diameters weaken it",
+    };
+
     /// What is to be said of a case outside; `None` for a case inside, or without such a measure.
     pub fn finding(&self, scenario: &Scenario) -> Option<String> {
         let value = self.measure.of(scenario)?;

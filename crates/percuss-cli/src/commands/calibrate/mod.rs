@@ -36,11 +36,12 @@ as sweeps have them. Constants of library materials are
 materials.ID.strength.LAW.NAME.
 
 Least squares (Levenberg-Marquardt) give the best values; an ensemble sampler
-(stretch move) the posterior, with split R-hat and effective sample size. Values
-scatter about the model by a Gaussian: their stated standard deviation, and a
-relative scatter that is estimated unless --noise says otherwise. Sources that
---hold-out names are not fitted to: they test the result. Parameters that the
-data do not determine are named.
+(stretch move) the posterior, with rank-normalised split R-hat (more than 1.01
+is a warning) and effective sample sizes of its bulk and tails. Values scatter
+about the model by a Gaussian: their stated standard deviation, and a relative
+scatter that is estimated unless --noise says otherwise. Sources that --hold-out
+names are not fitted to: they test the result. Parameters that the data do not
+determine are named.
 
 With --out DIR the result (calibration.json), tables of parameters and
 predictions, the sample (sample.parquet), the calibrated materials
