@@ -5,7 +5,11 @@ import { make, significant } from "./dom";
 import type { BarChart } from "./types";
 
 export function bars(chart: BarChart): HTMLElement {
-  const [low, high] = chart.x.range ?? [0, 1];
+  // Texts have room beside the track, so that it ends where the bars end.
+  const shown = chart.rows.flatMap((row) => row.bars.flatMap((bar) => [...bar.ends, ...(bar.interval ?? [])]));
+  const all = [...shown, ...chart.marks.map((mark) => mark.value)];
+  const low = Math.min(...all);
+  const high = Math.max(...all) > low ? Math.max(...all) : low + 1;
   const part = (value: number) => (100 * (value - low)) / (high - low);
   const place = (element: HTMLElement, from: number, to: number) => {
     element.style.left = `${part(Math.min(from, to))}%`;
@@ -20,7 +24,7 @@ export function bars(chart: BarChart): HTMLElement {
   });
   body.append(make("div", { class: "names" }, ...names));
   for (const row of chart.rows) {
-    const track = make("div", { class: "track tall" });
+    const track = make("div", { class: "bar-track" });
     for (const mark of chart.marks) track.append(place(make("i", { class: "mark" }), mark.value, mark.value));
     for (const bar of row.bars) {
       const [start, end] = bar.ends;
@@ -39,10 +43,10 @@ export function bars(chart: BarChart): HTMLElement {
       else words.style.left = `${part(ends[1])}%`;
       track.append(words);
     }
-    body.append(make("div", { class: "row wide-track" }, make("span", { title: row.name }, row.name), track));
+    body.append(make("div", { class: "bar-row" }, row.name, track));
   }
   const marks = chart.marks.filter((mark) => mark.name).map((mark) => `${mark.name}: ${significant(mark.value)}`);
   const label = [chart.x.label, ...marks].join("; dashed: ");
-  body.append(make("div", { class: "scale wide-track" }, make("span", {}, significant(low, 3)), make("span", {}, label), make("span", {}, significant(high, 3))));
+  body.append(make("div", { class: "bar-scale" }, make("span", {}, significant(low, 3)), make("span", {}, label), make("span", {}, significant(high, 3))));
   return body;
 }

@@ -2,7 +2,7 @@
 
 import uPlot from "uplot";
 import { bars } from "./bars";
-import { color, variable } from "./colors";
+import { color, fade, variable } from "./colors";
 import { button, make, significant } from "./dom";
 import { mapReader } from "./map";
 import { over, under } from "./paint";
@@ -155,6 +155,8 @@ function signature(chart: Chart): string {
 // Range of an axis; that of its values, with some room, where the axis is logarithmic and has none of its own.
 function span(chart: Chart, side: Side): Range {
   const range = chart[side].range;
+  // Names of marks stand above the bars.
+  if (range && chart.kind === "histogram" && side === "y") return [range[0], range[1] * (1 + 0.14 * chart.marks.length)];
   if (range) return range;
   const values = chart.kind === "lines" ? chart.series.flatMap((series) => (side === "x" ? (series.x ?? []) : series.y)) : [];
   const positive = values.filter((value): value is number => value !== null && value > 0);
@@ -281,7 +283,7 @@ function seriesOf(chart: Chart, current: () => Chart): uPlot.Series[] {
       const paths = uPlot.paths.bars?.({ size: [1, Infinity], gap: 1 });
       return [{
         label: chart.y.label,
-        fill: color(chart.color),
+        fill: fade(color(chart.color), 0.75),
         width: 0,
         points: { show: false },
         ...(paths ? { paths } : {}),

@@ -21,8 +21,7 @@ export function spread(done: Spread): HTMLElement[] {
   const warnings = [...found.warnings, ...found.nominal.warnings];
   return [
     ...said.filter((words) => words).map((words) => make("p", {}, words)),
-    table(["uncertain", "distribution"], inputs, [1]),
-    ...(found.quantities.length ? [statistics(done)] : []),
+    make("div", { class: "side" }, table(["uncertain", "distribution"], inputs, [1]), found.quantities.length ? statistics(done) : null),
     ...(found.no_indices ? [make("p", {}, `No Sobol' indices: ${found.no_indices}.`)] : []),
     ...(warnings.length ? [list(warnings)] : []),
     make("p", {}, done.caution),
