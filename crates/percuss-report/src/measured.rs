@@ -56,7 +56,6 @@ mod tests {
                 200,
                 "projectile_final_length = \"15 mm\"\nuncertainty = \"0.5 mm\"",
             ),
-            &shot(200, "residual_velocity = \"3 m/s\""),
             &shot(300, "projectile_final_length = \"12 mm\""),
         ];
         let scenario = case::load_str("shot", &text.concat()).unwrap();
@@ -73,9 +72,6 @@ mod tests {
         assert_eq!(line.points, [(0.0, 15.0), (end, 15.0)]);
         assert_eq!(line.band, [(14.5, 15.5); 2]);
         assert!(lines(&scenario.at_speed(250.0), length, &history).is_empty());
-        assert_eq!(
-            lines(&scenario, BandQuantity::ResidualVelocity, &history).len(),
-            1
-        );
+        assert!(lines(&scenario, BandQuantity::DepthOfPenetration, &history).is_empty());
     }
 }

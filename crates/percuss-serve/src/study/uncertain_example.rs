@@ -30,8 +30,8 @@ pub(super) fn with_example(text: &str, scenario: &Scenario) -> String {
     }
     if let Some((diameter, unit)) = said("projectile.diameter").and_then(parts) {
         let (from, to) = (
-            significant(0.995 * diameter, 5),
-            significant(1.005 * diameter, 5),
+            significant(0.995 * diameter, 4),
+            significant(1.005 * diameter, 4),
         );
         add(
             "projectile.diameter",

@@ -56,11 +56,14 @@ export function over(plot: uPlot, chart: Chart): void {
   ctx.restore();
 }
 
-// A mark; its name stands in a row counted from the top, or at the end of the line.
+// A mark; the name of a vertical one stands in a row counted from the top.
 function line(plot: uPlot, mark: Mark, stroke: string, row: number | null): void {
   const { ctx, bbox } = plot;
   const ratio = devicePixelRatio;
   const at = plot.valToPos(mark.value, mark.vertical ? "x" : "y", true);
+  // A zoomed chart may not hold it.
+  const [start, length] = mark.vertical ? [bbox.left, bbox.width] : [bbox.top, bbox.height];
+  if (at < start - 1 || at > start + length + 1) return;
   ctx.strokeStyle = stroke;
   ctx.lineWidth = ratio;
   ctx.setLineDash([4 * ratio, 3 * ratio]);
@@ -79,9 +82,8 @@ function line(plot: uPlot, mark: Mark, stroke: string, row: number | null): void
   const width = ctx.measureText(mark.name).width;
   const right = bbox.left + bbox.width - width - 6 * ratio;
   const x = mark.vertical ? Math.min(at + 4 * ratio, right) : right;
-  const above = Math.max(at - 5 * ratio, bbox.top + 13 * ratio);
-  const end = mark.vertical ? bbox.top + bbox.height - 8 * ratio : above;
-  const y = row === null ? end : bbox.top + (14 + 15 * row) * ratio;
+  const top = bbox.top + (13 + 15 * (row ?? 0)) * ratio;
+  const y = mark.vertical ? top : Math.max(at - 5 * ratio, top);
   // A rim in the colour of the ground keeps the name legible over lines, and the lines visible.
   ctx.textAlign = "left";
   ctx.strokeStyle = variable("--card");

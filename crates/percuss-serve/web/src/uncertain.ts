@@ -72,10 +72,13 @@ export function offer(asked: () => object, insert: (text: string) => void): HTML
       (done) => {
         insert(done.case);
         add.remove();
+        // What was missing is there.
+        offered.parentElement?.replaceChildren(offered);
         said.textContent = "It stands at the end of the case file. Put your own spreads in place of the assumed ones, then press Uncertainty.";
       },
       (error: unknown) => (said.textContent = error instanceof Error ? error.message : String(error)),
     );
   });
-  return make("div", {}, add, said);
+  const offered = make("div", {}, add, said);
+  return offered;
 }
