@@ -1,7 +1,5 @@
 //! Studies of the server end with what the library says, to the last bit.
 
-mod support;
-
 use std::sync::atomic::AtomicBool;
 
 use percuss::{
@@ -13,7 +11,8 @@ use percuss::{
 };
 use percuss_serve::Options;
 use serde_json::{Value, json};
-use support::{PAPER, Served};
+
+use crate::support::{PAPER, Served};
 
 #[test]
 fn studies_end_with_what_the_library_says() {
@@ -54,7 +53,7 @@ fn studies_end_with_what_the_library_says() {
 #[test]
 fn uncertainty_is_that_of_the_library() {
     let served = Served::new(Options::default());
-    let text = include_str!("../../../cases/paper-table1-uncertainty/scenario.toml");
+    let text = include_str!("../../../../cases/paper-table1-uncertainty/scenario.toml");
     let text = text.replace("= 40", "= 10").replace("= 80", "= 20");
     let asked = json!({
         "name": "shot", "case": text, "model": "chain",

@@ -1,7 +1,5 @@
 //! What the server answers is what the library and the command line say, to the last bit.
 
-mod support;
-
 use percuss::{
     case,
     model::{self, Control},
@@ -9,7 +7,8 @@ use percuss::{
 };
 use percuss_serve::Options;
 use serde_json::{Value, json};
-use support::{PAPER, Served};
+
+use crate::support::{PAPER, Served};
 
 /// What the library says of a case, as `percuss run --json` prints it.
 fn by_library(name: &str, text: &str, model: &str) -> Value {
@@ -23,8 +22,8 @@ fn by_library(name: &str, text: &str, model: &str) -> Value {
 #[test]
 fn the_numbers_are_those_of_the_library() {
     let served = Served::new(Options::default());
-    let taylor = include_str!("../../../cases/taylor-copper-wilkins/scenario.toml");
-    let blunt = include_str!("../../../cases/weldox-460e-12mm-blunt/scenario.toml");
+    let taylor = include_str!("../../../../cases/taylor-copper-wilkins/scenario.toml");
+    let blunt = include_str!("../../../../cases/weldox-460e-12mm-blunt/scenario.toml");
     for (text, model) in [
         (PAPER, "chain"),
         (PAPER, "fdm"),

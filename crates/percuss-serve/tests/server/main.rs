@@ -1,11 +1,11 @@
-//! Requests that no page of this server makes.
+//! A server on a free port, asked by its own page and by others.
 
-#[path = "../support/mod.rs"]
-mod support;
-
+mod answers;
 mod bounds;
 mod gate;
 mod requests;
+mod studies;
+mod support;
 
 use serde_json::json;
 use support::PAPER;
