@@ -47,6 +47,11 @@ test("curves and text follow a slider while it moves", async () => {
     await answered(page, count + 1);
   }
   await page.mouse.up();
+  // The text has the last place of the slider when its numbers are there.
+  await page.waitForFunction(() => {
+    const speed = document.getElementById("field-projectile-velocity").value;
+    return document.getElementById("text").value.includes(`velocity = "${speed} m/s"`);
+  });
   assert.notEqual(await pixels(page, "depth-time"), before);
   const speed = await page.locator("#field-projectile-velocity").inputValue();
   assert.ok(Number(speed) > 500, speed);
