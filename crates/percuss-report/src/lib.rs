@@ -47,6 +47,7 @@ mod history_files;
 pub mod judgement;
 mod limit_figure;
 mod limit_files;
+mod mark;
 mod material_card;
 mod measured;
 mod page;
@@ -83,11 +84,12 @@ pub use histogram::Histogram;
 pub use history_files::{history_files, write_histories};
 pub use limit_figure::{limit_chart, limit_figure};
 pub use limit_files::{limit_files, write_limits};
+pub use mark::Mark;
 pub use material_card::{CardLine, CardSection, MaterialCard};
 pub use page::html::escape as escape_html;
 pub use row_chart::RowChart;
 pub use run_figures::{run_charts, run_figures};
-pub use series::{Mark, Series, Style};
+pub use series::{Series, Style};
 pub use shape_figure::write_shapes;
 pub use uncertainty::{
     uncertainty_charts, uncertainty_figures, uncertainty_files, write_uncertainty,
