@@ -43,14 +43,14 @@ pub struct Bar {
 /// A chart of horizontal bars in named rows, the first row at the top.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BarRows {
-    name: String,
-    title: String,
-    caption: String,
+    pub(crate) name: String,
+    pub(crate) title: String,
+    pub(crate) caption: String,
     x: Axis,
-    lanes: usize,
-    rows: Vec<(String, Vec<Bar>)>,
-    colors: Vec<(String, String)>,
-    marks: Vec<Mark>,
+    pub(crate) lanes: usize,
+    pub(crate) rows: Vec<(String, Vec<Bar>)>,
+    pub(crate) colors: Vec<(String, String)>,
+    pub(crate) marks: Vec<Mark>,
 }
 
 impl BarRows {
@@ -92,18 +92,23 @@ impl BarRows {
         self
     }
 
-    /// Draws the chart.
-    pub fn draw(&self) -> Figure {
-        let count = self.rows.len().max(1) as f64;
-        let bars = || self.rows.iter().flat_map(|row| &row.1);
-        let values = bars().flat_map(|bar| {
+    /// The axis with room for the texts, and the extent of what it shows.
+    pub(crate) fn axis(&self) -> (Axis, (f64, f64)) {
+        let bars = self.rows.iter().flat_map(|row| &row.1);
+        let values = bars.flat_map(|bar| {
             let (low, high) = bar.interval.unwrap_or(bar.ends);
             [bar.ends.0, bar.ends.1, low, high]
         });
-        let extent = self
-            .x
-            .extent(values.chain(self.marks.iter().map(|mark| mark.value)));
+        let marks = self.marks.iter().map(|mark| mark.value);
+        let extent = self.x.extent(values.chain(marks));
         let x = self.x.clone().range_around(extent, self.space_for_texts());
+        (x, extent)
+    }
+
+    /// Draws the chart.
+    pub fn draw(&self) -> Figure {
+        let count = self.rows.len().max(1) as f64;
+        let (x, extent) = self.axis();
         let names = self.rows.iter().rev().map(|row| plain(&row.0, NAME_CHARS));
         let y = Axis::new("").range(0.5, count + 0.5).names(names);
         let legend = self

@@ -73,6 +73,12 @@ impl LineChart {
         self
     }
 
+    /// Adds several series.
+    pub(crate) fn all(mut self, series: impl IntoIterator<Item = Series>) -> Self {
+        self.series.extend(series);
+        self
+    }
+
     /// Adds a mark.
     pub fn mark(mut self, mark: Mark) -> Self {
         self.marks.push(mark);

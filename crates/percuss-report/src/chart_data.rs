@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use crate::{
-    AreaChart, Axis, Figure, HeatMap, LineChart, Mark, RowChart, Series, Style, chart::dashes,
-    palette,
+    AreaChart, Axis, Bar, BarRows, Figure, HeatMap, Histogram, LineChart, Mark, RowChart, Series,
+    Style, chart::dashes, palette,
 };
 
 /// A chart of any kind.
@@ -18,6 +18,10 @@ pub enum Chart {
     Map(HeatMap),
     /// A value a row.
     Rows(RowChart),
+    /// How often values fall into intervals.
+    Histogram(Histogram),
+    /// Horizontal bars in named rows.
+    Bars(BarRows),
 }
 
 impl From<LineChart> for Chart {
@@ -41,6 +45,18 @@ impl From<HeatMap> for Chart {
 impl From<RowChart> for Chart {
     fn from(chart: RowChart) -> Self {
         Self::Rows(chart)
+    }
+}
+
+impl From<Histogram> for Chart {
+    fn from(chart: Histogram) -> Self {
+        Self::Histogram(chart)
+    }
+}
+
+impl From<BarRows> for Chart {
+    fn from(chart: BarRows) -> Self {
+        Self::Bars(chart)
     }
 }
 
@@ -94,6 +110,22 @@ enum Content {
         rows: Vec<RowData>,
         marks: Vec<MarkData>,
     },
+    Histogram {
+        /// Middles of the intervals, which are of one width.
+        middles: Vec<f32>,
+        width: f32,
+        /// Part of the values in each.
+        parts: Vec<f32>,
+        color: &'static str,
+        marks: Vec<MarkData>,
+    },
+    Bars {
+        lanes: usize,
+        rows: Vec<BarRowData>,
+        /// What colours stand for.
+        colors: Vec<(String, String)>,
+        marks: Vec<MarkData>,
+    },
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -138,6 +170,21 @@ struct RowData {
     range: Option<(f32, f32)>,
 }
 
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct BarRowData {
+    name: String,
+    bars: Vec<BarData>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct BarData {
+    ends: (f32, f32),
+    color: String,
+    lane: usize,
+    interval: Option<(f32, f32)>,
+    text: String,
+}
+
 impl Chart {
     /// File stem of its figure.
     pub fn name(&self) -> &str {
@@ -146,6 +193,8 @@ impl Chart {
             Self::Areas(chart) => &chart.name,
             Self::Map(chart) => &chart.name,
             Self::Rows(chart) => &chart.name,
+            Self::Histogram(chart) => &chart.name,
+            Self::Bars(chart) => &chart.name,
         }
     }
 
@@ -156,6 +205,8 @@ impl Chart {
             Self::Areas(chart) => chart.draw(),
             Self::Map(chart) => chart.draw(),
             Self::Rows(chart) => chart.draw(),
+            Self::Histogram(chart) => chart.draw(),
+            Self::Bars(chart) => chart.draw(),
         }
     }
 
@@ -166,6 +217,8 @@ impl Chart {
             Self::Areas(chart) => areas(chart),
             Self::Map(chart) => map(chart),
             Self::Rows(chart) => rows(chart),
+            Self::Histogram(chart) => histogram(chart),
+            Self::Bars(chart) => bars(chart),
         }
     }
 }
@@ -293,6 +346,54 @@ fn rows(chart: &RowChart) -> ChartData {
         y: axis(&Axis::new(""), (0.0, 1.0)),
         content: Content::Rows {
             rows: rows.collect(),
+            marks: marks(&chart.marks),
+        },
+    }
+}
+
+fn histogram(chart: &Histogram) -> ChartData {
+    let (low, width, parts) = chart.bins();
+    let extents = chart.extents();
+    let middles = (0..parts.len()).map(|i| low + width * (i as f64 + 0.5));
+    ChartData {
+        name: chart.name.clone(),
+        title: chart.title.clone(),
+        caption: chart.caption.clone(),
+        x: axis(&chart.x, extents.0),
+        y: axis(&Histogram::y(), extents.1),
+        content: Content::Histogram {
+            middles: single(middles),
+            width: width as f32,
+            parts: single(parts),
+            color: Histogram::color(),
+            marks: marks(&chart.marks),
+        },
+    }
+}
+
+fn bars(chart: &BarRows) -> ChartData {
+    let bar = |bar: &Bar| BarData {
+        ends: pair(bar.ends),
+        color: bar.color.clone(),
+        lane: bar.lane,
+        interval: bar.interval.map(pair),
+        text: bar.text.clone(),
+    };
+    let rows = chart.rows.iter().map(|(name, bars)| BarRowData {
+        name: name.clone(),
+        bars: bars.iter().map(bar).collect(),
+    });
+    let (x, extent) = chart.axis();
+    ChartData {
+        name: chart.name.clone(),
+        title: chart.title.clone(),
+        caption: chart.caption.clone(),
+        x: axis(&x, extent),
+        y: axis(&Axis::new(""), (0.0, 1.0)),
+        content: Content::Bars {
+            lanes: chart.lanes,
+            rows: rows.collect(),
+            colors: chart.colors.clone(),
             marks: marks(&chart.marks),
         },
     }

@@ -17,12 +17,12 @@ const GAP: f64 = 1.0;
 /// How often values fall into intervals of equal width, with marks across.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Histogram {
-    name: String,
-    title: String,
-    caption: String,
-    x: Axis,
+    pub(crate) name: String,
+    pub(crate) title: String,
+    pub(crate) caption: String,
+    pub(crate) x: Axis,
     values: Vec<f64>,
-    marks: Vec<Mark>,
+    pub(crate) marks: Vec<Mark>,
 }
 
 impl Histogram {
@@ -58,7 +58,7 @@ impl Histogram {
     }
 
     /// Lower end of the first bin, width of a bin, and the part of the values in each [%].
-    fn bins(&self) -> (f64, f64, Vec<f64>) {
+    pub(crate) fn bins(&self) -> (f64, f64, Vec<f64>) {
         let (Some(&low), Some(&high)) = (self.values.first(), self.values.last()) else {
             return (0.0, 1.0, Vec::new());
         };
@@ -85,20 +85,39 @@ impl Histogram {
         (low, width, parts)
     }
 
-    /// Draws the histogram.
-    pub fn draw(&self) -> Figure {
+    pub(crate) fn color() -> &'static str {
+        palette::symbol_color(4)
+    }
+
+    /// The axis of the parts.
+    pub(crate) fn y() -> Axis {
+        Axis::new("part of the shots [%]")
+    }
+
+    /// Smallest and largest value on either axis.
+    pub(crate) fn extents(&self) -> ((f64, f64), (f64, f64)) {
         let (low, width, parts) = self.bins();
         let high = low + width * parts.len() as f64;
         let marks = self.marks.iter().map(|mark| mark.value);
-        let y = Axis::new("part of the shots [%]");
+        (
+            self.x.extent([low, high].into_iter().chain(marks)),
+            Self::y().extent(parts.iter().copied().chain([0.0])),
+        )
+    }
+
+    /// Draws the histogram.
+    pub fn draw(&self) -> Figure {
+        let (low, width, parts) = self.bins();
+        let (x_extent, y_extent) = self.extents();
+        let y = Self::y();
         let frame = Frame {
             name: &self.name,
             title: &self.title,
             caption: &self.caption,
             x: &self.x,
             y: &y,
-            x_extent: self.x.extent([low, high].into_iter().chain(marks)),
-            y_extent: y.extent(parts.iter().copied().chain([0.0])),
+            x_extent,
+            y_extent,
             height: HEIGHT,
             right_margin: None,
             legend: mark::entries(&self.marks).collect(),
@@ -111,7 +130,7 @@ impl Histogram {
                 scene.add(bar(
                     (place.map_x(left), place.map_y(0.0)),
                     (place.map_x(right) - GAP, place.map_y(*part)),
-                    palette::symbol_color(4),
+                    Self::color(),
                 ));
             }
             for line in mark::lines(&self.marks, place) {

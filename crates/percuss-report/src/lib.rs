@@ -49,6 +49,7 @@ mod limit_figure;
 mod limit_files;
 mod mark;
 mod material_card;
+mod measured;
 mod page;
 pub mod palette;
 pub mod paper;
@@ -90,5 +91,7 @@ pub use row_chart::RowChart;
 pub use run_figures::{run_charts, run_figures};
 pub use series::{Series, Style};
 pub use shape_figure::write_shapes;
-pub use uncertainty::{uncertainty_figures, write_uncertainty};
+pub use uncertainty::{
+    uncertainty_charts, uncertainty_figures, uncertainty_files, write_uncertainty,
+};
 pub use v50_figure::v50_figure;

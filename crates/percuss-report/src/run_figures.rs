@@ -1,11 +1,16 @@
 //! All charts of one run, and their figures.
 
-use percuss::{Scenario, outcome::RunResult, scenario::TargetBody};
+use percuss::{
+    Scenario,
+    outcome::{BandQuantity, RunResult},
+    scenario::TargetBody,
+};
 
 use crate::{
     Chart, Figure, ReportError,
     axial_figures::{self, Along},
     error::history_of,
+    measured,
     shape_figure::shape_chart,
     time_figures,
 };
@@ -22,18 +27,19 @@ const CELLS: [usize; 2] = [300, 220];
 /// # Errors
 /// [`ReportError::NoHistory`] when the run kept no history.
 pub fn run_figures(scenario: &Scenario, result: &RunResult) -> Result<Vec<Figure>, ReportError> {
-    let charts = run_charts(scenario, result, CELLS)?;
+    let charts = run_charts(scenario, result, Some(CELLS))?;
     Ok(charts.iter().map(Chart::draw).collect())
 }
 
-/// The charts that [`run_figures`] draws; `cells` are those of the x–t diagram along the axis and along time.
+/// The charts that [`run_figures`] draws; `cells` are those of the x–t diagram along the axis and along time, which is left out
+/// without them.
 ///
 /// # Errors
 /// [`ReportError::NoHistory`] when the run kept no history.
 pub fn run_charts(
     scenario: &Scenario,
     result: &RunResult,
-    cells: [usize; 2],
+    cells: Option<[usize; 2]>,
 ) -> Result<Vec<Chart>, ReportError> {
     let history = history_of(result)?;
     let caption = caption(scenario, Some(scenario.impact_speed));
@@ -43,9 +49,16 @@ pub fn run_charts(
     );
     let mut charts: Vec<Chart> = Vec::new();
     if first.time < last.time {
-        charts.extend(time_figures::depth(history, result, &caption).map(Chart::from));
-        charts.extend(time_figures::length(history, result, &caption).map(Chart::from));
-        charts.push(time_figures::velocity(history, result, &caption).into());
+        let measured = |quantity| measured::lines(scenario, quantity, history);
+        let depth = time_figures::depth(history, result, &caption);
+        let depth = depth.map(|chart| chart.all(measured(BandQuantity::DepthOfPenetration)));
+        let length = time_figures::length(history, result, &caption);
+        let length = length.map(|chart| chart.all(measured(BandQuantity::ProjectileFinalLength)));
+        let velocity = time_figures::velocity(history, result, &caption);
+        charts.extend(depth.map(Chart::from));
+        charts.extend(length.map(Chart::from));
+        let velocity = velocity.all(measured(BandQuantity::ResidualVelocity));
+        charts.push(velocity.into());
         charts.extend(time_figures::force(history, &caption).map(Chart::from));
         charts.extend(time_figures::energy(history, &caption).map(Chart::from));
     }
@@ -54,7 +67,8 @@ pub fn run_charts(
         None => Along::Initial,
     };
     charts.extend(axial_figures::strain(history, along, &caption).map(Chart::from));
-    charts.extend(axial_figures::stress(history, along, cells, &caption).map(Chart::from));
+    let stress = cells.and_then(|cells| axial_figures::stress(history, along, cells, &caption));
+    charts.extend(stress.map(Chart::from));
     match &result.shapes {
         Some(shapes) => charts.push(shape_chart(scenario, shapes).into()),
         None => charts.extend(axial_figures::shape(history, &caption).map(Chart::from)),

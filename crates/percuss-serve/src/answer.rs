@@ -27,6 +27,10 @@ use crate::{
 
 /// Cells of the x–t diagram of a page along the axis and along time.
 const CELLS: [usize; 2] = [160, 120];
+/// Name of the x–t diagram.
+const STRESS: &str = "stress-xt";
+/// Points of a curve that follows a slider, at most.
+const DRAFT_POINTS: usize = 400;
 
 /// What the page shows of a case.
 #[derive(Debug, Serialize)]
@@ -80,7 +84,7 @@ pub(crate) fn run(
 pub(crate) fn charts(
     scenario: &Scenario,
     result: &RunResult,
-    cells: [usize; 2],
+    cells: Option<[usize; 2]>,
 ) -> Result<Vec<Chart>, Problem> {
     let recorded = result.history.as_ref();
     match recorded.is_some_and(|history| !history.samples.is_empty()) {
@@ -89,16 +93,39 @@ pub(crate) fn charts(
     }
 }
 
-/// The answer of a model to a case that was read.
+/// Charts that are to be seen while a slider moves, with as many points as a moving eye takes in.
+fn draft(
+    scenario: &Scenario,
+    result: &mut RunResult,
+    in_view: &[String],
+) -> Result<Vec<Chart>, Problem> {
+    let seen = |name: &str| in_view.iter().any(|seen| seen == name);
+    if let Some(history) = &mut result.history {
+        let last = history.samples.len().saturating_sub(1);
+        let stride = history.samples.len().div_ceil(DRAFT_POINTS).max(1);
+        let mut place = 0..;
+        history.samples.retain(|_| {
+            let place = place.next().unwrap_or(last);
+            place % stride == 0 || place == last
+        });
+    }
+    let cells = seen(STRESS).then_some(CELLS);
+    let mut charts = charts(scenario, result, cells)?;
+    charts.retain(|chart| seen(chart.name()));
+    Ok(charts)
+}
+
+/// The answer of a model to a case that was read; a draft of it where only some charts are in view.
 pub(crate) fn answer(
     read: ReadCase,
     model: &'static dyn Model,
+    in_view: Option<&[String]>,
     stop: &Stop,
     tell: Option<&Tell>,
 ) -> Result<Answer, Problem> {
     let start = Instant::now();
     let ReadCase { text, scenario } = read;
-    let result = run(&scenario, model, stop, tell)?;
+    let mut result = run(&scenario, model, stop, tell)?;
     let results = CaseResults::new(&scenario, std::slice::from_ref(&result));
     let books = result.numerics.as_ref().map_or_else(Vec::new, |numerics| {
         result_rows::book_rows(numerics, result.end_time.unwrap_or(0.0))
@@ -108,7 +135,10 @@ pub(crate) fn answer(
         result_rows::detail_rows(&result),
         books,
     ];
-    let charts = charts(&scenario, &result, CELLS)?;
+    let charts = match in_view {
+        Some(in_view) => draft(&scenario, &mut result, in_view)?,
+        None => charts(&scenario, &result, Some(CELLS))?,
+    };
     Ok(Answer {
         values: form::values(&text),
         case: text,
@@ -135,7 +165,7 @@ pub(crate) fn answer_to(
             model.name()
         )));
     }
-    answer(read, model, stop, None)
+    answer(read, model, asked.in_view.as_deref(), stop, None)
 }
 
 /// `POST /api/answer`.

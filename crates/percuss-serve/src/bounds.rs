@@ -15,7 +15,7 @@ pub(crate) const ARRIVAL: Duration = Duration::from_secs(10);
 /// Time that a request waits for a place to compute.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(3);
 /// Connections at a time.
-pub(crate) const CONNECTIONS: usize = 128;
+pub(crate) const CONNECTIONS: usize = 256;
 /// Layers that a target may have.
 const LAYERS: usize = 40;
 /// Cells along the radius of a projectile in two dimensions.

@@ -21,6 +21,17 @@ pub(crate) struct ReadyCase {
     text: String,
 }
 
+#[cfg(test)]
+impl ReadyCase {
+    pub(crate) fn name(&self) -> &str {
+        &self.name
+    }
+
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+}
+
 /// All ready cases, the one that the page opens on first.
 pub(crate) fn all() -> Vec<ReadyCase> {
     let mut cases: Vec<ReadyCase> = Cases::iter().filter_map(|path| read(&path)).collect();

@@ -74,7 +74,7 @@ fn file(
         };
         return Ok((kind, content));
     };
-    let charts = answer::charts(scenario, &result, CELLS)?;
+    let charts = answer::charts(scenario, &result, Some(CELLS))?;
     let chart: &Chart = charts
         .iter()
         .find(|chart| chart.name() == figure)

@@ -82,7 +82,10 @@ impl Index {
         // Within a script element `<` could end it.
         let data = serde_json::to_string(&start).unwrap_or_default();
         let data = data.replace('<', "\\u003c");
-        let rows: String = answer.rows[0].iter().take(FIRST_ROWS).map(row).collect();
+        let mut first: Vec<&Row> = answer.rows[0].iter().take(FIRST_ROWS).collect();
+        // Numbers before sentences.
+        first.sort_by_key(|(_, value)| is_long(value));
+        let rows: String = first.into_iter().map(row).collect();
         let page = assets::template()
             .replace("<!--answer-->", &rows)
             .replace("<!--data-->", &data);
@@ -118,9 +121,13 @@ fn material_record(entry: &MaterialEntry) -> MaterialRecord<'_> {
     }
 }
 
+fn is_long(value: &str) -> bool {
+    value.chars().count() > LONG
+}
+
 /// A row as the script of the page makes it.
 fn row((label, value): &Row) -> String {
-    let class = match value.chars().count() > LONG {
+    let class = match is_long(value) {
         true => " class=\"long\"",
         false => "",
     };

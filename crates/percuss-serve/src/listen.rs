@@ -129,7 +129,7 @@ fn first_page(options: &Options) -> Result<Index, ServeError> {
         scenario,
     };
     let stop = Stop::after(options.bounds.time());
-    let answer = answer::answer(read, model, &stop, None)?;
+    let answer = answer::answer(read, model, None, &stop, None)?;
     Ok(Index::new(&case, &answer, &options.bounds))
 }
 
@@ -143,6 +143,7 @@ fn routes(shared: Shared, gate: Gate) -> Router {
         .route("/api/answer", post(answer::post))
         .route("/api/file", post(files::post))
         .route("/api/study/{kind}", post(study::post))
+        .route("/api/uncertainty-example", post(study::uncertainty_example))
         .route("/api/validation", post(Validation::post))
         .fallback(async || assets::missing().into_response())
         .layer(middleware::from_fn_with_state(Arc::new(gate), Gate::watch))

@@ -53,6 +53,16 @@ impl Problem {
         Self::new(status, message, help)
     }
 
+    /// The request cannot be met as it stands.
+    pub(crate) fn refused(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::new(StatusCode::UNPROCESSABLE_ENTITY, message, help)
+    }
+
+    /// What is wrong.
+    pub(crate) fn message(&self) -> &str {
+        &self.message
+    }
+
     /// The case asks for more than a page may.
     pub(crate) fn too_large(message: String, help: String, key: &str) -> Self {
         Self {

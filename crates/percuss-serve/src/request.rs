@@ -39,9 +39,34 @@ pub(crate) struct CaseRequest {
     /// Impact speeds to compare models at [m/s]: first, last and how many; the case's own when not given.
     #[serde(default)]
     pub(crate) speeds: Option<(f64, f64, usize)>,
+    /// How the uncertainty of the case is computed.
+    #[serde(default)]
+    pub(crate) uncertainty: Sampling,
+    /// Charts that are to be seen while a slider moves: the answer has no others, and their curves have fewer points.
+    #[serde(default)]
+    pub(crate) in_view: Option<Vec<String>>,
     /// File that is asked for.
     #[serde(default)]
     pub(crate) file: Option<String>,
+}
+
+/// Shots of an analysis of uncertainty.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Sampling {
+    pub(crate) samples: u64,
+    pub(crate) seed: u64,
+    pub(crate) indices: bool,
+}
+
+impl Default for Sampling {
+    fn default() -> Self {
+        Self {
+            samples: 256,
+            seed: 0,
+            indices: true,
+        }
+    }
 }
 
 /// A case that was understood.
@@ -58,12 +83,16 @@ impl CaseRequest {
 
     /// Reads the edited text, as the command line reads a file.
     pub(crate) fn read(&self, text: String) -> Result<ReadCase, Problem> {
-        let name = match self.name.trim() {
+        let scenario = case::load_str(self.name(), &text)?;
+        Ok(ReadCase { text, scenario })
+    }
+
+    /// Name of the case.
+    pub(crate) fn name(&self) -> &str {
+        match self.name.trim() {
             "" => "case",
             name => name,
-        };
-        let scenario = case::load_str(name, &text)?;
-        Ok(ReadCase { text, scenario })
+        }
     }
 
     /// The model that is asked for, within bounds.

@@ -52,6 +52,48 @@ fn a_cell_is_the_character_of_its_colour() {
 }
 
 #[test]
+fn a_histogram_keeps_its_parts_and_its_marks() {
+    let chart = Histogram::new("h", "H", Axis::new("depth [mm]"), (0..100).map(f64::from));
+    let data = data(chart.mark(Mark::vertical("mean", 49.5)));
+    assert_eq!(data["kind"], "histogram");
+    let numbers = |key: &str| -> Vec<f64> {
+        let values = data[key].as_array().unwrap().iter();
+        values.map(|value| value.as_f64().unwrap()).collect()
+    };
+    let (middles, parts) = (numbers("middles"), numbers("parts"));
+    let width = data["width"].as_f64().unwrap();
+    assert!((parts.iter().sum::<f64>() - 100.0).abs() < 1e-3);
+    assert!((middles[0] - 0.5 * width).abs() < 1e-4);
+    assert!((middles[middles.len() - 1] - (99.0 - 0.5 * width)).abs() < 1e-3);
+    assert_eq!(data["marks"][0]["value"], 49.5);
+    assert!(data["x"]["range"][1].as_f64().unwrap() >= 99.0);
+}
+
+#[test]
+fn bars_keep_their_ends_and_leave_room_for_their_texts() {
+    let bar = Bar {
+        ends: (2.0, 1.0),
+        color: "#000000".to_owned(),
+        lane: 0,
+        interval: Some((0.5, 1.5)),
+        text: "230 m/s".to_owned(),
+    };
+    let chart = BarRows::new("b", "B", Axis::new("depth [mm]"), 1);
+    let data = data(
+        chart
+            .row("speed", [bar])
+            .color("at its 5th percentile", "#000000"),
+    );
+    assert_eq!(data["kind"], "bars");
+    let bar = &data["rows"][0]["bars"][0];
+    assert_eq!(bar["ends"], json!([2.0, 1.0]));
+    assert_eq!(bar["interval"], json!([0.5, 1.5]));
+    assert_eq!(bar["text"], "230 m/s");
+    assert_eq!(data["colors"][0][0], "at its 5th percentile");
+    assert!(data["x"]["range"][0].as_f64().unwrap() < 0.4);
+}
+
+#[test]
 fn rows_and_areas_keep_names_and_numbers() {
     let rows = RowChart::new("r", "R", Axis::new("depth [mm]"));
     let data_of_rows = data(rows.row("tate", 2.0, Some((1.0, 3.0)), "#000000"));

@@ -7,14 +7,14 @@ use percuss::{
 };
 
 use super::stem;
-use crate::{Axis, Figure, LineChart, Mark, Series, Style, palette, run_figures::caption};
+use crate::{Axis, LineChart, Mark, Series, Style, palette, run_figures::caption};
 
 /// Percentiles against speed, with what was measured.
 pub(super) fn bands(
     scenario: &Scenario,
     found: &Uncertainty,
     quantity: &QuantityResult,
-) -> Option<Figure> {
+) -> Option<LineChart> {
     let what = quantity.what();
     let at = |band: &percuss::uncertainty::Band| -> Option<Statistics> {
         let of = band.quantities.iter().find(|q| q.quantity == what.name)?;
@@ -90,7 +90,7 @@ pub(super) fn bands(
                 .error_bars(errors),
         );
     }
-    Some(chart.draw())
+    Some(chart)
 }
 
 /// Name of a measured quantity among results.
@@ -104,7 +104,7 @@ fn of_name(quantity: BandQuantity) -> &'static str {
 }
 
 /// Chance of perforation against speed; `None` where no shot perforates, or nothing decides.
-pub(super) fn perforation(scenario: &Scenario, found: &Uncertainty) -> Option<Figure> {
+pub(super) fn perforation(scenario: &Scenario, found: &Uncertainty) -> Option<LineChart> {
     let decided: Vec<_> = found
         .bands
         .iter()
@@ -147,5 +147,5 @@ pub(super) fn perforation(scenario: &Scenario, found: &Uncertainty) -> Option<Fi
     if let Some(limit) = limit {
         chart = chart.mark(Mark::vertical("measured limit", limit.value));
     }
-    Some(chart.draw())
+    Some(chart)
 }

@@ -7,7 +7,7 @@ use percuss::{
 };
 
 use super::stem;
-use crate::{Axis, Bar, BarRows, Figure, Histogram, Mark, palette, run_figures::caption};
+use crate::{Axis, Bar, BarRows, Histogram, Mark, palette, run_figures::caption};
 
 fn axis(quantity: &QuantityResult) -> Axis {
     let what = quantity.what();
@@ -29,7 +29,7 @@ pub(super) fn histogram(
     scenario: &Scenario,
     found: &Uncertainty,
     quantity: &QuantityResult,
-) -> Figure {
+) -> Histogram {
     let what = quantity.what();
     let statistics = &quantity.statistics;
     let values = found.draws.iter().filter_map(|draw| draw.value(what));
@@ -56,7 +56,7 @@ pub(super) fn histogram(
     if let Some(nominal) = quantity.nominal {
         chart = chart.mark(named("all at median", nominal));
     }
-    chart.draw()
+    chart
 }
 
 /// What each parameter does alone, from low to high.
@@ -64,7 +64,7 @@ pub(super) fn tornado(
     scenario: &Scenario,
     found: &Uncertainty,
     quantity: &QuantityResult,
-) -> Figure {
+) -> BarRows {
     let nominal = quantity
         .nominal
         .unwrap_or(quantity.statistics.percentile(50.0).value);
@@ -107,7 +107,7 @@ pub(super) fn tornado(
         ];
         chart = chart.row(found.label(key), bars.into_iter().flatten());
     }
-    chart.draw()
+    chart
 }
 
 /// Sobol' indices with their intervals.
@@ -115,7 +115,7 @@ pub(super) fn indices(
     scenario: &Scenario,
     found: &Uncertainty,
     quantity: &QuantityResult,
-) -> Option<Figure> {
+) -> Option<BarRows> {
     let indices = quantity.indices.as_ref()?;
     let [first_color, total_color] = [palette::SERIES[2], palette::SERIES[4]];
     let name = format!("indices-{}", stem(quantity.quantity));
@@ -145,5 +145,5 @@ pub(super) fn indices(
         ];
         chart = chart.row(found.label(&index.key), bars);
     }
-    Some(chart.draw())
+    Some(chart)
 }

@@ -36,6 +36,17 @@ struct Influence {
 /// # Errors
 /// [`ReportError::Write`]; [`ReportError::Table`].
 pub fn write_uncertainty(folder: &Path, found: &Uncertainty) -> Result<Vec<PathBuf>, ReportError> {
+    let files = uncertainty_files(found)?.into_iter();
+    files
+        .map(|(name, content)| replace_file(folder, name, &content))
+        .collect()
+}
+
+/// The files that [`write_uncertainty`] writes: name and content of each.
+///
+/// # Errors
+/// [`ReportError::Table`].
+pub fn uncertainty_files(found: &Uncertainty) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
     let whole: Vec<Spread> = found
         .quantities
         .iter()
@@ -46,10 +57,10 @@ pub fn write_uncertainty(folder: &Path, found: &Uncertainty) -> Result<Vec<PathB
         })
         .collect();
     let influences: Vec<Influence> = found.quantities.iter().flat_map(influences).collect();
-    let mut written = vec![
-        write(folder, "samples.csv", &sample_columns(found), &found.draws)?,
-        write(folder, "statistics.csv", &spread_columns(), &whole)?,
-        write(folder, "sensitivity.csv", &influence_columns(), &influences)?,
+    let mut files = vec![
+        table("samples.csv", &sample_columns(found), &found.draws)?,
+        table("statistics.csv", &spread_columns(), &whole)?,
+        table("sensitivity.csv", &influence_columns(), &influences)?,
     ];
     if !found.bands.is_empty() {
         let of_band = found.bands.iter().flat_map(|band| {
@@ -65,18 +76,17 @@ pub fn write_uncertainty(folder: &Path, found: &Uncertainty) -> Result<Vec<PathB
             0,
             Column::optional("impact_velocity_m_s", |s: &Spread| s.speed),
         );
-        written.push(write(folder, "bands.csv", &columns, &of_band)?);
+        files.push(table("bands.csv", &columns, &of_band)?);
     }
-    Ok(written)
+    Ok(files)
 }
 
-fn write<R>(
-    folder: &Path,
-    name: &str,
+fn table<R>(
+    name: &'static str,
     columns: &[Column<R>],
     rows: &[R],
-) -> Result<PathBuf, ReportError> {
-    replace_file(folder, name, &column::csv(name, columns, rows)?)
+) -> Result<(&'static str, Vec<u8>), ReportError> {
+    Ok((name, column::csv(name, columns, rows)?))
 }
 
 fn sample_columns(found: &Uncertainty) -> Vec<Column<Draw>> {

@@ -6,22 +6,28 @@ mod files;
 
 use percuss::{Scenario, uncertainty::Uncertainty};
 
-pub use files::write_uncertainty;
+pub use files::{uncertainty_files, write_uncertainty};
 
-use crate::Figure;
+use crate::{Chart, Figure};
 
 /// Draws, of each quantity, `histogram-…`, `tornado-…` and, where there are indices, `indices-…`; and over a range of speeds
 /// `bands-…` and, where perforation is decided, `perforation`.
 pub fn uncertainty_figures(scenario: &Scenario, found: &Uncertainty) -> Vec<Figure> {
-    let mut drawn = Vec::new();
+    let charts = uncertainty_charts(scenario, found);
+    charts.iter().map(Chart::draw).collect()
+}
+
+/// The charts that [`uncertainty_figures`] draws.
+pub fn uncertainty_charts(scenario: &Scenario, found: &Uncertainty) -> Vec<Chart> {
+    let mut charts: Vec<Chart> = Vec::new();
     for quantity in &found.quantities {
-        drawn.push(figures::histogram(scenario, found, quantity));
-        drawn.push(figures::tornado(scenario, found, quantity));
-        drawn.extend(figures::indices(scenario, found, quantity));
-        drawn.extend(bands::bands(scenario, found, quantity));
+        charts.push(figures::histogram(scenario, found, quantity).into());
+        charts.push(figures::tornado(scenario, found, quantity).into());
+        charts.extend(figures::indices(scenario, found, quantity).map(Chart::from));
+        charts.extend(bands::bands(scenario, found, quantity).map(Chart::from));
     }
-    drawn.extend(bands::perforation(scenario, found));
-    drawn
+    charts.extend(bands::perforation(scenario, found).map(Chart::from));
+    charts
 }
 
 /// Name of a quantity in file names: without its unit.

@@ -1,14 +1,19 @@
 // Charts as the server describes them, drawn with uPlot: the same series, colours and ranges as in its figures.
 
 import uPlot from "uplot";
+import { bars } from "./bars";
 import { color, fade, variable } from "./colors";
-import { make, significant } from "./dom";
-import { mapCanvas, mapReader } from "./map";
+import { button, make, significant } from "./dom";
+import { mapReader } from "./map";
+import { over, under } from "./paint";
 import { rows } from "./rows";
 import { shape } from "./shape";
-import type { AreaChart, Chart, LineChart, MapChart, Mark } from "./types";
+import type { AreaChart, Chart, LineChart, MapChart } from "./types";
+import { Zoom, type Range, type Side } from "./zoom";
 
 const HEIGHT = 250;
+// A rectangle that is narrower than this [px] zooms along the other axis alone.
+const NARROW = 24;
 const FONT = "12px system-ui, sans-serif";
 const number = (value: number | null | undefined) => (value == null ? "–" : significant(value));
 
@@ -24,14 +29,32 @@ export class ChartView {
   private visible = true;
   // Whether the drawing is that of an earlier chart.
   private late = false;
+  private whole = button("Whole chart", () => {
+    this.zoom.reset();
+    this.body.focus();
+  });
+  private zoom = new Zoom(
+    { range: (side) => span(this.chart as Chart, side), log: (side) => this.chart?.[side].log ?? false },
+    () => this.zoomed(),
+  );
 
   constructor(actions: HTMLElement[] = []) {
-    this.element = make("figure", {}, make("div", { class: "head" }, this.title, ...actions), this.body, this.caption);
+    const named = make("span", { class: "actions" }, this.whole, ...actions);
+    this.element = make("figure", {}, make("div", { class: "head" }, this.title, named), this.body, this.caption);
+    this.whole.hidden = true;
+    this.body.addEventListener("keydown", (event) => {
+      const plain = !event.ctrlKey && !event.metaKey && !event.altKey;
+      if (this.plot && plain && this.zoom.key(event.key)) event.preventDefault();
+    });
     new ResizeObserver(() => this.resize()).observe(this.body);
     new IntersectionObserver((entries) => {
       this.visible = entries.at(-1)?.isIntersecting ?? true;
       if (this.visible && this.late && this.chart) this.show(this.chart);
     }).observe(this.element);
+  }
+
+  get inView(): boolean {
+    return this.visible;
   }
 
   show(chart: Chart): void {
@@ -40,8 +63,7 @@ export class ChartView {
     this.title.textContent = chart.title;
     this.caption.textContent = chart.caption;
     this.element.dataset["chart"] = chart.name;
-    this.body.setAttribute("role", "img");
-    this.body.setAttribute("aria-label", `${chart.title}: ${chart.y.label || "values"} against ${chart.x.label}`);
+    this.whole.setAttribute("aria-label", `Show the whole chart: ${chart.title}`);
     // What nobody sees is drawn when it comes into view: a slider moves the faster for it.
     this.late = !first && !this.visible;
     if (this.late) return;
@@ -55,16 +77,22 @@ export class ChartView {
     if (!chart) return;
     this.plot?.destroy();
     this.plot = null;
+    if (signature(chart) !== this.signature) this.zoom.reset();
     this.signature = signature(chart);
-    if (chart.kind === "rows" || (chart.kind === "lines" && chart.true_to_scale)) {
-      this.body.removeAttribute("role");
-      this.body.replaceChildren(chart.kind === "rows" ? rows(chart) : shape(chart));
+    const fixed = unzoomed(chart);
+    const label = `${chart.title}: ${chart.y.label || "values"} against ${chart.x.label}`;
+    this.body.setAttribute("role", fixed ? "group" : "application");
+    this.body.setAttribute("aria-label", fixed ? label : `${label}. Plus and minus zoom, arrows move, 0 shows all.`);
+    if (fixed) {
+      this.body.removeAttribute("tabindex");
+      this.body.replaceChildren(fixed);
       return;
     }
+    this.body.tabIndex = 0;
     this.body.replaceChildren();
     const width = Math.max(240, this.body.clientWidth || 480);
     const current = () => this.chart as Chart;
-    this.plot = new uPlot(options(chart, width, current), data(chart), this.body);
+    this.plot = new uPlot(options(chart, width, current, this.zoom), data(chart), this.body);
     // A line that emphasises another has no name and no place in the legend.
     const names = [...this.plot.root.querySelectorAll<HTMLElement>(".u-legend .u-series")].slice(1);
     if (chart.kind === "lines") chart.series.forEach((series, i) => series.name === "" && names[i]?.setAttribute("hidden", ""));
@@ -76,10 +104,21 @@ export class ChartView {
     if (!plot) return;
     plot.batch(() => {
       plot.setData(data(chart), false);
-      plot.setScale("x", limits(chart, "x"));
-      plot.setScale("y", limits(chart, "y"));
+      this.scale(plot);
     });
     plot.redraw(true, true);
+  }
+
+  private zoomed(): void {
+    this.whole.hidden = !this.zoom.active;
+    if (this.plot) this.scale(this.plot);
+  }
+
+  private scale(plot: uPlot): void {
+    for (const side of ["x", "y"] as const) {
+      const [min, max] = this.zoom.range(side);
+      plot.setScale(side, { min, max });
+    }
   }
 
   private resize(): void {
@@ -92,28 +131,36 @@ export class ChartView {
   }
 }
 
+// A chart that has no axes to zoom along; nothing for the others.
+function unzoomed(chart: Chart): HTMLElement | null {
+  switch (chart.kind) {
+    case "rows": return rows(chart);
+    case "bars": return bars(chart);
+    case "lines": return chart.true_to_scale ? shape(chart) : null;
+    default: return null;
+  }
+}
+
 // What makes two charts differ in more than their numbers.
 function signature(chart: Chart): string {
   switch (chart.kind) {
     case "lines": return JSON.stringify([chart.name, chart.x.label, chart.y.label, chart.series.map((s) => [s.name, s.color, s.dashes, s.markers, s.line])]);
     case "areas": return JSON.stringify([chart.name, chart.areas.map((area) => [area.name, area.color])]);
     case "map": return JSON.stringify([chart.name, chart.columns, chart.value_label]);
-    case "rows": return "rows";
+    case "histogram": return JSON.stringify([chart.name, chart.color]);
+    case "rows": case "bars": return chart.kind;
   }
 }
 
 // Range of an axis; that of its values, with some room, where the axis is logarithmic and has none of its own.
-function span(chart: Chart, side: "x" | "y"): [number, number] {
+function span(chart: Chart, side: Side): Range {
   const range = chart[side].range;
+  // Names of marks stand above the bars.
+  if (range && chart.kind === "histogram" && side === "y") return [range[0], range[1] * (1 + 0.14 * chart.marks.length)];
   if (range) return range;
   const values = chart.kind === "lines" ? chart.series.flatMap((series) => (side === "x" ? (series.x ?? []) : series.y)) : [];
   const positive = values.filter((value): value is number => value !== null && value > 0);
   return positive.length ? [Math.min(...positive) / 1.15, Math.max(...positive) * 1.15] : [1, 10];
-}
-
-function limits(chart: Chart, side: "x" | "y"): { min: number; max: number } {
-  const [min, max] = span(chart, side);
-  return { min, max };
 }
 
 function data(chart: Chart): uPlot.AlignedData {
@@ -121,7 +168,8 @@ function data(chart: Chart): uPlot.AlignedData {
     case "lines": return lineData(chart);
     case "areas": return areaData(chart);
     case "map": return [span(chart, "x"), [null, null]];
-    case "rows": return [[]];
+    case "histogram": return [chart.middles, chart.parts];
+    case "rows": case "bars": return [[]];
   }
 }
 
@@ -147,7 +195,7 @@ function areaData(chart: AreaChart): uPlot.AlignedData {
   return [chart.positions, ...stacked.reverse()];
 }
 
-function options(chart: Chart, width: number, current: () => Chart): uPlot.Options {
+function options(chart: Chart, width: number, current: () => Chart, zoom: Zoom): uPlot.Options {
   const ink = variable("--ink");
   const axis = (label: string, side: number): uPlot.Axis => ({
     label,
@@ -164,18 +212,32 @@ function options(chart: Chart, width: number, current: () => Chart): uPlot.Optio
     width,
     height: HEIGHT,
     legend: { live: true, show: chart.kind !== "map" },
-    cursor: { drag: { x: false, y: false }, y: chart.kind === "map" },
+    cursor: {
+      drag: { x: true, y: true, uni: NARROW, setScale: false },
+      y: chart.kind === "map",
+      bind: { dblclick: () => () => (zoom.reset(), null) },
+    },
     scales: {
-      x: { time: false, range: () => span(current(), "x"), distr: chart.x.log ? 3 : 1 },
-      y: { range: () => span(current(), "y"), distr: chart.y.log ? 3 : 1 },
+      x: { time: false, range: () => zoom.range("x"), distr: chart.x.log ? 3 : 1 },
+      y: { range: () => zoom.range("y"), distr: chart.y.log ? 3 : 1 },
     },
     axes: [{ ...axis(chart.x.label, 2), ...meshes(chart, current) }, axis(chart.y.label, 3)],
     series: [{ label: chart.x.label, value: (_, value) => number(value) }, ...seriesOf(chart, current)],
     hooks: {
       drawAxes: [(plot) => under(plot, current())],
       draw: [(plot) => over(plot, current())],
+      setSelect: [(plot) => select(plot, zoom)],
     },
   };
+}
+
+// Zooms into the rectangle that was dragged.
+function select(plot: uPlot, zoom: Zoom): void {
+  const { left, top, width, height } = plot.select;
+  if (width <= 0 && height <= 0) return;
+  const ends = (from: number, to: number, side: Side): Range => [plot.posToVal(from, side), plot.posToVal(to, side)];
+  plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+  zoom.show(ends(left, left + width, "x"), ends(top + height, top, "y"));
 }
 
 // On a logarithmic axis the places of the points are the numbers that a reader looks for.
@@ -217,100 +279,17 @@ function seriesOf(chart: Chart, current: () => Chart): uPlot.Series[] {
         };
       });
     case "map": return [{ label: chart.value_label }];
-    case "rows": return [];
-  }
-}
-
-// What lies below the lines: bands of ranges, and the cells of a map.
-function under(plot: uPlot, chart: Chart): void {
-  const { ctx, bbox } = plot;
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
-  ctx.clip();
-  if (chart.kind === "map") {
-    ctx.imageSmoothingEnabled = false;
-    const rowCount = chart.cells.length / chart.columns;
-    const canvas = mapCanvas(chart, rowCount);
-    ctx.drawImage(canvas, bbox.left, bbox.top, bbox.width, bbox.height);
-    for (const x of chart.vertical_lines) line(plot, { name: "", value: x, vertical: true }, "#000");
-  }
-  if (chart.kind === "lines") for (const series of chart.series) band(plot, chart, series);
-  ctx.restore();
-}
-
-function band(plot: uPlot, chart: LineChart, series: LineChart["series"][number]): void {
-  const x = series.x ?? chart.series[0]?.x ?? [];
-  const ends = series.band ?? [];
-  plot.ctx.fillStyle = fade(color(series.color), 0.18);
-  for (let i = 0; i + 1 < ends.length; i++) {
-    const corners = [i, i + 1].map((at) => [x[at], ends[at]?.[0], ends[at]?.[1]]);
-    if (corners.some((corner) => corner.some((value) => value == null))) continue;
-    const [[xa, la, ha], [xb, lb, hb]] = corners as [number[], number[]];
-    plot.ctx.beginPath();
-    for (const [px, py] of [[xa, la], [xb, lb], [xb, hb], [xa, ha]]) {
-      plot.ctx.lineTo(plot.valToPos(px as number, "x", true), plot.valToPos(py as number, "y", true));
+    case "histogram": {
+      const paths = uPlot.paths.bars?.({ size: [1, Infinity], gap: 1 });
+      return [{
+        label: chart.y.label,
+        fill: fade(color(chart.color), 0.75),
+        width: 0,
+        points: { show: false },
+        ...(paths ? { paths } : {}),
+        value: (_, value) => number(value),
+      }];
     }
-    plot.ctx.fill();
+    case "rows": case "bars": return [];
   }
-}
-
-// What lies above the lines: marks with their names, and error bars.
-function over(plot: uPlot, chart: Chart): void {
-  if (chart.kind !== "lines") return;
-  const { ctx, bbox } = plot;
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
-  ctx.clip();
-  for (const mark of chart.marks) line(plot, mark, variable("--soft"));
-  for (const series of chart.series) errorBars(plot, chart, series);
-  ctx.restore();
-}
-
-function line(plot: uPlot, mark: Mark, stroke: string): void {
-  const { ctx, bbox } = plot;
-  const ratio = devicePixelRatio;
-  const at = plot.valToPos(mark.value, mark.vertical ? "x" : "y", true);
-  ctx.strokeStyle = stroke;
-  ctx.lineWidth = ratio;
-  ctx.setLineDash([4 * ratio, 3 * ratio]);
-  ctx.beginPath();
-  if (mark.vertical) {
-    ctx.moveTo(at, bbox.top);
-    ctx.lineTo(at, bbox.top + bbox.height);
-  } else {
-    ctx.moveTo(bbox.left, at);
-    ctx.lineTo(bbox.left + bbox.width, at);
-  }
-  ctx.stroke();
-  ctx.setLineDash([]);
-  if (!mark.name) return;
-  ctx.font = `${12 * ratio}px system-ui, sans-serif`;
-  const width = ctx.measureText(mark.name).width;
-  const right = bbox.left + bbox.width - width - 6 * ratio;
-  const x = mark.vertical ? Math.min(at + 4 * ratio, right) : right;
-  const y = mark.vertical ? bbox.top + bbox.height - 8 * ratio : Math.max(at - 5 * ratio, bbox.top + 13 * ratio);
-  // A rim in the colour of the ground keeps the name legible over lines, and the lines visible.
-  ctx.textAlign = "left";
-  ctx.strokeStyle = variable("--card");
-  ctx.lineWidth = 3 * ratio;
-  ctx.strokeText(mark.name, x, y);
-  ctx.fillStyle = variable("--ink");
-  ctx.fillText(mark.name, x, y);
-}
-
-function errorBars(plot: uPlot, chart: LineChart, series: LineChart["series"][number]): void {
-  const x = series.x ?? chart.series[0]?.x ?? [];
-  plot.ctx.strokeStyle = color(series.color);
-  plot.ctx.lineWidth = 1.5 * devicePixelRatio;
-  (series.errors ?? []).forEach(([below, above], i) => {
-    const [at, y] = [x[i], series.y[i]];
-    if (at == null || y == null || below + above === 0) return;
-    const place = plot.valToPos(at, "x", true);
-    plot.ctx.beginPath();
-    plot.ctx.moveTo(place, plot.valToPos(y - below, "y", true));
-    plot.ctx.lineTo(place, plot.valToPos(y + above, "y", true));
-    plot.ctx.stroke();
-  });
 }

@@ -46,10 +46,11 @@ export function table(head: string[], rows: (string | Node)[][], texts: number[]
   return make("div", { class: "wide", tabindex: "0" }, make("table", {}, heading, body));
 }
 
-// A label and a value each; what is a sentence rather than a number takes more room.
+// A label and a value each; what is a sentence rather than a number takes more room and comes last.
 export function pairs(list: [string, string][]): HTMLElement[] {
-  return list.map(([label, value]) =>
-    make("div", value.length > 36 ? { class: "long" } : {}, make("dt", {}, label), make("dd", {}, value)));
+  const long = ([, value]: [string, string]) => value.length > 36;
+  const sorted = [...list].sort((a, b) => Number(long(a)) - Number(long(b)));
+  return sorted.map((pair) => make("div", long(pair) ? { class: "long" } : {}, make("dt", {}, pair[0]), make("dd", {}, pair[1])));
 }
 
 export function download(name: string, content: BlobPart, type: string): void {

@@ -6,6 +6,9 @@ import type { Field, Start, Unit, Value, Values } from "./types";
 // A key and its new value as TOML writes it; none removes the key.
 export interface Edit { key: string; value: string | null }
 
+// A new value, of a slider that may still move.
+type Change = (value: string | null, moving?: boolean) => void;
+
 const NUMBER = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$/;
 const TOML_NUMBER = /^[+-]?(\d+(\.\d+)?([eE][+-]?\d+)?|nan|inf)$/;
 const STEPS = 400;
@@ -25,7 +28,7 @@ export class Form {
   private built = "";
   private values: Values = {};
 
-  constructor(private start: Start, private change: (edits: Edit[]) => void) {
+  constructor(private start: Start, private change: (edits: Edit[], moving: boolean) => void) {
     get("form").addEventListener("submit", (event) => event.preventDefault());
   }
 
@@ -85,7 +88,7 @@ export class Form {
     const label = field.key.split(".").slice(1).join(" ").replaceAll("_", " ").replace(/^layers (\d+)/, (_, i) => `layer ${Number(i) + 1}`);
     const id = `field-${field.key.replaceAll(".", "-")}`;
     const frame = make("div", { class: `field of-${field.kind}`, title: field.help }, make("label", { for: id }, label));
-    const edit = (value: string | null) => this.change([{ key: field.key, value }]);
+    const edit: Change = (value, moving = false) => this.change([{ key: field.key, value }], moving);
     // A field within a value is there with the value; a field that belongs to another form of target is not in the way.
     const present = (values: Values) => {
       if (field.key in values) return true;
@@ -104,7 +107,7 @@ export class Form {
     }
   }
 
-  private material(field: Field, id: string, frame: HTMLElement, edit: (value: string | null) => void) {
+  private material(field: Field, id: string, frame: HTMLElement, edit: Change) {
     const input = make("select", { id });
     const card = make("a", { target: "_blank", rel: "noopener" }, "sources");
     const own = new Set(Object.keys(this.values).map((key) => /^materials\.([^.]+)\./.exec(key)?.[1]).filter((name) => name !== undefined));
@@ -160,7 +163,7 @@ function rangeOf(field: Field, si: number): [number, number] {
   return [Math.min(low, si), Math.max(high, si)];
 }
 
-function quantity(field: Field, id: string, frame: HTMLElement, edit: (value: string | null) => void) {
+function quantity(field: Field, id: string, frame: HTMLElement, edit: Change) {
   const units = field.units ?? [];
   const input = make("input", { id, type: "text", inputmode: "decimal", placeholder: "default" });
   const unit = make("select", { "aria-label": `${field.key.replaceAll("_", " ").replaceAll(".", " ")}, unit` });
@@ -173,12 +176,12 @@ function quantity(field: Field, id: string, frame: HTMLElement, edit: (value: st
   if (range) frame.append(range);
   let limits: [number, number] = [0, 1];
   let before = "";
-  const write = () => {
+  const write = (moving = false) => {
     if (field.words?.includes(unit.value)) return edit(quoted(unit.value));
     if (input.value.trim() === "") return edit(null);
-    edit(quoted(`${input.value.trim()} ${unit.value}`));
+    edit(quoted(`${input.value.trim()} ${unit.value}`), moving);
   };
-  input.addEventListener("input", write);
+  input.addEventListener("input", () => write());
   unit.addEventListener("input", () => {
     const si = toSI(Number(input.value), find(before));
     // Another unit is another way to write the same quantity.
@@ -192,7 +195,7 @@ function quantity(field: Field, id: string, frame: HTMLElement, edit: (value: st
     const step = fromSI((limits[1] - limits[0]) / STEPS, { ...(find(unit.value) ?? { symbol: "", factor: 1 }), offset: 0 });
     const digits = Math.max(0, -Math.floor(Math.log10(step)));
     input.value = String(Number(fromSI(si, find(unit.value)).toFixed(digits)));
-    write();
+    write(true);
   });
   const show = (values: Values) => {
     const text = shown(values[field.key]);
@@ -220,7 +223,7 @@ function quantity(field: Field, id: string, frame: HTMLElement, edit: (value: st
   return { element: frame, input, show };
 }
 
-function number(field: Field, id: string, frame: HTMLElement, edit: (value: string | null) => void) {
+function number(field: Field, id: string, frame: HTMLElement, edit: Change) {
   const input = make("input", { id, type: "text", inputmode: "decimal", placeholder: "default" });
   const range = field.slider ? slider(id, frame.textContent ?? "") : null;
   frame.append(input);
@@ -234,7 +237,7 @@ function number(field: Field, id: string, frame: HTMLElement, edit: (value: stri
   range?.addEventListener("input", () => {
     const value = limits[0] + ((limits[1] - limits[0]) * Number(range.value)) / STEPS;
     input.value = field.integer ? String(Math.round(value)) : significant(value, 3);
-    edit(input.value);
+    edit(input.value, true);
   });
   const show = (values: Values) => {
     const text = shown(values[field.key]);
@@ -253,7 +256,7 @@ function choice(
   choices: string[],
   id: string,
   frame: HTMLElement,
-  edit: (value: string | null) => void,
+  edit: Change,
   written: (value: Value | undefined) => string,
 ) {
   const input = make("select", { id });
@@ -274,7 +277,7 @@ function choice(
   return { element: frame, input, show };
 }
 
-function text(field: Field, id: string, frame: HTMLElement, edit: (value: string | null) => void) {
+function text(field: Field, id: string, frame: HTMLElement, edit: Change) {
   const input = make("input", { id, type: "text", placeholder: "default" });
   input.addEventListener("input", () => edit(input.value.trim() === "" ? null : quoted(input.value)));
   frame.append(input);

@@ -11,6 +11,8 @@ import { fromFragment, toFragment } from "./link";
 import { SideBySide, studies } from "./studies";
 import type { Answer, Problem, Start } from "./types";
 
+// A slider that stands for so long has come to rest.
+const REST_MS = 150;
 // A run that takes longer is ended when the case changes; a shorter one is waited for, so that curves follow a drag.
 const PATIENCE_MS = 400;
 
@@ -20,19 +22,24 @@ const models = get<HTMLSelectElement>("models");
 const cases = get<HTMLSelectElement>("cases");
 const views = new Map<string, ChartView>();
 const others: ChartView[] = [];
-const form = new Form(start, (edits) => ask(edits));
+const form = new Form(start, (edits, moving) => ask(edits, moving));
 const sideBySide = new SideBySide(get("comparison-body"), others);
 
 let name = start.name;
 // None leaves the choice to the server.
 let model: string | null = start.answer.model;
-let pending: { edits: Map<string, Edit> } | null = null;
+let pending: { edits: Map<string, Edit>; moving: boolean } | null = null;
+let values = start.answer.values;
+let rest = 0;
 let current: { control: AbortController; since: number } | null = null;
 let saved = 0;
 
-// Asks for the answer to the case as it stands, with edits of the form. While one is computed the latest wish waits.
-function ask(edits: Edit[] = []): void {
-  pending ??= { edits: new Map() };
+// Asks for the answer to the case as it stands, with edits of the form. While one is computed the latest wish waits. While a slider
+// moves a draft will do: the curves in view, with fewer points.
+function ask(edits: Edit[] = [], moving = false): void {
+  clearTimeout(rest);
+  pending ??= { edits: new Map(), moving };
+  pending.moving &&= moving;
   for (const edit of edits) pending.edits.set(edit.key, edit);
   if (!current) void answerAll();
   else if (performance.now() - current.since > PATIENCE_MS) current.control.abort();
@@ -41,13 +48,13 @@ function ask(edits: Edit[] = []): void {
 // Puts edits of a run that was ended before those that wait; false when nothing waits.
 function keep(edits: Map<string, Edit>): boolean {
   if (!pending) return false;
-  pending = { edits: new Map([...edits, ...pending.edits]) };
+  pending = { ...pending, edits: new Map([...edits, ...pending.edits]) };
   return true;
 }
 
 async function answerAll(): Promise<void> {
   while (pending) {
-    const { edits } = pending;
+    const { edits, moving } = pending;
     pending = null;
     const control = new AbortController();
     const since = performance.now();
@@ -55,10 +62,12 @@ async function answerAll(): Promise<void> {
     const sent = text.value;
     const busy = window.setTimeout(() => wait(control), PATIENCE_MS);
     try {
-      const body = { name, case: sent, edits: [...edits.values()], model };
+      const seen = [...views].filter(([, view]) => view.inView).map(([chart]) => chart);
+      const body = { name, case: sent, edits: [...edits.values()], model, ...(moving ? { in_view: seen } : {}) };
       const answer = await post<Answer>("/api/answer", body, control.signal);
       if (text.value === sent) text.value = answer.case;
-      show(answer, performance.now() - since);
+      show(answer, since, moving);
+      if (moving && !pending) rest = window.setTimeout(() => ask(), REST_MS);
     } catch (error) {
       if (control.signal.aborted) {
         // What the form had changed is not lost with the run that was ended.
@@ -83,8 +92,8 @@ function wait(control: AbortController): void {
   get("status").replaceChildren("computing … ", button("Cancel", () => control.abort()));
 }
 
-// `took` is the time from the wish to the answer [ms]; the first answer comes with the page.
-function show(answer: Answer, took: number | null): void {
+// Shows an answer to a wish of a time; the first answer comes with the page. A draft is soon followed by the whole.
+function show(answer: Answer, since: number | null, draft: boolean): void {
   get("problem").hidden = true;
   get("answer").classList.remove("stale");
   form.mark("");
@@ -98,10 +107,14 @@ function show(answer: Answer, took: number | null): void {
   box.hidden = warnings.length === 0;
   box.querySelector("summary")!.textContent = warnings.length === 1 ? "1 warning" : `${warnings.length} warnings`;
   box.querySelector("ul")!.replaceChildren(...warnings.map((words) => make("li", {}, words)));
-  showCharts(answer);
+  values = answer.values;
+  if (draft) for (const chart of answer.charts) views.get(chart.name)?.show(chart);
+  else showCharts(answer);
   const run = `${answer.elapsed_ms.toFixed(0)} ms`;
-  get("status").textContent = took === null ? `computed in ${run}` : `${took.toFixed(0)} ms from change to curves, ${run} of them for the run`;
+  const took = since === null ? "" : `${(performance.now() - since).toFixed(0)} ms from change to curves, ${run} of them for the run`;
+  get("status").textContent = took || `computed in ${run}`;
   document.documentElement.dataset["answers"] = String(Number(document.documentElement.dataset["answers"] ?? 0) + 1);
+  if (draft) return;
   sideBySide.follow({ name, case: answer.case });
   downloads(answer);
   clearTimeout(saved);
@@ -213,7 +226,18 @@ function build(): void {
       () => (get("status").textContent = "the link is the address of this page"),
     );
   });
-  get("studies").append(...studies(() => ({ name, case: text.value, model: model ?? models.value }), others));
+  const page = {
+    request: () => ({ name, case: text.value, model: model ?? models.value }),
+    hasUncertainty: () => Object.keys(values).some((key) => key.startsWith("uncertainty.")),
+    insert: (example: string) => {
+      text.value = example;
+      get<HTMLDetailsElement>("text-box").open = true;
+      text.scrollTop = text.scrollHeight;
+      text.focus({ preventScroll: true });
+      ask();
+    },
+  };
+  get("studies").append(...studies(page, others));
   onThemeChange(() => [...views.values(), ...others].forEach((view) => view.draw()));
   addEventListener("hashchange", () => void fromFragment(location.hash).then((state) => state && load(state)));
   document.addEventListener("keydown", (event) => {
@@ -224,5 +248,5 @@ function build(): void {
 build();
 text.value = start.answer.case;
 const linked = fromFragment(location.hash);
-show(start.answer, null);
+show(start.answer, null, false);
 void linked.then((state) => state && load(state));

@@ -4,7 +4,8 @@ import { Refused, follow } from "./api";
 import { ChartView } from "./charts";
 import { button, download, make, pairs } from "./dom";
 import { comparison, convergence, limits } from "./tables";
-import type { Answer, Comparison, Convergence, Limits, Study } from "./types";
+import { offer, spread } from "./uncertain";
+import type { Answer, Comparison, Convergence, Limits, Spread, Study } from "./types";
 
 interface Kind {
   title: string;
@@ -13,6 +14,15 @@ interface Kind {
   inputs?: HTMLElement[];
   body(): object;
   show(done: unknown): HTMLElement[];
+  // What else to say to a refusal.
+  refused?(): HTMLElement | null;
+}
+
+// What studies ask of the page.
+export interface Case {
+  request(): { name: string; case: string; model: string };
+  hasUncertainty(): boolean;
+  insert(text: string): void;
 }
 
 type Views = ChartView[];
@@ -44,7 +54,8 @@ function panel(kind: Kind, views: Views, named: () => string): HTMLElement {
       result.replaceChildren(...kind.show(done), ...outcome(done as Study));
     } catch (error) {
       const said = own.signal.aborted ? "cancelled" : error instanceof Refused ? `${error.problem.message}. ${error.problem.help}` : String(error);
-      result.replaceChildren(make("p", { class: "note" }, said));
+      const more = own.signal.aborted ? null : kind.refused?.();
+      result.replaceChildren(make("p", { class: "note" }, said), ...(more ? [more] : []));
     } finally {
       running.hidden = true;
       start.disabled = false;
@@ -73,8 +84,29 @@ function speed(label: string, value: number): [HTMLElement, HTMLInputElement] {
   return [make("label", {}, `${label} `, input), input];
 }
 
-// All studies; `asked` is what the server is asked about.
-export function studies(asked: () => { name: string; case: string; model: string }, views: Views): HTMLElement[] {
+function uncertainty(page: Case): Kind {
+  const counts = [64, 256, 1024, 4096].map((count) => make("option", { value: String(count) }, String(count)));
+  const samples = make("select", {}, ...counts);
+  samples.value = "256";
+  const seed = make("input", { type: "number", min: "0", max: "9007199254740991", step: "1", value: "0" });
+  const indices = make("input", { type: "checkbox", checked: "" });
+  return {
+    title: "Uncertainty",
+    about: "what the uncertain numbers of the case do to its results",
+    path: "/api/study/uncertainty",
+    inputs: [make("label", {}, "shots ", samples), make("label", {}, "seed ", seed), make("label", {}, indices, " Sobol' indices")],
+    body: () => ({
+      ...page.request(),
+      uncertainty: { samples: Number(samples.value), seed: Number(seed.value), indices: indices.checked },
+    }),
+    show: (done) => spread(done as Spread),
+    refused: () => (page.hasUncertainty() ? null : offer(() => page.request(), (text) => page.insert(text))),
+  };
+}
+
+// All studies.
+export function studies(page: Case, views: Views): HTMLElement[] {
+  const asked = () => page.request();
   const named = () => asked().name || "case";
   const [from, fromInput] = speed("from", 100);
   const [to, toInput] = speed("to", 1000);
@@ -101,6 +133,7 @@ export function studies(asked: () => { name: string; case: string; model: string
       body: () => ({ ...asked(), model: null }),
       show: (done) => limits(done as Limits),
     },
+    uncertainty(page),
     {
       title: "Axisymmetric reference",
       about: "the model axi: two dimensions, by the material point method; takes a while",

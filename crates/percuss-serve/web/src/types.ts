@@ -55,7 +55,23 @@ export interface RowChart extends ChartHead {
   rows: { name: string; color: string; value: number; range: [number, number] | null }[];
   marks: Mark[];
 }
-export type Chart = LineChart | AreaChart | MapChart | RowChart;
+export interface HistogramChart extends ChartHead {
+  kind: "histogram";
+  middles: number[];
+  width: number;
+  parts: number[];
+  color: string;
+  marks: Mark[];
+}
+export interface Bar { ends: [number, number]; color: string; lane: number; interval: [number, number] | null; text: string }
+export interface BarChart extends ChartHead {
+  kind: "bars";
+  lanes: number;
+  rows: { name: string; bars: Bar[] }[];
+  colors: [string, string][];
+  marks: Mark[];
+}
+export type Chart = LineChart | AreaChart | MapChart | RowChart | HistogramChart | BarChart;
 
 export type Value = string | boolean | { number: string };
 export type Values = Record<string, Value>;
@@ -125,6 +141,35 @@ export interface Limits extends Study {
       bracket: { stopped_m_s: number; perforated_m_s: number } | null;
       runs: number;
     }[];
+  };
+}
+
+interface Estimate { value: number; low: number; high: number }
+interface Perforation { perforated: number; stopped: number; probability: number; low: number; high: number }
+
+export interface Spread extends Study {
+  quantities: { words: string; unit: string }[];
+  labels: string[];
+  nominal: string;
+  caution: string;
+  uncertainty: {
+    model: string;
+    samples: number;
+    seed: number;
+    shots: number;
+    inputs: { key: string; distribution: string }[];
+    nominal: { reason: string | null; warnings: string[] };
+    failures: { shots: number; reasons: string[] };
+    perforation: Perforation | null;
+    quantities: {
+      nominal: number | null;
+      statistics: { shots: number; mean: number; standard_error: number; standard_deviation: number; percentiles: { percent: number; value: number }[] };
+      tornado: { key: string; at_low: number | null; at_high: number | null }[];
+      indices: { parameters: { key: string; first_order: Estimate; total: Estimate }[] } | null;
+      no_indices: string | null;
+    }[];
+    no_indices: string | null;
+    warnings: string[];
   };
 }
 

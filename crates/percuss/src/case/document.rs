@@ -11,12 +11,21 @@ use crate::{
 };
 
 /// A text with the name of its file: turns findings and parse errors into errors with a place.
-pub(crate) struct Document {
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Document {
     pub(crate) file: String,
     pub(crate) text: String,
 }
 
 impl Document {
+    /// A text that comes from no file; its name stands for one in messages.
+    pub fn new(name: &str, text: impl Into<String>) -> Self {
+        Self {
+            file: name.to_owned(),
+            text: text.into(),
+        }
+    }
+
     pub(crate) fn parse<T: serde::de::DeserializeOwned>(&self) -> Result<T, Error> {
         toml::from_str(&self.text).map_err(|error| self.parse_error(&error).into())
     }

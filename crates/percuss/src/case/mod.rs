@@ -20,7 +20,7 @@ mod template;
 mod tests;
 
 pub use chain_words::*;
-pub(crate) use document::Document;
+pub use document::Document;
 pub use experiment::{Experiment, SourceKeys, Uncertainty};
 pub(crate) use load::read_text;
 pub use load::{MAX_FILE_BYTES, load, load_library, load_materials, load_str};

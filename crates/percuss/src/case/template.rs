@@ -1,6 +1,6 @@
 //! A case whose numbers can be changed before it becomes a scenario.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use toml::{Table, Value};
@@ -31,17 +31,28 @@ impl Template {
             file: path.display().to_string(),
             text: load::read_text(path)?,
         };
+        let directory = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        Self::with(scenario.name, &document, Some(&directory))
+    }
+
+    /// Reads a case that comes from no file, which has to be valid as it stands.
+    pub(crate) fn of(document: &Document) -> Result<Self, Error> {
+        let scenario = load::load_str(&document.file, &document.text)?;
+        Self::with(scenario.name, document, None)
+    }
+
+    fn with(name: String, document: &Document, directory: Option<&PathBuf>) -> Result<Self, Error> {
         let mut table: Table = document.parse()?;
         // No shot depends on what is uncertain.
         table.remove("uncertainty");
         let mut case: Case = document.parse()?;
         // Its own materials are among the numbers that can be changed: only those of other files are looked up beforehand.
         case.materials.clear();
-        let directory = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        let library = load::library_of(&case, &document, &scenario.name, Some(&directory))?;
+        let library = load::library_of(&case, document, &name, directory)?;
         let mut content = table.to_string();
         for file in &case.material_files {
-            let text = load::read_text(&directory.join(file))?;
+            let folder = directory.map_or(Path::new(""), PathBuf::as_path);
+            let text = load::read_text(&folder.join(file))?;
             let document = Document {
                 file: file.display().to_string(),
                 text,
@@ -49,7 +60,7 @@ impl Template {
             content += &document.parse::<Table>()?.to_string();
         }
         Ok(Self {
-            name: scenario.name,
+            name,
             table,
             library,
             content,

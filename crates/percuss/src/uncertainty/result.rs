@@ -118,6 +118,19 @@ impl Uncertainty {
         let input = self.inputs.iter().find(|input| input.key == key);
         input.map_or(key, |input| &input.label)
     }
+
+    /// What the spread leaves out.
+    pub fn caution(&self) -> String {
+        const SPREAD: &str = "The spread is that of the inputs. The model's own error comes on top";
+        match &self.nominal.expected_error {
+            Some(expected) => format!(
+                "{SPREAD}: {} of the depth against the axisymmetric reference, over the {} most similar shots of the judgement.",
+                expected.in_words(),
+                expected.shots
+            ),
+            None => format!("{SPREAD}."),
+        }
+    }
 }
 
 impl QuantityResult {

@@ -55,6 +55,20 @@ impl Study {
             file: path.display().to_string(),
             text: read_text(path)?,
         };
+        Self::checked(&document, template, case::load(path)?)
+    }
+
+    /// Reads a case that comes from no file.
+    ///
+    /// # Errors
+    /// [`Error::Input`], as [`Study::load`].
+    pub fn of(document: &Document) -> Result<Self, Error> {
+        let template = Template::of(document)?;
+        let scenario = case::load_str(&document.file, &document.text)?;
+        Self::checked(document, template, scenario)
+    }
+
+    fn checked(document: &Document, template: Template, scenario: Scenario) -> Result<Self, Error> {
         let case: Case = document.parse()?;
         let Some(inputs) = case.uncertainty else {
             let finding = Finding {
@@ -81,7 +95,7 @@ impl Study {
         check_values(&axes, &template, &mut check);
         document.report(findings)?;
         Ok(Self {
-            scenario: case::load(path)?,
+            scenario,
             axes,
             copula,
             template,

@@ -276,13 +276,5 @@ fn warnings(found: &Uncertainty) -> String {
         text += &line.replacen("warning:", &yellow("warning:"), 1);
         text += "\n\n";
     }
-    let own = match &found.nominal.expected_error {
-        Some(expected) => format!(
-            "The spread is that of the inputs. The model's own error comes on top: {} of the depth against the axisymmetric reference, over the {} most similar shots of the judgement.",
-            expected.in_words(),
-            expected.shots
-        ),
-        None => "The spread is that of the inputs. The model's own error comes on top.".to_owned(),
-    };
-    text + &wrap(&own, width(), 0) + "\n"
+    text + &wrap(&found.caution(), width(), 0) + "\n"
 }

@@ -1,15 +1,14 @@
 //! What the server answers is what the library and the command line say, to the last bit.
 
-mod support;
-
 use percuss::{
-    case, compare,
+    case,
     model::{self, Control},
     summary::CaseResults,
 };
 use percuss_serve::Options;
 use serde_json::{Value, json};
-use support::{PAPER, Served};
+
+use crate::support::{PAPER, Served};
 
 /// What the library says of a case, as `percuss run --json` prints it.
 fn by_library(name: &str, text: &str, model: &str) -> Value {
@@ -23,8 +22,8 @@ fn by_library(name: &str, text: &str, model: &str) -> Value {
 #[test]
 fn the_numbers_are_those_of_the_library() {
     let served = Served::new(Options::default());
-    let taylor = include_str!("../../../cases/taylor-copper-wilkins/scenario.toml");
-    let blunt = include_str!("../../../cases/weldox-460e-12mm-blunt/scenario.toml");
+    let taylor = include_str!("../../../../cases/taylor-copper-wilkins/scenario.toml");
+    let blunt = include_str!("../../../../cases/weldox-460e-12mm-blunt/scenario.toml");
     for (text, model) in [
         (PAPER, "chain"),
         (PAPER, "fdm"),
@@ -100,42 +99,6 @@ fn a_case_that_is_not_valid_is_refused_in_the_words_of_the_reader() {
     assert_eq!(answer["problem"]["key"], "projectile.diameter");
     // The form follows a text that is TOML, valid or not.
     assert_eq!(answer["values"]["projectile.diameter"], "4.8 kg");
-}
-
-#[test]
-fn studies_end_with_what_the_library_says() {
-    let served = Served::new(Options::default());
-    let answer = served.post(
-        "/api/study/compare",
-        &json!({ "name": "shot", "case": PAPER }),
-    );
-    let last = answer.lines().pop().unwrap();
-    let scenario = case::load_str("shot", PAPER).unwrap();
-    let mut watch = compare::Watch::default();
-    let comparison = compare::compare(&model::quick(), &scenario, &[230.0], &mut watch).unwrap();
-    let printed = serde_json::to_string(&comparison).unwrap();
-    let expected: Value = serde_json::from_str(&printed).unwrap();
-    assert_eq!(last["done"]["comparison"], expected);
-    let csv = last["done"]["files"]["compare.csv"].as_str().unwrap();
-    assert_eq!(csv.lines().count(), 1 + comparison.results.len());
-
-    let coarse = PAPER.replace("= 40", "= 10").replace("= 80", "= 20");
-    let answer = served.post(
-        "/api/study/converge",
-        &json!({ "case": coarse, "model": "chain" }),
-    );
-    let lines = answer.lines();
-    let done = &lines[lines.len() - 1]["done"]["study"];
-    assert_eq!(done["meshes"].as_array().unwrap().len(), 4);
-    assert_eq!(done["meshes"][3]["projectile_elements"], 80);
-    let parts: Vec<f64> = lines[..lines.len() - 1]
-        .iter()
-        .map(|line| line["progress"]["fraction"].as_f64().unwrap())
-        .collect();
-    assert!(parts.iter().all(|part| (0.0..=1.0).contains(part)));
-
-    let answer = served.post("/api/study/nothing", &json!({ "case": PAPER }));
-    assert_eq!(answer.status, 404);
 }
 
 /// A drawing without the numbers of its clipping paths, which count on from drawing to drawing.

@@ -1,0 +1,77 @@
+//! What was measured at the end of a shot, as lines across a chart against time.
+
+use percuss::{Scenario, history::History, outcome::BandQuantity};
+
+use crate::{Series, Style, palette, run_figures::significant};
+
+/// Relative difference of impact speeds that are one.
+const SAME_SPEED: f64 = 1e-3;
+
+/// A line a measured value of a quantity, with a band as wide as it may be off: of shots at the speed of the case.
+pub(crate) fn lines(scenario: &Scenario, quantity: BandQuantity, history: &History) -> Vec<Series> {
+    let (Some(first), Some(last)) = (history.samples.first(), history.samples.last()) else {
+        return Vec::new();
+    };
+    let speed = scenario.impact_speed;
+    let of_this_shot = scenario.experiments.iter().filter(|measured| {
+        let same = |at: f64| (at - speed).abs() <= SAME_SPEED * speed;
+        measured.quantity == quantity && measured.impact_speed.is_some_and(same)
+    });
+    of_this_shot
+        .map(|measured| {
+            let value = quantity.in_unit(measured.value);
+            let error = measured.uncertainty.map(|error| quantity.in_unit(error));
+            let off = error.map_or_else(String::new, |error| format!(" ± {}", significant(error)));
+            let name = format!(
+                "measured {}{off} ({})",
+                significant(value),
+                measured.sources.join(", ")
+            );
+            let times = [first.time * 1e6, last.time * 1e6];
+            let band = error.map(|error| (value - error, value + error));
+            Series::new(name, times.map(|time| (time, value)))
+                .style(Style::Dashed)
+                .width(2.0)
+                .color(palette::EXPERIMENT)
+                .band(band.into_iter().flat_map(|ends| [ends, ends]))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use percuss::{case, model};
+
+    use super::*;
+
+    #[test]
+    fn lines_are_those_of_the_same_quantity_and_speed() {
+        let shot = |speed: u32, more: &str| {
+            format!("[[experiments]]\nvelocity = \"{speed} m/s\"\nsource = \"a\"\n{more}\n")
+        };
+        let text = [
+            "projectile = { material = \"copper\", length = \"20 mm\", diameter = \"5 mm\", velocity = \"200 m/s\" }\n",
+            "target = { rigid_wall = true }\n",
+            &shot(
+                200,
+                "projectile_final_length = \"15 mm\"\nuncertainty = \"0.5 mm\"",
+            ),
+            &shot(300, "projectile_final_length = \"12 mm\""),
+        ];
+        let scenario = case::load_str("shot", &text.concat()).unwrap();
+        let chain = model::model("chain").unwrap();
+        let run = model::run(chain, &scenario, &mut model::Control::recording()).unwrap();
+        let history = run.history.unwrap();
+        let length = BandQuantity::ProjectileFinalLength;
+        let found = lines(&scenario, length, &history);
+        let [line] = found.as_slice() else {
+            panic!("{found:?}");
+        };
+        assert_eq!(line.name, "measured 15 ± 0.5 (a)");
+        let end = history.samples.last().unwrap().time * 1e6;
+        assert_eq!(line.points, [(0.0, 15.0), (end, 15.0)]);
+        assert_eq!(line.band, [(14.5, 15.5); 2]);
+        assert!(lines(&scenario.at_speed(250.0), length, &history).is_empty());
+        assert!(lines(&scenario, BandQuantity::DepthOfPenetration, &history).is_empty());
+    }
+}

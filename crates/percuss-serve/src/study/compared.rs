@@ -1,0 +1,83 @@
+//! Models side by side, at one speed or over several.
+
+use percuss::{
+    compare::{self, Comparison},
+    model,
+    outcome::BandQuantity,
+};
+use percuss_report::{compare_chart, comparison_files};
+use serde_json::{Value, json};
+
+use super::{Study, csv_files, go_on, scenario};
+use crate::{
+    Bounds,
+    problem::Problem,
+    request::CaseRequest,
+    stream::{Tell, pretty},
+    worker::Stop,
+};
+
+/// Most speeds of a comparison.
+const SPEEDS: usize = 60;
+
+pub(super) fn compared(
+    asked: &CaseRequest,
+    bounds: &Bounds,
+    stop: &Stop,
+    tell: &Tell,
+) -> Result<Study, Problem> {
+    let scenario = scenario(asked, bounds)?;
+    let speeds = match asked.speeds {
+        None => vec![scenario.impact_speed],
+        Some((from, to, count)) => speeds(from, to, count)?,
+    };
+    let mut report = |now: compare::Progress| {
+        let words = format!("{} of {} runs", now.finished, now.total);
+        go_on(stop, tell, now.fraction, &words)
+    };
+    let mut watch = compare::Watch {
+        progress: Some(&mut report),
+    };
+    let comparison = compare::compare(&model::quick(), &scenario, &speeds, &mut watch)
+        .map_err(|error| stop.problem(error))?;
+    let regimes: Vec<String> = comparison
+        .regime
+        .iter()
+        .map(|at| at.regime.in_words(&scenario))
+        .collect();
+    let quantities: Vec<Value> = comparison
+        .quantities
+        .iter()
+        .map(|quantity| quantity_record(&comparison, *quantity, speeds[0]))
+        .collect();
+    let chart = compare_chart(&scenario, &comparison);
+    let files: Vec<_> = csv_files(comparison_files(&comparison)?)
+        .chain([("compare.json".to_owned(), pretty(&comparison))])
+        .collect();
+    let record = json!({ "comparison": comparison, "regimes": regimes, "quantities": quantities });
+    Ok(Study::new(record, chart.as_slice(), files))
+}
+
+fn speeds(from: f64, to: f64, count: usize) -> Result<Vec<f64>, Problem> {
+    let inside = |speed: f64| (0.0..=10_000.0).contains(&speed);
+    if !inside(from) || !inside(to) || !(2..=SPEEDS).contains(&count) {
+        return Err(Problem::bad_request(format!(
+            "give speeds from 0 to 10000 m/s, and 2 to {SPEEDS} of them"
+        )));
+    }
+    let part = |i: usize| i as f64 / (count - 1) as f64;
+    Ok((0..count)
+        .map(|i| from * (1.0 - part(i)) + to * part(i))
+        .collect())
+}
+
+/// A quantity in words, with what was measured of it.
+fn quantity_record(comparison: &Comparison, quantity: BandQuantity, speed: f64) -> Value {
+    let measured = comparison.measured(quantity, speed);
+    json!({
+        "key": quantity,
+        "words": quantity.in_words(),
+        "unit": quantity.unit(),
+        "measured": measured.map(|(value, _)| value),
+    })
+}

@@ -1,0 +1,68 @@
+//! Convergence with the mesh.
+
+use percuss::{
+    converge::{self, REFINEMENT},
+    model::{self, Control},
+};
+use percuss_report::{Chart, convergence_chart};
+use serde_json::json;
+
+use super::{Study, go_on};
+use crate::{
+    Bounds,
+    problem::Problem,
+    request::CaseRequest,
+    stream::{Tell, pretty},
+    worker::Stop,
+};
+
+/// Meshes of a convergence study.
+const LEVELS: u32 = 4;
+
+pub(super) fn converged(
+    asked: &CaseRequest,
+    bounds: &Bounds,
+    stop: &Stop,
+    tell: &Tell,
+) -> Result<Study, Problem> {
+    let scenario = asked.read(asked.edited()?)?.scenario;
+    let model = asked.model(&scenario, bounds)?;
+    bounds.check(model, &scenario.refined(REFINEMENT.pow(LEVELS - 1)))?;
+    // The work grows fourfold with each mesh.
+    let work = |level: u32| 4_f64.powi(level as i32);
+    let total: f64 = (0..LEVELS).map(work).sum();
+    let (mut level, mut before) = (0, 0.0);
+    let mut report = |now: model::Progress| {
+        if now.fraction < before {
+            level = (level + 1).min(LEVELS - 1);
+        }
+        before = now.fraction;
+        let done: f64 = (0..level).map(work).sum::<f64>() + now.fraction * work(level);
+        go_on(
+            stop,
+            tell,
+            done / total,
+            &format!("mesh {} of {LEVELS}", level + 1),
+        )
+    };
+    let mut control = Control {
+        progress: Some(&mut report),
+        ..Control::default()
+    };
+    let (study, _) = converge::study(model, &scenario, LEVELS, &mut control)
+        .map_err(|error| stop.problem(error))?;
+    let charts: Vec<Chart> = (0..study.quantities.len())
+        .filter_map(|i| convergence_chart(&scenario.name, &study, i))
+        .collect();
+    let words: Vec<String> = study
+        .quantities
+        .iter()
+        .map(|quantity| {
+            let fine = quantity.values.last().copied().unwrap_or(f64::NAN);
+            quantity.verdict.in_words(fine)
+        })
+        .collect();
+    let files = [("convergence.json".to_owned(), pretty(&study))];
+    let record = json!({ "study": study, "words": words });
+    Ok(Study::new(record, &charts, files))
+}

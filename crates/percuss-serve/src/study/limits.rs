@@ -1,0 +1,48 @@
+//! Ballistic limits.
+
+use percuss::{
+    limit::{self, Search},
+    model,
+};
+use percuss_report::{limit_chart, limit_files};
+use serde_json::json;
+
+use super::{Study, csv_files, go_on, scenario};
+use crate::{
+    Bounds,
+    problem::Problem,
+    request::CaseRequest,
+    stream::{Tell, pretty},
+    worker::Stop,
+};
+
+pub(super) fn limits(
+    asked: &CaseRequest,
+    bounds: &Bounds,
+    stop: &Stop,
+    tell: &Tell,
+) -> Result<Study, Problem> {
+    let scenario = scenario(asked, bounds)?;
+    let mut report =
+        |now: limit::Progress| go_on(stop, tell, now.fraction, &format!("{} runs", now.finished));
+    let mut watch = limit::Watch {
+        progress: Some(&mut report),
+    };
+    let limits = limit::limits(&model::quick(), &scenario, &Search::default(), &mut watch)
+        .map_err(|error| stop.problem(error))?;
+    let chart = limit_chart(&scenario, &limits);
+    let outcomes: Vec<&str> = limits
+        .results
+        .iter()
+        .map(|limit| limit.outcome.in_words())
+        .collect();
+    let files: Vec<_> = csv_files(limit_files(&limits)?)
+        .chain([("limit.json".to_owned(), pretty(&limits))])
+        .collect();
+    let record = json!({
+        "measured": limits.measured().map(|(value, _)| value),
+        "limits": limits,
+        "outcomes": outcomes,
+    });
+    Ok(Study::new(record, chart.as_slice(), files))
+}

@@ -1,0 +1,157 @@
+//! Studies of a case: models side by side, convergence with the mesh, ballistic limits, uncertainty, and runs in two dimensions.
+
+mod compared;
+mod converged;
+mod limits;
+mod uncertain;
+mod uncertain_example;
+
+use std::{collections::BTreeMap, ops::ControlFlow};
+
+use axum::{
+    extract::{Path, Request, State},
+    http::StatusCode,
+    response::{IntoResponse, Response},
+};
+use percuss::{
+    Scenario,
+    model::{self, Model},
+};
+use percuss_report::{Chart, ChartData};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use crate::{
+    Bounds, answer, http,
+    problem::Problem,
+    request::{self, CaseRequest},
+    stream::{self, Tell},
+    worker::{Stop, Workers},
+};
+
+/// What a study came to.
+#[derive(Serialize)]
+struct Study {
+    #[serde(flatten)]
+    record: Value,
+    charts: Vec<ChartData>,
+    /// Files to take away, by name: text.
+    files: BTreeMap<String, String>,
+}
+
+impl Study {
+    fn new(
+        record: Value,
+        charts: &[Chart],
+        files: impl IntoIterator<Item = (String, String)>,
+    ) -> Self {
+        let drawings = charts.iter().map(|chart| {
+            let figure = chart.draw();
+            (format!("{}.svg", figure.name), figure.svg)
+        });
+        Self {
+            record,
+            charts: charts.iter().map(Chart::data).collect(),
+            files: drawings.chain(files).collect(),
+        }
+    }
+}
+
+/// `POST /api/study/{kind}`.
+pub(crate) async fn post(
+    State(workers): State<Workers>,
+    Path(kind): Path<String>,
+    request: Request,
+) -> Response {
+    let asked: CaseRequest = match request::read(request).await {
+        Ok(asked) => asked,
+        Err(problem) => return problem.into_response(),
+    };
+    match kind.as_str() {
+        "compare" => follow(&workers, asked, compared::compared).await,
+        "converge" => follow(&workers, asked, converged::converged).await,
+        "limit" => follow(&workers, asked, limits::limits).await,
+        "uncertainty" => follow(&workers, asked, uncertain::uncertain).await,
+        "run" => follow(&workers, asked, slow_run).await,
+        _ => Problem::with_status(StatusCode::NOT_FOUND, "there is no such study", "")
+            .into_response(),
+    }
+}
+
+/// Computes a study and answers as it goes.
+async fn follow<T: Serialize + 'static>(
+    workers: &Workers,
+    asked: CaseRequest,
+    study: fn(&CaseRequest, &Bounds, &Stop, &Tell) -> Result<T, Problem>,
+) -> Response {
+    let bounds = *workers.bounds();
+    stream::respond(workers, move |stop, tell| {
+        study(&asked, &bounds, stop, tell)
+    })
+    .await
+}
+
+/// `POST /api/uncertainty-example`: the text of a case with an example of what is uncertain in it.
+pub(crate) async fn uncertainty_example(
+    State(workers): State<Workers>,
+    request: Request,
+) -> Response {
+    let asked: CaseRequest = match request::read(request).await {
+        Ok(asked) => asked,
+        Err(problem) => return problem.into_response(),
+    };
+    let text = workers.run(move |_| {
+        let read = asked.read(asked.edited()?)?;
+        Ok(uncertain_example::with_example(&read.text, &read.scenario))
+    });
+    match text.await {
+        Ok(text) => http::json(StatusCode::OK, &json!({ "case": text })),
+        Err(problem) => problem.into_response(),
+    }
+}
+
+/// The case of a request, small enough for every model that answers at once.
+fn scenario(asked: &CaseRequest, bounds: &Bounds) -> Result<Scenario, Problem> {
+    let scenario = asked.read(asked.edited()?)?.scenario;
+    for model in model::quick() {
+        bounds.check(model, &scenario)?;
+    }
+    Ok(scenario)
+}
+
+/// What a computation is told when it says how far it is.
+fn go_on(stop: &Stop, tell: &Tell, fraction: f64, words: &str) -> ControlFlow<()> {
+    tell.progress(fraction, words);
+    wanted(stop, tell)
+}
+
+/// Whether somebody waits and there is time left.
+fn wanted(stop: &Stop, tell: &Tell) -> ControlFlow<()> {
+    if tell.is_alone() {
+        stop.cancel();
+    }
+    stop.flow()
+}
+
+/// Tables as text, those of them that are CSV: the page takes no Parquet.
+fn csv_files(
+    tables: impl IntoIterator<Item = (&'static str, Vec<u8>)>,
+) -> impl Iterator<Item = (String, String)> {
+    let csv = |(name, content): (&str, Vec<u8>)| {
+        let content = name.ends_with(".csv").then_some(content)?;
+        Some((name.to_owned(), String::from_utf8(content).ok()?))
+    };
+    tables.into_iter().filter_map(csv)
+}
+
+/// A run of a model that takes a while, as an answer like any other.
+fn slow_run(
+    asked: &CaseRequest,
+    bounds: &Bounds,
+    stop: &Stop,
+    tell: &Tell,
+) -> Result<answer::Answer, Problem> {
+    let read = asked.read(asked.edited()?)?;
+    let model: &'static dyn Model = asked.model(&read.scenario, bounds)?;
+    answer::answer(read, model, None, stop, Some(tell))
+}

@@ -1,0 +1,18 @@
+//! A server on a free port, asked by its own page and by others.
+
+mod answers;
+mod bounds;
+mod gate;
+mod requests;
+mod studies;
+mod support;
+
+use serde_json::json;
+use support::PAPER;
+
+/// A request that is answered.
+fn body() -> Vec<u8> {
+    json!({ "case": PAPER, "model": "chain" })
+        .to_string()
+        .into_bytes()
+}

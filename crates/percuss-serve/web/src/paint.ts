@@ -1,0 +1,109 @@
+// What uPlot does not draw: bands, cells of a map, marks with their names, error bars.
+
+import type uPlot from "uplot";
+import { color, fade, variable } from "./colors";
+import { mapCanvas } from "./map";
+import type { Chart, LineChart, Mark } from "./types";
+
+// What lies below the lines: bands of ranges, and the cells of a map.
+export function under(plot: uPlot, chart: Chart): void {
+  const { ctx, bbox } = plot;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  if (chart.kind === "map") {
+    ctx.imageSmoothingEnabled = false;
+    const rowCount = chart.cells.length / chart.columns;
+    const canvas = mapCanvas(chart, rowCount);
+    // All of the map, of which a zoomed chart shows a part.
+    const [left, right] = (chart.x.range ?? [0, 1]).map((x) => plot.valToPos(x, "x", true)) as [number, number];
+    const [bottom, top] = (chart.y.range ?? [0, 1]).map((y) => plot.valToPos(y, "y", true)) as [number, number];
+    ctx.drawImage(canvas, left, top, right - left, bottom - top);
+    for (const x of chart.vertical_lines) line(plot, { name: "", value: x, vertical: true }, "#000", null);
+  }
+  if (chart.kind === "lines") for (const series of chart.series) band(plot, chart, series);
+  ctx.restore();
+}
+
+function band(plot: uPlot, chart: LineChart, series: LineChart["series"][number]): void {
+  const x = series.x ?? chart.series[0]?.x ?? [];
+  const ends = series.band ?? [];
+  plot.ctx.fillStyle = fade(color(series.color), 0.18);
+  for (let i = 0; i + 1 < ends.length; i++) {
+    const corners = [i, i + 1].map((at) => [x[at], ends[at]?.[0], ends[at]?.[1]]);
+    if (corners.some((corner) => corner.some((value) => value == null))) continue;
+    const [[xa, la, ha], [xb, lb, hb]] = corners as [number[], number[]];
+    plot.ctx.beginPath();
+    for (const [px, py] of [[xa, la], [xb, lb], [xb, hb], [xa, ha]]) {
+      plot.ctx.lineTo(plot.valToPos(px as number, "x", true), plot.valToPos(py as number, "y", true));
+    }
+    plot.ctx.fill();
+  }
+}
+
+// What lies above the lines: marks with their names, and error bars.
+export function over(plot: uPlot, chart: Chart): void {
+  if (chart.kind !== "lines" && chart.kind !== "histogram") return;
+  const { ctx, bbox } = plot;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  // Names of many marks stand below each other, for those that are close.
+  chart.marks.forEach((mark, i) => line(plot, mark, variable("--soft"), chart.kind === "histogram" ? i : null));
+  if (chart.kind === "lines") for (const series of chart.series) errorBars(plot, chart, series);
+  ctx.restore();
+}
+
+// A mark; the name of a vertical one stands in a row counted from the top.
+function line(plot: uPlot, mark: Mark, stroke: string, row: number | null): void {
+  const { ctx, bbox } = plot;
+  const ratio = devicePixelRatio;
+  const at = plot.valToPos(mark.value, mark.vertical ? "x" : "y", true);
+  // A zoomed chart may not hold it.
+  const [start, length] = mark.vertical ? [bbox.left, bbox.width] : [bbox.top, bbox.height];
+  if (at < start - 1 || at > start + length + 1) return;
+  ctx.strokeStyle = stroke;
+  ctx.lineWidth = ratio;
+  ctx.setLineDash([4 * ratio, 3 * ratio]);
+  ctx.beginPath();
+  if (mark.vertical) {
+    ctx.moveTo(at, bbox.top);
+    ctx.lineTo(at, bbox.top + bbox.height);
+  } else {
+    ctx.moveTo(bbox.left, at);
+    ctx.lineTo(bbox.left + bbox.width, at);
+  }
+  ctx.stroke();
+  ctx.setLineDash([]);
+  if (!mark.name) return;
+  ctx.font = `${12 * ratio}px system-ui, sans-serif`;
+  const width = ctx.measureText(mark.name).width;
+  const right = bbox.left + bbox.width - width - 6 * ratio;
+  const x = mark.vertical ? Math.min(at + 4 * ratio, right) : right;
+  const top = bbox.top + (13 + 15 * (row ?? 0)) * ratio;
+  const y = mark.vertical ? top : Math.max(at - 5 * ratio, top);
+  // A rim in the colour of the ground keeps the name legible over lines, and the lines visible.
+  ctx.textAlign = "left";
+  ctx.strokeStyle = variable("--card");
+  ctx.lineWidth = 3 * ratio;
+  ctx.strokeText(mark.name, x, y);
+  ctx.fillStyle = variable("--ink");
+  ctx.fillText(mark.name, x, y);
+}
+
+function errorBars(plot: uPlot, chart: LineChart, series: LineChart["series"][number]): void {
+  const x = series.x ?? chart.series[0]?.x ?? [];
+  plot.ctx.strokeStyle = color(series.color);
+  plot.ctx.lineWidth = 1.5 * devicePixelRatio;
+  (series.errors ?? []).forEach(([below, above], i) => {
+    const [at, y] = [x[i], series.y[i]];
+    if (at == null || y == null || below + above === 0) return;
+    const place = plot.valToPos(at, "x", true);
+    plot.ctx.beginPath();
+    plot.ctx.moveTo(place, plot.valToPos(y - below, "y", true));
+    plot.ctx.lineTo(place, plot.valToPos(y + above, "y", true));
+    plot.ctx.stroke();
+  });
+}

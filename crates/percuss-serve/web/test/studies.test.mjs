@@ -1,0 +1,94 @@
+// Studies in a real browser: started, followed, cancelled, and what they come to.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { answered, complaints, open, program, root, scratch, serve, study } from "./support.mjs";
+
+test("a study shows its progress and can be cancelled", async () => {
+  const alone = await serve("--max-runs", "1");
+  const page = await open("/", {}, alone.address);
+  // A mesh that keeps a study busy for many seconds.
+  await page.locator("#field-chain-target_elements").fill("200");
+  await answered(page, 2);
+  // Models side by side take the only place first.
+  await page.locator("#comparison-body table").waitFor();
+  const convergence = study(page, "Convergence");
+  await convergence.getByRole("button", { name: "Convergence" }).click();
+  await page.waitForFunction(() => [...document.querySelectorAll("progress")].some((bar) => bar.value > 0));
+  await convergence.getByRole("button", { name: "Cancel" }).click();
+  await convergence.getByText("cancelled").waitFor();
+  // The only place to compute in is free again.
+  await page.locator("#field-projectile-velocity").fill("231");
+  await answered(page, 3);
+  await page.context().close();
+  alone.child.kill();
+});
+
+test("studies come to an end with tables, curves and files", async () => {
+  const page = await open();
+  await page.locator("#comparison-body table").waitFor();
+  assert.match(await page.locator("#comparison-body").innerText(), /Recommended: chain ★/);
+  await page.getByRole("button", { name: "Models over speeds" }).click();
+  await page.locator(".study figure canvas").first().waitFor({ timeout: 120_000 });
+  const [file] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "compare.csv" }).click()]);
+  assert.match(readFileSync(await file.path(), "utf8"), /^model,|^impact_velocity_m_s,/m);
+  await page.context().close();
+});
+
+// What an analysis of the page came to.
+const analysis = async (page, done) => {
+  const of = study(page, "Uncertainty");
+  await of.getByRole("button", { name: "Uncertainty" }).click();
+  await of.getByText(done).first().waitFor({ timeout: 120_000 });
+  return of;
+};
+// A file of a study as text.
+const take = async (page, of, name) => {
+  const [file] = await Promise.all([page.waitForEvent("download"), of.getByRole("button", { name }).click()]);
+  return readFileSync(await file.path(), "utf8");
+};
+
+test("uncertainty has the numbers of the command line", async () => {
+  const coarse = readFileSync(join(root, "cases/paper-table1-uncertainty/scenario.toml"), "utf8").replace("= 40", "= 10").replace("= 80", "= 20");
+  const file = join(scratch, "spread.toml");
+  writeFileSync(file, coarse);
+  const printed = JSON.parse(execFileSync(program, ["uncertainty", file, "--samples", "64", "--seed", "5", "--json"], { encoding: "utf8" }));
+
+  const page = await open();
+  await page.locator("#text").fill(coarse);
+  await answered(page, 2);
+  const of = study(page, "Uncertainty");
+  await of.getByLabel("shots").selectOption("64");
+  await of.getByLabel("seed").fill("5");
+  await analysis(page, "The spread is that of the inputs");
+  const found = JSON.parse(await take(page, of, "uncertainty.json"));
+  assert.deepEqual({ ...found, case: "" }, { ...printed, case: "" });
+  const text = await of.innerText();
+  assert.match(text, /5 % lie below/);
+  assert.match(text, /materials\.plate … coefficient/);
+  for (const chart of ["histogram", "tornado", "indices"]) {
+    assert.ok(await of.locator(`figure[data-chart="${chart}-depth-of-penetration"]`).isVisible(), chart);
+  }
+  assert.match(await take(page, of, "statistics.csv"), /^quantity,shots,mean/);
+  await page.context().close();
+});
+
+test("a case that says nothing of uncertainty is given an example", async () => {
+  const page = await open();
+  const of = await analysis(page, "the case says nothing of what is uncertain");
+  await of.getByRole("button", { name: "Put an example into the case" }).click();
+  await answered(page, 2);
+  assert.match(await page.locator("#text").inputValue(), /\[\[uncertainty\.parameter\]\]\nkey = "projectile\.velocity"/);
+  assert.ok(await page.locator("#problem").isHidden());
+  await of.getByLabel("shots").selectOption("64");
+  await of.getByLabel("Sobol' indices").uncheck();
+  await analysis(page, "No Sobol' indices: they were not asked for");
+  assert.equal(JSON.parse(await take(page, of, "uncertainty.json")).inputs.length, 4);
+  await page.context().close();
+});
+
+test("the browser had nothing to complain about", () => {
+  assert.deepEqual(complaints, []);
+});
