@@ -9,7 +9,7 @@ use crate::{
 use super::{
     adiabatic::Sheared,
     part,
-    shear_zone::{SQRT_3, Spread},
+    shear_zone::{SQRT_3, Side, Spread},
 };
 
 /// When a band fails.
@@ -19,6 +19,38 @@ pub(super) enum Failure {
     Strain(f64),
     Damage(PreparedDamage),
     Never,
+}
+
+impl Failure {
+    /// Damage after a further strain in pure shear.
+    pub(super) fn grow(
+        self,
+        damage: f64,
+        increment: f64,
+        time_step: f64,
+        temperature: f64,
+    ) -> f64 {
+        match self {
+            Self::Damage(law) => {
+                let state = DamageState {
+                    triaxiality: 0.0,
+                    strain_rate: increment / time_step,
+                    temperature,
+                };
+                law.grow(damage, &state, increment)
+            }
+            _ => damage,
+        }
+    }
+
+    /// Whether a plastic strain, or the damage that it did, is that of failure.
+    pub(super) fn is_reached(self, plastic_strain: f64, damage: f64) -> bool {
+        match self {
+            Self::Strain(strain) => plastic_strain >= strain,
+            Self::Damage(_) => damage >= 1.0,
+            Self::Never => false,
+        }
+    }
 }
 
 /// What the bands of a layer have in common.
@@ -75,8 +107,13 @@ impl BandLaw {
                 sheared.instability(width.si(), speed),
             ),
             None => {
-                let (zone, instability) =
-                    sheared.zone(radius, speed).ok_or_else(|| no_width(plate))?;
+                let side = match options.dishing() {
+                    true => Side::Inside,
+                    false => Side::Both,
+                };
+                let (zone, instability) = sheared
+                    .zone(radius, speed, side)
+                    .ok_or_else(|| no_width(plate))?;
                 (Spread::Zone(zone), instability)
             }
         };

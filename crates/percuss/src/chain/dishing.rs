@@ -1,12 +1,15 @@
 //! Dishing: the plate around a plug as an elastic–plastic Mindlin plate, followed in the radius.
 //!
 //! Rings between an inner edge, which the shear bands drive, and a support. Every ring bends (M_r, M_θ) and shears (Q) between two circles
-//! that have a deflection and a rotation each. The inner edge does not turn while the plug is in it. The moments lie inside the yield
-//! surface of von Mises, `M_r² − M_r M_θ + M_θ² ≤ (σ h²/4)²`, with the flow stress σ at the mean strain of the section.
+//! that have a deflection and a rotation each. The inner edge does not turn while the plug is in it. Moments and shear force lie inside the
+//! yield surface of von Mises, `M_r² − M_r M_θ + M_θ² + 3 (Q h/4)² ≤ (σ h²/4)²`, with the flow stress σ at the mean strain of the section.
 
 use std::f64::consts::PI;
 
-use super::plate_section::{PlateSection, Ring};
+use super::{
+    band_law::Failure,
+    plate_section::{PlateSection, Ring},
+};
 use crate::{
     case::{ChainOptions, Support},
     material::Material,
@@ -15,7 +18,10 @@ use crate::{
 
 /// Rings in a length of one thickness of the plate: bending waves shorter than the thickness are no plate theory's.
 const RINGS_PER_THICKNESS: f64 = 6.0;
-/// Fewest and most rings.
+/// Rings would be so narrow at the plug, where strain gathers once the metal softens, and grow by a factor from one to the next.
+const FIRST_RINGS_PER_THICKNESS: f64 = 48.0;
+const GROWTH: f64 = 1.15;
+/// Fewest and most rings away from the plug.
 const RINGS: (f64, f64) = (40.0, 4000.0);
 
 /// A circle between two rings.
@@ -56,19 +62,16 @@ impl Dishing {
         thickness: f64,
         inner_radius: f64,
         edge: PlateEdge,
+        failure: Failure,
         options: &ChainOptions,
     ) -> Self {
-        let span = 0.5 * edge.diameter - inner_radius;
-        let count = (RINGS_PER_THICKNESS * span / thickness)
-            .clamp(RINGS.0, RINGS.1)
-            .ceil();
-        let width = span / count;
-        let section = PlateSection::new(material, thickness, options);
+        let widths = widths(0.5 * edge.diameter - inner_radius, thickness);
+        let section = PlateSection::new(material, thickness, failure, options);
         let areal = material.density.si() * thickness;
-        let mut circles = vec![Circle::default(); count as usize + 1];
-        let mut rings = Vec::with_capacity(count as usize);
-        for i in 0..count as usize {
-            let radius = inner_radius + i as f64 * width;
+        let mut circles = vec![Circle::default(); widths.len() + 1];
+        let mut rings = Vec::with_capacity(widths.len());
+        let mut radius = inner_radius;
+        for (i, width) in widths.into_iter().enumerate() {
             rings.push(Ring::new(&section, radius + 0.5 * width, width));
             // A linear velocity field has the momentum that it should.
             let shares = [
@@ -80,6 +83,7 @@ impl Dishing {
                 circle.mass += mass;
                 circle.inertia += mass * thickness * thickness / 12.0;
             }
+            radius += width;
         }
         Self {
             section,
@@ -96,6 +100,11 @@ impl Dishing {
     /// Deflection of the inner edge [m].
     pub(super) fn deflection(&self) -> f64 {
         self.circles[0].deflection
+    }
+
+    /// Whether the ring next to the plug has failed, which frees the plug.
+    pub(super) fn has_failed(&self) -> bool {
+        self.rings[0].has_failed(&self.section)
     }
 
     /// Speed of the inner edge [m/s].
@@ -176,6 +185,23 @@ impl Dishing {
         let energy = |ring: &Ring| ring.elastic_energy(&self.section);
         self.rings.iter().map(energy).sum()
     }
+}
+
+/// Widths of rings that fill a span [m], narrow at its start.
+fn widths(span: f64, thickness: f64) -> Vec<f64> {
+    let widest = span / (RINGS_PER_THICKNESS * span / thickness).clamp(RINGS.0, RINGS.1);
+    let first = widest * RINGS_PER_THICKNESS / FIRST_RINGS_PER_THICKNESS;
+    let mut widths: Vec<f64> = Vec::new();
+    let mut filled = 0.0;
+    while filled < span {
+        let width = (first * GROWTH.powi(widths.len() as i32)).min(widest);
+        filled += width;
+        widths.push(width);
+    }
+    for width in &mut widths {
+        *width *= span / filled;
+    }
+    widths
 }
 
 #[cfg(test)]
