@@ -4,12 +4,14 @@ use crate::{
     case::{BandFailure, ChainOptions},
     material::{DamageState, Material, PreparedDamage, PreparedStrength, perfectly_plastic},
     scenario::Plate,
+    units::Length,
 };
 
 use super::{
     adiabatic::Sheared,
+    dishing_mesh::rim_width,
     part,
-    shear_zone::{SQRT_3, Side, Spread},
+    shear_zone::{SQRT_3, Spread},
 };
 
 /// When a band fails.
@@ -23,13 +25,7 @@ pub(super) enum Failure {
 
 impl Failure {
     /// Damage after a further strain in pure shear.
-    pub(super) fn grow(
-        self,
-        damage: f64,
-        increment: f64,
-        time_step: f64,
-        temperature: f64,
-    ) -> f64 {
+    pub(super) fn grow(self, damage: f64, increment: f64, time_step: f64, temperature: f64) -> f64 {
         match self {
             Self::Damage(law) => {
                 let state = DamageState {
@@ -101,19 +97,13 @@ impl BandLaw {
             temperature: material.room_temperature.si(),
             rate_effects: options.rate_effects.unwrap_or(true),
         };
-        let (spread, instability) = match band.width {
-            Some(width) => (
-                Spread::Even(width.si()),
-                sheared.instability(width.si(), speed),
-            ),
+        // Plug and plate that dish shear for themselves, and the band is what is left between them.
+        let rim = plate.thickness.filter(|_| options.dishing()).map(rim_width);
+        let (spread, instability) = match band.width.map(Length::si).or(rim) {
+            Some(width) => (Spread::Even(width), sheared.instability(width, speed)),
             None => {
-                let side = match options.dishing() {
-                    true => Side::Inside,
-                    false => Side::Both,
-                };
-                let (zone, instability) = sheared
-                    .zone(radius, speed, side)
-                    .ok_or_else(|| no_width(plate))?;
+                let (zone, instability) =
+                    sheared.zone(radius, speed).ok_or_else(|| no_width(plate))?;
                 (Spread::Zone(zone), instability)
             }
         };

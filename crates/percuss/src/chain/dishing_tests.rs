@@ -16,15 +16,27 @@ fn metal(strength: &str) -> Material {
 }
 
 fn plate(strength: &str, thickness: f64, inner_radius: f64, diameter: f64) -> Dishing {
+    build(
+        Dishing::around_boss,
+        strength,
+        thickness,
+        inner_radius,
+        diameter,
+    )
+}
+
+type Build = fn(&Material, f64, f64, PlateEdge, Failure, &ChainOptions) -> Dishing;
+
+fn build(build: Build, strength: &str, thickness: f64, radius: f64, diameter: f64) -> Dishing {
     let edge = PlateEdge {
         diameter,
         support: Support::Clamped,
     };
     let material = metal(strength);
-    Dishing::new(
+    build(
         &material,
         thickness,
-        inner_radius,
+        radius,
         edge,
         Failure::Never,
         &ChainOptions::default(),
@@ -60,11 +72,13 @@ fn drive(
 
 #[test]
 fn its_books_close() {
-    for strength in [
+    let strengths = [
         "elastic = {}",
         "perfectly_plastic = { flow_stress = '400 MPa' }",
-    ] {
-        let mut plate = plate(strength, 0.012, 0.01, 0.5);
+    ];
+    let plates: [Build; 2] = [Dishing::around_boss, Dishing::new];
+    for (strength, kind) in strengths.into_iter().flat_map(|s| plates.map(|p| (s, p))) {
+        let mut plate = build(kind, strength, 0.012, 0.01, 0.5);
         let mut impulse = 0.0;
         let step = 0.8 * plate.stable_step();
         let mut kick = 0.5 * step;

@@ -18,7 +18,7 @@ const MOST_ITERATIONS: u32 = 100;
 /// What is the same for all rings of a plate.
 #[derive(Debug)]
 pub(super) struct PlateSection {
-    thickness: f64,
+    pub(super) thickness: f64,
     poissons_ratio: f64,
     density: f64,
     /// Bending stiffness D [N m].
@@ -55,11 +55,16 @@ impl PlateSection {
         }
     }
 
+    /// Mass per area [kg/m2].
+    pub(super) fn areal_density(&self) -> f64 {
+        self.density * self.thickness
+    }
+
     /// Longest stable time step with rings of a width at a radius and beyond [s].
     ///
     /// The energy of a ring is at most that of its bending and twice those of its slope and of its rotation in shear.
     pub(super) fn stable_step(&self, width: f64, radius: f64) -> f64 {
-        let areal = self.density * self.thickness;
+        let areal = self.areal_density();
         let rotary = areal * self.thickness * self.thickness / 12.0;
         let slope = 8.0 * self.shear / (areal * width * width);
         let curvature = 4.0 / (width * width) + 1.0 / (radius * radius);

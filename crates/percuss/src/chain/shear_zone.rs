@@ -3,8 +3,7 @@
 //! Along the axis equilibrium asks for `τ = τ_a r/a` inside a plug of radius a, whose slices accelerate as one, and `τ = τ_a a/r`
 //! outside. A ring at that stress lags behind the rim as its hardening and its sensitivity to the rate say,
 //! `dε/dε_a = exp{[F(ε_a) − F(ε) − ln(τ_a/τ)]/m}`, F being the logarithm of the adiabatic stress. The slip of the plug's mean motion against the plate is
-//! `u = √3 [∫_a^∞ ε dr + ∫_0^a ε (r/a)² dr]`, so that `τ_a du` is the work of the zone. Where the plate dishes, its rings shear for
-//! themselves, and the zone is the inner half.
+//! `u = √3 [∫_a^∞ ε dr + ∫_0^a ε (r/a)² dr]`, so that `τ_a du` is the work of the zone.
 
 use super::adiabatic::{AdiabaticCurve, Sheared};
 
@@ -32,14 +31,6 @@ const UNIT_STRAIN: f64 = 1.0;
 /// Repetitions that settle the strain rate, which depends on the width itself, and the change that ends them.
 const MOST_ROUNDS: u32 = 20;
 const SETTLED: f64 = 1e-4;
-
-/// Where the zone is looked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
-    /// In the plug alone: the plate around it shears by itself.
-    Inside,
-    Both,
-}
 
 /// How the shear of a band is spread around the rim of the plug.
 #[derive(Debug, Clone, PartialEq)]
@@ -111,17 +102,11 @@ impl Spread {
 impl Sheared<'_> {
     /// The zone around a plug of a radius that starts with a speed, and the strain at which its rim is strongest; `None` where
     /// neither hardening nor the rate spreads it.
-    pub(super) fn zone(
-        &self,
-        radius: f64,
-        speed: f64,
-        side: Side,
-    ) -> Option<(ShearZone, Option<f64>)> {
+    pub(super) fn zone(&self, radius: f64, speed: f64) -> Option<(ShearZone, Option<f64>)> {
         let at = |width: f64, extent: Extent| {
             let rate = speed / (SQRT_3 * width);
             let curve = self.curve(rate);
-            let rings = rings(radius, side);
-            let zone = ShearZone::new(radius, rings, &curve, self.rate_sensitivity(rate), extent);
+            let zone = ShearZone::new(radius, &curve, self.rate_sensitivity(rate), extent);
             (zone, curve.instability())
         };
         let mut width = 0.1 * radius;
@@ -146,14 +131,9 @@ impl Sheared<'_> {
 }
 
 impl ShearZone {
-    fn new(
-        radius: f64,
-        mut rings: Vec<Ring>,
-        curve: &AdiabaticCurve,
-        sensitivity: f64,
-        extent: Extent,
-    ) -> Self {
+    fn new(radius: f64, curve: &AdiabaticCurve, sensitivity: f64, extent: Extent) -> Self {
         let sensitivity = sensitivity.max(LEAST_SENSITIVITY);
+        let mut rings = rings(radius);
         let judged = curve
             .instability()
             .unwrap_or_else(|| UNIT_STRAIN.min(curve.end()));
@@ -234,8 +214,8 @@ impl Ring {
     }
 }
 
-/// Rings beside the rim, wider with the distance from it.
-fn rings(radius: f64, sides: Side) -> Vec<Ring> {
+/// Rings on both sides of the rim, wider with the distance from it.
+fn rings(radius: f64) -> Vec<Ring> {
     let side = |reach: f64, inside: bool| {
         let growth = growth(reach / FIRST_RING);
         let mut near = 0.0;
@@ -254,11 +234,9 @@ fn rings(radius: f64, sides: Side) -> Vec<Ring> {
             }
         })
     };
-    let plug = side(1.0, true);
-    match sides {
-        Side::Inside => plug.collect(),
-        Side::Both => side(OUTER_RADIUS - 1.0, false).chain(plug).collect(),
-    }
+    side(OUTER_RADIUS - 1.0, false)
+        .chain(side(1.0, true))
+        .collect()
 }
 
 /// Factor from ring to ring with which they sum up to a number of first rings.
