@@ -3,7 +3,8 @@
 use std::{fs, io, path::Path};
 
 /// What readers of the guide are sent to, besides `docs/`.
-const BESIDE: [&str; 7] = [
+const BESIDE: [&str; 8] = [
+    "benches/peers",
     "cases",
     "crates/percuss/data",
     "examples",

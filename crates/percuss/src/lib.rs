@@ -39,7 +39,7 @@ pub mod limit;
 pub mod material;
 pub mod model;
 pub mod outcome;
-mod power;
+pub mod power;
 pub mod regime;
 pub mod scenario;
 pub mod shapes;

@@ -48,32 +48,111 @@ const EXP: [f64; 11] = [
 /// `x^n` of a positive number, 0 of zero, no number of what is none: within 2 units in the last place for exponents up to 1 in magnitude, on average 0.15.
 ///
 /// `x` is 0 or normal, and `x^n` neither overflows nor becomes subnormal. Beyond 1 the error grows with the exponent.
+///
+/// ```
+/// use percuss::power::power;
+/// assert_eq!(power(32.0, 0.2), 2.0);
+/// assert_eq!(power(0.0, 0.1), 0.0);
+/// ```
 #[inline(always)]
-pub(crate) fn power(x: f64, n: f64) -> f64 {
-    let bits = x.to_bits();
-    let moved = bits.wrapping_add(ONE - SQRT_HALF);
-    let k = f64::from_bits((moved >> 52) | COUNTER.to_bits()) - (COUNTER + 1023.0);
-    let m = f64::from_bits(bits.wrapping_sub(moved & EXPONENT).wrapping_add(ONE));
-    let s = (m - 1.0) / (m + 1.0);
-    let z = s * s;
-    let z2 = z * z;
-    let low = (LOG[0] + z * LOG[1]) + z2 * (LOG[2] + z * LOG[3]);
-    let high = (LOG[4] + z * LOG[5]) + z2 * LOG[6];
-    let fraction = s * LOG_LEAD + s * (LOG_REST + z * (low + z2 * z2 * high));
-    // n (k + fraction) less the nearest whole number: what is large in it is exact.
-    let n_high = f64::from_bits(n.to_bits() & HIGH);
-    let whole = n_high * k;
-    let part = (n - n_high) * k + n * fraction;
-    let shifted = (whole + part) + ROUNDER;
-    let r = (whole - (shifted - ROUNDER)) + part;
-    let r2 = r * r;
-    let r4 = r2 * r2;
-    let low = (EXP[0] + r * EXP[1]) + r2 * (EXP[2] + r * EXP[3]);
-    let middle = (EXP[4] + r * EXP[5]) + r2 * (EXP[6] + r * EXP[7]);
-    let high = (EXP[8] + r * EXP[9]) + r2 * EXP[10];
-    let scaled = 1.0 + r * (low + r4 * (middle + r4 * high));
-    let result = f64::from_bits(scaled.to_bits().wrapping_add(shifted.to_bits() << 52));
+pub fn power(x: f64, n: f64) -> f64 {
+    let result = Split::of(x).logarithm(Exponent::new(n)).raise();
     if x > 0.0 { result } else { x }
+}
+
+/// The exponent of a power, in two parts.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Exponent {
+    n: f64,
+    /// Its leading bits: a product with a small whole number is exact.
+    high: f64,
+    rest: f64,
+}
+
+impl Exponent {
+    /// The exponent `n`.
+    #[inline(always)]
+    pub fn new(n: f64) -> Self {
+        let high = f64::from_bits(n.to_bits() & HIGH);
+        let rest = n - high;
+        Self { n, high, rest }
+    }
+
+    /// The exponent as a number.
+    #[inline(always)]
+    pub fn value(self) -> f64 {
+        self.n
+    }
+}
+
+/// The first of three stages of a [`power`]: `x = 2^binary (1 + ratio)/(1 − ratio)`.
+///
+/// A loop over many powers is faster as three loops, one for each stage: the chains of dependent operations are shorter, so that a processor
+/// works on more of them at a time.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Split {
+    /// A whole number.
+    pub binary: f64,
+    /// At most 0.172 in magnitude.
+    pub ratio: f64,
+}
+
+impl Split {
+    /// Splits a positive normal number. 0 is taken for some very small number.
+    #[inline(always)]
+    pub fn of(x: f64) -> Self {
+        let bits = x.to_bits();
+        let moved = bits.wrapping_add(ONE - SQRT_HALF);
+        let binary = f64::from_bits((moved >> 52) | COUNTER.to_bits()) - (COUNTER + 1023.0);
+        let m = f64::from_bits(bits.wrapping_sub(moved & EXPONENT).wrapping_add(ONE));
+        let ratio = (m - 1.0) / (m + 1.0);
+        Self { binary, ratio }
+    }
+
+    /// The second stage: `n log2 x`.
+    #[inline(always)]
+    pub fn logarithm(self, n: Exponent) -> Logarithm {
+        let Self {
+            binary: k,
+            ratio: s,
+        } = self;
+        let z = s * s;
+        let z2 = z * z;
+        let low = (LOG[0] + z * LOG[1]) + z2 * (LOG[2] + z * LOG[3]);
+        let high = (LOG[4] + z * LOG[5]) + z2 * LOG[6];
+        let fraction = s * LOG_LEAD + s * (LOG_REST + z * (low + z2 * z2 * high));
+        Logarithm {
+            whole: n.high * k,
+            part: n.rest * k + n.n * fraction,
+        }
+    }
+}
+
+/// The second stage of a [`power`]: `n log2 x` as a sum.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Logarithm {
+    /// What is large in it, exact.
+    pub whole: f64,
+    /// The rest.
+    pub part: f64,
+}
+
+impl Logarithm {
+    /// The third stage: the power.
+    #[inline(always)]
+    pub fn raise(self) -> f64 {
+        let Self { whole, part } = self;
+        // Less the nearest whole number: what is large in it is exact.
+        let shifted = (whole + part) + ROUNDER;
+        let r = (whole - (shifted - ROUNDER)) + part;
+        let r2 = r * r;
+        let r4 = r2 * r2;
+        let low = (EXP[0] + r * EXP[1]) + r2 * (EXP[2] + r * EXP[3]);
+        let middle = (EXP[4] + r * EXP[5]) + r2 * (EXP[6] + r * EXP[7]);
+        let high = (EXP[8] + r * EXP[9]) + r2 * EXP[10];
+        let scaled = 1.0 + r * (low + r4 * (middle + r4 * high));
+        f64::from_bits(scaled.to_bits().wrapping_add(shifted.to_bits() << 52))
+    }
 }
 
 /// Largest `(a − b)/(a + b)` for which [`small_log_ratio`] is exact to the last places.

@@ -46,6 +46,14 @@ fn powers_that_are_known_exactly() {
 }
 
 #[test]
+fn stages_take_zero_for_some_very_small_number() {
+    for n in [0.05, 0.1, 0.25] {
+        let result = Split::of(0.0).logarithm(Exponent::new(n)).raise();
+        assert!(result > 0.0 && result <= 2.0_f64.powf(-1022.0 * n), "{n}");
+    }
+}
+
+#[test]
 fn a_power_never_falls_as_its_base_grows() {
     for n in [0.05, 0.1, 0.45, 1.0] {
         for x in spread(2000).map(|u| 1e-4 + u) {

@@ -1,0 +1,72 @@
+//! percuss in the benchmark against other programs: see `benches/peers/README.md`.
+//!
+//! `percuss-peers PROBLEM one|batch power|linear THREADS END` advances the chains of a problem and writes where they end; `percuss-peers CASE shots N THREADS` and
+//! `percuss-peers CASE runs N 1` compute shots of a case to rest. All print seconds by the clock and of the processor; shots then print their elements times steps.
+
+mod kernel;
+mod problem;
+mod shots;
+
+use std::{env, error::Error, fs, process::ExitCode, time::Instant};
+
+use rustix::time::{ClockId, clock_gettime};
+
+/// What every part of this program fails with.
+type Outcome<T> = Result<T, Box<dyn Error + Send + Sync>>;
+
+/// Seconds that work takes, by the clock and of all processors.
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64, f64) {
+    let processor = || {
+        let time = clock_gettime(ClockId::ProcessCPUTime);
+        time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+    };
+    let (start, start_of_work) = (Instant::now(), processor());
+    let result = work();
+    (
+        result,
+        start.elapsed().as_secs_f64(),
+        processor() - start_of_work,
+    )
+}
+
+fn run(words: &[&str]) -> Outcome<()> {
+    match *words {
+        [case, what @ ("shots" | "runs"), count, threads] => {
+            let scenarios = shots::scenarios(case, count.parse()?)?;
+            let pool = threads_of(threads)?;
+            let (work, clock, processor) = timed(|| match what {
+                "shots" => pool.install(|| shots::side_by_side(&scenarios)),
+                _ => shots::one_by_one(&scenarios),
+            });
+            println!("{clock:.9} {processor:.9} {}", work?);
+        }
+        [problem, together, law, threads, end] => {
+            let problem = problem::read(problem)?;
+            let pool = threads_of(threads)?;
+            let advance = kernel::choose(together, law)?;
+            let (ends, clock, processor) = timed(|| pool.install(|| advance(&problem)));
+            println!("{clock:.9} {processor:.9}");
+            let bytes: Vec<u8> = ends.iter().flat_map(|u| u.to_le_bytes()).collect();
+            fs::write(end, bytes)?;
+        }
+        _ => return Err("usage: percuss-peers PROBLEM one|batch power|linear THREADS END".into()),
+    }
+    Ok(())
+}
+
+fn threads_of(count: &str) -> Outcome<rayon::ThreadPool> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count.parse()?);
+    Ok(pool.build()?)
+}
+
+fn main() -> ExitCode {
+    let words: Vec<String> = env::args().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    match run(&words) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("percuss-peers: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
