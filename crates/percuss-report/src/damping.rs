@@ -28,6 +28,8 @@ const WAYS: &[(&str, &str)] = &[
         "viscosity 0.06, 1.5",
         "artificial_viscosity = { linear = 0.06, quadratic = 1.5 }",
     ),
+    ("local 0.2", "local_damping = 0.2"),
+    ("local 0.8", "local_damping = 0.8"),
 ];
 
 /// Impact speeds [m/s], on the paper's mesh.

@@ -23,6 +23,8 @@ fn the_numbers_of_the_page_are_those_of_the_study() {
         "ratio 0.2",
         "ratio 0.5",
         "viscosity 0.06, 1.5",
+        "local 0.2",
+        "local 0.8",
     ] {
         let columns = [(230.0, 40), (230.0, 320), (600.0, 40), (600.0, 320)];
         let numbers = columns.map(|(speed, elements)| change(&study, way, speed, elements));
@@ -35,7 +37,7 @@ fn the_numbers_of_the_page_are_those_of_the_study() {
         assert!((0.0..0.6).contains(&shot.damped), "{shot:?}");
     }
     assert_eq!(study.reference.len(), 2);
-    assert_eq!(study.findings().len(), 7);
+    assert_eq!(study.findings().len(), 9);
     let folder = tempfile::tempdir().unwrap();
     assert_eq!(study.write(folder.path()).unwrap().len(), 7);
 }

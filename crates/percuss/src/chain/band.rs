@@ -1,10 +1,7 @@
 //! One band: what holds the slice of plug that belongs to a node.
 
-use super::{
-    band_law::{BandLaw, Failure},
-    shear_zone::SQRT_3,
-};
-use crate::material::{DamageState, FlowState, Trial, YieldPoint};
+use super::{band_law::BandLaw, shear_zone::SQRT_3};
+use crate::material::{FlowState, Trial, YieldPoint};
 
 /// Band of one target node. Strains and damage are those of the rim.
 #[derive(Debug, Clone, Copy)]
@@ -77,11 +74,7 @@ impl Band {
     }
 
     pub(super) fn has_failed(&self, law: &BandLaw) -> bool {
-        match law.failure {
-            Failure::Strain(strain) => self.plastic_strain >= strain,
-            Failure::Damage(_) => self.damage >= 1.0,
-            Failure::Never => false,
-        }
+        law.failure.is_reached(self.plastic_strain, self.damage)
     }
 
     /// Brings the band to a slip; returns the plastic work per area between the half steps around the current time.
@@ -118,14 +111,9 @@ impl Band {
     }
 
     fn flow(&mut self, law: &BandLaw, trial: f64, increment: f64, width: f64, time_step: f64) {
-        if let Failure::Damage(damage) = law.failure {
-            let state = DamageState {
-                triaxiality: 0.0,
-                strain_rate: increment / time_step,
-                temperature: self.temperature,
-            };
-            self.damage = damage.grow(self.damage, &state, increment);
-        }
+        self.damage = law
+            .failure
+            .grow(self.damage, increment, time_step, self.temperature);
         self.plastic_step = (SQRT_3 * increment * width).copysign(trial);
         self.plastic_slip += self.plastic_step;
         self.stress = trial - self.stiffness * self.plastic_step;

@@ -4,10 +4,12 @@ use crate::{
     case::{BandFailure, ChainOptions},
     material::{DamageState, Material, PreparedDamage, PreparedStrength, perfectly_plastic},
     scenario::Plate,
+    units::Length,
 };
 
 use super::{
     adiabatic::Sheared,
+    dishing_mesh::rim_width,
     part,
     shear_zone::{SQRT_3, Spread},
 };
@@ -19,6 +21,32 @@ pub(super) enum Failure {
     Strain(f64),
     Damage(PreparedDamage),
     Never,
+}
+
+impl Failure {
+    /// Damage after a further strain in pure shear.
+    pub(super) fn grow(self, damage: f64, increment: f64, time_step: f64, temperature: f64) -> f64 {
+        match self {
+            Self::Damage(law) => {
+                let state = DamageState {
+                    triaxiality: 0.0,
+                    strain_rate: increment / time_step,
+                    temperature,
+                };
+                law.grow(damage, &state, increment)
+            }
+            _ => damage,
+        }
+    }
+
+    /// Whether a plastic strain, or the damage that it did, is that of failure.
+    pub(super) fn is_reached(self, plastic_strain: f64, damage: f64) -> bool {
+        match self {
+            Self::Strain(strain) => plastic_strain >= strain,
+            Self::Damage(_) => damage >= 1.0,
+            Self::Never => false,
+        }
+    }
 }
 
 /// What the bands of a layer have in common.
@@ -69,11 +97,10 @@ impl BandLaw {
             temperature: material.room_temperature.si(),
             rate_effects: options.rate_effects.unwrap_or(true),
         };
-        let (spread, instability) = match band.width {
-            Some(width) => (
-                Spread::Even(width.si()),
-                sheared.instability(width.si(), speed),
-            ),
+        // Plug and plate that dish shear for themselves, and the band is what is left between them.
+        let rim = plate.thickness.filter(|_| options.dishing()).map(rim_width);
+        let (spread, instability) = match band.width.map(Length::si).or(rim) {
+            Some(width) => (Spread::Even(width), sheared.instability(width, speed)),
             None => {
                 let (zone, instability) =
                     sheared.zone(radius, speed).ok_or_else(|| no_width(plate))?;

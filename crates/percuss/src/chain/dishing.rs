@@ -1,52 +1,37 @@
-//! Dishing: the plate around a plug as an elastic–plastic Mindlin plate, followed in the radius.
+//! Dishing: plug and plate around it as elastic–plastic Mindlin plates, followed in the radius.
 //!
-//! Rings between an inner edge, which the shear bands drive, and a support. Every ring bends (M_r, M_θ) and shears (Q) between two circles
-//! that have a deflection and a rotation each. The inner edge does not turn while the plug is in it. The moments lie inside the yield
-//! surface of von Mises, `M_r² − M_r M_θ + M_θ² ≤ (σ h²/4)²`, with the flow stress σ at the mean strain of the section.
+//! Rings between the axis, the rim of the plug, and a support. Every ring bends (M_r, M_θ) and shears (Q) between two circles
+//! that have a deflection and a rotation each. At the rim the bands lie between two circles, which turn as one while the bands hold. The plug
+//! deflects about the mean motion of its slices, which the chain has: `∫ v r dr = 0`. Moments and shear force lie inside the
+//! yield surface of von Mises, `M_r² − M_r M_θ + M_θ² + 3 (Q h/4)² ≤ (σ h²/4)²`, with the flow stress σ at the mean strain of the section.
 
-use std::f64::consts::PI;
-
-use super::plate_section::{PlateSection, Ring};
+use super::{
+    band_law::Failure,
+    dishing_mesh::{Circle, rings, widths},
+    plate_section::{PlateSection, Ring},
+};
 use crate::{
     case::{ChainOptions, Support},
     material::Material,
     scenario::PlateEdge,
 };
 
-/// Rings in a length of one thickness of the plate: bending waves shorter than the thickness are no plate theory's.
-const RINGS_PER_THICKNESS: f64 = 6.0;
-/// Fewest and most rings.
-const RINGS: (f64, f64) = (40.0, 4000.0);
-
-/// A circle between two rings.
-#[derive(Debug, Clone, Copy, Default)]
-struct Circle {
-    /// [kg].
-    mass: f64,
-    /// Rotary inertia [kg m2].
-    inertia: f64,
-    deflection: f64,
-    velocity: f64,
-    rotation: f64,
-    spin: f64,
-    force: f64,
-    moment: f64,
-}
-
-/// The plate around a plug.
+/// A plug and the plate around it.
 #[derive(Debug)]
 pub(super) struct Dishing {
     section: PlateSection,
     circles: Vec<Circle>,
     rings: Vec<Ring>,
+    /// Circles of the plug, the first of `circles`; none where it is a boss that does not deform.
+    plug: usize,
     support: Support,
-    /// Whether the plug keeps the inner edge from turning.
+    /// Whether plug and plate turn as one at the rim.
     pub(super) edge_held: bool,
     /// Impulse that the support took [N s].
     pub(super) support_impulse: f64,
     /// Plastic work [J].
     pub(super) plastic_work: f64,
-    /// Largest deflection of the inner edge [m].
+    /// Largest deflection of the inner edge of the plate [m].
     pub(super) largest_deflection: f64,
 }
 
@@ -54,37 +39,42 @@ impl Dishing {
     pub(super) fn new(
         material: &Material,
         thickness: f64,
-        inner_radius: f64,
+        plug_radius: f64,
         edge: PlateEdge,
+        failure: Failure,
         options: &ChainOptions,
     ) -> Self {
-        let span = 0.5 * edge.diameter - inner_radius;
-        let count = (RINGS_PER_THICKNESS * span / thickness)
-            .clamp(RINGS.0, RINGS.1)
-            .ceil();
-        let width = span / count;
-        let section = PlateSection::new(material, thickness, options);
-        let areal = material.density.si() * thickness;
-        let mut circles = vec![Circle::default(); count as usize + 1];
-        let mut rings = Vec::with_capacity(count as usize);
-        for i in 0..count as usize {
-            let radius = inner_radius + i as f64 * width;
-            rings.push(Ring::new(&section, radius + 0.5 * width, width));
-            // A linear velocity field has the momentum that it should.
-            let shares = [
-                radius * width / 2.0 + width * width / 6.0,
-                radius * width / 2.0 + width * width / 3.0,
-            ];
-            for (circle, share) in circles[i..=i + 1].iter_mut().zip(shares) {
-                let mass = 2.0 * PI * areal * share;
-                circle.mass += mass;
-                circle.inertia += mass * thickness * thickness / 12.0;
-            }
+        let mut outer = Self::around_boss(material, thickness, plug_radius, edge, failure, options);
+        let mut widths = widths(plug_radius, thickness);
+        widths.reverse();
+        let (mut circles, mut rings) = rings(&outer.section, 0.0, &widths);
+        outer.plug = circles.len();
+        circles.append(&mut outer.circles);
+        rings.append(&mut outer.rings);
+        Self {
+            circles,
+            rings,
+            ..outer
         }
+    }
+
+    /// The plate around a boss that does not deform.
+    fn around_boss(
+        material: &Material,
+        thickness: f64,
+        radius: f64,
+        edge: PlateEdge,
+        failure: Failure,
+        options: &ChainOptions,
+    ) -> Self {
+        let section = PlateSection::new(material, thickness, failure, options);
+        let widths = widths(0.5 * edge.diameter - radius, thickness);
+        let (circles, rings) = rings(&section, radius, &widths);
         Self {
             section,
             circles,
             rings,
+            plug: 0,
             support: edge.support,
             edge_held: true,
             support_impulse: 0.0,
@@ -93,56 +83,94 @@ impl Dishing {
         }
     }
 
-    /// Deflection of the inner edge [m].
-    pub(super) fn deflection(&self) -> f64 {
-        self.circles[0].deflection
+    /// The circle of the plug at the rim, where it deforms.
+    fn rim(&self) -> Option<&Circle> {
+        self.circles[..self.plug].last()
     }
 
-    /// Speed of the inner edge [m/s].
+    /// Number of the first ring around the plug.
+    fn outer_ring(&self) -> usize {
+        self.plug.saturating_sub(1)
+    }
+
+    /// Deflection of the plate at the rim of the plug, less what the plug's rim lags behind its mean motion [m].
+    pub(super) fn deflection(&self) -> f64 {
+        self.circles[self.plug].deflection - self.rim().map_or(0.0, |rim| rim.deflection)
+    }
+
+    /// Whether a ring beside the rim has failed, which frees the plug.
+    pub(super) fn has_failed(&self) -> bool {
+        let outer = self.outer_ring();
+        let beside = &self.rings[outer.saturating_sub(1)..=outer];
+        beside.iter().any(|ring| ring.has_failed(&self.section))
+    }
+
+    /// Speed of the plate against the plug at the rim [m/s].
     #[cfg(test)]
     pub(super) fn velocity(&self) -> f64 {
-        self.circles[0].velocity
+        self.circles[self.plug].velocity - self.rim().map_or(0.0, |rim| rim.velocity)
     }
 
-    /// Mass that the inner edge moves with [kg].
+    /// Mass against which the bands pull on the rim [kg].
     pub(super) fn edge_mass(&self) -> f64 {
-        self.circles[0].mass
+        let inverse = self.rim().map_or(0.0, |rim| 1.0 / rim.mass);
+        1.0 / (1.0 / self.circles[self.plug].mass + inverse)
     }
 
     /// Longest stable time step [s].
     pub(super) fn stable_step(&self) -> f64 {
-        let ring = &self.rings[0];
-        self.section.stable_step(ring.width, ring.radius)
+        let step = |ring: &Ring| self.section.stable_step(ring.width, ring.radius);
+        let steps = self.rings[..=self.outer_ring()].iter().map(step);
+        steps.fold(f64::INFINITY, f64::min)
     }
 
-    /// Changes the velocities by a kick under a force on the inner edge [N].
+    /// Changes the velocities by a kick under a force of the bands on the rim [N].
     pub(super) fn kick(&mut self, edge_force: f64, kick: f64) {
         for circle in &mut self.circles {
             circle.force = 0.0;
             circle.moment = 0.0;
         }
+        let outer = self.outer_ring();
         for (i, ring) in self.rings.iter().enumerate() {
+            // No ring lies between the two circles at the rim.
+            let first = i + usize::from(self.plug > 0 && i >= outer);
             let (force, moments) = ring.loads();
-            self.circles[i].force += force;
-            self.circles[i + 1].force -= force;
-            self.circles[i].moment += moments[0];
-            self.circles[i + 1].moment += moments[1];
+            self.circles[first].force += force;
+            self.circles[first + 1].force -= force;
+            self.circles[first].moment += moments[0];
+            self.circles[first + 1].moment += moments[1];
         }
-        self.circles[0].force += edge_force;
+        self.circles[self.plug].force += edge_force;
         let last = self.circles.len() - 1;
         self.support_impulse += self.circles[last].force * kick;
-        for (i, circle) in self.circles.iter_mut().enumerate() {
-            if i < last {
-                circle.velocity += circle.force * kick / circle.mass;
+        let (plug, plate) = self.circles.split_at_mut(self.plug);
+        let mut back = 0.0;
+        if let Some(rim) = plug.last_mut() {
+            rim.force -= edge_force;
+            // The mean motion is the chain's.
+            back = -edge_force / plug.iter().map(|circle| circle.mass).sum::<f64>();
+        }
+        for circle in &mut *plug {
+            circle.velocity += (circle.force / circle.mass - back) * kick;
+        }
+        let support = plate.len() - 1;
+        for circle in &mut plate[..support] {
+            circle.velocity += circle.force * kick / circle.mass;
+        }
+        if self.edge_held {
+            match plug.last_mut() {
+                Some(rim) => turn_as_one(rim, &mut plate[0]),
+                None => plate[0].moment = 0.0,
             }
-            let turns = match i {
-                0 => !self.edge_held,
-                i if i == last => self.support == Support::SimplySupported,
-                _ => true,
-            };
-            if turns {
-                circle.spin += circle.moment * kick / circle.inertia;
-            }
+        }
+        // On the axis nothing turns.
+        let inner = plug.iter_mut().skip(1);
+        let turning = match self.support {
+            Support::SimplySupported => &mut plate[..],
+            Support::Clamped => &mut plate[..support],
+        };
+        for circle in inner.chain(turning) {
+            circle.spin += circle.moment * kick / circle.inertia;
         }
     }
 
@@ -152,8 +180,11 @@ impl Dishing {
             circle.deflection += circle.velocity * time_step;
             circle.rotation += circle.spin * time_step;
         }
-        self.largest_deflection = self.largest_deflection.max(self.deflection());
-        for (ring, pair) in self.rings.iter_mut().zip(self.circles.windows(2)) {
+        let edge = self.circles[self.plug].deflection;
+        self.largest_deflection = self.largest_deflection.max(edge);
+        let between = self.circles.windows(2).enumerate();
+        let pairs = between.filter(|(i, _)| i + 1 != self.plug);
+        for (ring, (_, pair)) in self.rings.iter_mut().zip(pairs) {
             let bent = pair.iter().any(|c| c.velocity != 0.0 || c.spin != 0.0);
             if bent || !ring.is_settled() {
                 let deflections = [pair[0].deflection, pair[1].deflection];
@@ -164,7 +195,10 @@ impl Dishing {
     }
 
     pub(super) fn momentum(&self) -> f64 {
-        self.circles.iter().map(|c| c.mass * c.velocity).sum()
+        self.circles[self.plug..]
+            .iter()
+            .map(|c| c.mass * c.velocity)
+            .sum()
     }
 
     pub(super) fn kinetic_energy(&self) -> f64 {
@@ -175,6 +209,15 @@ impl Dishing {
     pub(super) fn elastic_energy(&self) -> f64 {
         let energy = |ring: &Ring| ring.elastic_energy(&self.section);
         self.rings.iter().map(energy).sum()
+    }
+}
+
+/// Gives two circles the moment over inertia that they have together.
+fn turn_as_one(one: &mut Circle, other: &mut Circle) {
+    let moment = one.moment + other.moment;
+    let inertia = one.inertia + other.inertia;
+    for circle in [one, other] {
+        circle.moment = moment * circle.inertia / inertia;
     }
 }
 

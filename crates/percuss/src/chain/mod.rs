@@ -11,6 +11,7 @@ mod conservative;
 mod contact;
 mod damping;
 mod dishing;
+mod dishing_mesh;
 mod element;
 mod erosion;
 mod expanding;

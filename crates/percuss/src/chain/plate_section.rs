@@ -1,7 +1,8 @@
-//! Section of a plate that bends: moments from curvatures, inside a yield surface.
+//! Section of a plate that bends and shears: moments and shear force from curvatures and slope, inside one yield surface.
 
 use std::f64::consts::PI;
 
+use super::band_law::Failure;
 use crate::{
     case::ChainOptions,
     material::{FlowState, Material, PreparedStrength},
@@ -17,7 +18,7 @@ const MOST_ITERATIONS: u32 = 100;
 /// What is the same for all rings of a plate.
 #[derive(Debug)]
 pub(super) struct PlateSection {
-    thickness: f64,
+    pub(super) thickness: f64,
     poissons_ratio: f64,
     density: f64,
     /// Bending stiffness D [N m].
@@ -29,10 +30,16 @@ pub(super) struct PlateSection {
     heating: f64,
     rate_effects: bool,
     start_temperature: f64,
+    failure: Failure,
 }
 
 impl PlateSection {
-    pub(super) fn new(material: &Material, thickness: f64, options: &ChainOptions) -> Self {
+    pub(super) fn new(
+        material: &Material,
+        thickness: f64,
+        failure: Failure,
+        options: &ChainOptions,
+    ) -> Self {
         let nu = material.poissons_ratio;
         Self {
             thickness,
@@ -44,14 +51,20 @@ impl PlateSection {
             heating: super::part::heating(material, options, 1.0),
             rate_effects: options.rate_effects.unwrap_or(true),
             start_temperature: material.room_temperature.si(),
+            failure,
         }
+    }
+
+    /// Mass per area [kg/m2].
+    pub(super) fn areal_density(&self) -> f64 {
+        self.density * self.thickness
     }
 
     /// Longest stable time step with rings of a width at a radius and beyond [s].
     ///
     /// The energy of a ring is at most that of its bending and twice those of its slope and of its rotation in shear.
     pub(super) fn stable_step(&self, width: f64, radius: f64) -> f64 {
-        let areal = self.density * self.thickness;
+        let areal = self.areal_density();
         let rotary = areal * self.thickness * self.thickness / 12.0;
         let slope = 8.0 * self.shear / (areal * width * width);
         let curvature = 4.0 / (width * width) + 1.0 / (radius * radius);
@@ -60,9 +73,26 @@ impl PlateSection {
         2.0 / slope.max(turn).sqrt()
     }
 
-    /// Fully plastic moment of a flow stress, times the stress.
+    /// Fully plastic moment over the flow stress.
     fn modulus(&self) -> f64 {
         0.25 * self.thickness * self.thickness
+    }
+
+    /// Moment that uses up as much of a section as moments and shear force do together: `√(M_r² − M_r M_θ + M_θ² + 3 (Q h/4)²)`.
+    fn equivalent(&self, [sum, difference, shear]: [f64; 3]) -> f64 {
+        let of_shear = 0.5 * self.thickness * shear;
+        0.5 * (sum * sum + 3.0 * (difference * difference + of_shear * of_shear)).sqrt()
+    }
+
+    /// Trial moments and shear force after normal flow with a multiplier.
+    fn returned(&self, [sum, difference, shear]: [f64; 3], multiplier: f64) -> [f64; 3] {
+        let nu = self.poissons_ratio;
+        let shear_ratio = 0.375 * self.shear * self.thickness * self.thickness / self.bending;
+        [
+            sum / (1.0 + multiplier * (1.0 + nu)),
+            difference / (1.0 + 3.0 * multiplier * (1.0 - nu)),
+            shear / (1.0 + multiplier * shear_ratio),
+        ]
     }
 }
 
@@ -79,11 +109,12 @@ pub(super) struct Ring {
     sum_before: f64,
     difference_before: f64,
     shear_before: f64,
-    /// Plastic curvatures: sum and difference, and those of the last step.
-    plastic: [f64; 2],
-    plastic_step: [f64; 2],
+    /// Plastic curvatures, sum and difference, and slope, and those of the last step.
+    plastic: [f64; 3],
+    plastic_step: [f64; 3],
     /// Mean equivalent plastic strain of the section.
     plastic_strain: f64,
+    damage: f64,
     temperature: f64,
 }
 
@@ -98,11 +129,17 @@ impl Ring {
             sum_before: 0.0,
             difference_before: 0.0,
             shear_before: 0.0,
-            plastic: [0.0; 2],
-            plastic_step: [0.0; 2],
+            plastic: [0.0; 3],
+            plastic_step: [0.0; 3],
             plastic_strain: 0.0,
+            damage: 0.0,
             temperature: section.start_temperature,
         }
+    }
+
+    /// Whether it has failed.
+    pub(super) fn has_failed(&self, section: &PlateSection) -> bool {
+        section.failure.is_reached(self.plastic_strain, self.damage)
     }
 
     /// Area of the ring in the plane of the plate [m2].
@@ -127,7 +164,7 @@ impl Ring {
 
     /// Whether an update without motion would change nothing.
     pub(super) fn is_settled(&self) -> bool {
-        self.plastic_step == [0.0; 2]
+        self.plastic_step == [0.0; 3]
             && self.sum == self.sum_before
             && self.difference == self.difference_before
             && self.shear == self.shear_before
@@ -148,61 +185,49 @@ impl Ring {
         self.sum_before = self.sum;
         self.difference_before = self.difference;
         self.shear_before = self.shear;
-        self.shear = section.shear * (slope + 0.5 * (rotations[0] + rotations[1]));
+        let inclined = slope + 0.5 * (rotations[0] + rotations[1]);
+        self.shear = section.shear * (inclined - self.plastic[2]);
         let stiffness = section.bending;
         let nu = section.poissons_ratio;
         self.sum = stiffness * (1.0 + nu) * (radial + hoop - self.plastic[0]);
         self.difference = stiffness * (1.0 - nu) * (radial - hoop - self.plastic[1]);
         let before = self.plastic_step;
-        self.plastic_step = [0.0; 2];
+        self.plastic_step = [0.0; 3];
         self.flow(section, time_step);
-        let steps = [
-            before[0] + self.plastic_step[0],
-            before[1] + self.plastic_step[1],
-        ];
+        let steps: [f64; 3] = std::array::from_fn(|i| before[i] + self.plastic_step[i]);
         // M_r κ_r + M_θ κ_θ is half of what sums and differences give; half of the two steps belongs to this time.
-        0.25 * (self.sum_before * steps[0] + self.difference_before * steps[1]) * self.area()
+        let bending = self.sum_before * steps[0] + self.difference_before * steps[1];
+        (0.25 * bending + 0.5 * self.shear_before * steps[2]) * self.area()
     }
 
-    /// Returns trial moments to the yield surface.
+    /// Returns trial moments and shear force to the yield surface.
     fn flow(&mut self, section: &PlateSection, time_step: f64) {
-        let (sum, difference) = (self.sum, self.difference);
-        let nu = section.poissons_ratio;
-        let returned = |multiplier: f64| {
-            (
-                sum / (1.0 + multiplier * (1.0 + nu)),
-                difference / (1.0 + 3.0 * multiplier * (1.0 - nu)),
-            )
-        };
-        let equivalent = |(sum, difference): (f64, f64)| {
-            0.5 * (sum * sum + 3.0 * difference * difference).sqrt()
-        };
-        // Work per area is σ h Δε with σ = 4M/h²: a curvature Δκ has the mean strain h Δκ/4.
+        let trial = [self.sum, self.difference, self.shear];
+        let moment = |multiplier: f64| section.equivalent(section.returned(trial, multiplier));
+        // Work per area is σ h Δε with σ = 4M/h²: a curvature Δκ has the mean strain h Δκ/4, a slope Δγ has Δγ/√3.
         let strain = |multiplier: f64| {
-            let moment = equivalent(returned(multiplier));
-            0.5 * section.thickness * multiplier * moment / section.bending
+            0.5 * section.thickness * multiplier * moment(multiplier) / section.bending
+        };
+        let state = |increment: f64| FlowState {
+            plastic_strain: self.plastic_strain + increment,
+            strain_rate: match section.rate_effects {
+                true => increment / time_step,
+                false => 0.0,
+            },
+            temperature: self.temperature,
+            pressure: 0.0,
         };
         let excess = |multiplier: f64| {
-            let increment = strain(multiplier);
-            let state = FlowState {
-                plastic_strain: self.plastic_strain + increment,
-                strain_rate: match section.rate_effects {
-                    true => increment / time_step,
-                    false => 0.0,
-                },
-                temperature: self.temperature,
-                pressure: 0.0,
-            };
-            let limit = section.modulus() * section.strength.flow_stress(&state).stress;
-            equivalent(returned(multiplier)) - limit
+            let flow = section.strength.flow_stress(&state(strain(multiplier)));
+            moment(multiplier) - section.modulus() * flow.stress
         };
-        let scale = equivalent((sum, difference));
+        let scale = moment(0.0);
         let slow = excess(0.0);
         if slow <= 0.0 {
             return;
         }
         let (mut low, mut over) = (0.0, slow);
-        let mut high = 2.0 * slow / (scale * (1.0 - nu));
+        let mut high = 2.0 * slow / (scale * (1.0 - section.poissons_ratio));
         let mut under = excess(high);
         while under > 0.0 {
             (low, over) = (high, under);
@@ -232,15 +257,24 @@ impl Ring {
             }
         }
         let increment = strain(multiplier);
-        (self.sum, self.difference) = returned(multiplier);
-        self.plastic_step = [
-            (sum - self.sum) / (section.bending * (1.0 + nu)),
-            (difference - self.difference) / (section.bending * (1.0 - nu)),
+        let temperature = self.temperature;
+        self.damage = section
+            .failure
+            .grow(self.damage, increment, time_step, temperature);
+        let returned = section.returned(trial, multiplier);
+        [self.sum, self.difference, self.shear] = returned;
+        let nu = section.poissons_ratio;
+        let stiffness = [
+            section.bending * (1.0 + nu),
+            section.bending * (1.0 - nu),
+            section.shear,
         ];
-        self.plastic[0] += self.plastic_step[0];
-        self.plastic[1] += self.plastic_step[1];
+        self.plastic_step = std::array::from_fn(|i| (trial[i] - returned[i]) / stiffness[i]);
+        for (plastic, step) in self.plastic.iter_mut().zip(self.plastic_step) {
+            *plastic += step;
+        }
         self.plastic_strain += increment;
-        let stress = equivalent((self.sum, self.difference)) / section.modulus();
+        let stress = section.equivalent(returned) / section.modulus();
         self.temperature += section.heating * stress * increment;
     }
 

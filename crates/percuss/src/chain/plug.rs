@@ -92,14 +92,17 @@ impl State {
                 );
             }
         }
-        let plate = match (layers.first(), edge) {
-            (Some(layer), Some(edge)) if scenario.options.chain.dishing() => Some(Dishing::new(
-                &layer.material,
-                layer.thickness.unwrap_or(self.back_position),
-                0.5 * column_diameter,
-                *edge,
-                &scenario.options.chain,
-            )),
+        let plate = match (layers.first(), bands.laws.first(), edge) {
+            (Some(layer), Some(law), Some(edge)) if scenario.options.chain.dishing() => {
+                Some(Dishing::new(
+                    &layer.material,
+                    layer.thickness.unwrap_or(self.back_position),
+                    0.5 * column_diameter,
+                    *edge,
+                    law.failure,
+                    &scenario.options.chain,
+                ))
+            }
             _ => None,
         };
         self.hold = Some(Hold {
@@ -213,6 +216,9 @@ impl State {
         }
         let time = self.time + time_step;
         hold.bands.update(&self.nodes, deflection, time_step, time);
+        if hold.plate.as_ref().is_some_and(Dishing::has_failed) {
+            hold.bands.end(time);
+        }
         if let Some(plate) = &mut hold.plate {
             // The edge of a hole turns freely.
             plate.edge_held = hold.bands.hold_any();

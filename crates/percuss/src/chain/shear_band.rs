@@ -101,6 +101,14 @@ impl Bands {
         }
     }
 
+    /// Ends every band that still holds.
+    pub(super) fn end(&mut self, time: f64) {
+        for band in self.bands.iter_mut().filter(|band| band.held > 0.0) {
+            self.books.work += band.release(0.0, self.perimeter);
+            self.books.last_end = Some(time);
+        }
+    }
+
     /// Shares the band of a node at which the plug parts: the end ahead becomes the node after it.
     ///
     /// Such a node has lost nothing to erosion: what its band does not hold has left through the back, the end ahead first.

@@ -319,8 +319,8 @@ fn the_chain_finds_the_limit_of_a_plug() {
     let found = one(&Chain, &plug, &search(40.0, 300.0, 4));
     assert_eq!(found.outcome, LimitOutcome::Found, "{found:?}");
     let limit = found.ballistic_limit_m_s.unwrap();
-    // By bracketing with a loop of its own, tests/plugging.rs has 133.2 m/s on this mesh.
-    assert!((limit - 133.2).abs() < 0.6, "{limit}");
+    // By bracketing with a loop of its own, tests/plugging.rs has 224.4 m/s on this mesh.
+    assert!((limit - 224.4).abs() < 1.5, "{limit}");
     let through = &found.curve;
     assert!(
         through
