@@ -17,7 +17,7 @@ mod template;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use document::Document;
+pub use document::Document;
 pub use experiment::{Experiment, SourceKeys, Uncertainty};
 pub(crate) use load::read_text;
 pub use load::{MAX_FILE_BYTES, load, load_library, load_materials, load_str};

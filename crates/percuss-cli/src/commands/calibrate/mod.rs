@@ -1,3 +1,4 @@
+mod progress;
 mod table;
 
 use std::{
@@ -11,6 +12,7 @@ use percuss::{
     Error,
     calibrate::{
         self, Calibration, Fitted, Noise, Observations, Problem, Record, Sampling, Settings, Stage,
+        Watch,
     },
     case,
     material::Library,
@@ -18,9 +20,15 @@ use percuss::{
     shots::Kind,
 };
 
+use serde::{Serialize, Serializer};
+
 use crate::{
-    diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, shot_data, terminal,
-    workers,
+    answer::{AtHand, Hear},
+    diagnostic,
+    failure::Failure,
+    progress::Progress,
+    run_folder::RunFolder,
+    shot_data, terminal, workers,
 };
 
 const LONG_ABOUT: &str = "\
@@ -123,33 +131,53 @@ pub struct Calibrate {
     quiet: bool,
 }
 
+/// A calibration with the materials that come of it.
+#[derive(Debug, Serialize)]
+pub struct Calibrated {
+    /// The calibration.
+    #[serde(flatten)]
+    pub calibration: Calibration,
+    /// The materials, by their ids.
+    #[serde(rename = "materials", serialize_with = "as_table")]
+    pub records: Vec<Record>,
+}
+
+fn as_table<S: Serializer>(records: &[Record], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(records.iter().map(|record| (&record.id, &record.material)))
+}
+
 impl Calibrate {
     pub fn run(&self) -> Result<(), Failure> {
-        let problem = self.problem()?;
+        let problem = self.problem(&AtHand::default())?;
         let settings = self.settings(&problem)?;
         let folder = match &self.out {
             Some(out) => Some(RunFolder::create_for(out, None)?),
             None => None,
         };
-        let calibration = self.solve(&problem, &settings)?;
-        let records =
-            calibrate::records(&problem, &calibration, self.name.as_deref()).map_err(|reason| {
-                Failure::Usage {
-                    message: format!("the best values make no material: {reason}"),
-                    help: "narrow the ranges".to_owned(),
-                }
-            })?;
+        let found = self.watched(&problem, &settings)?;
         let files = match folder {
-            Some(folder) => self.write(folder, &calibration, &records)?,
+            Some(folder) => write(folder, &found)?,
             None => Vec::new(),
         };
-        self.print(&calibration, &records, &files)
+        self.print(&found, &files)
     }
 
-    fn problem(&self) -> Result<Problem, Failure> {
+    /// What the command finds out.
+    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Calibrated, Failure> {
+        let problem = self.problem(at_hand)?;
+        let settings = self.settings(&problem)?;
+        let sampled = settings.sampling.is_some();
+        let hear = Mutex::new(hear);
+        self.solve(&problem, &settings, &|stage, part, runs| {
+            let mut hear = hear.lock().unwrap_or_else(PoisonError::into_inner);
+            hear(progress::whole(stage, part, sampled), &progress::words(stage, runs))
+        })
+    }
+
+    fn problem(&self, at_hand: &AtHand) -> Result<Problem, Failure> {
         let mut fitted = Vec::new();
         for text in &self.fit {
-            fitted.extend(Fitted::read(text)?);
+            fitted.extend(Fitted::read_with(text, |path| at_hand.read(path))?);
         }
         let mut library = Library::built_in().clone();
         for path in &self.materials {
@@ -157,7 +185,7 @@ impl Calibrate {
         }
         let mut observations = Observations::default();
         for path in &self.cases {
-            observations.add_case(path)?;
+            observations.add_case(&at_hand.read(path)?)?;
         }
         if !self.data.is_empty() {
             let (shots, _) = shot_data::read(&self.data, &self.kind, &library)?;
@@ -210,7 +238,28 @@ impl Calibrate {
         })
     }
 
-    fn solve(&self, problem: &Problem, settings: &Settings) -> Result<Calibration, Failure> {
+    fn solve(
+        &self,
+        problem: &Problem,
+        settings: &Settings,
+        watch: Watch<'_>,
+    ) -> Result<Calibrated, Failure> {
+        let calibration = calibrate::run(problem, settings, watch)?;
+        let records =
+            calibrate::records(problem, &calibration, self.name.as_deref()).map_err(|reason| {
+                Failure::Usage {
+                    message: format!("the best values make no material: {reason}"),
+                    help: "narrow the ranges".to_owned(),
+                }
+            })?;
+        Ok(Calibrated {
+            calibration,
+            records,
+        })
+    }
+
+    /// Solves it with a bar for each stage.
+    fn watched(&self, problem: &Problem, settings: &Settings) -> Result<Calibrated, Failure> {
         let stop = workers::stop_on_request();
         let board = Mutex::new((Stage::LeastSquares, Progress::new(!self.quiet)));
         let watch = |stage: Stage, part: f64, runs: u64| {
@@ -221,61 +270,35 @@ impl Calibrate {
                         std::mem::replace(&mut *board, (stage, Progress::new(!self.quiet)));
                     before.1.finish();
                 }
-                let what = match stage {
-                    Stage::LeastSquares => "least squares",
-                    Stage::Sampling => "sampling",
-                    Stage::Predicting => "predicting",
-                };
-                board.1.update(part, &format!("{what}, {runs} runs"));
+                board.1.update(part, &progress::words(stage, runs));
             }
             match stop.load(Ordering::Relaxed) {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),
             }
         };
-        let result = calibrate::run(problem, settings, &watch);
+        let result = self.solve(problem, settings, &watch);
         let board = board.into_inner().unwrap_or_else(PoisonError::into_inner);
         board.1.finish();
         match result {
-            Err(Error::Cancelled { .. }) => Err(Failure::Interrupted("the calibration")),
-            other => Ok(other?),
+            Err(Failure::Library(Error::Cancelled { .. })) => {
+                Err(Failure::Interrupted("the calibration"))
+            }
+            other => other,
         }
     }
 
-    fn write(
-        &self,
-        mut folder: RunFolder,
-        calibration: &Calibration,
-        records: &[Record],
-    ) -> Result<Vec<PathBuf>, Failure> {
-        let json = terminal::json(calibration)?;
-        folder.put("calibration.json", json.as_bytes())?;
-        folder.add(percuss_report::calibration::write(
-            folder.path(),
+    fn print(&self, found: &Calibrated, files: &[PathBuf]) -> Result<(), Failure> {
+        let Calibrated {
             calibration,
-        )?);
-        if !records.is_empty() {
-            let text: String = records.iter().map(Record::toml).collect();
-            folder.put("material.toml", text.as_bytes())?;
-        }
-        for figure in percuss_report::calibration::figures(calibration) {
-            folder.add(figure.write(folder.path())?);
-        }
-        Ok(folder.written())
-    }
-
-    fn print(
-        &self,
-        calibration: &Calibration,
-        records: &[Record],
-        files: &[PathBuf],
-    ) -> Result<(), Failure> {
+            records,
+        } = found;
         let wrote: String = files
             .iter()
             .map(|file| format!("  {}\n", file.display()))
             .collect();
         if self.json {
-            terminal::print_json(calibration)?;
+            terminal::print_json(found)?;
             if !files.is_empty() && !self.quiet {
                 diagnostic::print(&format!("wrote\n{wrote}"));
             }
@@ -296,6 +319,22 @@ impl Calibrate {
         }
         terminal::print(&text)
     }
+}
+
+fn write(mut folder: RunFolder, found: &Calibrated) -> Result<Vec<PathBuf>, Failure> {
+    folder.put("calibration.json", terminal::json(found)?.as_bytes())?;
+    folder.add(percuss_report::calibration::write(
+        folder.path(),
+        &found.calibration,
+    )?);
+    if !found.records.is_empty() {
+        let text: String = found.records.iter().map(Record::toml).collect();
+        folder.put("material.toml", text.as_bytes())?;
+    }
+    for figure in percuss_report::calibration::figures(&found.calibration) {
+        folder.add(figure.write(folder.path())?);
+    }
+    Ok(folder.written())
 }
 
 fn no_source(key: &str, known: &str) -> Failure {
