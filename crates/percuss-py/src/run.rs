@@ -34,7 +34,7 @@ pub struct RunResult {
 /// Computes a case by a model.
 #[pyfunction]
 #[pyo3(signature = (case, model, record, progress=None, projectile_law=None, target_law=None, resistance_law=None))]
-#[allow(clippy::too_many_arguments)]
+#[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub fn run(
     py: Python<'_>,
     case: &Bound<'_, Case>,

@@ -99,7 +99,8 @@ def test_the_law_of_resistance_sees_depth_and_speed() -> None:
     result = percuss.run(thick(400.0), resistance_law=law)
     deepest, fastest = max(depth for depth, _ in seen), max(speed for _, speed in seen)
     assert deepest == pytest.approx(1e-3 * (result.depth_of_penetration_mm or 0), rel=1e-3)
-    assert 200 < fastest <= 400 and min(speed for _, speed in seen) == 0.0
+    # Waves in the rod throw its tip forward at first.
+    assert 200 < fastest < 800 and min(speed for _, speed in seen) == 0.0
 
 
 @pytest.mark.parametrize(
@@ -107,7 +108,7 @@ def test_the_law_of_resistance_sees_depth_and_speed() -> None:
     [
         (lambda _d, _s: math.nan, ValueError, "gives NaN Pa at a depth of"),
         (lambda _d, _s: -1.0, ValueError, "allowed: 0 or more"),
-        (lambda _d, _s: "hard", TypeError, ""),
+        (lambda _d, _s: "hard", TypeError, "float|real number"),
         (lambda _d: 1e9, TypeError, "argument"),
     ],
 )

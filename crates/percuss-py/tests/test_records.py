@@ -6,11 +6,21 @@ import typing
 from pathlib import Path
 from typing import Any
 
+import matplotlib.pyplot
 import percuss
 import pytest
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from percuss.record import Record
 
 CASE = "cases/paper-table1/scenario.toml"
+
+
+def save(axes: Axes, path: Path) -> None:
+    figure = axes.figure
+    assert isinstance(figure, Figure)
+    figure.savefig(path)
+    matplotlib.pyplot.close(figure)
 
 
 @pytest.fixture(scope="module")
@@ -72,7 +82,7 @@ def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], 
             if hasattr(record, "plot") and not (isinstance(record, percuss.RunResult) and i == 1):
                 axes = record.plot()
                 assert axes.get_xlabel() and (axes.lines or axes.patches)
-                axes.figure.savefig(tmp_path / f"{type(record).__name__}-{i}.png")
+                save(axes, tmp_path / f"{type(record).__name__}-{i}.png")
     (run, _) = records[percuss.RunResult]
     assert isinstance(run, percuss.RunResult)
     assert run.plot("contact_force_n").get_ylabel() == "contact force [kN]"
@@ -85,7 +95,7 @@ def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], 
     drawn += [found.plot_posterior("a"), found.plot_posterior("scatter"), found.plot_pair("a", "b")]
     for i, axes in enumerate(drawn):
         assert axes.get_xlabel() and axes.get_legend() is not None
-        axes.figure.savefig(tmp_path / f"study-{i}.png")
+        save(axes, tmp_path / f"study-{i}.png")
 
 
 def test_text_of_a_case_cannot_become_markup() -> None:

@@ -16,7 +16,7 @@ SPREAD = "cases/paper-table1-uncertainty/scenario.toml"
 BAD = sorted(path.relative_to(ROOT) for path in ROOT.glob("crates/percuss-cli/tests/bad-uncertainties/*.toml"))
 YIELD = "materials.ofhc-copper-johnson-cook.strength.johnson_cook.a"
 WILKINS: dict[str, Any] = {"data": "builtin", "source": "wilkins1973", "model": "wilkins_guinan"}
-SMALL = {"ensembles": 2, "walkers": 4, "steps": 30}
+SMALL: dict[str, Any] = {"ensembles": 2, "walkers": 4, "steps": 30}
 
 
 def words(options: dict[str, Any]) -> list[str]:
@@ -66,9 +66,9 @@ def test_an_uncertainty_is_that_of_the_program(program: Program, tmp_path: Path)
 @pytest.mark.parametrize("path", BAD, ids=lambda path: path.stem)
 def test_a_bad_uncertainty_is_refused_in_the_words_of_the_program(path: Path, program: Program) -> None:
     printed = program("uncertainty", path)
-    for case in (path, percuss.load(path)):
+    for read in (lambda: path, lambda: percuss.load(path)):
         with pytest.raises(percuss.CaseError) as caught:
-            percuss.uncertainty(case)
+            percuss.uncertainty(read())
         assert str(caught.value) == printed.stderr.rstrip() and printed.returncode == 2
 
 
@@ -151,7 +151,7 @@ def test_cases_and_priors_in_code_are_those_of_files(program: Program, tmp_path:
 
 
 def test_a_bad_calibration_is_refused_in_the_words_of_the_program(program: Program, tmp_path: Path) -> None:
-    for fit, more, error in [
+    cases: list[tuple[Any, dict[str, Any], type[Exception]]] = [
         ({YIELD: "20..300 mm"}, {}, percuss.CaseError),
         ({"materials.ofhc-coper.density": "8..9 g/cm3"}, {}, percuss.MaterialError),
         ("a", {}, percuss.CaseError),
@@ -159,13 +159,14 @@ def test_a_bad_calibration_is_refused_in_the_words_of_the_program(program: Progr
         ({YIELD: "20..300 MPa"}, {"hold_out": "nobody1999"}, percuss.UsageError),
         ({YIELD: "20..300 MPa"}, {"noise": "stated"}, percuss.UsageError),
         ({YIELD: "20..300 MPa"}, {"walkers": 5}, percuss.UsageError),
-    ]:
+    ]
+    for fit, more, error in cases:
         text = fit if isinstance(fit, str) else "=".join(next(iter(fit.items())))
         printed = program("calibrate", *words(WILKINS | more), "--fit", text)
         with pytest.raises(error) as caught:
             percuss.calibrate(fit=fit, **WILKINS, **more)
         assert str(caught.value) == printed.stderr.rstrip(), text
-    with pytest.raises(percuss.CaseError, match="fit.toml:3"):
+    with pytest.raises(percuss.CaseError, match="fit.toml:6"):
         percuss.calibrate(fit={YIELD: {"normal": {"mean": "90 m", "standard_deviation": "20 MPa"}}}, **WILKINS)
     with pytest.raises(percuss.UsageError, match="is no prior"):
         percuss.calibrate(fit={YIELD: 3.0}, **WILKINS)  # type: ignore[dict-item]

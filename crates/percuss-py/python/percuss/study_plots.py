@@ -145,8 +145,8 @@ def predictions(found: Calibration, ax: Axes | None) -> Axes:
             continue
         places = [place for place, _ in rows]
         banded = [(place, p) for place, p in rows if p.predictive_band is not None]
-        ends = [[error(p, p.predictive_band[end]) for _, p in banded] for end in (0, 1)]
-        ax.hlines([place for place, _ in banded], *ends, color=colour, alpha=0.3, linewidth=5)
+        low, high = ([error(p, p.predictive_band[end]) for _, p in banded] for end in (0, 1))
+        ax.hlines([place for place, _ in banded], low, high, color=colour, alpha=0.3, linewidth=5)
         before = [(place, error(p, p.before)) for place, p in rows if p.before is not None]
         if before:
             ax.plot([e for _, e in before], [place for place, _ in before], "o", color="0.6", mfc="none", ms=4)
