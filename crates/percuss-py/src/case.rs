@@ -93,11 +93,7 @@ impl Case {
 }
 
 impl Case {
-    fn new(
-        class: &Bound<'_, PyType>,
-        document: Document,
-        path: Option<PathBuf>,
-    ) -> PyResult<Self> {
+    fn new(class: &Bound<'_, PyType>, document: Document, path: Option<PathBuf>) -> PyResult<Self> {
         let scenario = document.scenario();
         Ok(Self {
             scenario: Arc::new(scenario.map_err(|error| raise(class.py(), error))?),

@@ -13,4 +13,3 @@ pub fn command(py: Python<'_>, words: Vec<OsString>) -> u8 {
         .find(|byte| ExitCode::from(*byte) == code)
         .unwrap_or(1)
 }
-

@@ -56,8 +56,9 @@ def histogram(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes
         marks.append(("all at median", of.nominal, "C3", "--"))
     for name, value, colour, style in marks:
         ax.axvline(value * factor, color=colour, linestyle=style, label=f"{name}: {value * factor:.4g}")
-    ax.set(xlabel=words, ylabel="shots", title=f"{found.case}, model {found.model}")
-    ax.legend()
+    # Room for the legend above the bars.
+    ax.set(xlabel=words, ylabel="shots", title=f"{found.case}, model {found.model}", ylim=(0, 1.5 * ax.get_ylim()[1]))
+    ax.legend(fontsize="small")
     return ax
 
 
@@ -72,9 +73,9 @@ def tornado(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
         part = "5th" if end == "at_low" else "95th"
         ax.barh(names, [value - middle for value in ends], left=middle, color=colour, label=f"at its {part} percentile")
     ax.axvline(middle, color="k", linewidth=1)
-    ax.invert_yaxis()
-    ax.set(xlabel=words, title=found.case)
-    ax.legend()
+    # The longest bar at the top, room for the legend below.
+    ax.set(xlabel=words, title=found.case, ylim=(len(names) + 0.3, -0.6))
+    ax.legend(fontsize="small", loc="lower right")
     return ax
 
 
@@ -178,10 +179,13 @@ def posterior(found: Calibration, name: str | None, ax: Axes | None) -> Axes:
     key, words, best = _axis(found, name)
     values = found.sample[key]
     ax = new_axes(ax)
-    ax.hist(values, bins=60, density=True, color="0.8", label="posterior")
+    ax.hist(values, bins="auto", density=True, color="0.8", edgecolor="white", label="posterior")
     if key != "scatter":
+        shown = ax.get_xlim()
         low, _, high = found.parameter(key).prior
-        ax.axvspan(low, high, color="C2", alpha=0.12, zorder=0, label="prior, 95 %")
+        ax.axvspan(low, high, color="C2", alpha=0.12, zorder=0, label=f"prior, 95 %: {low:.4g} to {high:.4g}")
+        # A prior that is much wider would leave the posterior a line.
+        ax.set_xlim(shown)
     ax.axvline(best, color="C0", label=f"best: {best:.4g}")
     ax.set(xlabel=words, ylabel="density", title=f"model {found.model}")
     ax.legend()

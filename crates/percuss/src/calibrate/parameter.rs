@@ -125,7 +125,8 @@ impl Fitted {
     fn file(document: &Document) -> Result<Vec<Self>, Error> {
         let file: FitFile = document.parse()?;
         if file.parameter.is_empty() {
-            let help = "write a [[parameter]] table with key and uniform, normal, lognormal or triangular";
+            let help =
+                "write a [[parameter]] table with key and uniform, normal, lognormal or triangular";
             let finding = Finding::whole("the file names nothing to fit", help);
             return Err(document.place(finding).into());
         }

@@ -1,10 +1,6 @@
 //! Reading a case file and turning it into a scenario, with errors that name the place.
 
-use std::{
-    fs::File,
-    io::Read,
-    path::Path,
-};
+use std::{fs::File, io::Read, path::Path};
 
 use super::{Case, Document};
 use crate::{
@@ -87,7 +83,8 @@ impl Document {
 
         let library = library_of(&case, self)?;
         let mut findings = Vec::new();
-        let scenario = Scenario::resolve(&self.name, case, &library, &mut Check::new(&mut findings));
+        let scenario =
+            Scenario::resolve(&self.name, case, &library, &mut Check::new(&mut findings));
         self.report(findings)?;
         scenario.ok_or_else(|| {
             let finding = Finding::whole("the case could not be resolved", "");

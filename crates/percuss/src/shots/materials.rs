@@ -1,7 +1,12 @@
 //! Whether a case can be made of a row: materials that exist, quantities in their ranges.
 
 use super::{Shot, Struck, row::Row};
-use crate::{check::Finding, error::{InputError, Subject}, material::Library, units::shorten};
+use crate::{
+    check::Finding,
+    error::{InputError, Subject},
+    material::Library,
+    units::shorten,
+};
 
 /// Makes sure that a case can be made of a shot with each of its records.
 pub(super) fn check(shot: &Shot, row: &Row<'_>, library: &Library) -> Result<(), Box<InputError>> {

@@ -170,7 +170,10 @@ impl Calibrate {
         let hear = Mutex::new(hear);
         self.solve(&problem, &settings, &|stage, part, runs| {
             let mut hear = hear.lock().unwrap_or_else(PoisonError::into_inner);
-            hear(progress::whole(stage, part, sampled), &progress::words(stage, runs))
+            hear(
+                progress::whole(stage, part, sampled),
+                &progress::words(stage, runs),
+            )
         })
     }
 

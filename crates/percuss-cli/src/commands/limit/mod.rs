@@ -14,7 +14,11 @@ use serde::Serialize;
 
 use crate::{
     answer::{AtHand, Hear},
-    diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, terminal,
+    diagnostic,
+    failure::Failure,
+    progress::Progress,
+    run_folder::RunFolder,
+    terminal,
 };
 
 const LONG_ABOUT: &str = "\
