@@ -20,7 +20,7 @@ LONG = {
     " 'projectile.velocity', 'uniform': {'from': '150 m/s', 'to': '400 m/s'}}]}, sys.argv[1])",
     "uncertainty": "percuss.uncertainty('cases/paper-table1-uncertainty/scenario.toml', samples=1048576)",
     "calibrate": "percuss.calibrate(data='builtin', source='wilkins1973', model='wilkins_guinan', steps=1000000,"
-    " fit={'materials.ofhc-copper-johnson-cook.strength.johnson_cook.a': '20..300 MPa'})",
+    " fit={'materials.copper-woodward.strength.power_law.coefficient': '150..900 MPa'})",
 }
 
 SCRIPT = """

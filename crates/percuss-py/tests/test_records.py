@@ -30,7 +30,8 @@ def records() -> dict[type[Record], list[Record]]:
     plate = case.parents[1] / "weldox-460e-12mm-blunt/scenario.toml"
     spread = percuss.load(case.parents[1] / "paper-table1-uncertainty/scenario.toml")
     spread = spread.replace({"chain.projectile_elements": 8, "chain.target_elements": 12})
-    constants = ["materials.ofhc-copper-johnson-cook.strength.johnson_cook." + name for name in "ab"]
+    law = "materials.copper-woodward.strength.power_law"
+    coefficient = {f"{law}.coefficient": "150..900 MPa"}
     copper: dict[str, Any] = {"data": "builtin", "source": "wilkins1973", "model": "wilkins_guinan"}
     return {
         percuss.RunResult: [percuss.run(case), percuss.run(wall, "taylor", history=False)],
@@ -40,8 +41,8 @@ def records() -> dict[type[Record], list[Record]]:
         percuss.Validation: [percuss.validate(model="taylor", kind="taylor")],
         percuss.Uncertainty: [percuss.uncertainty(spread, samples=16, velocity=[150, 230])],
         percuss.Calibration: [
-            percuss.calibrate(fit=dict.fromkeys(constants, "20..800 MPa"), **copper, ensembles=2, walkers=6, steps=20),
-            percuss.calibrate(fit={constants[0]: "20..300 MPa"}, **copper, least_squares=True),
+            percuss.calibrate(fit={**coefficient, f"{law}.exponent": (0.02, 0.4)}, **copper, ensembles=2, walkers=6, steps=20),
+            percuss.calibrate(fit=coefficient, **copper, least_squares=True),
         ],
         percuss.Material: [percuss.material("copper"), *percuss.materials()],
         percuss.Model: list(percuss.models()),
@@ -92,7 +93,7 @@ def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], 
     drawn = [spread.plot_tornado(), spread.plot_indices(), spread.plot_bands(), spread.plot_perforation()]
     (found, _) = records[percuss.Calibration]
     assert isinstance(found, percuss.Calibration)
-    drawn += [found.plot_posterior("a"), found.plot_posterior("scatter"), found.plot_pair("a", "b")]
+    drawn += [found.plot_posterior("coefficient"), found.plot_posterior("scatter"), found.plot_pair("coefficient", "exponent")]
     for i, axes in enumerate(drawn):
         assert axes.get_xlabel() and axes.get_legend() is not None
         save(axes, tmp_path / f"study-{i}.png")

@@ -14,9 +14,9 @@ from conftest import ROOT, Program
 
 SPREAD = "cases/paper-table1-uncertainty/scenario.toml"
 BAD = sorted(path.relative_to(ROOT) for path in ROOT.glob("crates/percuss-cli/tests/bad-uncertainties/*.toml"))
-YIELD = "materials.ofhc-copper-johnson-cook.strength.johnson_cook.a"
+COEFFICIENT = "materials.copper-woodward.strength.power_law.coefficient"
 WILKINS: dict[str, Any] = {"data": "builtin", "source": "wilkins1973", "model": "wilkins_guinan"}
-SMALL: dict[str, Any] = {"ensembles": 2, "walkers": 4, "steps": 30}
+SMALL: dict[str, Any] = {"ensembles": 2, "walkers": 4, "steps": 15}
 
 
 def words(options: dict[str, Any]) -> list[str]:
@@ -95,14 +95,14 @@ def test_what_is_not_there_is_said() -> None:
 def test_a_calibration_is_that_of_the_program(program: Program, tmp_path: Path) -> None:
     import pyarrow.parquet
 
-    fit = f"{YIELD}=20..300 MPa"
+    fit = f"{COEFFICIENT}=150..900 MPa"
     line = ["calibrate", *words(WILKINS | SMALL), "--hold-out", "zelepugin2023", "--seed", "5", "--fit", fit]
     theirs = answer(program, *line, "--out", str(tmp_path / "out"))
-    ours = percuss.calibrate(fit={YIELD: "20..300 MPa"}, hold_out="zelepugin2023", seed=5, **WILKINS, **SMALL)
+    ours = percuss.calibrate(fit={COEFFICIENT: "150..900 MPa"}, hold_out="zelepugin2023", seed=5, **WILKINS, **SMALL)
     assert ours.to_dict() == theirs
     written = pyarrow.parquet.read_table(tmp_path / "out/sample.parquet")
     sample = ours.sample
-    assert sample.names() == written.column_names and len(sample) == written.num_rows == 240
+    assert sample.names() == written.column_names and len(sample) == written.num_rows == 120
     for name in sample.names():
         array = sample[name]
         assert numpy.array_equal(array, written[name].to_numpy()), name
@@ -152,13 +152,13 @@ def test_cases_and_priors_in_code_are_those_of_files(program: Program, tmp_path:
 
 def test_a_bad_calibration_is_refused_in_the_words_of_the_program(program: Program, tmp_path: Path) -> None:
     cases: list[tuple[Any, dict[str, Any], type[Exception]]] = [
-        ({YIELD: "20..300 mm"}, {}, percuss.CaseError),
+        ({COEFFICIENT: "150..900 mm"}, {}, percuss.CaseError),
         ({"materials.ofhc-coper.density": "8..9 g/cm3"}, {}, percuss.MaterialError),
         ("a", {}, percuss.CaseError),
         ("nothing.toml", {}, percuss.ReadError),
-        ({YIELD: "20..300 MPa"}, {"hold_out": "nobody1999"}, percuss.UsageError),
-        ({YIELD: "20..300 MPa"}, {"noise": "stated"}, percuss.UsageError),
-        ({YIELD: "20..300 MPa"}, {"walkers": 5}, percuss.UsageError),
+        ({COEFFICIENT: "150..900 MPa"}, {"hold_out": "nobody1999"}, percuss.UsageError),
+        ({COEFFICIENT: "150..900 MPa"}, {"noise": "stated"}, percuss.UsageError),
+        ({COEFFICIENT: "150..900 MPa"}, {"walkers": 5}, percuss.UsageError),
     ]
     for fit, more, error in cases:
         text = fit if isinstance(fit, str) else "=".join(next(iter(fit.items())))
@@ -167,11 +167,11 @@ def test_a_bad_calibration_is_refused_in_the_words_of_the_program(program: Progr
             percuss.calibrate(fit=fit, **WILKINS, **more)
         assert str(caught.value) == printed.stderr.rstrip(), text
     with pytest.raises(percuss.CaseError, match="fit.toml:6"):
-        percuss.calibrate(fit={YIELD: {"normal": {"mean": "90 m", "standard_deviation": "20 MPa"}}}, **WILKINS)
+        percuss.calibrate(fit={COEFFICIENT: {"normal": {"mean": "400 m", "standard_deviation": "20 MPa"}}}, **WILKINS)
     with pytest.raises(percuss.UsageError, match="is no prior"):
-        percuss.calibrate(fit={YIELD: 3.0}, **WILKINS)  # type: ignore[dict-item]
+        percuss.calibrate(fit={COEFFICIENT: 3.0}, **WILKINS)  # type: ignore[dict-item]
     with pytest.raises(KeyError, match="names no single parameter"):
-        percuss.calibrate(fit={YIELD: "20..300 MPa"}, least_squares=True, **WILKINS).parameter("b")
+        percuss.calibrate(fit={COEFFICIENT: "150..900 MPa"}, least_squares=True, **WILKINS).parameter("exponent")
 
 
 def test_progress_rises_and_can_end_a_study() -> None:
@@ -190,5 +190,5 @@ def test_progress_rises_and_can_end_a_study() -> None:
     assert heard == sorted(heard) and 0.0 <= heard[-1] < 1.0
     heard.clear()
     with pytest.raises(Enough):
-        percuss.calibrate(fit={YIELD: "20..300 MPa"}, steps=100000, progress=hear, **WILKINS)
+        percuss.calibrate(fit={COEFFICIENT: "150..900 MPa"}, steps=100000, progress=hear, **WILKINS)
     assert heard == sorted(heard) and 0.0 <= heard[-1] < 1.0

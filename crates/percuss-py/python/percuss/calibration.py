@@ -92,7 +92,7 @@ class Calibration(Record):
         return Sample(self._native)
 
     def parameter(self, name: str | None = None) -> Record:
-        """A parameter by its key or the end of it, such as ``johnson_cook.a``; the first when not given."""
+        """A parameter by its key or the end of it, such as ``power_law.coefficient``; the first when not given."""
         found = [p for p in self.parameters if name in (None, p.key) or p.key.endswith(f".{name}")]
         if not found or (name is not None and len(found) > 1):
             raise KeyError(f"`{name}` names no single parameter; parameters: {', '.join(p.key for p in self.parameters)}")
@@ -217,7 +217,7 @@ def calibrate(
     ...     data="builtin",
     ...     source="wilkins1973",
     ...     model="wilkins_guinan",
-    ...     fit={"materials.ofhc-copper-johnson-cook.strength.johnson_cook.a": "20..300 MPa"},
+    ...     fit={"materials.copper-woodward.strength.power_law.coefficient": "150..900 MPa"},
     ...     least_squares=True,
     ... )
     >>> found.parameters[0].unit, found.training.count
