@@ -38,7 +38,8 @@ class Calibration(Record):
         Runs of it.
     parameters : list of Record
         What was fitted: ``key``, ``unit``, ``prior`` (2.5, 50 and 97.5 %), ``best`` with its ``standard_error``, and the ``posterior`` with
-        ``mean``, ``standard_deviation``, ``quantiles`` (2.5, 50 and 97.5 %), ``r_hat`` and ``effective_size``. Values are in the unit.
+        ``mean``, ``standard_deviation``, ``quantiles`` (2.5, 50 and 97.5 %), ``r_hat``, ``bulk_effective_size`` and ``tail_effective_size``. Values are in
+        the unit.
     scatter : Record
         Relative scatter of measured values about the model: ``best``, ``estimated``, ``posterior``.
     correlations : list of list of float
@@ -118,7 +119,7 @@ class Calibration(Record):
             row |= _ends("prior", parameter["prior"])
             posterior = dict(parameter["posterior"] or {})
             row |= _ends("posterior", posterior.pop("quantiles", None))
-            rows.append(row | {name: posterior.get(name) for name in ("r_hat", "effective_size")})
+            rows.append(row | {name: posterior.get(name) for name in ("r_hat", "bulk_effective_size", "tail_effective_size")})
         return rows
 
     def plot(self, ax: Axes | None = None) -> Axes:
