@@ -264,7 +264,7 @@ fn a_rigid_rod_against_a_constant_pressure_stops_where_its_energy_is_used_up() {
                 [chain]\ntarget_closure = \"expanding-cavity\"\nprojectile_elements = 100\n\
                 [materials.rigid]\nname = \"rigid\"\ndensity = \"7850 kg/m3\"\nyoungs_modulus = \"1500 GPa\"\npoissons_ratio = 0.3\n\
                 strength.perfectly_plastic = { flow_stress = \"20 GPa\" }\n\
-                [materials.light]\nname = \"light\"\ndensity = \"500 kg/m3\"\nyoungs_modulus = \"700 GPa\"\npoissons_ratio = 0.33\n\
+                [materials.light]\nname = \"light\"\ndensity = \"2000 kg/m3\"\nyoungs_modulus = \"700 GPa\"\npoissons_ratio = 0.33\n\
                 strength.elastic = {}\n";
     let mut shot = case::load_str("shot", text).unwrap();
     // An elastic target has no pressure of its own.
@@ -272,11 +272,11 @@ fn a_rigid_rod_against_a_constant_pressure_stops_where_its_energy_is_used_up() {
     shot.resistance = Some(OwnResistance(Arc::new(Constant)));
     assert!(super::not_applicable(&shot).is_none());
     let area = PI * RADIUS * RADIUS;
-    let (mass, added) = (7850.0 * area * 50e-3, 4.0 / 3.0 * 500.0 * RADIUS.powi(3));
+    let (mass, added) = (7850.0 * area * 50e-3, 4.0 / 3.0 * 2000.0 * RADIUS.powi(3));
     // The added mass of the target is set in motion by the rod when they meet, and slows down with it.
     let expected = 0.5 * mass * mass / (mass + added) * 150.0 * 150.0 / (300e6 * area);
     let found = run(&shot).depth_of_penetration.unwrap();
-    assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
+    assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
 }
 
 #[test]
