@@ -117,19 +117,13 @@ fn of_sample(calibration: &Calibration) -> Numbers {
         return Numbers::new();
     };
     let (steps, walkers) = (sample.sampling.steps, sample.sampling.walkers);
-    let places: [(&str, fn(usize, usize, usize) -> usize); 3] = [
-        ("ensemble", |i, steps, walkers| i / (steps * walkers)),
-        ("step", |i, steps, walkers| i / walkers % steps),
-        ("walker", |i, _, walkers| i % walkers),
-    ];
     let count = sample.kept().count();
-    let mut numbers: Numbers = places
-        .iter()
-        .map(|(name, of)| {
-            let values = (0..count).map(|i| of(i, steps, walkers) as f64);
-            ((*name).to_owned(), values.collect())
-        })
-        .collect();
+    let place = |of: &dyn Fn(usize) -> usize| (0..count).map(|i| of(i) as f64).collect();
+    let mut numbers: Numbers = vec![
+        ("ensemble".to_owned(), place(&|i| i / (steps * walkers))),
+        ("step".to_owned(), place(&|i| i / walkers % steps)),
+        ("walker".to_owned(), place(&|i| i % walkers)),
+    ];
     for (i, parameter) in calibration.parameters.iter().enumerate() {
         numbers.push((parameter.key.clone(), sample.values(i)));
     }
