@@ -1,5 +1,7 @@
+mod calibrated;
 mod progress;
 mod table;
+mod values;
 
 use std::{
     ops::ControlFlow,
@@ -10,17 +12,14 @@ use std::{
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Error,
-    calibrate::{
-        self, Calibration, Fitted, Noise, Observations, Problem, Record, Sampling, Settings, Stage,
-        Watch,
-    },
+    calibrate::{self, Fitted, Noise, Observations, Problem, Sampling, Settings, Stage, Watch},
     case,
     material::Library,
     model::{MODELS, model},
     shots::Kind,
 };
 
-use serde::{Serialize, Serializer};
+pub use calibrated::Calibrated;
 
 use crate::{
     answer::{AtHand, Hear},
@@ -99,7 +98,7 @@ pub struct Calibrate {
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: String,
     /// Scatter about the model: `estimated`, a part such as "2 %", or `stated` for stated uncertainties alone
-    #[arg(long, value_name = "SCATTER", default_value = "estimated", value_parser = noise)]
+    #[arg(long, value_name = "SCATTER", default_value = "estimated", value_parser = values::noise)]
     noise: Noise,
     /// Least squares only, without a sample of the posterior
     #[arg(long)]
@@ -109,7 +108,7 @@ pub struct Calibrate {
     #[arg(value_parser = clap::value_parser!(u16).range(1..=64))]
     ensembles: u16,
     /// Walkers of an ensemble, an even number; four for each parameter when not given, and at least 12
-    #[arg(long, value_name = "N", value_parser = walkers)]
+    #[arg(long, value_name = "N", value_parser = values::walkers)]
     walkers: Option<usize>,
     /// Steps of each walker that are kept; a third as many come before them
     #[arg(long, value_name = "N", default_value = "600")]
@@ -119,7 +118,7 @@ pub struct Calibrate {
     #[arg(long, value_name = "N", default_value = "0")]
     seed: u64,
     /// Id of the calibrated material; the old one with `-calibrated` when not given
-    #[arg(long, value_name = "ID", value_parser = material_id)]
+    #[arg(long, value_name = "ID", value_parser = values::material_id)]
     name: Option<String>,
     /// Write numbers, materials and figures to a folder
     #[arg(long, value_name = "DIR")]
@@ -132,21 +131,6 @@ pub struct Calibrate {
     quiet: bool,
 }
 
-/// A calibration with the materials that come of it.
-#[derive(Debug, Serialize)]
-pub struct Calibrated {
-    /// The calibration.
-    #[serde(flatten)]
-    pub calibration: Calibration,
-    /// The materials, by their ids.
-    #[serde(rename = "materials", serialize_with = "as_table")]
-    pub records: Vec<Record>,
-}
-
-fn as_table<S: Serializer>(records: &[Record], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(records.iter().map(|record| (&record.id, &record.material)))
-}
-
 impl Calibrate {
     pub fn run(&self) -> Result<(), Failure> {
         let problem = self.problem(&AtHand::default())?;
@@ -157,7 +141,7 @@ impl Calibrate {
         };
         let found = self.watched(&problem, &settings)?;
         let files = match folder {
-            Some(folder) => write(folder, &found)?,
+            Some(folder) => found.write(folder)?,
             None => Vec::new(),
         };
         self.print(&found, &files)
@@ -315,22 +299,6 @@ impl Calibrate {
     }
 }
 
-fn write(mut folder: RunFolder, found: &Calibrated) -> Result<Vec<PathBuf>, Failure> {
-    folder.put("calibration.json", terminal::json(found)?.as_bytes())?;
-    folder.add(percuss_report::calibration::write(
-        folder.path(),
-        &found.calibration,
-    )?);
-    if !found.records.is_empty() {
-        let text: String = found.records.iter().map(Record::toml).collect();
-        folder.put("material.toml", text.as_bytes())?;
-    }
-    for figure in percuss_report::calibration::figures(&found.calibration) {
-        folder.add(figure.write(folder.path())?);
-    }
-    Ok(folder.written())
-}
-
 fn no_source(key: &str, known: &str) -> Failure {
     Failure::Usage {
         message: format!("no measured value comes from `{key}`"),
@@ -338,35 +306,5 @@ fn no_source(key: &str, known: &str) -> Failure {
             "" => "there is no measured value at all".to_owned(),
             known => format!("sources: {known}"),
         },
-    }
-}
-
-fn noise(text: &str) -> Result<Noise, String> {
-    const ALLOWED: &str = "allowed: estimated, stated, or a part such as \"2 %\", up to 100 %";
-    match text.trim() {
-        "estimated" => Ok(Noise::Estimated),
-        "stated" => Ok(Noise::Stated),
-        part => part
-            .strip_suffix('%')
-            .and_then(|number| number.trim().parse::<f64>().ok())
-            .map(|percent| percent / 100.0)
-            .filter(|part| (1e-6..=1.0).contains(part))
-            .map(Noise::Relative)
-            .ok_or_else(|| ALLOWED.to_owned()),
-    }
-}
-
-fn walkers(text: &str) -> Result<usize, String> {
-    let number = text.parse::<usize>().ok();
-    number
-        .filter(|number| number % 2 == 0 && (4..=10_000).contains(number))
-        .ok_or_else(|| "allowed: an even number, 4 to 10000".to_owned())
-}
-
-fn material_id(text: &str) -> Result<String, String> {
-    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    match !text.is_empty() && text.chars().all(plain) {
-        true => Ok(text.to_owned()),
-        false => Err("allowed: letters, digits, hyphens and underscores".to_owned()),
     }
 }
