@@ -1,8 +1,11 @@
 //! A case that was read, from a file or from values.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
-use percuss::{Scenario, case};
+use percuss::{Scenario, case::Document};
 use pyo3::{
     prelude::*,
     types::{PyDict, PyType},
@@ -14,7 +17,7 @@ use crate::{errors::raise, si, tables};
 #[pyclass(frozen, module = "percuss._percuss")]
 pub struct Case {
     pub scenario: Arc<Scenario>,
-    text: String,
+    pub document: Document,
     path: Option<PathBuf>,
 }
 
@@ -23,24 +26,20 @@ impl Case {
     /// Reads a case file.
     #[classmethod]
     fn load(class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
-        let py = class.py();
-        let scenario = case::load(&path).map_err(|error| raise(py, error))?;
-        Ok(Self {
-            scenario: Arc::new(scenario),
-            text: std::fs::read_to_string(&path)?,
-            path: Some(path),
-        })
+        let document = Document::read(&path).map_err(|error| raise(class.py(), error))?;
+        Self::new(class, document, Some(path))
     }
 
-    /// Reads a case from a text.
+    /// Reads a case from a text, in which paths are relative to a folder.
     #[classmethod]
-    fn from_text(class: &Bound<'_, PyType>, name: &str, text: String) -> PyResult<Self> {
-        let scenario = case::load_str(name, &text).map_err(|error| raise(class.py(), error))?;
-        Ok(Self {
-            scenario: Arc::new(scenario),
-            text,
-            path: None,
-        })
+    fn from_text(
+        class: &Bound<'_, PyType>,
+        name: &str,
+        text: String,
+        folder: PathBuf,
+    ) -> PyResult<Self> {
+        let document = Document::new(name, text).in_folder(folder);
+        Self::new(class, document, None)
     }
 
     /// Reads a case from tables as a file has them; a plain number where a quantity is due is in SI units.
@@ -49,10 +48,11 @@ impl Case {
         class: &Bound<'_, PyType>,
         name: &str,
         tables: &Bound<'_, PyDict>,
+        folder: PathBuf,
     ) -> PyResult<Self> {
         let mut table = tables::to_toml(tables)?;
         si::add_units(&mut table);
-        Self::from_text(class, name, table.to_string())
+        Self::from_text(class, name, table.to_string(), folder)
     }
 
     /// Its name.
@@ -76,7 +76,13 @@ impl Case {
     /// What the file says.
     #[getter]
     fn text(&self) -> &str {
-        &self.text
+        self.document.text()
+    }
+
+    /// The folder that paths in it are relative to.
+    #[getter]
+    fn folder(&self) -> PathBuf {
+        self.document.folder().unwrap_or(Path::new("")).to_owned()
     }
 
     /// The file; `None` for a case that comes from none.
@@ -84,13 +90,15 @@ impl Case {
     fn path(&self) -> Option<PathBuf> {
         self.path.clone()
     }
+}
 
-    /// The same case at another impact speed [m/s].
-    fn at_speed(&self, speed: f64) -> Self {
-        Self {
-            scenario: Arc::new(self.scenario.at_speed(speed)),
-            text: self.text.clone(),
-            path: self.path.clone(),
-        }
+impl Case {
+    fn new(class: &Bound<'_, PyType>, document: Document, path: Option<PathBuf>) -> PyResult<Self> {
+        let scenario = document.scenario();
+        Ok(Self {
+            scenario: Arc::new(scenario.map_err(|error| raise(class.py(), error))?),
+            document,
+            path,
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! Failures as Python's exceptions, with the text that the program prints.
 
-use percuss::{Error, InputError};
+use percuss::{Error, Subject};
 use percuss_cli::Failure;
 use pyo3::{exceptions::PyKeyboardInterrupt, prelude::*, types::PyDict};
 
@@ -41,9 +41,9 @@ fn describe(failure: &Failure, attributes: &Bound<'_, PyDict>) -> PyResult<Optio
             attributes.set_item("key", &error.key)?;
             attributes.set_item("message", &error.message)?;
             attributes.set_item("help", &error.help)?;
-            match is_of_material(error) {
-                true => "MaterialError",
-                false => "CaseError",
+            match error.subject {
+                Subject::Material => "MaterialError",
+                Subject::Case => "CaseError",
             }
         }
         Failure::Library(Error::NotApplicable { model, reason }) => {
@@ -76,11 +76,4 @@ fn describe(failure: &Failure, attributes: &Bound<'_, PyDict>) -> PyResult<Optio
         }
         _ => "UsageError",
     }))
-}
-
-/// Whether what is wrong is a material, or the name of one.
-fn is_of_material(error: &InputError) -> bool {
-    let about = |part: &str| ["material", "materials", "material_files"].contains(&part);
-    // A file of materials has no projectile; the keys of its tables are those of the materials.
-    error.key.split('.').any(about) || !error.text.contains("projectile")
 }

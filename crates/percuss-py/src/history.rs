@@ -1,6 +1,7 @@
-//! Histories as arrays of NumPy that are views of the memory of a result: nothing is copied.
+//! Histories and samples as arrays of NumPy that are views of the memory of a result: nothing is copied.
 
 use std::{
+    any::Any,
     mem::{offset_of, size_of},
     sync::Arc,
 };
@@ -94,7 +95,7 @@ pub const ELEMENT: &[Field] = fields! { ElementState:
 /// A column that NumPy can look at; it keeps the result alive for as long as an array does.
 #[pyclass(frozen, module = "percuss._percuss")]
 pub struct Column {
-    _owner: Arc<RunResult>,
+    _owner: Arc<dyn Any + Send + Sync>,
     address: usize,
     stride: usize,
     count: usize,
@@ -114,10 +115,21 @@ impl Column {
         Self::new(result, ELEMENT, name, &profile.elements)
     }
 
+    /// A column that stands by itself; `values` belong to `owner`.
+    pub fn of_numbers<O: Any + Send + Sync>(owner: &Arc<O>, values: &[f64]) -> Self {
+        Self {
+            _owner: owner.clone(),
+            address: values.as_ptr() as usize,
+            stride: size_of::<f64>(),
+            count: values.len(),
+            kind: "f8",
+        }
+    }
+
     fn new<R>(owner: &Arc<RunResult>, fields: &[Field], name: &str, rows: &[R]) -> Option<Self> {
         let field = fields.iter().find(|field| field.name == name)?;
         Some(Self {
-            _owner: Arc::clone(owner),
+            _owner: owner.clone(),
             address: rows.as_ptr() as usize + field.offset,
             stride: size_of::<R>(),
             count: rows.len(),

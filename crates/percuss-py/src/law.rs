@@ -2,7 +2,7 @@
 
 use std::{
     ops::ControlFlow,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
 use percuss::{
@@ -13,6 +13,8 @@ use percuss::{
 };
 use pyo3::prelude::*;
 
+use crate::resistance::resistance;
+
 /// Stress that stands in once a law has failed [Pa]: the run goes on to the next place where it can be ended.
 const STAND_IN: f64 = 1e6;
 /// Steps in strain and strain rate [1/s] for slopes, and the part of the value that they grow with.
@@ -20,26 +22,37 @@ const STEP: f64 = 1e-6;
 const RATE_STEP: f64 = 1e-2;
 const PART: f64 = 1e-4;
 
+/// What the first law that failed raised.
+#[derive(Debug, Clone, Default)]
+pub struct FirstError(Arc<Mutex<Option<PyErr>>>);
+
+impl FirstError {
+    /// Takes note of an error, unless there was one before.
+    pub fn set(&self, error: PyErr) {
+        self.lock().get_or_insert(error);
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<PyErr>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
 /// The laws that take the place of a case's own.
+#[derive(Default)]
 pub struct Laws {
-    projectile: Option<Py<PyAny>>,
-    target: Option<Py<PyAny>>,
-    /// What the first law that failed raised.
-    error: Arc<Mutex<Option<PyErr>>>,
+    /// Strength of the projectile.
+    pub projectile: Option<Py<PyAny>>,
+    /// Strength of the target.
+    pub target: Option<Py<PyAny>>,
+    /// Resistance of the target.
+    pub resistance: Option<Py<PyAny>>,
+    pub error: FirstError,
 }
 
 impl Laws {
-    pub fn new(projectile: Option<Py<PyAny>>, target: Option<Py<PyAny>>) -> Self {
-        Self {
-            projectile,
-            target,
-            error: Arc::default(),
-        }
-    }
-
     /// The case with these laws; the same case where there are none.
     pub fn put_into(&self, py: Python<'_>, scenario: &Arc<Scenario>) -> Arc<Scenario> {
-        if self.projectile.is_none() && self.target.is_none() {
+        if self.projectile.is_none() && self.target.is_none() && self.resistance.is_none() {
             return Arc::clone(scenario);
         }
         let mut changed = (**scenario).clone();
@@ -53,13 +66,16 @@ impl Laws {
                 layer.material = self.with_law(py, &layer.material, law);
             }
         }
+        if let Some(law) = &self.resistance {
+            changed.resistance = Some(resistance(law.clone_ref(py), self.error.clone()));
+        }
         Arc::new(changed)
     }
 
     fn with_law(&self, py: Python<'_>, material: &Material, law: &Py<PyAny>) -> Arc<Material> {
         let law = Law {
             function: Arc::new(law.clone_ref(py)),
-            error: Arc::clone(&self.error),
+            error: self.error.clone(),
             room_temperature: material.room_temperature.si(),
         };
         Arc::new(Material {
@@ -72,8 +88,7 @@ impl Laws {
 
     /// Whether to go on.
     pub fn flow(&self) -> ControlFlow<()> {
-        let error = self.error.lock().unwrap_or_else(PoisonError::into_inner);
-        match *error {
+        match *self.error.lock() {
             Some(_) => ControlFlow::Break(()),
             None => ControlFlow::Continue(()),
         }
@@ -81,8 +96,7 @@ impl Laws {
 
     /// What the first law that failed raised.
     pub fn into_error(self) -> Option<PyErr> {
-        let mut error = self.error.lock().unwrap_or_else(PoisonError::into_inner);
-        error.take()
+        self.error.lock().take()
     }
 }
 
@@ -90,7 +104,7 @@ impl Laws {
 #[derive(Debug, Clone)]
 struct Law {
     function: Arc<Py<PyAny>>,
-    error: Arc<Mutex<Option<PyErr>>>,
+    error: FirstError,
     room_temperature: f64,
 }
 
@@ -110,8 +124,7 @@ impl Law {
         match called {
             Ok(stress) => stress,
             Err(error) => {
-                let mut first = self.error.lock().unwrap_or_else(PoisonError::into_inner);
-                first.get_or_insert(error);
+                self.error.set(error);
                 STAND_IN
             }
         }

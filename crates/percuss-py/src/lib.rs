@@ -2,11 +2,13 @@
 //!
 //! It knows no option by name: cases, sweeps and command lines pass through it as data.
 
+mod answer;
 mod case;
 mod command;
 mod errors;
 mod history;
 mod law;
+mod resistance;
 mod run;
 mod si;
 mod sweep;
@@ -18,8 +20,9 @@ mod watch;
 mod _percuss {
     #[pymodule_export]
     use crate::{
+        answer::{Answer, answer},
         case::Case,
-        command::{answer, command},
+        command::command,
         history::Column,
         run::{RunResult, run},
         sweep::{Sweep, SweepFolder, compute_sweep, merge_sweep, sweep_status},

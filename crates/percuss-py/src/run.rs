@@ -33,7 +33,8 @@ pub struct RunResult {
 
 /// Computes a case by a model.
 #[pyfunction]
-#[pyo3(signature = (case, model, record, progress=None, projectile_law=None, target_law=None))]
+#[pyo3(signature = (case, model, record, progress=None, projectile_law=None, target_law=None, resistance_law=None))]
+#[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub fn run(
     py: Python<'_>,
     case: &Bound<'_, Case>,
@@ -42,8 +43,14 @@ pub fn run(
     progress: Option<Py<PyAny>>,
     projectile_law: Option<Py<PyAny>>,
     target_law: Option<Py<PyAny>>,
+    resistance_law: Option<Py<PyAny>>,
 ) -> PyResult<RunResult> {
-    let laws = Laws::new(projectile_law, target_law);
+    let laws = Laws {
+        projectile: projectile_law,
+        target: target_law,
+        resistance: resistance_law,
+        ..Laws::default()
+    };
     let scenario = laws.put_into(py, &case.get().scenario);
     let model = model::model(model).map_err(|error| raise(py, error))?;
     let mut asker = Asker::new(progress.as_ref());

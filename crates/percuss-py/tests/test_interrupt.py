@@ -18,6 +18,9 @@ LONG = {
     "compare": "percuss.compare(case, model='axi', velocity=[300, 400, 500, 600])",
     "sweep": "percuss.sweep({'base': case, 'model': 'chain', 'design': 'sobol', 'samples': 100000, 'parameter': [{'key':"
     " 'projectile.velocity', 'uniform': {'from': '150 m/s', 'to': '400 m/s'}}]}, sys.argv[1])",
+    "uncertainty": "percuss.uncertainty('cases/paper-table1-uncertainty/scenario.toml', samples=1048576)",
+    "calibrate": "percuss.calibrate(data='builtin', source='wilkins1973', model='wilkins_guinan', steps=1000000,"
+    " fit={'materials.copper-woodward.strength.power_law.coefficient': '150..900 MPa'})",
 }
 
 SCRIPT = """

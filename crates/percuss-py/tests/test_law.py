@@ -1,4 +1,4 @@
-"""Strength laws written in Python."""
+"""Laws of strength and of resistance written in Python."""
 
 from __future__ import annotations
 
@@ -62,3 +62,62 @@ def test_what_a_law_raises_ends_the_run(result: Any, error: type[Exception] | No
     with pytest.raises(error or ZeroDivisionError):
         percuss.run(shot({"rigid_wall": True}), projectile_law=law)
     assert calls > 10
+
+
+# Hard enough to stay rigid, into a target that a law of resistance stands for.
+RIGID: dict[str, Any] = {**MINE, "youngs_modulus": 1500e9, "strength": {"perfectly_plastic": {"flow_stress": 20e9}}}
+BLOCK = {"material": "aluminium-2024-t351", "thickness": "semi-infinite"}
+
+
+def thick(speed: float, **chain: Any) -> percuss.Case:
+    return percuss.Case(
+        projectile={"material": "mine", "length": 0.05, "diameter": 0.005, "velocity": speed},
+        target=BLOCK,
+        chain={"projectile_elements": 20, "target_elements": 20, **chain},
+        materials={"mine": RIGID},
+    )
+
+
+def test_a_constant_resistance_takes_up_the_energy_of_a_rigid_rod() -> None:
+    result = percuss.run(thick(150.0), resistance_law=lambda _depth, _speed: 300e6)
+    area, added = math.pi * 0.0025**2, 4 / 3 * 2780.0 * 0.0025**3
+    mass = 8000.0 * area * 0.05
+    # The target's added mass is set in motion by the rod when they meet, and slows down with it.
+    expected = 0.5 * mass**2 / (mass + added) * 150.0**2 / (300e6 * area)
+    assert result.depth_of_penetration_mm == pytest.approx(1e3 * expected, rel=0.02)
+    assert result.expected_error is None and "resistance law" in result.warnings[0]
+    assert result.energy_residual is not None and result.energy_residual < 1e-2
+
+
+def test_the_law_of_resistance_sees_depth_and_speed() -> None:
+    seen: list[tuple[float, float]] = []
+
+    def law(depth: float, speed: float) -> float:
+        seen.append((depth, speed))
+        return 200e6 + 1.5 * 2780.0 * speed**2
+
+    result = percuss.run(thick(400.0), resistance_law=law)
+    deepest, fastest = max(depth for depth, _ in seen), max(speed for _, speed in seen)
+    assert deepest == pytest.approx(1e-3 * (result.depth_of_penetration_mm or 0), rel=1e-3)
+    # Waves in the rod throw its tip forward at first.
+    assert 200 < fastest < 800 and min(speed for _, speed in seen) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("law", "error", "words"),
+    [
+        (lambda _d, _s: math.nan, ValueError, "gives NaN Pa at a depth of"),
+        (lambda _d, _s: -1.0, ValueError, "allowed: 0 or more"),
+        (lambda _d, _s: "hard", TypeError, "float|real number"),
+        (lambda _d: 1e9, TypeError, "argument"),
+    ],
+)
+def test_what_a_law_of_resistance_does_wrong_ends_the_run(law: Any, error: type[Exception], words: str) -> None:
+    with pytest.raises(error, match=words):
+        percuss.run(thick(150.0), resistance_law=law)
+
+
+def test_where_there_is_no_crater_floor_a_law_of_resistance_is_refused() -> None:
+    for case, model in [(thick(150.0), "fdm"), (thick(150.0, target_closure="column"), "chain"), (shot({"rigid_wall": True}), "chain")]:
+        with pytest.raises(percuss.NotApplicableError, match="resistance law"):
+            percuss.run(case, model, resistance_law=lambda _depth, _speed: 1e9)

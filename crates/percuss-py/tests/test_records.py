@@ -4,12 +4,23 @@ from __future__ import annotations
 
 import typing
 from pathlib import Path
+from typing import Any
 
+import matplotlib.pyplot
 import percuss
 import pytest
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from percuss.record import Record
 
 CASE = "cases/paper-table1/scenario.toml"
+
+
+def save(axes: Axes, path: Path) -> None:
+    figure = axes.figure
+    assert isinstance(figure, Figure)
+    figure.savefig(path)
+    matplotlib.pyplot.close(figure)
 
 
 @pytest.fixture(scope="module")
@@ -17,12 +28,22 @@ def records() -> dict[type[Record], list[Record]]:
     case = Path(__file__).resolve().parents[3] / CASE
     wall = case.parents[1] / "taylor-copper-wilkins/scenario.toml"
     plate = case.parents[1] / "weldox-460e-12mm-blunt/scenario.toml"
+    spread = percuss.load(case.parents[1] / "paper-table1-uncertainty/scenario.toml")
+    spread = spread.replace({"chain.projectile_elements": 8, "chain.target_elements": 12})
+    law = "materials.copper-woodward.strength.power_law"
+    coefficient = {f"{law}.coefficient": "150..900 MPa"}
+    copper: dict[str, Any] = {"data": "builtin", "source": "wilkins1973", "model": "wilkins_guinan"}
     return {
         percuss.RunResult: [percuss.run(case), percuss.run(wall, "taylor", history=False)],
         percuss.Comparison: [percuss.compare(case), percuss.compare(case, velocity="200..400:3")],
         percuss.Limits: [percuss.limit(plate, model=["plugging", "recht_ipson", "tate"])],
         percuss.Convergence: [percuss.converge(wall, levels=3)],
         percuss.Validation: [percuss.validate(model="taylor", kind="taylor")],
+        percuss.Uncertainty: [percuss.uncertainty(spread, samples=16, velocity=[150, 230])],
+        percuss.Calibration: [
+            percuss.calibrate(fit={**coefficient, f"{law}.exponent": (0.02, 0.4)}, **copper, ensembles=2, walkers=6, steps=20),
+            percuss.calibrate(fit=coefficient, **copper, least_squares=True),
+        ],
         percuss.Material: [percuss.material("copper"), *percuss.materials()],
         percuss.Model: list(percuss.models()),
     }
@@ -62,11 +83,20 @@ def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], 
             if hasattr(record, "plot") and not (isinstance(record, percuss.RunResult) and i == 1):
                 axes = record.plot()
                 assert axes.get_xlabel() and (axes.lines or axes.patches)
-                axes.figure.savefig(tmp_path / f"{type(record).__name__}-{i}.png")
+                save(axes, tmp_path / f"{type(record).__name__}-{i}.png")
     (run, _) = records[percuss.RunResult]
     assert isinstance(run, percuss.RunResult)
     assert run.plot("contact_force_n").get_ylabel() == "contact force [kN]"
     assert run.plot_stress().get_ylabel() == "time [us]"
+    (spread,) = records[percuss.Uncertainty]
+    assert isinstance(spread, percuss.Uncertainty)
+    drawn = [spread.plot_tornado(), spread.plot_indices(), spread.plot_bands(), spread.plot_perforation()]
+    (found, _) = records[percuss.Calibration]
+    assert isinstance(found, percuss.Calibration)
+    drawn += [found.plot_posterior("coefficient"), found.plot_posterior("scatter"), found.plot_pair("coefficient", "exponent")]
+    for i, axes in enumerate(drawn):
+        assert axes.get_xlabel() and axes.get_legend() is not None
+        save(axes, tmp_path / f"study-{i}.png")
 
 
 def test_text_of_a_case_cannot_become_markup() -> None:

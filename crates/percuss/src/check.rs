@@ -1,6 +1,9 @@
 //! Range checks that remember which key they looked at.
 
-use crate::units::{Dimension, Quantity, display, significant};
+use crate::{
+    error::Subject,
+    units::{Dimension, Quantity, display, significant},
+};
 
 /// Smallest and largest value allowed, in SI units, both included.
 #[derive(Debug, Clone, Copy)]
@@ -14,6 +17,8 @@ pub struct Limits {
 /// A finding of a check, before it is tied to a place in a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Finding {
+    /// What it is about.
+    pub subject: Subject,
     /// Key in dotted form.
     pub key: String,
     /// What is wrong.
@@ -22,9 +27,35 @@ pub struct Finding {
     pub help: String,
 }
 
+impl Finding {
+    /// What is wrong in a file as a whole.
+    pub(crate) fn whole(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::at("", message, help)
+    }
+
+    /// What is wrong at a key.
+    pub(crate) fn at(key: &str, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self {
+            subject: Subject::Case,
+            key: key.to_owned(),
+            message: message.into(),
+            help: help.into(),
+        }
+    }
+
+    /// The same of a material.
+    pub(crate) fn of_material(self) -> Self {
+        Self {
+            subject: Subject::Material,
+            ..self
+        }
+    }
+}
+
 /// Collects findings; keys are relative to the table it stands in.
 #[derive(Debug)]
 pub struct Check<'a> {
+    subject: Subject,
     prefix: String,
     findings: &'a mut Vec<Finding>,
 }
@@ -33,6 +64,7 @@ impl<'a> Check<'a> {
     /// A check at the root of a file.
     pub fn new(findings: &'a mut Vec<Finding>) -> Self {
         Self {
+            subject: Subject::Case,
             prefix: String::new(),
             findings,
         }
@@ -41,7 +73,17 @@ impl<'a> Check<'a> {
     /// A check one table further in.
     pub fn within(&mut self, table: &str) -> Check<'_> {
         Check {
+            subject: self.subject,
             prefix: self.key(table),
+            findings: self.findings,
+        }
+    }
+
+    /// The same check, of a material.
+    pub fn of_material(&mut self) -> Check<'_> {
+        Check {
+            subject: Subject::Material,
+            prefix: self.prefix.clone(),
             findings: self.findings,
         }
     }
@@ -56,11 +98,10 @@ impl<'a> Check<'a> {
 
     /// Reports a finding at a key; an empty key is the table itself.
     pub fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
-        let key = self.key(key);
+        let finding = Finding::at(&self.key(key), message, help);
         self.findings.push(Finding {
-            key,
-            message: message.into(),
-            help: help.into(),
+            subject: self.subject,
+            ..finding
         });
     }
 

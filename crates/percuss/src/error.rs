@@ -121,9 +121,21 @@ impl From<NumericalError> for Error {
     }
 }
 
+/// What an error of input is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Subject {
+    /// What a file describes: a case, a sweep, shots.
+    #[default]
+    Case,
+    /// A material, or the name of one.
+    Material,
+}
+
 /// What is wrong in a case or material file, and where.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct InputError {
+    /// What it is about.
+    pub subject: Subject,
     /// The file, or a name for a text that came from no file.
     pub file: String,
     /// The text of the file.

@@ -50,6 +50,9 @@ pub struct Guard {
     pub start_temperature: bool,
     /// Whether it takes gaps between layers, bonded interfaces and layers of different diameter.
     pub separate_layers: bool,
+    /// Whether it takes a law of resistance of the caller's own.
+    #[serde(skip)]
+    pub own_resistance: bool,
     /// Whether it sees the back face of a plate: one that does not gives no depth close to the thickness.
     pub sees_back_face: bool,
     /// Cases for which it is the first choice.
@@ -80,6 +83,7 @@ impl Guard {
         oblique_noses: &[],
         start_temperature: false,
         separate_layers: false,
+        own_resistance: false,
         sees_back_face: true,
         first_choice: &[],
         fitted_to: &[],
@@ -122,6 +126,11 @@ impl Guard {
             return Verdict::Outside(
                 "it takes layers that lie on each other, without a gap, an `interface` or a `column_diameter` of their own"
                     .to_owned(),
+            );
+        }
+        if scenario.resistance.is_some() && !self.own_resistance {
+            return Verdict::Outside(
+                "it takes no resistance law of the caller's own; `chain` does".to_owned(),
             );
         }
         let neighbour = regime

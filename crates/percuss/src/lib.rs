@@ -41,6 +41,7 @@ pub mod model;
 pub mod outcome;
 pub mod power;
 pub mod regime;
+pub mod resistance;
 pub mod scenario;
 pub mod shapes;
 pub mod shots;
@@ -51,7 +52,7 @@ pub mod units;
 pub mod v50;
 pub mod validate;
 
-pub use error::{Error, InputError, NumericalError};
+pub use error::{Error, InputError, NumericalError, Subject};
 pub use scenario::Scenario;
 
 /// The README's library example, run from the folder that it stands in.

@@ -146,7 +146,8 @@ pub(crate) fn complete(
         return Err(refusal(model, reason));
     }
     result.warnings.splice(0..0, warnings);
-    if result.depth_of_penetration.is_some() {
+    // Nothing was judged with a law of the caller's own.
+    if result.depth_of_penetration.is_some() && scenario.resistance.is_none() {
         result.expected_error = judge::expectation(model, scenario, regime);
     }
     Ok(result)

@@ -11,6 +11,7 @@ use crate::{
     check::{Check, limits},
     material::{Library, Material, MaterialEntry},
     outcome::BandQuantity,
+    resistance::OwnResistance,
     units::{Length, Mass, Quantity, Velocity},
 };
 
@@ -31,6 +32,8 @@ pub struct Scenario {
     pub obliquity: f64,
     /// What is struck.
     pub target: TargetBody,
+    /// What the target opposes to penetration, where the caller brings a law along; no file can name one.
+    pub resistance: Option<OwnResistance>,
     /// Options of the models.
     pub options: ModelOptions,
     /// What was measured, for comparison; no model sees it.
@@ -206,6 +209,7 @@ impl Scenario {
             impact_speed: case.projectile.velocity.si(),
             obliquity: case.projectile.obliquity(),
             target: target?,
+            resistance: None,
             options,
             experiments: case
                 .experiments
@@ -247,7 +251,7 @@ fn look_up<'a>(
         let near = library
             .nearest(name)
             .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
-        check.fail(
+        check.of_material().fail(
             &format!("{table}.material"),
             format!("no material is named `{}`", crate::units::shorten(name)),
             format!("{near}`percuss materials` lists all; your own go under `[materials.NAME]`"),

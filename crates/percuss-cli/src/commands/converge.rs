@@ -11,7 +11,7 @@ use percuss::{
 use percuss_report::convergence_figure;
 
 use crate::{
-    answer::Hear,
+    answer::{AtHand, Hear},
     failure::Failure,
     progress::Progress,
     run_folder::make_folder,
@@ -107,13 +107,10 @@ impl Converge {
     }
 
     /// What the command prints with --json.
-    pub fn answer(&self, case: Option<&Scenario>, hear: Hear<'_>) -> Result<String, Failure> {
+    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<String, Failure> {
         let model = model::model(&self.model)?;
-        let study = match case {
-            Some(scenario) => self.compute(model, scenario, hear),
-            None => self.compute(model, &case::load(&self.case)?, hear),
-        };
-        terminal::json(&study?)
+        let scenario = at_hand.read(&self.case)?.scenario()?;
+        terminal::json(&self.compute(model, &scenario, hear)?)
     }
 
     fn compute(

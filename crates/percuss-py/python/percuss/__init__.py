@@ -16,8 +16,9 @@ Examples
 """
 
 from ._percuss import VERSION as __version__
+from .calibration import Calibration, calibrate
 from .case import Case, load
-from .commands import StrengthLaw, compare, converge, limit, material, materials, models, run, validate
+from .commands import ResistanceLaw, StrengthLaw, compare, converge, limit, material, materials, models, run, validate
 from .errors import (
     CaseError,
     ClusterError,
@@ -33,9 +34,12 @@ from .history import History, Profile
 from .progress import Progress
 from .record import Record
 from .results import Comparison, Convergence, Limits, Material, Model, RunResult, Validation
+from .samples import Sample
+from .spread import Uncertainty, uncertainty
 from .sweeps import SweepResult, merge, sweep
 
 __all__ = [
+    "Calibration",
     "Case",
     "CaseError",
     "ClusterError",
@@ -53,13 +57,17 @@ __all__ = [
     "Progress",
     "ReadError",
     "Record",
+    "ResistanceLaw",
     "RunResult",
+    "Sample",
     "StrengthLaw",
     "SweepResult",
+    "Uncertainty",
     "UsageError",
     "Validation",
     "WriteError",
     "__version__",
+    "calibrate",
     "compare",
     "converge",
     "limit",
@@ -70,5 +78,6 @@ __all__ = [
     "models",
     "run",
     "sweep",
+    "uncertainty",
     "validate",
 ]

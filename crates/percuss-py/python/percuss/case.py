@@ -23,7 +23,8 @@ class Case:
         Name of the case, which messages show in place of a file.
     **tables
         The tables and values of a case file: ``projectile``, ``target``, ``chain``, ``materials`` and so on. A quantity is a text
-        with its unit, such as ``"4.8 mm"``, or a number in SI units. What is ``None`` is left out.
+        with its unit, such as ``"4.8 mm"``, or a number in SI units. What is ``None`` is left out. Paths in ``material_files`` are
+        relative to the working directory.
 
     Raises
     ------
@@ -46,7 +47,7 @@ class Case:
     _native: _percuss.Case
 
     def __init__(self, name: str = "case", /, **tables: Any) -> None:
-        self._native = _percuss.Case.from_tables(name, tables)
+        self._native = _percuss.Case.from_tables(name, tables, Path.cwd())
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Case:
@@ -54,17 +55,19 @@ class Case:
         return cls._of(_percuss.Case.load(path))
 
     @classmethod
-    def from_text(cls, text: str, name: str = "case") -> Case:
+    def from_text(cls, text: str, name: str = "case", folder: str | os.PathLike[str] | None = None) -> Case:
         """Reads a case from the text of a case file.
 
         Parameters
         ----------
         text : str
-            TOML, as a case file has it. It cannot name material files.
+            TOML, as a case file has it.
         name : str
             Name of the case, which messages show in place of a file.
+        folder : path, optional
+            What paths in ``material_files`` are relative to; the working directory when not given.
         """
-        return cls._of(_percuss.Case.from_text(name, text))
+        return cls._of(_percuss.Case.from_text(name, text, Path.cwd() if folder is None else folder))
 
     @classmethod
     def _of(cls, native: _percuss.Case) -> Case:
@@ -88,7 +91,7 @@ class Case:
             for part in way:
                 table = table[int(part)] if isinstance(table, list) else table.setdefault(part, {})
             table[int(last) if isinstance(table, list) else last] = value
-        return self._of(_percuss.Case.from_tables(self.name, tables))
+        return self._of(_percuss.Case.from_tables(self.name, tables, self._native.folder))
 
     @property
     def name(self) -> str:
@@ -121,7 +124,7 @@ class Case:
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Where it came from a file, the file may be on another machine: the text goes along.
-        return Case.from_text, (self.text, self.name)
+        return Case.from_text, (self.text, self.name, os.path.abspath(self._native.folder))
 
     def __repr__(self) -> str:
         where = f" from {self.path}" if self.path else ""

@@ -2,67 +2,19 @@
 
 from __future__ import annotations
 
-import json
-import os
 from collections.abc import Callable, Sequence
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from . import _percuss
+from .ask import CaseLike, Path, Speed, answer, several, speeds, with_unit
 from .case import Case, native
 from .progress import Progress, watching
 from .results import Comparison, Convergence, Limits, Material, Model, RunResult, Validation
 
-#: A path of a file or folder.
-Path: TypeAlias = str | os.PathLike[str]
-#: A case, or the path of a case file.
-CaseLike: TypeAlias = Case | Path
 #: Flow stress [Pa] from plastic strain, strain rate [1/s] and temperature [K].
 StrengthLaw: TypeAlias = Callable[[float, float, float], float]
-#: A speed in m/s, or a text with its unit.
-Speed: TypeAlias = float | str
-
-# Stands where a command line names the file of a case that is at hand.
-_AT_HAND = "case.toml"
-
-
-def _answer(
-    command: str,
-    *names: str,
-    of: CaseLike | None = None,
-    progress: Progress | bool | None = None,
-    **options: Any,
-) -> Any:
-    """What a command prints with --json. Options have the names that they have there; ``None`` stands for the default."""
-    line = ["percuss", *command.split()]
-    for name, value in options.items():
-        flag = "--" + name.replace("_", "-")
-        for item in value if isinstance(value, (list, tuple)) else [value]:
-            if item is not None:
-                line.append(f"{flag}={os.fspath(item) if isinstance(item, os.PathLike) else item}")
-    at_hand = None if of is None else native(of)
-    line += ["--", *names, *([] if at_hand is None else [_AT_HAND])]
-    with watching(progress) as hear:
-        return json.loads(_percuss.answer(line, at_hand, hear))
-
-
-def _several(names: Path | Sequence[Path] | None) -> list[Path]:
-    if names is None:
-        return []
-    return [names] if isinstance(names, (str, os.PathLike)) else list(names)
-
-
-def _list(speeds: Speed | Sequence[float] | None) -> str | None:
-    """Speeds as the command line has them: with as many digits as it takes to read them back unchanged."""
-    if speeds is None or isinstance(speeds, str):
-        return speeds
-    if isinstance(speeds, (int, float)):
-        return repr(float(speeds))
-    return ",".join(repr(float(speed)) for speed in speeds)
-
-
-def _with_unit(speed: Speed | None) -> str | None:
-    return speed if speed is None or isinstance(speed, str) else f"{float(speed)!r} m/s"
-
+#: Pressure on the crater floor [Pa] from its depth [m] and the speed at which it advances [m/s].
+ResistanceLaw: TypeAlias = Callable[[float, float], float]
 
 def run(
     case: CaseLike,
@@ -72,6 +24,7 @@ def run(
     progress: Progress | bool | None = None,
     projectile_law: StrengthLaw | None = None,
     target_law: StrengthLaw | None = None,
+    resistance_law: ResistanceLaw | None = None,
 ) -> RunResult:
     """Runs a case by a model.
 
@@ -90,6 +43,10 @@ def run(
         A strength law in Python that takes the place of the material's own: flow stress [Pa] from plastic strain, strain rate [1/s] and
         temperature [K]. Slow: the solver calls it for every flowing element and step, three times for the slopes, so a run takes
         hundreds of times as long. What it raises ends the run.
+    resistance_law : callable, optional
+        A law in Python that takes the place of the target's resistance to penetration: pressure on the crater floor [Pa], inertia of the
+        target included, from the floor's depth [m] and the speed at which it advances [m/s]. For model ``chain`` with the target
+        closure ``expanding-cavity``, which is that of a thick target of one metal. Slow: the solver calls it once or twice a step.
 
     Returns
     -------
@@ -111,9 +68,10 @@ def run(
     """
     at_hand = case._native if isinstance(case, Case) else native(case)
     if progress is False or callable(progress):
-        return RunResult(_percuss.run(at_hand, model, history, progress or None, projectile_law, target_law))
-    with watching(progress) as hear:
-        return RunResult(_percuss.run(at_hand, model, history, hear, projectile_law, target_law))
+        hear = progress or None
+        return RunResult(_percuss.run(at_hand, model, history, hear, projectile_law, target_law, resistance_law))
+    with watching(progress) as bar:
+        return RunResult(_percuss.run(at_hand, model, history, bar, projectile_law, target_law, resistance_law))
 
 
 def compare(
@@ -143,10 +101,9 @@ def compare(
     >>> [choice.model for choice in comparison.recommended[0].models]
     ['chain']
     """
-    answer = _answer(
-        "compare", of=case, velocity=_list(velocity), model=_several(model), progress=progress
+    return Comparison(
+        answer("compare", of=case, velocity=speeds(velocity), model=several(model), progress=progress)
     )
-    return Comparison(answer)
 
 
 def limit(
@@ -189,18 +146,18 @@ def limit(
     """
     if isinstance(velocity, tuple):
         velocity = "..".join(repr(float(end)) for end in velocity)
-    answer = _answer(
+    found = answer(
         "limit",
         of=case,
         velocity=velocity,
-        tolerance=_with_unit(tolerance),
+        tolerance=with_unit(tolerance),
         points=points,
-        model=_several(model),
+        model=several(model),
         shots=shots,
-        span=_with_unit(span),
+        span=with_unit(span),
         progress=progress,
     )
-    return Limits(answer)
+    return Limits(found)
 
 
 def converge(
@@ -229,7 +186,7 @@ def converge(
     >>> [mesh.projectile_elements for mesh in study.meshes]
     [40, 80, 160]
     """
-    return Convergence(_answer("converge", of=case, model=model, levels=levels, progress=progress))
+    return Convergence(answer("converge", of=case, model=model, levels=levels, progress=progress))
 
 
 def validate(
@@ -261,15 +218,15 @@ def validate(
     >>> validation.models
     ['taylor']
     """
-    answer = _answer(
+    found = answer(
         "validate",
-        model=_several(model),
-        kind=_several(kind),
-        data=_several(data),
-        materials=_several(materials),
+        model=several(model),
+        kind=several(kind),
+        data=several(data),
+        materials=several(materials),
         progress=progress,
     )
-    return Validation(answer)
+    return Validation(found)
 
 
 def materials(
@@ -289,7 +246,7 @@ def materials(
     >>> "copper-woodward" in [material.id for material in percuss.materials()]
     True
     """
-    return [Material(record) for record in _answer("materials", case=case, file=file)]
+    return [Material(record) for record in answer("materials", case=case, file=file)]
 
 
 def material(
@@ -310,7 +267,7 @@ def material(
     >>> percuss.material("copper").id
     'copper-woodward'
     """
-    return Material(_answer("materials show", name, case=case, file=file))
+    return Material(answer("materials show", name, case=case, file=file))
 
 
 def models() -> list[Model]:
@@ -321,4 +278,4 @@ def models() -> list[Model]:
     >>> [model.name for model in percuss.models()][:3]
     ['chain', 'fdm', 'axi']
     """
-    return [Model(record) for record in _answer("models")]
+    return [Model(record) for record in answer("models")]

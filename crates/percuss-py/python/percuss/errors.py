@@ -75,7 +75,7 @@ class NotApplicableError(PercussError, ValueError):
 
 
 class UsageError(PercussError, ValueError):
-    """An argument asks for something that does not exist."""
+    """An argument asks for something that does not exist, or leaves nothing to compute."""
 
 
 class _FileError(PercussError, OSError):

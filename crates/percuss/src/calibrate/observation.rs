@@ -1,13 +1,11 @@
 //! What was measured: entries `[[experiments]]` of case files, and published shots.
 
-use std::path::PathBuf;
-
 use serde::Serialize;
 
 use super::Fitted;
 use crate::{
     Error, Scenario,
-    case::{self, Template},
+    case::{Document, Template},
     check::Finding,
     material::{Library, MaterialEntry},
     outcome::BandQuantity,
@@ -56,21 +54,13 @@ impl Observations {
     /// Adds what was measured on a case: its `[[experiments]]`.
     ///
     /// # Errors
-    /// Those of reading a case; [`Error::Input`] when nothing was measured on it.
-    pub fn add_case(&mut self, path: &PathBuf) -> Result<(), Error> {
-        let template = Template::read(path)?;
-        let scenario = case::load(path)?;
+    /// [`Error::Input`] when the case is not valid, or nothing was measured on it.
+    pub fn add_case(&mut self, document: &Document) -> Result<(), Error> {
+        let template = Template::of(document)?;
+        let scenario = document.scenario()?;
         if scenario.experiments.is_empty() {
-            let document = case::Document {
-                file: path.display().to_string(),
-                text: case::read_text(path)?,
-            };
-            let finding = Finding {
-                key: String::new(),
-                message: "the case has no measured value".to_owned(),
-                help: "add [[experiments]] with velocity, a measured quantity and source"
-                    .to_owned(),
-            };
+            let help = "add [[experiments]] with velocity, a measured quantity and source";
+            let finding = Finding::whole("the case has no measured value", help);
             return Err(document.place(finding).into());
         }
         for (i, experiment) in scenario.experiments.iter().enumerate() {
@@ -107,7 +97,7 @@ impl Observations {
                         .nearest(id)
                         .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
                     let help = format!("{near}`percuss materials` lists all");
-                    parameter.error(&format!("no material is named `{id}`"), &help)
+                    parameter.no_material(&format!("no material is named `{id}`"), &help)
                 })?;
                 fitted_materials.push(entry);
             }

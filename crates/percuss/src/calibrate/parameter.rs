@@ -7,9 +7,9 @@ use toml::Value;
 
 use super::least_squares::Bounds;
 use crate::{
-    case::{Document, Template, read_text},
+    case::{Document, Template},
     check::{Check, Finding},
-    error::{Error, InputError},
+    error::{Error, InputError, Subject},
     sweep::{Amount, Axis, Design, Distribution, Parameter, Uniform, Values},
     units::split_number,
 };
@@ -28,8 +28,7 @@ pub struct Fitted {
 
 #[derive(Debug, Clone, PartialEq)]
 struct Place {
-    file: String,
-    text: String,
+    document: Document,
     /// Dotted key of the parameter in the file; empty when the text is the parameter.
     table: String,
 }
@@ -49,13 +48,24 @@ impl Fitted {
     /// # Errors
     /// [`Error::Input`] with the place; [`Error::Read`].
     pub fn read(text: &str) -> Result<Vec<Self>, Error> {
+        Self::read_with(text, Document::read)
+    }
+
+    /// The same with another way to come by the file.
+    ///
+    /// # Errors
+    /// As [`Fitted::read`].
+    pub fn read_with<'a>(
+        text: &'a str,
+        open: impl FnOnce(&'a Path) -> Result<Document, Error>,
+    ) -> Result<Vec<Self>, Error> {
         if text.contains('=') {
             return Ok(vec![Self::inline(text)?]);
         }
         if !text.ends_with(".toml") {
             return Err(inline_error(text, text, "there is no `=` after the key", EXAMPLE).into());
         }
-        Self::file(Path::new(text))
+        Self::file(&open(Path::new(text))?)
     }
 
     fn inline(text: &str) -> Result<Self, Error> {
@@ -106,32 +116,23 @@ impl Fitted {
             triangular: None,
         };
         let place = Place {
-            file: "--fit".to_owned(),
-            text: text.to_owned(),
+            document: Document::new("--fit", text),
             table: String::new(),
         };
         Self::of(&parameter, place)
     }
 
-    fn file(path: &Path) -> Result<Vec<Self>, Error> {
-        let document = Document {
-            file: path.display().to_string(),
-            text: read_text(path)?,
-        };
+    fn file(document: &Document) -> Result<Vec<Self>, Error> {
         let file: FitFile = document.parse()?;
         if file.parameter.is_empty() {
-            let finding = Finding {
-                key: String::new(),
-                message: "the file names nothing to fit".to_owned(),
-                help: "write a [[parameter]] table with key and uniform, normal, lognormal or triangular"
-                    .to_owned(),
-            };
+            let help =
+                "write a [[parameter]] table with key and uniform, normal, lognormal or triangular";
+            let finding = Finding::whole("the file names nothing to fit", help);
             return Err(document.place(finding).into());
         }
         let of = |(i, parameter): (usize, &Parameter)| {
             let place = Place {
-                file: document.file.clone(),
-                text: document.text.clone(),
+                document: document.clone(),
                 table: format!("parameter.{i}"),
             };
             Self::of(parameter, place)
@@ -219,7 +220,7 @@ impl Fitted {
                         finding.message
                     ),
                     key: written_at.clone(),
-                    help: finding.help,
+                    ..finding
                 }
             });
             return Err(self.place.error(finding, key).into());
@@ -229,42 +230,35 @@ impl Fitted {
 
     /// An error at the place where the number is written.
     pub(super) fn error(&self, message: &str, help: &str) -> Error {
-        let finding = Finding {
-            key: "key".to_owned(),
-            message: message.to_owned(),
-            help: help.to_owned(),
-        };
+        let finding = Finding::at("key", message, help);
+        self.place.error(Some(finding), self.key()).into()
+    }
+
+    /// An error at its key, which names a material that does not exist.
+    pub(super) fn no_material(&self, message: &str, help: &str) -> Error {
+        let finding = Finding::at("key", message, help).of_material();
         self.place.error(Some(finding), self.key()).into()
     }
 }
 
 impl Place {
     fn error(&self, finding: Option<Finding>, key: &str) -> InputError {
-        let Finding {
-            key: at,
-            message,
-            help,
-        } = finding.unwrap_or_else(|| Finding {
-            key: String::new(),
-            message: "it cannot be fitted".to_owned(),
-            help: EXAMPLE.to_owned(),
-        });
+        let finding = finding.unwrap_or_else(|| Finding::whole("it cannot be fitted", EXAMPLE));
         if self.table.is_empty() {
-            let part = match at.as_str() {
+            let text = self.document.text();
+            let part = match finding.key.as_str() {
                 "key" | "" => key,
-                _ => self.text.split_once('=').map_or("", |(_, range)| range),
+                _ => text.split_once('=').map_or("", |(_, range)| range),
             };
-            return inline_error(&self.text, part, &message, &help);
+            return InputError {
+                subject: finding.subject,
+                ..inline_error(text, part, &finding.message, &finding.help)
+            };
         }
-        let document = Document {
-            file: self.file.clone(),
-            text: self.text.clone(),
-        };
-        let key = [self.table.as_str(), at.as_str()].join(".");
-        document.place(Finding {
+        let key = [self.table.as_str(), finding.key.as_str()].join(".");
+        self.document.place(Finding {
             key: key.trim_end_matches('.').to_owned(),
-            message,
-            help,
+            ..finding
         })
     }
 }
@@ -273,6 +267,7 @@ impl Place {
 fn inline_error(text: &str, part: &str, message: &str, help: &str) -> InputError {
     let start = text.find(part).unwrap_or(0);
     InputError {
+        subject: Subject::Case,
         file: "--fit".to_owned(),
         text: text.to_owned(),
         span: start..start + part.len(),

@@ -1,28 +1,86 @@
 //! A text with the name of its file, and where in it something is wrong.
 
-use std::ops::Range;
+use std::{
+    ops::Range,
+    path::{Path, PathBuf},
+};
 
 use toml::de::{DeArray, DeTable, DeValue};
 
-use super::reword::{Reworded, help_for_key, reword};
+use super::{
+    load::{case_name, read_text},
+    reword::{Reworded, help_for_key, reword},
+};
 use crate::{
     check::Finding,
-    error::{Error, InputError},
+    error::{Error, InputError, Subject},
 };
 
-/// A text with the name of its file: turns findings and parse errors into errors with a place.
+/// Tables of a case that are about materials.
+const OF_MATERIALS: [&str; 2] = ["materials", "material_files"];
+
+/// The text of a case, or of what goes with one, and where it comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Document {
+    /// The file, or what stands for it in messages.
     pub(crate) file: String,
     pub(crate) text: String,
+    /// Name of what it describes.
+    pub(crate) name: String,
+    /// What paths in it are relative to; `None` where it can name no files.
+    pub(crate) folder: Option<PathBuf>,
+    /// What all of it is about.
+    subject: Subject,
 }
 
 impl Document {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`Error::Read`].
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        Ok(Self {
+            name: case_name(path),
+            folder: Some(path.parent().map(Path::to_path_buf).unwrap_or_default()),
+            ..Self::new(&path.display().to_string(), read_text(path)?)
+        })
+    }
+
     /// A text that comes from no file; its name stands for one in messages.
     pub fn new(name: &str, text: impl Into<String>) -> Self {
         Self {
             file: name.to_owned(),
             text: text.into(),
+            name: name.to_owned(),
+            folder: None,
+            subject: Subject::Case,
+        }
+    }
+
+    /// The same with paths in it relative to a folder.
+    pub fn in_folder(self, folder: impl Into<PathBuf>) -> Self {
+        Self {
+            folder: Some(folder.into()),
+            ..self
+        }
+    }
+
+    /// What it says.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// What paths in it are relative to; `None` where it can name no files.
+    pub fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
+    }
+
+    /// The same, of materials.
+    pub(crate) fn of_materials(self) -> Self {
+        Self {
+            subject: Subject::Material,
+            ..self
         }
     }
 
@@ -40,6 +98,7 @@ impl Document {
 
     pub(crate) fn place(&self, finding: Finding) -> InputError {
         InputError {
+            subject: finding.subject,
             file: self.file.clone(),
             text: self.text.clone(),
             span: self.span_of(&finding.key),
@@ -72,7 +131,12 @@ impl Document {
         if let Some(more) = help_for_key(&key, error.message()) {
             help = more;
         }
+        let table = key.split('.').next().unwrap_or_default();
         InputError {
+            subject: match OF_MATERIALS.contains(&table) {
+                true => Subject::Material,
+                false => self.subject,
+            },
             file: self.file.clone(),
             text: self.text.clone(),
             span,

@@ -1,10 +1,6 @@
 //! Reading a case file and turning it into a scenario, with errors that name the place.
 
-use std::{
-    fs::File,
-    io::Read,
-    path::{Path, PathBuf},
-};
+use std::{fs::File, io::Read, path::Path};
 
 use super::{Case, Document};
 use crate::{
@@ -22,11 +18,7 @@ pub const MAX_FILE_BYTES: u64 = 1 << 20;
 /// # Errors
 /// [`Error::Read`] when a file cannot be read, [`Error::Input`] when its content is not valid.
 pub fn load(path: impl AsRef<Path>) -> Result<Scenario, Error> {
-    let path = path.as_ref();
-    let text = read_text(path)?;
-    let name = case_name(path);
-    let directory = path.parent().map(Path::to_path_buf).unwrap_or_default();
-    resolve(&name, &path.display().to_string(), text, Some(&directory))
+    Document::read(path)?.scenario()
 }
 
 /// Reads a case from a text; `name` stands for the file in messages.
@@ -34,7 +26,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<Scenario, Error> {
 /// # Errors
 /// [`Error::Input`] when the text is not a valid case. A text cannot name material files.
 pub fn load_str(name: &str, text: &str) -> Result<Scenario, Error> {
-    resolve(name, name, text.to_owned(), None)
+    Document::new(name, text).scenario()
 }
 
 /// The materials that a case file can name: the built-in ones, its own and those of its material files.
@@ -42,17 +34,12 @@ pub fn load_str(name: &str, text: &str) -> Result<Scenario, Error> {
 /// # Errors
 /// Those of [`load`], but what the case describes beside its materials need not fit together.
 pub fn load_library(path: impl AsRef<Path>) -> Result<Library, Error> {
-    let path = path.as_ref();
-    let document = Document {
-        file: path.display().to_string(),
-        text: read_text(path)?,
-    };
+    let document = Document::read(path)?;
     let case: Case = document.parse()?;
     let mut findings = Vec::new();
     case.check_materials(&mut Check::new(&mut findings));
     document.report(findings)?;
-    let directory = path.parent().map(Path::to_path_buf).unwrap_or_default();
-    library_of(&case, &document, &case_name(path), Some(&directory))
+    library_of(&case, &document)
 }
 
 /// Reads a file of materials.
@@ -60,11 +47,7 @@ pub fn load_library(path: impl AsRef<Path>) -> Result<Library, Error> {
 /// # Errors
 /// [`Error::Read`] when it cannot be read, [`Error::Input`] when its content is not valid.
 pub fn load_materials(path: impl AsRef<Path>) -> Result<MaterialTable, Error> {
-    let path = path.as_ref();
-    let document = Document {
-        file: path.display().to_string(),
-        text: read_text(path)?,
-    };
+    let document = Document::read(path)?.of_materials();
     let table: MaterialTable = document.parse()?;
     let mut findings = Vec::new();
     for (id, material) in &table {
@@ -75,7 +58,7 @@ pub fn load_materials(path: impl AsRef<Path>) -> Result<MaterialTable, Error> {
 }
 
 /// Cases live as `NAME/scenario.toml`; a file with another name is called after itself.
-fn case_name(path: &Path) -> String {
+pub(super) fn case_name(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let folder = std::path::absolute(path).ok().and_then(|path| {
         let folder = path.parent()?.file_name()?;
@@ -87,63 +70,49 @@ fn case_name(path: &Path) -> String {
     }
 }
 
-fn resolve(
-    name: &str,
-    file: &str,
-    text: String,
-    directory: Option<&PathBuf>,
-) -> Result<Scenario, Error> {
-    let document = Document {
-        file: file.to_owned(),
-        text,
-    };
-    let case: Case = document.parse()?;
-    let mut findings = Vec::new();
-    case.check(&mut Check::new(&mut findings));
-    document.report(findings)?;
+impl Document {
+    /// The case that it describes, with everything that it names.
+    ///
+    /// # Errors
+    /// [`Error::Input`] when it is not valid, or a file that it names.
+    pub fn scenario(&self) -> Result<Scenario, Error> {
+        let case: Case = self.parse()?;
+        let mut findings = Vec::new();
+        case.check(&mut Check::new(&mut findings));
+        self.report(findings)?;
 
-    let library = library_of(&case, &document, name, directory)?;
-    let mut findings = Vec::new();
-    let scenario = Scenario::resolve(name, case, &library, &mut Check::new(&mut findings));
-    document.report(findings)?;
-    scenario.ok_or_else(|| {
-        let finding = Finding {
-            key: String::new(),
-            message: "the case could not be resolved".to_owned(),
-            help: String::new(),
-        };
-        document.place(finding).into()
-    })
+        let library = library_of(&case, self)?;
+        let mut findings = Vec::new();
+        let scenario =
+            Scenario::resolve(&self.name, case, &library, &mut Check::new(&mut findings));
+        self.report(findings)?;
+        scenario.ok_or_else(|| {
+            let finding = Finding::whole("the case could not be resolved", "");
+            self.place(finding).into()
+        })
+    }
 }
 
 /// The built-in materials with those of a case.
-pub(super) fn library_of(
-    case: &Case,
-    document: &Document,
-    name: &str,
-    directory: Option<&PathBuf>,
-) -> Result<Library, Error> {
+pub(super) fn library_of(case: &Case, document: &Document) -> Result<Library, Error> {
     let mut library = Library::built_in().clone();
-    library.add(&case.materials, &format!("{name} (this case)"));
+    library.add(&case.materials, &format!("{} (this case)", document.name));
     for (i, relative) in case.material_files.iter().enumerate() {
-        let refuse = |message: String, help: &str| {
-            document.place(Finding {
-                key: format!("material_files.{i}"),
-                message,
-                help: help.to_owned(),
-            })
+        let refuse = |message: &str, help: &str| {
+            let finding = Finding::at(&format!("material_files.{i}"), message, help);
+            document.place(finding.of_material())
         };
-        let Some(directory) = directory else {
+        let Some(folder) = &document.folder else {
             let message = "a case that comes from no file cannot name material files";
             let help = "put the materials into its `materials` table";
-            return Err(refuse(message.to_owned(), help).into());
+            return Err(refuse(message, help).into());
         };
-        let table = match load_materials(directory.join(relative)) {
+        let table = match load_materials(folder.join(relative)) {
             // The case names the file, so the place in the case is what a user has to look at.
             Err(Error::Read { path, reason, .. }) => {
                 let message = format!("cannot read `{}`: {reason}", path.display());
                 let help = "paths in `material_files` are relative to the case file";
-                return Err(refuse(message, help).into());
+                return Err(refuse(&message, help).into());
             }
             other => other?,
         };

@@ -1,6 +1,6 @@
 //! A case whose numbers can be changed before it becomes a scenario.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::Deserialize;
 use toml::{Table, Value};
@@ -26,41 +26,26 @@ pub(crate) struct Template {
 impl Template {
     /// Reads a case file, which has to be valid as it stands.
     pub(crate) fn read(path: &Path) -> Result<Self, Error> {
-        let scenario = load::load(path)?;
-        let document = Document {
-            file: path.display().to_string(),
-            text: load::read_text(path)?,
-        };
-        let directory = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        Self::with(scenario.name, &document, Some(&directory))
+        Self::of(&Document::read(path)?)
     }
 
-    /// Reads a case that comes from no file, which has to be valid as it stands.
+    /// Reads a case, which has to be valid as it stands.
     pub(crate) fn of(document: &Document) -> Result<Self, Error> {
-        let scenario = load::load_str(&document.file, &document.text)?;
-        Self::with(scenario.name, document, None)
-    }
-
-    fn with(name: String, document: &Document, directory: Option<&PathBuf>) -> Result<Self, Error> {
+        document.scenario()?;
         let mut table: Table = document.parse()?;
         // No shot depends on what is uncertain.
         table.remove("uncertainty");
         let mut case: Case = document.parse()?;
         // Its own materials are among the numbers that can be changed: only those of other files are looked up beforehand.
         case.materials.clear();
-        let library = load::library_of(&case, document, &name, directory)?;
+        let library = load::library_of(&case, document)?;
         let mut content = table.to_string();
         for file in &case.material_files {
-            let folder = directory.map_or(Path::new(""), PathBuf::as_path);
-            let text = load::read_text(&folder.join(file))?;
-            let document = Document {
-                file: file.display().to_string(),
-                text,
-            };
-            content += &document.parse::<Table>()?.to_string();
+            let file = Document::read(document.folder().unwrap_or(Path::new("")).join(file))?;
+            content += &file.parse::<Table>()?.to_string();
         }
         Ok(Self {
-            name,
+            name: document.name.clone(),
             table,
             library,
             content,
@@ -96,11 +81,7 @@ impl Template {
                 .last()
                 .map_or_else(String::new, |(_, v)| v.to_string());
             let said = reword(error.message(), &source);
-            vec![Finding {
-                key: String::new(),
-                message: said.message,
-                help: said.help,
-            }]
+            vec![Finding::whole(said.message, said.help)]
         })?;
         case.into_scenario(&self.name, &self.library)
     }
@@ -126,11 +107,8 @@ impl Template {
             self.adopt(&mut table, key)
                 .map_err(|finding| vec![finding])?;
             put(&mut table, key, value.clone()).map_err(|message| {
-                vec![Finding {
-                    key: (*key).to_owned(),
-                    message,
-                    help: "name a number of the case by the tables that it stands in, such as projectile.velocity".to_owned(),
-                }]
+                let help = "name a number of the case by the tables that it stands in, such as projectile.velocity";
+                vec![Finding::at(key, message, help)]
             })?;
         }
         Ok(table)
@@ -150,10 +128,8 @@ impl Template {
         let Some(own) = own.as_table_mut().filter(|own| !own.contains_key(id)) else {
             return Ok(());
         };
-        let fail = |message: String, help: String| Finding {
-            key: format!("materials.{id}"),
-            message,
-            help,
+        let fail = |message: String, help: String| {
+            Finding::at(&format!("materials.{id}"), message, help).of_material()
         };
         let entry = self.library.find(id).ok_or_else(|| {
             let near = self

@@ -80,6 +80,7 @@ impl Model for Chain {
                 noses: &[NoseKind::Flat],
                 start_temperature: true,
                 separate_layers: true,
+                own_resistance: true,
                 first_choice: &[FirstChoice {
                     projectile: ProjectileRegime::Deforming,
                     targets: &[
@@ -111,6 +112,11 @@ impl Model for Chain {
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
         match scenario.options.chain.scheme {
             Scheme::Conservative if is_expanding(scenario) => expanding::not_applicable(scenario),
+            _ if scenario.resistance.is_some() => Some(
+                "a resistance law takes the place of the target's in the closure `expanding-cavity` alone; set \
+                 chain.target_closure = \"expanding-cavity\""
+                    .to_owned(),
+            ),
             Scheme::Conservative => {
                 fracture::not_applicable(scenario).or_else(|| plug::band_laws(scenario).err())
             }

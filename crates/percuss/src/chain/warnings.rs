@@ -77,7 +77,9 @@ pub(super) fn warnings_of_cavity(
     if depth == 0.0 && scenario.impact_speed > 0.0 {
         warnings.push("the target stays elastic: it keeps no dent".to_owned());
     }
-    if depth > 0.0 {
+    if scenario.resistance.is_some() {
+        warnings.push("the depth rests on a resistance law of the caller's own".to_owned());
+    } else if depth > 0.0 {
         warnings.push(
             "the depth rests on the target closure `expanding-cavity`: nothing of it was fitted, but its forms were chosen on the shots \
              that its expected error is of"

@@ -53,10 +53,7 @@ pub struct Library {
 static BUILT_IN: LazyLock<Result<Library, Error>> = LazyLock::new(|| {
     let mut library = Library::default();
     for (file, text) in FILES {
-        let document = Document {
-            file: (*file).to_owned(),
-            text: (*text).to_owned(),
-        };
+        let document = Document::new(file, *text).of_materials();
         let table: MaterialTable = document.parse()?;
         let mut findings: Vec<Finding> = Vec::new();
         for (id, material) in &table {

@@ -11,6 +11,7 @@ const HARDENED_STRAIN: f64 = 0.1;
 
 impl Material {
     pub(crate) fn check(&self, check: &mut Check<'_>) {
+        let check = &mut check.of_material();
         check.quantity("density", self.density, limits::DENSITY);
         check.quantity(
             "youngs_modulus",

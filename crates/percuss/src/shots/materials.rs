@@ -1,7 +1,12 @@
 //! Whether a case can be made of a row: materials that exist, quantities in their ranges.
 
 use super::{Shot, Struck, row::Row};
-use crate::{check::Finding, error::InputError, material::Library, units::shorten};
+use crate::{
+    check::Finding,
+    error::{InputError, Subject},
+    material::Library,
+    units::shorten,
+};
 
 /// Makes sure that a case can be made of a shot with each of its records.
 pub(super) fn check(shot: &Shot, row: &Row<'_>, library: &Library) -> Result<(), Box<InputError>> {
@@ -9,11 +14,15 @@ pub(super) fn check(shot: &Shot, row: &Row<'_>, library: &Library) -> Result<(),
         let near = library
             .nearest(name)
             .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
-        row.error(
+        let error = row.error(
             column,
             format!("no material is named `{}`", shorten(name)),
             format!("{near}`percuss materials` lists all; {help}"),
-        )
+        );
+        Box::new(InputError {
+            subject: Subject::Material,
+            ..*error
+        })
     };
     for name in &shot.projectile_materials {
         if library.find(name).is_none() {
@@ -39,12 +48,10 @@ pub(super) fn check(shot: &Shot, row: &Row<'_>, library: &Library) -> Result<(),
     }
     for record in &shot.projectile_materials {
         if let Err(findings) = shot.resolve(record, library) {
-            let Finding { key, message, help } = findings.into_iter().next().unwrap_or(Finding {
-                key: String::new(),
-                message: "no case can be made of this row".to_owned(),
-                help: String::new(),
-            });
-            return Err(row.error(column_of(&key), message, help));
+            let finding = findings.into_iter().next();
+            let finding =
+                finding.unwrap_or_else(|| Finding::whole("no case can be made of this row", ""));
+            return Err(row.error(column_of(&finding.key), finding.message, finding.help));
         }
     }
     Ok(())

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::{
-    error::{InputError, nearest},
+    error::{InputError, Subject, nearest},
     units::shorten,
 };
 
@@ -56,6 +56,7 @@ impl<'a> Table<'a> {
         help: impl Into<String>,
     ) -> Box<InputError> {
         Box::new(InputError {
+            subject: Subject::Case,
             file: self.file.to_owned(),
             text: self.text.to_owned(),
             span,

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     Error,
-    case::{Document, Template, read_text},
+    case::{Document, Template},
     check::{Check, Finding},
     error::nearest,
     model::{MODELS, model},
@@ -24,10 +24,7 @@ const LARGEST_BLOCK: u64 = 1024;
 const BLOCKS: u64 = 64;
 
 pub(super) fn load(path: &Path) -> Result<Sweep, Error> {
-    let document = Document {
-        file: path.display().to_string(),
-        text: read_text(path)?,
-    };
+    let document = Document::read(path)?;
     let file: SweepFile = document.parse()?;
     let mut findings = Vec::new();
     let mut check = Check::new(&mut findings);
@@ -46,11 +43,11 @@ pub(super) fn load(path: &Path) -> Result<Sweep, Error> {
     let template = Template::read(&base).map_err(|error| match error {
         // The sweep names the file, so the place in the sweep is what a user has to look at.
         Error::Read { path, reason, .. } => document
-            .place(Finding {
-                key: "base".to_owned(),
-                message: format!("cannot read `{}`: {reason}", path.display()),
-                help: "the path of the base case is relative to the sweep file".to_owned(),
-            })
+            .place(Finding::at(
+                "base",
+                format!("cannot read `{}`: {reason}", path.display()),
+                "the path of the base case is relative to the sweep file",
+            ))
             .into(),
         other => other,
     })?;

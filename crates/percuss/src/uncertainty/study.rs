@@ -5,7 +5,7 @@ use std::path::Path;
 use super::quantity::Quantity;
 use crate::{
     Error, Scenario,
-    case::{self, Case, Document, Template, read_text},
+    case::{Case, Document, Template},
     check::{Check, Finding},
     sweep::{Axis, Copula, MAX_DIMENSIONS, check_values},
 };
@@ -44,38 +44,23 @@ pub struct Settings {
 }
 
 impl Study {
-    /// Reads a case with a table `uncertainty`.
+    /// Reads a case file with a table `uncertainty`.
     ///
     /// # Errors
     /// [`Error::Read`] and [`Error::Input`]: the case has to be valid, and every value that the table writes down possible.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Error> {
-        let path = path.as_ref();
-        let template = Template::read(path)?;
-        let document = Document {
-            file: path.display().to_string(),
-            text: read_text(path)?,
-        };
-        Self::checked(&document, template, case::load(path)?)
+        Self::of(&Document::read(path)?)
     }
 
-    /// Reads a case that comes from no file.
+    /// Reads a case with a table `uncertainty`.
     ///
     /// # Errors
     /// [`Error::Input`], as [`Study::load`].
     pub fn of(document: &Document) -> Result<Self, Error> {
         let template = Template::of(document)?;
-        let scenario = case::load_str(&document.file, &document.text)?;
-        Self::checked(document, template, scenario)
-    }
-
-    fn checked(document: &Document, template: Template, scenario: Scenario) -> Result<Self, Error> {
         let case: Case = document.parse()?;
         let Some(inputs) = case.uncertainty else {
-            let finding = Finding {
-                key: String::new(),
-                message: "the case says nothing of what is uncertain".to_owned(),
-                help: EXAMPLE.to_owned(),
-            };
+            let finding = Finding::whole("the case says nothing of what is uncertain", EXAMPLE);
             return Err(document.place(finding).into());
         };
         let mut findings = Vec::new();
@@ -95,7 +80,7 @@ impl Study {
         check_values(&axes, &template, &mut check);
         document.report(findings)?;
         Ok(Self {
-            scenario,
+            scenario: document.scenario()?,
             axes,
             copula,
             template,

@@ -1,4 +1,7 @@
+mod calibrated;
+mod progress;
 mod table;
+mod values;
 
 use std::{
     ops::ControlFlow,
@@ -9,17 +12,21 @@ use std::{
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Error,
-    calibrate::{
-        self, Calibration, Fitted, Noise, Observations, Problem, Record, Sampling, Settings, Stage,
-    },
+    calibrate::{self, Fitted, Noise, Observations, Problem, Sampling, Settings, Stage, Watch},
     case,
     material::Library,
     model::{MODELS, model},
     shots::Kind,
 };
 
+pub use calibrated::Calibrated;
+
 use crate::{
-    failure::Failure, progress::Progress, run_folder::RunFolder, shot_data, terminal, workers,
+    answer::{AtHand, Hear},
+    failure::Failure,
+    progress::Progress,
+    run_folder::RunFolder,
+    shot_data, terminal, workers,
     written::Written,
 };
 
@@ -91,7 +98,7 @@ pub struct Calibrate {
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: String,
     /// Scatter about the model: `estimated`, a part such as "2 %", or `stated` for stated uncertainties alone
-    #[arg(long, value_name = "SCATTER", default_value = "estimated", value_parser = noise)]
+    #[arg(long, value_name = "SCATTER", default_value = "estimated", value_parser = values::noise)]
     noise: Noise,
     /// Least squares only, without a sample of the posterior
     #[arg(long)]
@@ -101,7 +108,7 @@ pub struct Calibrate {
     #[arg(value_parser = clap::value_parser!(u16).range(1..=64))]
     ensembles: u16,
     /// Walkers of an ensemble, an even number; four for each parameter when not given, and at least 12
-    #[arg(long, value_name = "N", value_parser = walkers)]
+    #[arg(long, value_name = "N", value_parser = values::walkers)]
     walkers: Option<usize>,
     /// Steps of each walker that are kept; a third as many come before them
     #[arg(long, value_name = "N", default_value = "600")]
@@ -111,7 +118,7 @@ pub struct Calibrate {
     #[arg(long, value_name = "N", default_value = "0")]
     seed: u64,
     /// Id of the calibrated material; the old one with `-calibrated` when not given
-    #[arg(long, value_name = "ID", value_parser = material_id)]
+    #[arg(long, value_name = "ID", value_parser = values::material_id)]
     name: Option<String>,
     /// Write numbers, materials and figures to a folder
     #[arg(long, value_name = "DIR")]
@@ -126,31 +133,39 @@ pub struct Calibrate {
 
 impl Calibrate {
     pub fn run(&self) -> Result<(), Failure> {
-        let problem = self.problem()?;
+        let problem = self.problem(&AtHand::default())?;
         let settings = self.settings(&problem)?;
         let folder = match &self.out {
             Some(out) => Some(RunFolder::create_for(out, None)?),
             None => None,
         };
-        let calibration = self.solve(&problem, &settings)?;
-        let records =
-            calibrate::records(&problem, &calibration, self.name.as_deref()).map_err(|reason| {
-                Failure::Usage {
-                    message: format!("the best values make no material: {reason}"),
-                    help: "narrow the ranges".to_owned(),
-                }
-            })?;
+        let found = self.watched(&problem, &settings)?;
         let files = match folder {
-            Some(folder) => self.write(folder, &calibration, &records)?,
+            Some(folder) => found.write(folder)?,
             None => Vec::new(),
         };
-        self.print(&calibration, &records, &files)
+        self.print(&found, &files)
     }
 
-    fn problem(&self) -> Result<Problem, Failure> {
+    /// What the command finds out.
+    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Calibrated, Failure> {
+        let problem = self.problem(at_hand)?;
+        let settings = self.settings(&problem)?;
+        let sampled = settings.sampling.is_some();
+        let hear = Mutex::new(hear);
+        self.solve(&problem, &settings, &|stage, part, runs| {
+            let mut hear = hear.lock().unwrap_or_else(PoisonError::into_inner);
+            hear(
+                progress::whole(stage, part, sampled),
+                &progress::words(stage, runs),
+            )
+        })
+    }
+
+    fn problem(&self, at_hand: &AtHand) -> Result<Problem, Failure> {
         let mut fitted = Vec::new();
         for text in &self.fit {
-            fitted.extend(Fitted::read(text)?);
+            fitted.extend(Fitted::read_with(text, |path| at_hand.read(path))?);
         }
         let mut library = Library::built_in().clone();
         for path in &self.materials {
@@ -158,7 +173,7 @@ impl Calibrate {
         }
         let mut observations = Observations::default();
         for path in &self.cases {
-            observations.add_case(path)?;
+            observations.add_case(&at_hand.read(path)?)?;
         }
         if !self.data.is_empty() {
             let (shots, _) = shot_data::read(&self.data, &self.kind, &library)?;
@@ -211,7 +226,28 @@ impl Calibrate {
         })
     }
 
-    fn solve(&self, problem: &Problem, settings: &Settings) -> Result<Calibration, Failure> {
+    fn solve(
+        &self,
+        problem: &Problem,
+        settings: &Settings,
+        watch: Watch<'_>,
+    ) -> Result<Calibrated, Failure> {
+        let calibration = calibrate::run(problem, settings, watch)?;
+        let records =
+            calibrate::records(problem, &calibration, self.name.as_deref()).map_err(|reason| {
+                Failure::Usage {
+                    message: format!("the best values make no material: {reason}"),
+                    help: "narrow the ranges".to_owned(),
+                }
+            })?;
+        Ok(Calibrated {
+            calibration,
+            records,
+        })
+    }
+
+    /// Solves it with a bar for each stage.
+    fn watched(&self, problem: &Problem, settings: &Settings) -> Result<Calibrated, Failure> {
         let stop = workers::stop_on_request();
         let board = Mutex::new((Stage::LeastSquares, Progress::new(!self.quiet)));
         let watch = |stage: Stage, part: f64, runs: u64| {
@@ -222,58 +258,32 @@ impl Calibrate {
                         std::mem::replace(&mut *board, (stage, Progress::new(!self.quiet)));
                     before.1.finish();
                 }
-                let what = match stage {
-                    Stage::LeastSquares => "least squares",
-                    Stage::Sampling => "sampling",
-                    Stage::Predicting => "predicting",
-                };
-                board.1.update(part, &format!("{what}, {runs} runs"));
+                board.1.update(part, &progress::words(stage, runs));
             }
             match stop.load(Ordering::Relaxed) {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),
             }
         };
-        let result = calibrate::run(problem, settings, &watch);
+        let result = self.solve(problem, settings, &watch);
         let board = board.into_inner().unwrap_or_else(PoisonError::into_inner);
         board.1.finish();
         match result {
-            Err(Error::Cancelled { .. }) => Err(Failure::Interrupted("the calibration")),
-            other => Ok(other?),
+            Err(Failure::Library(Error::Cancelled { .. })) => {
+                Err(Failure::Interrupted("the calibration"))
+            }
+            other => other,
         }
     }
 
-    fn write(
-        &self,
-        mut folder: RunFolder,
-        calibration: &Calibration,
-        records: &[Record],
-    ) -> Result<Vec<PathBuf>, Failure> {
-        let json = terminal::json(calibration)?;
-        folder.put("calibration.json", json.as_bytes())?;
-        folder.add(percuss_report::calibration::write(
-            folder.path(),
+    fn print(&self, found: &Calibrated, files: &[PathBuf]) -> Result<(), Failure> {
+        let Calibrated {
             calibration,
-        )?);
-        if !records.is_empty() {
-            let text: String = records.iter().map(Record::toml).collect();
-            folder.put("material.toml", text.as_bytes())?;
-        }
-        for figure in percuss_report::calibration::figures(calibration) {
-            folder.add(figure.write(folder.path())?);
-        }
-        Ok(folder.written())
-    }
-
-    fn print(
-        &self,
-        calibration: &Calibration,
-        records: &[Record],
-        files: &[PathBuf],
-    ) -> Result<(), Failure> {
+            records,
+        } = found;
         let written = Written::new(files);
         if self.json {
-            return written.print_json(calibration, self.quiet);
+            return written.print_json(found, self.quiet);
         }
         if self.quiet {
             return terminal::print(&table::lines(calibration));
@@ -296,35 +306,5 @@ fn no_source(key: &str, known: &str) -> Failure {
             "" => "there is no measured value at all".to_owned(),
             known => format!("sources: {known}"),
         },
-    }
-}
-
-fn noise(text: &str) -> Result<Noise, String> {
-    const ALLOWED: &str = "allowed: estimated, stated, or a part such as \"2 %\", up to 100 %";
-    match text.trim() {
-        "estimated" => Ok(Noise::Estimated),
-        "stated" => Ok(Noise::Stated),
-        part => part
-            .strip_suffix('%')
-            .and_then(|number| number.trim().parse::<f64>().ok())
-            .map(|percent| percent / 100.0)
-            .filter(|part| (1e-6..=1.0).contains(part))
-            .map(Noise::Relative)
-            .ok_or_else(|| ALLOWED.to_owned()),
-    }
-}
-
-fn walkers(text: &str) -> Result<usize, String> {
-    let number = text.parse::<usize>().ok();
-    number
-        .filter(|number| number % 2 == 0 && (4..=10_000).contains(number))
-        .ok_or_else(|| "allowed: an even number, 4 to 10000".to_owned())
-}
-
-fn material_id(text: &str) -> Result<String, String> {
-    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    match !text.is_empty() && text.chars().all(plain) {
-        true => Ok(text.to_owned()),
-        false => Err("allowed: letters, digits, hyphens and underscores".to_owned()),
     }
 }

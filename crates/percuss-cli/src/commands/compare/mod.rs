@@ -18,8 +18,13 @@ use percuss::{
 };
 
 use crate::{
-    answer::Hear, failure::Failure, progress::Progress, run_folder::RunFolder, speeds::Speeds,
-    terminal, written::Written,
+    answer::{AtHand, Hear},
+    failure::Failure,
+    progress::Progress,
+    run_folder::RunFolder,
+    speeds::Speeds,
+    terminal,
+    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
@@ -102,15 +107,8 @@ impl Compare {
     }
 
     /// What the command prints with --json; a case without any result is no failure here.
-    pub fn answer(&self, case: Option<&Scenario>, hear: Hear<'_>) -> Result<String, Failure> {
-        let loaded;
-        let scenario = match case {
-            Some(scenario) => scenario,
-            None => {
-                loaded = case::load(&self.case)?;
-                &loaded
-            }
-        };
+    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<String, Failure> {
+        let scenario = &at_hand.read(&self.case)?.scenario()?;
         let speeds = self.speeds(scenario)?;
         terminal::json(&self.compute(scenario, &speeds, hear)?)
     }

@@ -13,7 +13,11 @@ use percuss::{
 use serde::Serialize;
 
 use crate::{
-    answer::Hear, failure::Failure, progress::Progress, run_folder::RunFolder, terminal,
+    answer::{AtHand, Hear},
+    failure::Failure,
+    progress::Progress,
+    run_folder::RunFolder,
+    terminal,
     written::Written,
 };
 
@@ -141,10 +145,10 @@ impl Limit {
     }
 
     /// What the command prints with --json; a case to which no model applies is no failure here.
-    pub fn answer(&self, case: Option<&Scenario>, hear: Hear<'_>) -> Result<String, Failure> {
-        let scenario = match case {
-            Some(scenario) => Some(scenario.clone()),
-            None => self.case.as_ref().map(case::load).transpose()?,
+    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<String, Failure> {
+        let scenario = match &self.case {
+            Some(path) => Some(at_hand.read(path)?.scenario()?),
+            None => None,
         };
         let shots = self.shots.as_ref().map(v50::read).transpose()?;
         terminal::json(&self.find(scenario, shots, hear)?.record())

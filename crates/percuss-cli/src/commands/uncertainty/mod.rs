@@ -2,11 +2,15 @@ mod table;
 
 use std::{
     path::PathBuf,
-    sync::{Mutex, PoisonError},
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
 };
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
+    Error,
     model::{self, MODELS, Model},
     sweep::BatchKernel,
     uncertainty::{
@@ -16,6 +20,7 @@ use percuss::{
 };
 
 use crate::{
+    answer::{AtHand, Hear},
     failure::Failure,
     progress::Progress,
     run_folder::RunFolder,
@@ -104,6 +109,13 @@ pub struct Uncertainty {
     quiet: bool,
 }
 
+/// What is to be computed.
+struct Task {
+    study: Study,
+    model: &'static dyn Model,
+    settings: Settings,
+}
+
 /// Speeds of a range that does not say how many.
 const SPEEDS: u32 = 11;
 
@@ -116,35 +128,45 @@ fn speeds(text: &str) -> Result<Speeds, SpeedsError> {
 
 impl Uncertainty {
     pub fn run(&self) -> Result<(), Failure> {
-        let study = Study::load(&self.case)?;
-        let model = model::model(&self.model)?;
-        let speeds = match &self.velocity {
-            Some(speeds) => speeds.of(&study.scenario)?,
-            None => Vec::new(),
-        };
+        let task = self.task(&AtHand::default())?;
         // Before runs that may take long: a folder that cannot be written should be known at once.
         let folder = match &self.out {
             Some(out) => Some(RunFolder::create(out, &self.case)?),
             None => None,
         };
-        let found = self.compute(&study, model, speeds)?;
-        self.check_quantities(&found)?;
-        if found.quantities.is_empty() && found.perforation.is_none() {
-            return Err(Failure::NoResult(found.failures.reasons));
-        }
+        let mut progress = Progress::new(!self.quiet);
+        let found = self.compute(&task, &workers::stop_on_request(), &mut progress.hear());
+        progress.finish();
+        let found = match found {
+            Err(Failure::Library(Error::Cancelled { .. })) => {
+                return Err(Failure::Interrupted("the analysis"));
+            }
+            other => other?,
+        };
         let files = match folder {
-            Some(folder) => write(folder, &study, &found)?,
+            Some(folder) => write(folder, &task.study, &found)?,
             None => Vec::new(),
         };
-        self.print(&study, &found, &files)
+        self.print(&task.study, &found, &files)
     }
 
-    fn compute(
+    /// What the command finds out.
+    pub fn answer(
         &self,
-        study: &Study,
-        model: &'static dyn Model,
-        speeds: Vec<f64>,
+        at_hand: &AtHand,
+        stop: &AtomicBool,
+        hear: Hear<'_>,
     ) -> Result<Found, Failure> {
+        self.compute(&self.task(at_hand)?, stop, hear)
+    }
+
+    fn task(&self, at_hand: &AtHand) -> Result<Task, Failure> {
+        let study = Study::of(&at_hand.read(&self.case)?)?;
+        let model = model::model(&self.model)?;
+        let speeds = match &self.velocity {
+            Some(speeds) => speeds.of(&study.scenario)?,
+            None => Vec::new(),
+        };
         let names = self.quantity.iter();
         let settings = Settings {
             samples: self.samples,
@@ -155,29 +177,39 @@ impl Uncertainty {
             indices: !self.no_indices,
             speeds,
         };
+        Ok(Task {
+            study,
+            model,
+            settings,
+        })
+    }
+
+    fn compute(&self, task: &Task, stop: &AtomicBool, hear: Hear<'_>) -> Result<Found, Failure> {
         let pool = workers::pool(self.threads)?;
-        let stop = workers::stop_on_request();
-        let board = Mutex::new(Progress::new(!self.quiet));
+        let hear = Mutex::new(hear);
         let watch = Watch {
-            stop: &stop,
+            stop,
             progress: &|done, total| {
-                let mut board = board.lock().unwrap_or_else(PoisonError::into_inner);
-                board.update(
-                    done as f64 / total as f64,
-                    &format!("{done} of {total} shots"),
-                );
+                let mut hear = hear.lock().unwrap_or_else(PoisonError::into_inner);
+                let words = format!("{done} of {total} shots");
+                if hear(done as f64 / total as f64, &words).is_break() {
+                    stop.store(true, Ordering::Relaxed);
+                }
             },
         };
-        let kernel = BatchKernel::new(model);
-        let found = pool.install(|| uncertainty::analyse(study, model, &kernel, &settings, &watch));
-        board
-            .into_inner()
-            .unwrap_or_else(PoisonError::into_inner)
-            .finish();
-        match found {
-            Err(percuss::Error::Cancelled { .. }) => Err(Failure::Interrupted("the analysis")),
-            other => Ok(other?),
+        let Task {
+            study,
+            model,
+            settings,
+        } = task;
+        let kernel = BatchKernel::new(*model);
+        let found =
+            pool.install(|| uncertainty::analyse(study, *model, &kernel, settings, &watch))?;
+        self.check_quantities(&found)?;
+        if found.quantities.is_empty() && found.perforation.is_none() {
+            return Err(Failure::NoResult(found.failures.reasons));
         }
+        Ok(found)
     }
 
     /// A quantity that was asked for has to be there.

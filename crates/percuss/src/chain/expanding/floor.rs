@@ -1,6 +1,7 @@
 //! The crater floor: what goes on between the tip of the projectile and the ground.
 
 use super::resistance::Resistance;
+use crate::resistance::OwnResistance;
 
 /// Added mass of a disc that moves normal to itself, on one side of it, over `ρ a³` \[lamb1932\].
 const ADDED_MASS: f64 = 4.0 / 3.0;
@@ -12,10 +13,36 @@ pub(super) enum Contact {
     Closed,
 }
 
+/// What pushes back on the floor.
+#[derive(Debug)]
+pub(super) enum Opposition {
+    /// The pressure of an expanding cavity, and that which turns the target aside.
+    Cavity(Resistance),
+    /// A law of the caller's own.
+    Own(OwnResistance),
+}
+
+impl Opposition {
+    /// Pressure on a floor [Pa] and the largest one that what lies beside it can press with, at a depth [m], a speed [m/s] and a
+    /// density of the target [kg/m3].
+    fn pressures(&self, depth: f64, speed: f64, density: f64) -> (f64, f64) {
+        match self {
+            Self::Cavity(resistance) => {
+                let drag = 0.5 * density * speed * speed;
+                (resistance.at(depth) + drag, resistance.steady())
+            }
+            Self::Own(own) => {
+                let pressure = own.0.pressure(depth, speed);
+                (pressure, pressure)
+            }
+        }
+    }
+}
+
 /// The floor has a permanent depth below the ground that carries it.
 #[derive(Debug)]
 pub(super) struct Floor {
-    resistance: Resistance,
+    opposition: Opposition,
     /// Area of the undeformed projectile [m2].
     area: f64,
     /// Density of the target [kg/m3].
@@ -39,9 +66,9 @@ pub(super) struct Tip {
 }
 
 impl Floor {
-    pub(super) fn new(resistance: Resistance, area: f64, density: f64) -> Self {
+    pub(super) fn new(opposition: Opposition, area: f64, density: f64) -> Self {
         Self {
-            resistance,
+            opposition,
             area,
             density,
             contact: Contact::Closed,
@@ -71,11 +98,13 @@ impl Floor {
     /// The spread part flows outwards and presses with its own flow stress. Of it, `½ρ_p w²` on the undeformed area belongs to the
     /// stagnation on the axis, as in the equation of Alekseevskii and Tate, and presses on the floor.
     pub(super) fn resistance(&self, tip: Tip) -> f64 {
-        let drag = 0.5 * self.density * self.speed * self.speed;
-        let pressing = tip.flow_stress.min(self.resistance.steady());
+        let (pressure, largest) = self
+            .opposition
+            .pressures(self.depth, self.speed, self.density);
+        let pressing = tip.flow_stress.min(largest);
         let stagnation = 0.5 * tip.density * self.area * tip.closing * tip.closing;
         let spread = (tip.area - self.area).max(0.0) * pressing - stagnation;
-        self.area * (self.resistance.at(self.depth) + drag) + spread.max(0.0)
+        self.area * pressure + spread.max(0.0)
     }
 
     /// Kinetic energy of the target that moves with it [J].

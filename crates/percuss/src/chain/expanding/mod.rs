@@ -15,7 +15,7 @@ mod state;
 mod tests;
 
 use self::{
-    floor::{Contact, Floor},
+    floor::{Contact, Floor, Opposition},
     ground::Ground,
     resistance::Resistance,
     results::Watch,
@@ -52,6 +52,9 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
             "the target closure `expanding-cavity` needs a target of one material".to_owned(),
         );
     };
+    if scenario.resistance.is_some() {
+        return None;
+    }
     let yields = plate
         .material
         .strength
@@ -133,8 +136,13 @@ impl<'a> Expanding<'a> {
         } else {
             0.0
         };
-        let resistance = Resistance::new(&plate.material, radius, rate, heat).ok_or_else(refuse)?;
-        let floor = Floor::new(resistance, area, plate.material.density.si());
+        let opposition = match &scenario.resistance {
+            Some(own) => Opposition::Own(own.clone()),
+            None => Opposition::Cavity(
+                Resistance::new(&plate.material, radius, rate, heat).ok_or_else(refuse)?,
+            ),
+        };
+        let floor = Floor::new(opposition, area, plate.material.density.si());
         let (ground, ground_step) = ground(scenario, plate, area, count);
         let mut state = State {
             rod,

@@ -1,12 +1,14 @@
 //! Exact answers that the parts of the closure and their interplay must give.
 
-use std::f64::consts::PI;
+use std::{f64::consts::PI, sync::Arc};
 
 use super::{Expanding, resistance::Resistance, rod::Rod, slice::Metal};
 use crate::{
-    Scenario, case,
-    model::Control,
+    Scenario,
+    case::{self, TargetClosure},
+    model::{self, Control},
     outcome::{Outcome, RunResult},
+    resistance::{OwnResistance, ResistanceLaw},
 };
 
 fn scenario(projectile: &str, target: &str, length: f64, speed: f64, more: &str) -> Scenario {
@@ -217,4 +219,86 @@ fn the_depth_converges_with_the_mesh() {
     );
     // Halving the step changes next to nothing.
     assert!((depth(40, 0.15) / medium - 1.0).abs() < 0.01);
+}
+
+/// The pressure of the cavity, as a law of the caller's own.
+struct Same {
+    cavity: Resistance,
+    density: f64,
+}
+
+impl ResistanceLaw for Same {
+    fn pressure(&self, depth: f64, speed: f64) -> f64 {
+        self.cavity.at(depth) + 0.5 * self.density * speed * speed
+    }
+}
+
+#[test]
+fn a_law_of_the_callers_own_takes_the_place_of_the_cavity() {
+    let mut shot = scenario("4340-johnson-cook", "weldox-460-e-borvik", 50.0, 400.0, "");
+    let cavity = run(&shot).depth_of_penetration.unwrap();
+    let struck = super::struck(&shot).unwrap().material.clone();
+    let own = Same {
+        cavity: Resistance::new(&struck, RADIUS, 400.0 / (2.0 * RADIUS), 0.9).unwrap(),
+        density: struck.density.si(),
+    };
+    shot.resistance = Some(OwnResistance(Arc::new(own)));
+    let result = run(&shot);
+    // They differ in how hard what has spread beside the floor may press.
+    let depth = result.depth_of_penetration.unwrap();
+    assert!((depth / cavity - 1.0).abs() < 0.02, "{depth} {cavity}");
+    assert!(result.warnings[0].contains("resistance law"));
+    assert!(result.numerics().energy_residual < 1e-2);
+}
+
+#[test]
+fn a_rigid_rod_against_a_constant_pressure_stops_where_its_energy_is_used_up() {
+    struct Constant;
+    impl ResistanceLaw for Constant {
+        fn pressure(&self, _: f64, _: f64) -> f64 {
+            300e6
+        }
+    }
+    let text = "[projectile]\nmaterial = \"rigid\"\nlength = \"50 mm\"\ndiameter = \"5 mm\"\nvelocity = \"150 m/s\"\n\
+                [target]\nmaterial = \"light\"\nthickness = \"semi-infinite\"\n\
+                [chain]\ntarget_closure = \"expanding-cavity\"\nprojectile_elements = 100\n\
+                [materials.rigid]\nname = \"rigid\"\ndensity = \"7850 kg/m3\"\nyoungs_modulus = \"1500 GPa\"\npoissons_ratio = 0.3\n\
+                strength.perfectly_plastic = { flow_stress = \"20 GPa\" }\n\
+                [materials.light]\nname = \"light\"\ndensity = \"2000 kg/m3\"\nyoungs_modulus = \"700 GPa\"\npoissons_ratio = 0.33\n\
+                strength.elastic = {}\n";
+    let mut shot = case::load_str("shot", text).unwrap();
+    // An elastic target has no pressure of its own.
+    assert!(super::not_applicable(&shot).is_some());
+    shot.resistance = Some(OwnResistance(Arc::new(Constant)));
+    assert!(super::not_applicable(&shot).is_none());
+    let area = PI * RADIUS * RADIUS;
+    let (mass, added) = (7850.0 * area * 50e-3, 4.0 / 3.0 * 2000.0 * RADIUS.powi(3));
+    // The added mass of the target is set in motion by the rod when they meet, and slows down with it.
+    let expected = 0.5 * mass * mass / (mass + added) * 150.0 * 150.0 / (300e6 * area);
+    let found = run(&shot).depth_of_penetration.unwrap();
+    assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
+}
+
+#[test]
+fn where_nothing_takes_a_law_of_resistance_it_is_refused() {
+    let mut shot = scenario("4340-johnson-cook", "weldox-460-e-borvik", 50.0, 400.0, "");
+    let refused = |shot: &Scenario, name: &str| {
+        let model = model::model(name).unwrap();
+        match model::run(model, shot, &mut Control::default()) {
+            Err(error @ crate::Error::NotApplicable { .. }) => error.to_string(),
+            other => panic!("{name}: {other:?}"),
+        }
+    };
+    struct Never;
+    impl ResistanceLaw for Never {
+        fn pressure(&self, _: f64, _: f64) -> f64 {
+            unreachable!("no model asks it")
+        }
+    }
+    shot.resistance = Some(OwnResistance(Arc::new(Never)));
+    for name in ["fdm", "tate", "axi"] {
+        assert!(refused(&shot, name).contains("`chain` does"));
+    }
+    shot.options.chain.target_closure = Some(TargetClosure::Column);
+    assert!(refused(&shot, "chain").contains("expanding-cavity"));
 }

@@ -1,0 +1,33 @@
+//! Values of options.
+
+use percuss::calibrate::Noise;
+
+pub(super) fn noise(text: &str) -> Result<Noise, String> {
+    const ALLOWED: &str = "allowed: estimated, stated, or a part such as \"2 %\", up to 100 %";
+    match text.trim() {
+        "estimated" => Ok(Noise::Estimated),
+        "stated" => Ok(Noise::Stated),
+        part => part
+            .strip_suffix('%')
+            .and_then(|number| number.trim().parse::<f64>().ok())
+            .map(|percent| percent / 100.0)
+            .filter(|part| (1e-6..=1.0).contains(part))
+            .map(Noise::Relative)
+            .ok_or_else(|| ALLOWED.to_owned()),
+    }
+}
+
+pub(super) fn walkers(text: &str) -> Result<usize, String> {
+    let number = text.parse::<usize>().ok();
+    number
+        .filter(|number| number % 2 == 0 && (4..=10_000).contains(number))
+        .ok_or_else(|| "allowed: an even number, 4 to 10000".to_owned())
+}
+
+pub(super) fn material_id(text: &str) -> Result<String, String> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    match !text.is_empty() && text.chars().all(plain) {
+        true => Ok(text.to_owned()),
+        false => Err("allowed: letters, digits, hyphens and underscores".to_owned()),
+    }
+}

@@ -1,0 +1,268 @@
+"""Calibration: numbers of cases fitted to what was measured."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from . import _percuss, study_plots
+from .ask import CaseLike, Path, native_answer, several
+from .errors import UsageError
+from .progress import Progress
+from .record import Record, frame, shown, table, table_html
+from .samples import Sample
+
+if TYPE_CHECKING:
+    import pandas
+    import pyarrow
+    from matplotlib.axes import Axes
+
+#: What is known of a number beforehand: a range such as ``"20..300 MPa"``, its ends, or a distribution as a file has it.
+Prior: TypeAlias = str | tuple[float, float] | Mapping[str, Any]
+
+# Stands where a command line names the file of priors that are at hand.
+_PRIORS = "fit.toml"
+
+
+class Calibration(Record):
+    """Numbers fitted to measured values, with the uncertainty that is left: the values of ``percuss calibrate --json``, and the sample.
+
+    Attributes
+    ----------
+    model : str
+        Name of the model.
+    runs : int
+        Runs of it.
+    parameters : list of Record
+        What was fitted: ``key``, ``unit``, ``prior`` (2.5, 50 and 97.5 %), ``best`` with its ``standard_error``, and the ``posterior`` with
+        ``mean``, ``standard_deviation``, ``quantiles`` (2.5, 50 and 97.5 %), ``r_hat``, ``bulk_effective_size`` and ``tail_effective_size``. Values are in
+        the unit.
+    scatter : Record
+        Relative scatter of measured values about the model: ``best``, ``estimated``, ``posterior``.
+    correlations : list of list of float
+        Correlations of the parameters, in their order.
+    findings : list of Record
+        Parameters that the data do not determine, in ``words``.
+    training, hold_out : Record or None
+        How well the values that were fitted to, and those that were kept out, are met: ``count``, ``rms_before``, ``rms``, ``bias``
+        (relative errors) and how many are ``inside`` their 95 % bands.
+    predictions : list of Record
+        Every measured value with what the model says of it, in ``unit``.
+    left_out : list of Record
+        Values that were not used, with the reason.
+    materials : Record
+        The calibrated materials by their ids, as ``materials`` of a case takes them.
+    warnings : list of str
+        What to know before relying on the numbers.
+    """
+
+    percuss_version: str
+    model: str
+    seed: int
+    runs: int
+    parameters: list[Record]
+    scatter: Record
+    correlations: list[list[float]]
+    findings: list[Record]
+    training: Record
+    hold_out: Record | None
+    sampling: Record | None
+    warnings: list[str]
+    predictions: list[Record]
+    left_out: list[Record]
+    materials: Record
+
+    def __init__(self, native: _percuss.Answer) -> None:
+        super().__init__(json.loads(native.json()))
+        self._native = native
+
+    @property
+    def sample(self) -> Sample:
+        """States of the posterior: ``ensemble``, ``step``, ``walker``, a column a parameter in its unit, and the ``scatter``.
+
+        Raises
+        ------
+        ValueError
+            When there is none, after ``least_squares=True``.
+        """
+        if self.sampling is None:
+            raise ValueError("the posterior was not sampled: leave out least_squares")
+        return Sample(self._native)
+
+    def parameter(self, name: str | None = None) -> Record:
+        """A parameter by its key or the end of it, such as ``power_law.coefficient``; the first when not given."""
+        found = [p for p in self.parameters if name in (None, p.key) or p.key.endswith(f".{name}")]
+        if not found or (name is not None and len(found) > 1):
+            raise KeyError(f"`{name}` names no single parameter; parameters: {', '.join(p.key for p in self.parameters)}")
+        return found[0]
+
+    def save_materials(self, path: str | os.PathLike[str]) -> None:
+        """Writes the calibrated materials to a file, which ``material_files`` of a case takes."""
+        text = _percuss.toml_text(self._data["materials"])
+        FilePath(path).write_text(text, encoding="utf-8")
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row a parameter; ``sample.to_pandas()`` has a row a state of the posterior."""
+        return frame(self._rows())
+
+    def to_arrow(self) -> pyarrow.Table:
+        """A row a parameter; ``sample.to_arrow()`` has a row a state of the posterior."""
+        return table(self._rows())
+
+    def _rows(self) -> list[dict[str, Any]]:
+        rows = []
+        for parameter in self._data["parameters"]:
+            row = {name: parameter[name] for name in ("key", "unit", "best", "standard_error")}
+            row |= _ends("prior", parameter["prior"])
+            posterior = dict(parameter["posterior"] or {})
+            row |= _ends("posterior", posterior.pop("quantiles", None))
+            rows.append(row | {name: posterior.get(name) for name in ("r_hat", "bulk_effective_size", "tail_effective_size")})
+        return rows
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws the error of every measured value before and after the fit, with the bands in which 95 % are expected [%]."""
+        return study_plots.predictions(self, ax)
+
+    def plot_posterior(self, parameter: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draws what the sample says of a parameter, its prior beside it; of the first when not named."""
+        return study_plots.posterior(self, parameter, ax)
+
+    def plot_pair(self, x: str, y: str, ax: Axes | None = None) -> Axes:
+        """Draws the sample over two parameters: how they depend on each other."""
+        return study_plots.pair(self, x, y, ax)
+
+    def _repr_html_(self) -> str:
+        rows = [[shown(value) for value in row.values()] for row in self._rows()]
+        notes = [finding.words for finding in self.findings] + self.warnings
+        rows += [["note", note] for note in notes]
+        quality = f"RMS error {100 * self.training.rms:.2g} % of {self.training.count} values"
+        return table_html(list(self._rows()[0]), rows, f"calibration, model {self.model}, {quality}")
+
+
+def _ends(name: str, quantiles: list[float] | None) -> dict[str, float | None]:
+    low, middle, high = quantiles or (None, None, None)
+    return {f"{name}_2.5": low, f"{name}_50": middle, f"{name}_97.5": high}
+
+
+def calibrate(
+    cases: CaseLike | Sequence[CaseLike] | None = None,
+    *,
+    fit: str | Path | Sequence[str | Path] | Mapping[str, Prior],
+    data: Path | Sequence[Path] | None = None,
+    materials: Path | Sequence[Path] | None = None,
+    kind: str | Sequence[str] | None = None,
+    source: str | Sequence[str] | None = None,
+    hold_out: str | Sequence[str] | None = None,
+    model: str | None = None,
+    noise: str | float | None = None,
+    least_squares: bool = False,
+    ensembles: int | None = None,
+    walkers: int | None = None,
+    steps: int | None = None,
+    seed: int | None = None,
+    name: str | None = None,
+    progress: Progress | bool | None = None,
+) -> Calibration:
+    """Fits numbers of cases to what was measured: constants of materials, options of models.
+
+    Parameters
+    ----------
+    cases : Case, path or sequence of them, optional
+        Cases with ``experiments``; may be left out when ``data`` is given.
+    fit : mapping, str, path or sequence of them
+        What is fitted. A mapping from keys such as ``"chain.constraint_factor"`` to what is known of them: a range with its unit such as
+        ``"20..300 MPa"``, in which the number is evenly likely, the ends of a plain number, or a distribution such as
+        ``{"normal": {"mean": "90 MPa", "standard_deviation": "20 MPa"}}``. Otherwise what ``--fit`` takes.
+    data : path or sequence of paths, optional
+        CSV files of shots; ``"builtin"`` is the program's own.
+    materials : path or sequence of paths, optional
+        Files of materials that the shots name, beside the library.
+    kind, source : str or sequence of str, optional
+        Kinds of shots and sources to take; all of them when not given.
+    hold_out : str or sequence of str, optional
+        Sources to keep out of the fit and to test it with.
+    model : str, optional
+        Model that computes the cases; ``chain`` when not given.
+    noise : str or float, optional
+        Scatter of measured values about the model: ``"estimated"`` (the default), ``"stated"`` for stated uncertainties alone, or a part of
+        the value such as ``"2 %"`` or 0.02.
+    least_squares : bool
+        Least squares only, without a sample of the posterior.
+    ensembles, walkers, steps : int, optional
+        How the posterior is sampled; 4 ensembles of four walkers a parameter, 12 at least, and 600 steps when not given.
+    seed : int, optional
+        Decides over everything drawn at random; 0 when not given.
+    name : str, optional
+        Id of the calibrated material; the old one with ``-calibrated`` when not given.
+    progress : callable or bool, optional
+        As of :func:`percuss.run`.
+
+    Returns
+    -------
+    Calibration
+        The same numbers, to the last bit, as ``percuss calibrate --json`` prints.
+
+    Raises
+    ------
+    CaseError, MaterialError
+        When a case, the data or a parameter is not valid; the message has the place.
+    UsageError
+        When nothing is left to fit to, or the model fails everywhere.
+
+    Examples
+    --------
+    >>> found = percuss.calibrate(
+    ...     data="builtin",
+    ...     source="wilkins1973",
+    ...     model="wilkins_guinan",
+    ...     fit={"materials.copper-woodward.strength.power_law.coefficient": "150..900 MPa"},
+    ...     least_squares=True,
+    ... )
+    >>> found.parameters[0].unit, found.training.count
+    ('MPa', 6)
+    """
+    lines, texts = _fitted(fit)
+    found = native_answer(
+        "calibrate",
+        of=cases,
+        texts=texts,
+        fit=lines,
+        data=several(data),
+        materials=several(materials),
+        kind=several(kind),
+        source=several(source),
+        hold_out=several(hold_out),
+        model=model,
+        noise=f"{100 * noise!r} %" if isinstance(noise, (int, float)) else noise,
+        least_squares=least_squares,
+        ensembles=ensembles,
+        walkers=walkers,
+        steps=steps,
+        seed=seed,
+        name=name,
+        progress=progress,
+    )
+    return Calibration(found)
+
+
+def _fitted(fit: Any) -> tuple[list[Any], dict[str, str]]:
+    """What is fitted as the command line has it, and the text of the file of priors that it names."""
+    if not isinstance(fit, Mapping):
+        return several(fit), {}
+    lines: list[Any] = []
+    tables: list[dict[str, Any]] = []
+    for key, prior in fit.items():
+        if isinstance(prior, str):
+            lines.append(f"{key}={prior}")
+        elif isinstance(prior, Mapping):
+            tables.append({"key": key, **prior})
+        elif isinstance(prior, Sequence) and len(prior) == 2:
+            lines.append(f"{key}={'..'.join(repr(float(end)) for end in prior)}")
+        else:
+            raise UsageError(f"`{key}`: {prior!r} is no prior; give a range such as \"20..300 MPa\", two numbers, or a distribution")
+    if not tables:
+        return lines, {}
+    return [*lines, _PRIORS], {_PRIORS: _percuss.toml_text({"parameter": tables})}

@@ -1,0 +1,55 @@
+"""Samples that a study rests on: arrays that look at the memory of the result."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from . import _percuss
+from .history import _Columns
+
+if TYPE_CHECKING:
+    import pandas
+    import pyarrow
+
+
+class Sample(_Columns):
+    """A row a shot, or a row a state of the posterior. Columns are read-only arrays that are not copied.
+
+    ``sample["projectile.velocity_m_s"]`` gives a column whose name is no word of Python; :meth:`names` lists all. What a shot does not
+    have is not a number.
+
+    Attributes
+    ----------
+    outcome : list of str
+        How each shot ended; empty for a posterior.
+    """
+
+    def __init__(self, native: _percuss.Answer) -> None:
+        self._native = native
+
+    @property
+    def outcome(self) -> list[str]:
+        """How each shot ended."""
+        return self._native.outcomes()
+
+    def names(self) -> list[str]:
+        return self._native.names()
+
+    def _column(self, name: str) -> _percuss.Column | None:
+        return self._native.column(name)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        table = super().to_pandas()
+        if self.outcome:
+            table["outcome"] = self.outcome
+        return table
+
+    def to_arrow(self) -> pyarrow.Table:
+        table = super().to_arrow()
+        return table.append_column("outcome", [self.outcome]) if self.outcome else table
+
+    def __len__(self) -> int:
+        return self._native.rows()
+
+    def __repr__(self) -> str:
+        return f"<Sample of {len(self)} rows, {len(self.names())} columns>"

@@ -1,0 +1,205 @@
+"""What the uncertainty of a case's numbers does to its results."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from . import _percuss, study_plots
+from .ask import CaseLike, Speed, native_answer, several, speeds
+from .progress import Progress
+from .record import Record, frame, shown, table, table_html
+from .samples import Sample
+
+if TYPE_CHECKING:
+    import pandas
+    import pyarrow
+    from matplotlib.axes import Axes
+
+
+class Uncertainty(Record):
+    """Spread, chances and sensitivities of a case's results: the values of ``percuss uncertainty --json``, and the shots behind them.
+
+    The spread is that of the inputs. The error of the model itself is not in it and comes on top; ``nominal.expected_error`` names it
+    where it is known.
+
+    Attributes
+    ----------
+    case, model : str
+        Names of the case and the model.
+    samples, shots : int
+        Shots that the statistics rest on, and all that were computed.
+    inputs : list of Record
+        The uncertain numbers: ``key``, ``unit``, ``distribution``, and ``low``, ``median`` and ``high``, of which 5, 50 and 95 % lie below.
+    correlated : bool
+        Whether they depend on each other.
+    nominal : Record
+        The shot with every uncertain number at its median: ``outcome``, ``expected_error``, ``warnings``.
+    failures : Record
+        ``shots`` without a result, which are left out, and the first few ``reasons``.
+    perforation : Record or None
+        ``probability`` of perforation with ``low`` and ``high``, the ends of its 95 % interval.
+    quantities : list of Record
+        What is said of each result: ``statistics`` with ``percentiles``, ``tornado``, and the Sobol' ``indices``.
+    no_indices : str or None
+        Why there are no Sobol' indices.
+    bands : list of Record
+        The same statistics at each impact speed ``velocity_m_s`` [m/s] that was asked for.
+    warnings : list of str
+        What to know before relying on the numbers.
+    """
+
+    case: str
+    percuss_version: str
+    model: str
+    samples: int
+    seed: int
+    shots: int
+    inputs: list[Record]
+    correlated: bool
+    nominal: Record
+    failures: Record
+    perforation: Record | None
+    quantities: list[Record]
+    no_indices: str | None
+    bands: list[Record]
+    warnings: list[str]
+
+    def __init__(self, native: _percuss.Answer) -> None:
+        super().__init__(json.loads(native.json()))
+        self._native = native
+
+    @property
+    def draws(self) -> Sample:
+        """The shots of the sample: their inputs in the units of the case, and their results."""
+        return Sample(self._native)
+
+    def quantity(self, name: str | None = None) -> Record:
+        """What is said of a result, by its name such as ``depth_of_penetration_mm``; of the first when not given."""
+        for quantity in self.quantities:
+            if name in (None, quantity.quantity):
+                return quantity
+        raise KeyError(f"nothing is said of `{name}`; quantities: {', '.join(q.quantity for q in self.quantities)}")
+
+    def percentile(self, percent: float, name: str | None = None) -> float:
+        """Value that a part of the shots lies below: 1, 5, 25, 50, 75, 95 or 99 %."""
+        return study_plots.percentile(self.quantity(name).statistics, percent)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row a quantity; ``draws.to_pandas()`` has a row a shot."""
+        return frame(self._rows())
+
+    def to_arrow(self) -> pyarrow.Table:
+        """A row a quantity; ``draws.to_arrow()`` has a row a shot."""
+        return table(self._rows())
+
+    def _rows(self) -> list[dict[str, Any]]:
+        rows = []
+        for quantity in self._data["quantities"]:
+            statistics = dict(quantity["statistics"])
+            percentiles = {f"p{at['percent']:02.0f}": at["value"] for at in statistics.pop("percentiles")}
+            rows.append({"quantity": quantity["quantity"], "nominal": quantity["nominal"], **statistics, **percentiles})
+        return rows
+
+    def plot(self, quantity: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draws how often which value of a quantity came out; of the first when not named."""
+        return study_plots.histogram(self, quantity, ax)
+
+    def plot_tornado(self, quantity: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draws a quantity with each parameter at its 5th and 95th percentile and all others at their medians."""
+        return study_plots.tornado(self, quantity, ax)
+
+    def plot_indices(self, quantity: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draws which part of a quantity's variance each parameter causes, alone and with others."""
+        return study_plots.indices(self, quantity, ax)
+
+    def plot_bands(self, quantity: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draws median and bands of a quantity against impact speed [m/s]; the study needs a ``velocity``."""
+        return study_plots.bands(self, quantity, ax)
+
+    def plot_perforation(self, ax: Axes | None = None) -> Axes:
+        """Draws the chance of perforation [%] against impact speed [m/s]; the study needs a ``velocity``."""
+        return study_plots.perforation(self, ax)
+
+    def _repr_html_(self) -> str:
+        rows = [[name, *(shown(row[name]) for row in self._rows())] for name in (self._rows() or [{}])[0] if name != "quantity"]
+        if self.perforation is not None:
+            rows.append(["chance of perforation [%]", shown(100 * self.perforation.probability)])
+        rows += [["warning", warning] for warning in self.warnings]
+        return table_html(
+            ["", *(quantity.quantity for quantity in self.quantities)], rows, f"{self.case}, model {self.model}, {self.samples} shots"
+        )
+
+
+def uncertainty(
+    case: CaseLike,
+    *,
+    model: str | None = None,
+    samples: int | None = None,
+    seed: int | None = None,
+    quantity: str | Sequence[str] | None = None,
+    velocity: Speed | Sequence[float] | None = None,
+    no_indices: bool = False,
+    threads: int | None = None,
+    progress: Progress | bool | None = None,
+) -> Uncertainty:
+    """Says what the uncertainty of a case's numbers does to its results.
+
+    Parameters
+    ----------
+    case : Case or path
+        A case with a table ``uncertainty``, or its file.
+    model : str, optional
+        Name of the model; ``chain`` when not given.
+    samples : int, optional
+        Shots that the statistics rest on, a power of two at best; 1024 when not given. The indices of d parameters take
+        ``samples * (d + 1)`` more.
+    seed : int, optional
+        Decides over everything drawn at random; 0 when not given.
+    quantity : str or sequence of str, optional
+        Results to look at, such as ``peak_force_kn``; the main ones that vary when not given.
+    velocity : float, sequence of float or str, optional
+        Impact speeds of bands [m/s], or what ``--velocity`` takes, such as ``"150..400:6"``; no bands when not given.
+    no_indices : bool
+        Whether to leave out the Sobol' indices, which take most of the shots.
+    threads : int, optional
+        Threads; as many as there are cores when not given. The numbers do not depend on it.
+    progress : callable or bool, optional
+        As of :func:`percuss.run`.
+
+    Returns
+    -------
+    Uncertainty
+        The same numbers, to the last bit, as ``percuss uncertainty --json`` prints.
+
+    Raises
+    ------
+    CaseError
+        When the case says nothing of what is uncertain, or something that cannot be.
+    NotApplicableError
+        When the model does not apply with every number at its median.
+    UsageError
+        When a quantity is asked for that no shot has, or no shot has a result.
+
+    Examples
+    --------
+    >>> spread = percuss.uncertainty("cases/paper-table1-uncertainty/scenario.toml", samples=16, no_indices=True)
+    >>> [quantity.quantity for quantity in spread.quantities]
+    ['depth_of_penetration_mm', 'projectile_final_length_mm']
+    >>> len(spread.draws)
+    16
+    """
+    found = native_answer(
+        "uncertainty",
+        of=case,
+        model=model,
+        samples=samples,
+        seed=seed,
+        quantity=several(quantity),
+        velocity=speeds(velocity),
+        no_indices=no_indices,
+        threads=threads,
+        progress=progress,
+    )
+    return Uncertainty(found)

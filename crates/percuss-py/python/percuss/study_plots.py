@@ -1,0 +1,203 @@
+"""Figures of uncertainties and calibrations on axes of matplotlib."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy
+
+from .plots import label, new_axes
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from .calibration import Calibration
+    from .record import Record
+    from .spread import Uncertainty
+
+#: Most measured values that are named beside a figure.
+_NAMED = 45
+
+
+def percentile(statistics: Record, percent: float) -> float:
+    """Value that a part of the shots lies below."""
+    for at in statistics.percentiles:
+        if at.percent == percent:
+            return float(at.value)
+    given = ", ".join(f"{at.percent:g}" for at in statistics.percentiles)
+    raise ValueError(f"there is no percentile {percent:g}; percentiles: {given}")
+
+
+def short(key: str) -> str:
+    """A key without the middle of it.
+
+    Examples
+    --------
+    >>> short("materials.rod.strength.power_law.coefficient"), short("projectile.velocity")
+    ('materials.rod … coefficient', 'projectile.velocity')
+    """
+    parts = key.split(".")
+    return key if len(parts) < 4 else f"{parts[0]}.{parts[1]} … {parts[-1]}"
+
+
+def histogram(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
+    ax = new_axes(ax)
+    of = found.quantity(quantity)
+    words, factor = label(of.quantity)
+    values = found.draws[of.quantity] * factor
+    ax.hist(values[~numpy.isnan(values)], bins="auto", color="0.8", edgecolor="white")
+    statistics = of.statistics
+    marks = [
+        ("5 % below", percentile(statistics, 5), "C0", ":"),
+        ("mean", statistics.mean, "C0", "-"),
+        ("95 % below", percentile(statistics, 95), "C0", ":"),
+    ]
+    if of.nominal is not None:
+        marks.append(("all at median", of.nominal, "C3", "--"))
+    for name, value, colour, style in marks:
+        ax.axvline(value * factor, color=colour, linestyle=style, label=f"{name}: {value * factor:.4g}")
+    # Room for the legend above the bars.
+    ax.set(xlabel=words, ylabel="shots", title=f"{found.case}, model {found.model}", ylim=(0, 1.5 * ax.get_ylim()[1]))
+    ax.legend(fontsize="small")
+    return ax
+
+
+def tornado(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
+    ax = new_axes(ax)
+    of = found.quantity(quantity)
+    words, factor = label(of.quantity)
+    middle = factor * (percentile(of.statistics, 50) if of.nominal is None else of.nominal)
+    names = [short(bar.key) for bar in of.tornado]
+    for end, colour in (("at_low", "C0"), ("at_high", "C1")):
+        ends = [middle if bar[end] is None else factor * bar[end] for bar in of.tornado]
+        part = "5th" if end == "at_low" else "95th"
+        ax.barh(names, [value - middle for value in ends], left=middle, color=colour, label=f"at its {part} percentile")
+    ax.axvline(middle, color="k", linewidth=1)
+    # The longest bar at the top, room for the legend below.
+    ax.set(xlabel=words, title=found.case, ylim=(len(names) + 0.3, -0.6))
+    ax.legend(fontsize="small", loc="lower right")
+    return ax
+
+
+def indices(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
+    of = found.quantity(quantity)
+    if of.indices is None:
+        raise ValueError(f"there are no Sobol' indices of `{of.quantity}`: {of.no_indices or found.no_indices}")
+    ax = new_axes(ax)
+    rows = sorted(of.indices.parameters, key=lambda index: float(index.total.value))
+    for lane, name in ((0.2, "first_order"), (-0.2, "total")):
+        estimates = [row[name] for row in rows]
+        values = [estimate.value for estimate in estimates]
+        beyond = [[e.value - e.low for e in estimates], [e.high - e.value for e in estimates]]
+        places = [place + lane for place in range(len(rows))]
+        words = "alone (first order)" if name == "first_order" else "with others as well (total)"
+        ax.barh(places, values, height=0.38, xerr=beyond, label=words, error_kw={"linewidth": 1})
+    ax.set_yticks(range(len(rows)), [short(row.key) for row in rows])
+    words, _ = label(of.quantity)
+    ax.set(xlabel=f"part of the variance of {words}", title=found.case)
+    ax.legend()
+    return ax
+
+
+def bands(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
+    name = found.quantity(quantity).quantity
+    words, factor = label(name)
+    at = [(band.velocity_m_s, q.statistics) for band in found.bands for q in band.quantities if q.quantity == name]
+    given = [(speed, statistics) for speed, statistics in at if statistics is not None]
+    if not given:
+        raise ValueError("the study has no bands: give it a `velocity`")
+    ax = new_axes(ax)
+    speed = [speed for speed, _ in given]
+    line = {percent: [factor * percentile(s, percent) for _, s in given] for percent in (5, 25, 50, 75, 95)}
+    ax.fill_between(speed, line[5], line[95], color="C0", alpha=0.2, linewidth=0, label="90 % of the shots")
+    ax.fill_between(speed, line[25], line[75], color="C0", alpha=0.35, linewidth=0, label="50 %")
+    ax.plot(speed, line[50], color="C0", label="median")
+    ax.set(xlabel="impact velocity [m/s]", ylabel=words, title=found.case)
+    ax.legend()
+    return ax
+
+
+def perforation(found: Uncertainty, ax: Axes | None) -> Axes:
+    decided = [(band.velocity_m_s, band.perforation) for band in found.bands if band.perforation is not None]
+    if not decided:
+        raise ValueError("the study has no chances over speed: give it a `velocity`")
+    ax = new_axes(ax)
+    speed = [speed for speed, _ in decided]
+    low, high = [100 * p.low for _, p in decided], [100 * p.high for _, p in decided]
+    ax.fill_between(speed, low, high, alpha=0.25, linewidth=0, label="95 % interval of the number of shots")
+    ax.plot(speed, [100 * p.probability for _, p in decided], label=f"model {found.model}")
+    ax.set(xlabel="impact velocity [m/s]", ylabel="chance of perforation [%]", title=found.case)
+    ax.legend()
+    return ax
+
+
+def predictions(found: Calibration, ax: Axes | None) -> Axes:
+    ax = new_axes(ax)
+    given = [p for p in found.predictions if p.best is not None]
+
+    def error(prediction: Record, value: float) -> float:
+        # A speed behind the target may be 0: what it is off is a part of the impact speed.
+        scale = prediction.impact_velocity_m_s if prediction.unit == "m/s" else prediction.measured
+        return float(100 * (value - prediction.measured) / scale)
+
+    for held_out, colour, words in ((False, "C0", "fitted to"), (True, "C1", "held out")):
+        rows = [(place, p) for place, p in enumerate(given) if p.held_out is held_out]
+        if not rows:
+            continue
+        places = [place for place, _ in rows]
+        banded = [(place, p) for place, p in rows if p.predictive_band is not None]
+        low, high = ([error(p, p.predictive_band[end]) for _, p in banded] for end in (0, 1))
+        ax.hlines([place for place, _ in banded], low, high, color=colour, alpha=0.3, linewidth=5)
+        before = [(place, error(p, p.before)) for place, p in rows if p.before is not None]
+        if before:
+            ax.plot([e for _, e in before], [place for place, _ in before], "o", color="0.6", mfc="none", ms=4)
+        ax.plot([error(p, p.best) for _, p in rows], places, "o", color=colour, ms=4, label=f"{words}: best values")
+    ax.plot([], [], "o", color="0.6", mfc="none", ms=4, label="before")
+    if any(p.predictive_band is not None for p in given):
+        ax.plot([], [], color="0.7", linewidth=5, label="95 % of measured values")
+    ax.axvline(0, color="k", linewidth=1)
+    if len(given) <= _NAMED:
+        ax.set_yticks(range(len(given)), [p.id for p in given], fontsize="small")
+    else:
+        ax.set_yticks([])
+    ax.invert_yaxis()
+    ax.set(xlabel="model − measured [%]", title=f"model {found.model}")
+    ax.legend(fontsize="small")
+    return ax
+
+
+def _axis(found: Calibration, name: str | None) -> tuple[str, str, float]:
+    """Column of the sample, words for an axis, and the best value."""
+    if name == "scatter":
+        return "scatter", "relative scatter", float(found.scatter.best)
+    parameter = found.parameter(name)
+    words = parameter.key.rsplit(".", 1)[-1].replace("_", " ")
+    return parameter.key, f"{words} [{parameter.unit}]" if parameter.unit else words, float(parameter.best)
+
+
+def posterior(found: Calibration, name: str | None, ax: Axes | None) -> Axes:
+    key, words, best = _axis(found, name)
+    values = found.sample[key]
+    ax = new_axes(ax)
+    ax.hist(values, bins="auto", density=True, color="0.8", edgecolor="white", label="posterior")
+    if key != "scatter":
+        shown = ax.get_xlim()
+        low, _, high = found.parameter(key).prior
+        ax.axvspan(low, high, color="C2", alpha=0.12, zorder=0, label=f"prior, 95 %: {low:.4g} to {high:.4g}")
+        # A prior that is much wider would leave the posterior a line.
+        ax.set_xlim(shown)
+    ax.axvline(best, color="C0", label=f"best: {best:.4g}")
+    ax.set(xlabel=words, ylabel="density", title=f"model {found.model}")
+    ax.legend()
+    return ax
+
+
+def pair(found: Calibration, x: str, y: str, ax: Axes | None) -> Axes:
+    (x_key, x_words, x_best), (y_key, y_words, y_best) = _axis(found, x), _axis(found, y)
+    sample = found.sample
+    ax = new_axes(ax)
+    ax.hist2d(sample[x_key], sample[y_key], bins=60, cmap="Blues", cmin=1)
+    ax.plot([x_best], [y_best], "+", color="C3", ms=12, mew=2, label="best")
+    ax.set(xlabel=x_words, ylabel=y_words, title=f"model {found.model}")
+    ax.legend()
+    return ax

@@ -1,0 +1,136 @@
+//! What commands find out: JSON, and the samples that it rests on as columns of numbers.
+
+use std::{collections::HashMap, ffi::OsString, sync::Arc};
+
+use percuss::{
+    calibrate::Calibration,
+    case::Document,
+    uncertainty::{QUANTITIES, Uncertainty},
+};
+use percuss_cli::{Answer as Found, AtHand};
+use pyo3::prelude::*;
+
+use crate::{case::Case, errors::raise, history::Column, watch::watched};
+
+/// Columns by name.
+pub type Numbers = Vec<(String, Vec<f64>)>;
+
+/// What a command found out.
+#[pyclass(frozen, module = "percuss._percuss")]
+pub struct Answer {
+    found: Found,
+    numbers: Arc<Numbers>,
+}
+
+/// What a command line finds out; `cases` and `texts` stand in the place of files, by the names that it gives them.
+#[pyfunction]
+#[pyo3(signature = (words, cases, texts, progress=None))]
+pub fn answer(
+    py: Python<'_>,
+    words: Vec<OsString>,
+    cases: HashMap<String, Py<Case>>,
+    texts: HashMap<String, String>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Answer> {
+    let mut at_hand = AtHand::default();
+    for (name, case) in cases {
+        at_hand.put(name, case.get().document.clone());
+    }
+    for (name, text) in texts {
+        let document = Document::new(&name, text);
+        at_hand.put(name, document);
+    }
+    watched(py, progress.as_ref(), |board| {
+        let hear = &mut |fraction: f64, words: &str| board.hear(fraction, words);
+        let found = percuss_cli::answer(words, &at_hand, board.stop(), hear)?;
+        let numbers = match &found {
+            Found::Json(_) => Numbers::new(),
+            Found::Uncertainty(found) => of_draws(found),
+            Found::Calibration(found) => of_sample(&found.calibration),
+        };
+        Ok(Answer {
+            found,
+            numbers: Arc::new(numbers),
+        })
+    })
+}
+
+#[pymethods]
+impl Answer {
+    /// What the command prints with --json.
+    fn json(&self, py: Python<'_>) -> PyResult<String> {
+        self.found.json().map_err(|failure| raise(py, failure))
+    }
+
+    /// Names of the columns of its sample.
+    fn names(&self) -> Vec<&str> {
+        let names = self.numbers.iter().map(|(name, _)| name.as_str());
+        names.collect()
+    }
+
+    /// Number of rows of its sample.
+    fn rows(&self) -> usize {
+        self.numbers.first().map_or(0, |(_, values)| values.len())
+    }
+
+    /// A column of its sample.
+    fn column(&self, name: &str) -> Option<Column> {
+        let (_, values) = self.numbers.iter().find(|(found, _)| found == name)?;
+        Some(Column::of_numbers(&self.numbers, values))
+    }
+
+    /// How each shot of an analysis of uncertainty ended.
+    fn outcomes(&self) -> Vec<&'static str> {
+        match &self.found {
+            Found::Uncertainty(found) => {
+                let draws = found.draws.iter();
+                draws.map(|draw| draw.outcome.in_words()).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// A row a shot: what was drawn, and what came of it; not a number where there is none.
+fn of_draws(found: &Uncertainty) -> Numbers {
+    let draws = &found.draws;
+    let inputs = found.inputs.iter().enumerate();
+    let mut numbers: Numbers = inputs
+        .map(|(i, input)| {
+            let values = draws.iter().map(|draw| draw.inputs[i]);
+            (input.column.clone(), values.collect())
+        })
+        .collect();
+    for quantity in QUANTITIES {
+        let values = || draws.iter().map(|draw| draw.value(quantity));
+        if values().any(|value| value.is_some()) {
+            let column = values().map(|value| value.unwrap_or(f64::NAN)).collect();
+            numbers.push((quantity.name.to_owned(), column));
+        }
+    }
+    numbers
+}
+
+/// A row a state, ensemble by ensemble, step by step, walker by walker.
+fn of_sample(calibration: &Calibration) -> Numbers {
+    let Some(sample) = &calibration.sample else {
+        return Numbers::new();
+    };
+    let (steps, walkers) = (sample.sampling.steps, sample.sampling.walkers);
+    let count = sample.kept().count();
+    let place = |of: &dyn Fn(usize) -> usize| (0..count).map(|i| of(i) as f64).collect();
+    let mut numbers: Numbers = vec![
+        ("ensemble".to_owned(), place(&|i| i / (steps * walkers))),
+        ("step".to_owned(), place(&|i| i / walkers % steps)),
+        ("walker".to_owned(), place(&|i| i % walkers)),
+    ];
+    for (i, parameter) in calibration.parameters.iter().enumerate() {
+        numbers.push((parameter.key.clone(), sample.values(i)));
+    }
+    if calibration.scatter.estimated {
+        let logarithms = sample.values(calibration.parameters.len());
+        let scatter = logarithms.into_iter().map(f64::exp).collect();
+        numbers.push(("scatter".to_owned(), scatter));
+    }
+    numbers
+}
