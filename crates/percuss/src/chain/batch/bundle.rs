@@ -1,5 +1,7 @@
 //! The state of eight shots on meshes alike.
 
+use std::ops::Range;
+
 use super::lanes::{LANES, Lanes};
 use crate::{
     case::BackFace,
@@ -38,6 +40,15 @@ impl Mesh {
             back,
         }
     }
+
+    /// Elements of the projectile (0) or the target (1).
+    pub(super) fn elements_of(&self, body: usize) -> Range<usize> {
+        let [projectile, target] = self.elements;
+        match body {
+            0 => 0..projectile,
+            _ => projectile..projectile + target,
+        }
+    }
 }
 
 /// A point mass.
@@ -68,6 +79,17 @@ pub(super) struct Flow {
     pub(super) strain_slope: Lanes,
     pub(super) temperature: Lanes,
     pub(super) largest_rate: Lanes,
+}
+
+/// What is known of an element in all lanes together.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Mark {
+    /// Whether an update to the same length would change nothing in any lane.
+    pub(super) settled: bool,
+    /// Whether it flows in any lane.
+    pub(super) flows: bool,
+    /// Whether it flowed in the last step in any lane.
+    pub(super) flowed: bool,
 }
 
 /// What is the same for all of a projectile or target.
@@ -138,12 +160,10 @@ pub(super) struct Bundle {
     pub(super) flows: Vec<Flow>,
     /// Whether a node moves in any lane.
     pub(super) moves: Vec<bool>,
-    /// Whether an update of an element to the same length would change nothing, in any lane.
-    pub(super) settled: Vec<bool>,
-    /// Elements that a pass takes up.
-    pub(super) active: Vec<usize>,
-    /// Whether an element flowed in the last step, in any lane.
-    pub(super) flowed: Vec<bool>,
+    /// What is known of the elements.
+    pub(super) marks: Vec<Mark>,
+    /// Largest stable time step of every element.
+    pub(super) limits: Vec<Lanes>,
     /// Those that flow or flowed in the last step.
     pub(super) working: Vec<usize>,
     /// Where something flows: elements and lanes.
@@ -163,9 +183,8 @@ impl Bundle {
             springs: vec![Spring::default(); elements],
             flows: vec![Flow::default(); elements],
             moves: vec![false; elements + 2],
-            settled: vec![false; elements],
-            active: vec![0; elements],
-            flowed: vec![false; elements],
+            marks: vec![Mark::default(); elements],
+            limits: vec![Lanes::all(f64::INFINITY); elements],
             working: vec![0; elements],
             flowing: vec![(0, 0); (elements + 1) * LANES],
             bodies: [Body::default(); 2],

@@ -4,17 +4,22 @@
 //! of another one, so that a shot ends with the same bits in whatever company it was computed. Whatever is rare (the books, the end
 //! of a shot, erosion) is left to the single run: the lane's state is put into its [`Conservative`] and goes on there.
 
+// Loops over the lanes run along many arrays at once.
+#![allow(clippy::needless_range_loop)]
+
 mod accepts;
 mod bundle;
+mod contact;
+mod end;
 mod exchange;
+mod flow;
+mod kick;
 mod lanes;
-// Loops over the lanes run along many arrays at once.
-#[allow(clippy::needless_range_loop)]
 mod spring;
-#[allow(clippy::needless_range_loop)]
 mod step;
 #[cfg(test)]
 mod tests;
+mod update;
 
 use std::{
     collections::BTreeMap,
