@@ -18,6 +18,7 @@ impl Bundle {
             end_ratio[l] = step.kick.0[l] / body.end_mass.0[l];
         }
         let mut force_behind = Lanes::all(0.0);
+        // Told that no index is out of range, the compiler would take several nodes at once, lane by lane.
         for i in 0..self.mesh.elements[0] {
             let ratio = if i == 0 { end_ratio } else { ratio };
             let force_ahead = self.springs[i].force;
@@ -55,10 +56,11 @@ impl Bundle {
             limit.0[l] = body.friction.0[l] * ratio.0[l];
         }
         let mut force_behind = self.springs[first].force;
-        for j in 1..count {
-            let spring = first + j;
-            let force_ahead = self.springs[spring].force;
-            let node = &mut self.nodes[face + j];
+        let inner = face + 1..face + count;
+        let nodes = self.nodes[inner.clone()].iter_mut();
+        let nodes = nodes.zip(&mut self.moves[inner]);
+        for ((node, is_moving), spring) in nodes.zip(&self.springs[first + 1..]) {
+            let force_ahead = spring.force;
             let mut change = [0.0; LANES];
             let mut is_held = true;
             for l in 0..LANES {
@@ -66,7 +68,7 @@ impl Bundle {
                 is_held &= change[l].abs() <= limit.0[l];
             }
             force_behind = force_ahead;
-            if is_held & !self.moves[face + j] {
+            if is_held & !*is_moving {
                 for l in 0..LANES {
                     impulse.0[l] += body.mass.0[l] * change[l];
                 }
@@ -98,7 +100,7 @@ impl Bundle {
             }
             node.velocity = Lanes(after);
             node.position = Lanes(next_position);
-            self.moves[face + j] = moves;
+            *is_moving = moves;
         }
         self.whole.friction_work = work;
         self.whole.friction_impulse = impulse;

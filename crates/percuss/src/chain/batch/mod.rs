@@ -33,11 +33,15 @@ pub(crate) use accepts::accepts;
 use bundle::{Bundle, Mesh};
 use lanes::LANES;
 
-use super::conservative::{AUDIT_INTERVAL, Conservative};
+use super::{
+    conservative::{AUDIT_INTERVAL, Conservative},
+    part::constraint_factor,
+};
 use crate::{
     Error, Scenario,
     model::{Control, Progress},
     outcome::RunResult,
+    scenario::TargetBody,
 };
 
 /// The caller stopped the batch.
@@ -68,8 +72,9 @@ pub(crate) fn run(
     for (mesh, mut shots) in meshes {
         // Shots that resemble each other have their waves in the same places: less is computed in vain. The slowest goes first.
         shots.sort_by(|&a, &b| {
-            let speed = |shot: usize| scenarios[shot].impact_speed;
-            speed(a).total_cmp(&speed(b))
+            let [a, b] = [a, b].map(|shot| scenarios[shot]);
+            let by_reach = reach(a).total_cmp(&reach(b));
+            by_reach.then(a.impact_speed.total_cmp(&b.impact_speed))
         });
         let mut ride = Ride {
             bundle: Bundle::new(mesh),
@@ -83,6 +88,16 @@ pub(crate) fn run(
     let results = results.into_iter();
     // Every shot is in one of the lists and leaves its lane with a result.
     Ok(results.flatten().collect())
+}
+
+/// Length of target whose border shear is in balance with the stress of its front, as a part of what a border shear and a constraint
+/// factor of 1 give: how far from the front elements move.
+fn reach(scenario: &Scenario) -> f64 {
+    let options = &scenario.options.chain;
+    let TargetBody::Layers { layers, .. } = &scenario.target else {
+        return 0.0;
+    };
+    constraint_factor(options.constraint_factor(), &layers[0].material) / options.border_shear()
 }
 
 struct Ride<'a, 'b> {

@@ -1,7 +1,7 @@
 //! Response of an element in every lane: `Element::deform` for a power of the plastic strain.
 
 use super::{
-    bundle::{Body, Flow, Node, Spring},
+    bundle::{Elastic, Flow, Node, Spring},
     lanes::{LANES, Lanes, larger, smaller},
 };
 use crate::power::small_log_ratio;
@@ -10,8 +10,8 @@ use crate::power::small_log_ratio;
 pub(super) struct Response {
     /// Largest stable time step where it does not flow.
     pub(super) limit: Lanes,
-    /// Largest rate of approach so far, as a part of the length.
-    pub(super) fastest: Lanes,
+    /// Speed at which its ends approach or part, as a part of the length.
+    pub(super) approach: Lanes,
     /// Whether any lane flows, or has to be looked at.
     pub(super) flows: bool,
     /// Whether the stress of any lane has changed.
@@ -23,13 +23,7 @@ pub(super) struct Response {
 impl Spring {
     /// Brings the element to the length that its ends give it, as if nothing flowed.
     #[inline(always)]
-    pub(super) fn respond(
-        &mut self,
-        ends: [&Node; 2],
-        body: &Body,
-        now: usize,
-        before: Lanes,
-    ) -> Response {
+    pub(super) fn respond(&mut self, ends: [&Node; 2], body: &Elastic, now: usize) -> Response {
         let [back, front] = ends.map(|node| node.position.0);
         let [back_velocity, front_velocity] = ends.map(|node| node.velocity.0);
         let unloaded = self.unloaded_length.0;
@@ -41,7 +35,7 @@ impl Spring {
         let mut stress = [0.0; LANES];
         let mut force = [0.0; LANES];
         let mut limit = [0.0; LANES];
-        let mut fastest = [0.0; LANES];
+        let mut approach = [0.0; LANES];
         let (mut flows, mut changes, mut erodes) = (false, false, false);
         for l in 0..LANES {
             let length = front[l] - back[l];
@@ -53,14 +47,13 @@ impl Spring {
             let inverse = 1.0 / length;
             force[l] = stress[l] * volume[l] * inverse;
             limit[l] = stable(length, stress[l], compliance[l], slowness[l]);
-            let approach = (back_velocity[l] - front_velocity[l]).abs() * inverse;
-            fastest[l] = larger(approach, before.0[l]);
+            approach[l] = (back_velocity[l] - front_velocity[l]).abs() * inverse;
         }
         self.stress[1 - (now & 1)] = Lanes(stress);
         self.force = Lanes(force);
         Response {
             limit: Lanes(limit),
-            fastest: Lanes(fastest),
+            approach: Lanes(approach),
             flows,
             changes,
             erodes,
@@ -71,7 +64,7 @@ impl Spring {
     #[inline(always)]
     pub(super) fn flowing(&self, ends: [&Node; 2], now: usize) -> u8 {
         let [back, front] = ends.map(|node| node.position.0);
-        let (stress, yield_stress) = (self.stress[1 - now].0, self.yield_stress.0);
+        let (stress, yield_stress) = (self.stress[1 - (now & 1)].0, self.yield_stress.0);
         let unloaded = self.unloaded_length.0;
         let mut flows = 0;
         for l in 0..LANES {
@@ -87,12 +80,12 @@ impl Spring {
         &mut self,
         flow: &Flow,
         ends: [&Node; 2],
-        body: &Body,
+        body: &Elastic,
         now: usize,
         work: &mut Lanes,
     ) -> Lanes {
         let [back, front] = ends.map(|node| node.position.0);
-        let (stress_before, stress) = (self.stress[now].0, self.stress[1 - now].0);
+        let (stress_before, stress) = (self.stress[now & 1].0, self.stress[1 - (now & 1)].0);
         let (step_before, step) = (flow.step_before.0, flow.plastic_step.0);
         let (volume, compliance, slowness) = (body.volume.0, body.compliance.0, body.slowness.0);
         let mut force = [0.0; LANES];

@@ -3,11 +3,14 @@
 use std::ops::Range;
 
 use super::{
-    bundle::Bundle,
-    flow::{SET_LANES, flow},
-    lanes::{LANES, Lanes, smaller},
+    bundle::{Bundle, LIMITS_AT_ONCE},
+    flow::{SET_LANES, flow_gathered, flow_in_place},
+    lanes::{LANES, Lanes, larger, smaller},
     step::{Found, Step},
 };
+
+/// Lanes from which it is cheaper to let an element flow where it is than to gather what flows from several elements.
+const MANY: u32 = 3;
 
 impl Bundle {
     /// Updates the elements: first all of them as if elastic, then those that flow. Nothing has to be guessed that way.
@@ -20,17 +23,17 @@ impl Bundle {
         };
         for b in 0..self.bodies.len() {
             let elements = self.mesh.elements_of(b);
-            self.respond(b, elements.clone(), &mut found);
-            self.flow(b, elements, step);
+            let working = self.respond(b, elements, &mut found);
+            self.flow(b, working, step);
         }
         found.stable_step = self.stable_step();
         found
     }
 
-    /// Updates the elements of a body as if nothing flowed.
+    /// Updates the elements of a body as if nothing flowed; returns how many flow, or flowed in the last step.
     #[inline(always)]
-    fn respond(&mut self, b: usize, elements: Range<usize>, found: &mut Found) {
-        let body = self.bodies[b];
+    fn respond(&mut self, b: usize, elements: Range<usize>, found: &mut Found) -> usize {
+        let body = self.bodies[b].elastic();
         let now = self.now;
         let of_nodes = elements.start + b..elements.end + b + 1;
         let (nodes, moves) = (&self.nodes[of_nodes.clone()], &self.moves[of_nodes]);
@@ -40,72 +43,90 @@ impl Bundle {
         let springs = springs.zip(&mut self.limits[elements.clone()]);
         let mut fastest = found.fastest;
         let mut erodes = false;
-        for (((spring, limit), mark), (ends, moves)) in
-            springs.zip(&mut self.marks[elements]).zip(ends)
+        let mut working = 0;
+        for (e, (((spring, limit), mark), (ends, moves))) in elements
+            .clone()
+            .zip(springs.zip(&mut self.marks[elements.clone()]).zip(ends))
         {
             // Where no wave has come, or border shear holds, nothing changes.
             if !(moves.0 | moves.1) & mark.settled {
                 continue;
             }
-            let response = spring.respond([ends.0, ends.1], &body, now, fastest);
+            let response = spring.respond([ends.0, ends.1], &body, now);
             *limit = response.limit;
-            fastest = response.fastest;
+            for l in 0..LANES {
+                fastest.0[l] = larger(response.approach.0[l], fastest.0[l]);
+            }
             erodes |= response.erodes;
-            mark.settled = !(response.changes | response.flows | mark.flowed);
-            mark.flows = response.flows;
+            let works = response.flows | mark.flowed;
+            mark.settled = !(response.changes | works);
+            mark.flowed = response.flows;
+            self.working[working] = e;
+            working += usize::from(works);
         }
         found.fastest = fastest;
         found.erodes |= erodes;
+        working
     }
 
-    /// Lets the elements of a body flow that are beyond the yield surface.
+    /// Lets the elements of a body flow that are beyond the yield surface, and settles those that flowed in the last step.
     #[inline(always)]
-    fn flow(&mut self, b: usize, elements: Range<usize>, step: &Step) {
-        let body = self.bodies[b];
+    fn flow(&mut self, b: usize, working: usize, step: &Step) {
+        if working == 0 {
+            return;
+        }
+        let body = &self.bodies[b];
         let now = self.now;
-        let (mut working, mut flowing) = (0, 0);
-        for e in elements {
-            let mark = &mut self.marks[e];
-            if !(mark.flows | mark.flowed) {
-                continue;
-            }
-            mark.flowed = mark.flows;
-            self.working[working] = e;
-            working += 1;
-            self.flows[e].step_before = self.flows[e].plastic_step;
-            self.flows[e].plastic_step = Lanes::all(0.0);
-            if !mark.flows {
+        let mut gathered = 0;
+        for &e in &self.working[..working] {
+            let flow = &mut self.flows[e];
+            flow.step_before = flow.plastic_step;
+            flow.plastic_step = Lanes::all(0.0);
+            if !self.marks[e].flowed {
                 continue;
             }
             let ends = [&self.nodes[e + b], &self.nodes[e + b + 1]];
-            let lanes = self.springs[e].flowing(ends, now);
-            let places = SET_LANES[usize::from(lanes)].map(|lane| (e as u32, lane));
-            self.flowing[flowing..flowing + LANES].copy_from_slice(&places);
-            flowing += lanes.count_ones() as usize;
+            let spring = &mut self.springs[e];
+            let lanes = spring.flowing(ends, now);
+            if lanes.count_ones() >= MANY {
+                flow_in_place(lanes, (spring, flow), ends, body, &step.rate, now);
+            } else {
+                let places = SET_LANES[usize::from(lanes)].map(|lane| (e as u32, lane));
+                self.gathered[gathered..gathered + LANES].copy_from_slice(&places);
+                gathered += lanes.count_ones() as usize;
+            }
         }
         let chain = (&mut self.springs[..], &mut self.flows[..], &self.nodes[b..]);
-        flow(&mut self.flowing, flowing, chain, &body, &step.rate, now);
-        let mut work = self.whole.plastic_work[b];
-        let mut done = Lanes::all(0.0);
+        flow_gathered(&mut self.gathered, gathered, chain, body, &step.rate, now);
+        let elastic = body.elastic();
+        let mut work = Lanes::all(0.0);
         for &e in &self.working[..working] {
             let ends = [&self.nodes[e + b], &self.nodes[e + b + 1]];
-            self.limits[e] = self.springs[e].settle(&self.flows[e], ends, &body, now, &mut done);
+            let flow = &self.flows[e];
+            self.limits[e] = self.springs[e].settle(flow, ends, &elastic, now, &mut work);
         }
+        let total = &mut self.whole.plastic_work[b];
         for l in 0..LANES {
-            work.0[l] += done.0[l];
+            total.0[l] += work.0[l];
         }
-        self.whole.plastic_work[b] = work;
     }
 
     /// Largest time step that is stable for all elements.
     #[inline(always)]
     fn stable_step(&self) -> Lanes {
-        let mut least = Lanes::all(f64::INFINITY);
-        for limit in &self.limits {
+        // Several at once: none waits for the one before it.
+        let [mut a, mut b, mut c, mut d] = [Lanes::all(f64::INFINITY); LIMITS_AT_ONCE];
+        for limits in self.limits.chunks_exact(LIMITS_AT_ONCE) {
             for l in 0..LANES {
-                least.0[l] = smaller(limit.0[l], least.0[l]);
+                a.0[l] = smaller(limits[0].0[l], a.0[l]);
+                b.0[l] = smaller(limits[1].0[l], b.0[l]);
+                c.0[l] = smaller(limits[2].0[l], c.0[l]);
+                d.0[l] = smaller(limits[3].0[l], d.0[l]);
             }
         }
-        least
+        for l in 0..LANES {
+            a.0[l] = smaller(smaller(a.0[l], b.0[l]), smaller(c.0[l], d.0[l]));
+        }
+        a
     }
 }
