@@ -44,6 +44,10 @@ use crate::{
     scenario::TargetBody,
 };
 
+/// Stages of [`AUDIT_INTERVAL`] steps that an empty lane waits for others to end: shots that start together have their waves in
+/// the same places.
+const PATIENCE: u32 = 4;
+
 /// The caller stopped the batch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Stopped;
@@ -111,18 +115,17 @@ struct Ride<'a, 'b> {
 impl Ride<'_, '_> {
     fn run(&mut self, mut waiting: Vec<usize>) -> Result<(), Stopped> {
         let arch = Arch::new();
+        let mut patience = 0;
         loop {
-            for lane in 0..LANES {
-                if self.lanes[lane].is_none()
-                    && let Some(shot) = waiting.pop()
-                {
-                    let run = Conservative::new(self.scenarios[shot]);
-                    self.bundle.take_in(lane, &run);
-                    self.lanes[lane] = Some(Passenger { shot, run });
-                }
-            }
-            if self.lanes.iter().all(Option::is_none) {
+            let empty = self.lanes.iter().filter(|lane| lane.is_none()).count();
+            if empty == LANES && waiting.is_empty() {
                 return Ok(());
+            }
+            if empty == LANES || patience == 0 {
+                self.board(&mut waiting);
+                patience = PATIENCE;
+            } else if empty > 0 {
+                patience -= 1;
             }
             // Lanes change passengers between these stages, so that the books of all are due at the same time.
             let mut left = AUDIT_INTERVAL;
@@ -140,6 +143,19 @@ impl Ride<'_, '_> {
             }
             if self.stop.load(Ordering::Relaxed) {
                 return Err(Stopped);
+            }
+        }
+    }
+
+    /// Fills the empty lanes.
+    fn board(&mut self, waiting: &mut Vec<usize>) {
+        for (lane, seat) in self.lanes.iter_mut().enumerate() {
+            if seat.is_none()
+                && let Some(shot) = waiting.pop()
+            {
+                let run = Conservative::new(self.scenarios[shot]);
+                self.bundle.take_in(lane, &run);
+                *seat = Some(Passenger { shot, run });
             }
         }
     }
