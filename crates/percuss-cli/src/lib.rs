@@ -17,6 +17,7 @@ mod table;
 mod terminal;
 mod validation_table;
 mod workers;
+mod written;
 
 use std::{ffi::OsString, process::ExitCode};
 

@@ -2,8 +2,7 @@
 
 use std::{fs, path::Path};
 
-mod support;
-use support::percuss;
+use crate::support::percuss;
 
 const CASE: &str = r#"
 projectile = { material = "copper", length = "6 mm", diameter = "4 mm", velocity = "400 m/s" }

@@ -1,14 +1,12 @@
 //! Wrong case files: every one is refused with a message that says what is wrong, where, and what to do.
 
-mod support;
-
 use std::{
     fs,
     path::{Path, PathBuf},
     process::Command,
 };
 
-use support::{Said, percuss};
+use crate::support::{Said, percuss};
 use tempfile::TempDir;
 
 fn bad_cases() -> PathBuf {

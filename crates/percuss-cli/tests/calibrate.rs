@@ -1,12 +1,10 @@
 //! `percuss calibrate`: from shots to a material with its provenance.
 
-mod support;
+use std::fs;
 
-use std::{fs, process::Command, thread, time::Duration};
-
-use serde_json::Value;
-use support::{Said, percuss};
 use tempfile::TempDir;
+
+use crate::support::{Said, folder_with, json, percuss};
 
 const YIELD: &str = "materials.ofhc-copper-johnson-cook.strength.johnson_cook.a=20..300 MPa";
 const WILKINS: [&str; 8] = [
@@ -25,21 +23,11 @@ fn calibrate(folder: &TempDir, fit: &str, more: &[&str]) -> Said {
     percuss(folder.path(), arguments)
 }
 
-fn ok(said: Said) -> String {
-    assert_eq!(
-        (said.code, said.stderr.as_str()),
-        (0, ""),
-        "{}",
-        said.stdout
-    );
-    said.stdout
-}
-
 #[test]
 fn least_squares_say_what_they_found() {
     let folder = TempDir::new().unwrap();
     let more = ["--least-squares", "--hold-out", "zelepugin2023"];
-    let text = ok(calibrate(&folder, YIELD, &more));
+    let text = calibrate(&folder, YIELD, &more).ok();
     for words in [
         "best ± error",
         "held out",
@@ -48,12 +36,8 @@ fn least_squares_say_what_they_found() {
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }
-    let json = ok(calibrate(
-        &folder,
-        YIELD,
-        &[&more[..], &["--json"]].concat(),
-    ));
-    let found: Value = serde_json::from_str(&json).unwrap();
+    let found = calibrate(&folder, YIELD, &[&more[..], &["--json"]].concat()).ok();
+    let found = json(&found);
     let stress = found["parameters"][0]["best"].as_f64().unwrap();
     assert!((60.0..250.0).contains(&stress), "{stress}");
     assert_eq!(found["training"]["count"], 6);
@@ -61,7 +45,7 @@ fn least_squares_say_what_they_found() {
     let held_out = found["predictions"].as_array().unwrap().iter();
     let held_out = held_out.filter(|value| value["held_out"] == true).count();
     assert_eq!(found["hold_out"]["count"], held_out);
-    let line = ok(calibrate(&folder, YIELD, &[&more[..], &["-q"]].concat()));
+    let line = calibrate(&folder, YIELD, &[&more[..], &["-q"]].concat()).ok();
     assert!(
         line.starts_with("key=materials.ofhc-copper-johnson-cook"),
         "{line}"
@@ -83,11 +67,12 @@ fn the_folder_holds_a_material_that_a_case_takes() {
         "my-copper",
     ];
     for out in ["one", "two"] {
-        ok(calibrate(
+        calibrate(
             &folder,
             YIELD,
             &[&sample[..], &["--out", out, "-q"]].concat(),
-        ));
+        )
+        .ok();
     }
     for file in [
         "calibration.json",
@@ -109,16 +94,17 @@ projectile = { material = 'my-copper', length = '23.47 mm', diameter = '7.62 mm'
 target = { rigid_wall = true }
 ";
     fs::write(folder.path().join("case.toml"), case).unwrap();
-    let said = ok(percuss(
+    let said = percuss(
         folder.path(),
         ["run", "case.toml", "--model", "wilkins_guinan", "--json"],
-    ));
-    let run: Value = serde_json::from_str(&said).unwrap();
+    )
+    .ok();
+    let run = json(&said);
     let length = run["results"][0]["projectile_final_length_mm"]
         .as_f64()
         .unwrap();
     let table = fs::read_to_string(folder.path().join("one/calibration.json")).unwrap();
-    let found: Value = serde_json::from_str(&table).unwrap();
+    let found = json(&table);
     let mut fitted = found["predictions"].as_array().unwrap().iter();
     let fitted = fitted
         .find(|value| value["impact_velocity_m_s"] == 183.0)
@@ -126,10 +112,11 @@ target = { rigid_wall = true }
     let best = fitted["best"].as_f64().unwrap();
     assert!((length / best - 1.0).abs() < 1e-5, "{length} {best}");
 
-    let card = ok(percuss(
+    let card = percuss(
         folder.path(),
         ["materials", "show", "my-copper", "--case", "case.toml"],
-    ));
+    )
+    .ok();
     assert!(
         card.contains("wilkins_guinan") && card.contains("wilkins1973"),
         "{card}"
@@ -169,19 +156,19 @@ target = { rigid_wall = true }
     assert_eq!(said.code, 2);
     assert!(said.stderr.contains("their own scatter"), "{}", said.stderr);
     let more = ["--noise", "2 %", "--least-squares", "--json"];
-    let json = ok(percuss(
+    let found = percuss(
         folder.path(),
         [&["calibrate", "case.toml"], &fit[..], &more[..]].concat(),
-    ));
-    let found: Value = serde_json::from_str(&json).unwrap();
+    )
+    .ok();
+    let found = json(&found);
     assert!(found["training"]["rms"].as_f64().unwrap() < 1e-8);
 }
 
 #[test]
 fn bad_input_is_answered_with_its_place() {
-    let folder = TempDir::new().unwrap();
     let priors = "[[parameter]]\nkey = 'materials.ofhc-copper-johnson-cook.strength.johnson_cook.a'\nvalues = ['90 MPa']\n";
-    fs::write(folder.path().join("priors.toml"), priors).unwrap();
+    let folder = folder_with(&[("priors.toml", priors)]);
     for (fit, more, words) in [
         ("a", &[][..], "there is no `=` after the key"),
         (
@@ -224,28 +211,16 @@ fn bad_input_is_answered_with_its_place() {
 #[cfg(unix)]
 #[test]
 fn an_interrupt_ends_it() {
+    use std::{thread, time::Duration};
+
+    use crate::support::{interrupt, names_in, spawn};
+
     let folder = TempDir::new().unwrap();
     let arguments = [&WILKINS[..], &[YIELD, "--steps", "1000000", "--out", "out"]].concat();
-    let child = Command::new(assert_cmd::cargo::cargo_bin("percuss"))
-        .args(arguments)
-        .current_dir(folder.path())
-        .stdout(std::process::Stdio::null())
-        .stderr(std::process::Stdio::piped())
-        .spawn()
-        .unwrap();
+    let child = spawn(folder.path(), &arguments);
     // The handler stands before the first run of a model.
     thread::sleep(Duration::from_secs(2));
-    let id = child.id().to_string();
-    assert!(
-        Command::new("kill")
-            .args(["-INT", &id])
-            .status()
-            .unwrap()
-            .success()
-    );
-    let output = child.wait_with_output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(130), "{said}");
+    let said = interrupt(child);
     assert!(said.contains("the calibration was stopped"), "{said}");
-    assert_eq!(fs::read_dir(folder.path().join("out")).unwrap().count(), 0);
+    assert!(names_in(&folder.path().join("out")).is_empty());
 }

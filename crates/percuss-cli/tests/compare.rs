@@ -1,12 +1,10 @@
 //! `percuss compare`: every model on one case.
 
-mod support;
-
 use std::fs;
 
-use serde_json::Value;
-use support::{Said, percuss};
 use tempfile::TempDir;
+
+use crate::support::{Said, flat, json, percuss, shot};
 
 const TAYLOR: &str = "
 projectile = { material = 'ofhc-copper', length = '23.47 mm', diameter = '7.62 mm', velocity = '183 m/s' }
@@ -28,12 +26,6 @@ projectile = { material = '4340', length = '60 mm', diameter = '7.62 mm', veloci
 target = { material = 'aluminium-2024-t351', thickness = '50 mm' }
 ";
 
-fn folder_with(case: &str) -> TempDir {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("shot.toml"), case).unwrap();
-    folder
-}
-
 fn compare(folder: &TempDir, arguments: &[&str]) -> Said {
     percuss(
         folder.path(),
@@ -41,19 +33,14 @@ fn compare(folder: &TempDir, arguments: &[&str]) -> Said {
     )
 }
 
+#[track_caller]
 fn ok(folder: &TempDir, arguments: &[&str]) -> String {
-    let said = compare(folder, arguments);
-    assert_eq!((said.code, said.stderr.as_str()), (0, ""), "{arguments:?}");
-    said.stdout
-}
-
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+    compare(folder, arguments).ok()
 }
 
 #[test]
 fn the_table_starts_with_regime_and_recommendation() {
-    let folder = folder_with(TAYLOR);
+    let folder = shot(TAYLOR);
     let text = ok(&folder, &[]);
     for part in [
         "case shot, impact at 183 m/s",
@@ -75,7 +62,7 @@ fn the_table_starts_with_regime_and_recommendation() {
 
 #[test]
 fn a_sweep_has_a_row_a_speed() {
-    let folder = folder_with(TAYLOR);
+    let folder = shot(TAYLOR);
     let text = ok(&folder, &["--velocity", "89..183:3"]);
     for part in [
         "3 speeds, 89 to 183 m/s",
@@ -100,7 +87,7 @@ fn a_sweep_has_a_row_a_speed() {
 
 #[test]
 fn json_extends_the_object_of_run() {
-    let folder = folder_with(TAYLOR);
+    let folder = shot(TAYLOR);
     let said = percuss(folder.path(), ["run", "shot.toml", "--json"]);
     let run = json(&said.stdout);
     let object = json(&ok(&folder, &["--json"]));
@@ -133,7 +120,7 @@ fn json_extends_the_object_of_run() {
 
 #[test]
 fn a_model_that_does_not_apply_says_why() {
-    let folder = folder_with(OGIVE);
+    let folder = shot(OGIVE);
     let said = compare(&folder, &["--model", "chain"]);
     assert_eq!((said.code, said.stdout.as_str()), (2, ""));
     assert!(
@@ -163,7 +150,7 @@ fn a_model_that_does_not_apply_says_why() {
 
 #[test]
 fn a_folder_holds_numbers_and_figure() {
-    let folder = folder_with(TAYLOR);
+    let folder = shot(TAYLOR);
     let text = ok(&folder, &["--velocity", "89,183", "--out", "deep/out"]);
     for name in [
         "case-as-run.toml",
@@ -185,7 +172,7 @@ fn a_folder_holds_numbers_and_figure() {
 
 #[test]
 fn quiet_is_a_line_a_speed_and_model() {
-    let folder = folder_with(TAYLOR);
+    let folder = shot(TAYLOR);
     let text = ok(
         &folder,
         &["--quiet", "--velocity", "89,183", "--model", "chain"],
@@ -202,7 +189,7 @@ fn quiet_is_a_line_a_speed_and_model() {
 
 #[test]
 fn speeds_that_are_none_are_refused_with_what_is_allowed() {
-    let folder = folder_with(OGIVE);
+    let folder = shot(OGIVE);
     for (speeds, words) in [
         ("fast", "`fast` is not a number"),
         ("200..1500", "does not say how many speeds"),
@@ -234,15 +221,15 @@ fn a_failure_is_told_and_named() {
     let case = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '9 km/s' }\n\
                 target = { material = 'aluminium-2024-t351', thickness = 'semi-infinite' }\n\
                 chain = { erosion_strain = 'never', courant = 1.0 }";
-    let said = compare(&folder_with(case), &["--model", "chain"]);
+    let said = compare(&shot(case), &["--model", "chain"]);
     assert_eq!(said.code, 2);
     assert!(said.stderr.contains("  chain: failed: "), "{}", said.stderr);
 }
 
 #[test]
 fn a_sweep_has_a_reason_a_kind() {
-    let text = ok(&folder_with(OGIVE), &["--velocity", "200..1500:14"]);
-    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let text = ok(&shot(OGIVE), &["--velocity", "200..1500:14"]);
+    let words = flat(&text);
     for part in [
         "not applicable at 200 to 500 m/s: it takes rigid projectiles, and this one is deforming",
         "(at 200 m/s); at 600 to 1500 m/s: it takes rigid projectiles, and this one is eroding",
@@ -265,7 +252,7 @@ velocity = '700 m/s'
 residual_velocity = '300 m/s'
 source = 'a'
 ";
-    let folder = folder_with(plate);
+    let folder = shot(plate);
     let sweep = ok(&folder, &["--velocity", "200,900"]);
     assert!(sweep.contains("recommended  forrestal"), "{sweep}");
     assert!(sweep.contains("depth [mm]\n"), "{sweep}");
@@ -279,10 +266,7 @@ source = 'a'
     // A limit that no model gives is shown all the same.
     let limit = format!("{BLUNT}[[experiments]]\nballistic_limit = '777 m/s'\nsource = 'a'\n");
     for speeds in ["100", "100,110"] {
-        let text = ok(
-            &folder_with(&limit),
-            &["--model", "chain", "--velocity", speeds],
-        );
+        let text = ok(&shot(&limit), &["--model", "chain", "--velocity", speeds]);
         assert!(text.contains("777"), "{text}");
     }
 }

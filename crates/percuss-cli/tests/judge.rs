@@ -1,12 +1,11 @@
 //! `percuss judge` on a small reference of its own.
 
-mod support;
-
 use std::{fs, path::Path};
 
 use serde_json::Value;
-use support::percuss;
 use tempfile::TempDir;
+
+use crate::support::{json, percuss};
 
 /// Two shots on two meshes, made up, and one of no shot of the design.
 const REFERENCE: &str = "\
@@ -23,13 +22,13 @@ fn folder() -> TempDir {
     folder
 }
 
+#[track_caller]
 fn ok(folder: &Path, arguments: &[&str]) -> String {
     let said = percuss(
         folder,
         [&["judge", "--reference", "own.csv"], arguments].concat(),
     );
-    assert_eq!((said.code, said.stderr.as_str()), (0, ""), "{arguments:?}");
-    said.stdout
+    said.ok()
 }
 
 #[test]
@@ -65,7 +64,7 @@ fn models_are_judged_by_a_reference() {
 #[test]
 fn json_holds_statistics_and_verdicts_of_the_extrapolated_reference() {
     let folder = folder();
-    let json: Value = serde_json::from_str(&ok(folder.path(), &["--json"])).unwrap();
+    let json = json(&ok(folder.path(), &["--json"]));
     let verdicts = json["verdicts"].as_array().unwrap();
     let of = |speed: f64| {
         let own =

@@ -1,12 +1,11 @@
 //! `percuss limit`: ballistic limits of a case, and V50 of shots.
 
-mod support;
-
 use std::fs;
 
 use serde_json::Value;
-use support::{Said, percuss};
 use tempfile::TempDir;
+
+use crate::support::{Said, flat, folder_with, json, percuss};
 
 const BLUNT: &str = "
 projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', velocity = '300 m/s' }
@@ -21,35 +20,22 @@ source = 'made up'
 ";
 const SHOTS: &str = "velocity_m_s,perforated\n180,no\n184,no\n188,no\n186,yes\n190,yes\n194,yes\n";
 
-fn folder_with(case: &str) -> TempDir {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("shot.toml"), case).unwrap();
-    fs::write(folder.path().join("shots.csv"), SHOTS).unwrap();
-    folder
+fn folder(case: &str) -> TempDir {
+    folder_with(&[("shot.toml", case), ("shots.csv", SHOTS)])
 }
 
 fn limit(folder: &TempDir, arguments: &[&str]) -> Said {
     percuss(folder.path(), [&["limit"], arguments].concat())
 }
 
+#[track_caller]
 fn ok(folder: &TempDir, arguments: &[&str]) -> String {
-    let said = limit(folder, arguments);
-    assert_eq!((said.code, said.stderr.as_str()), (0, ""), "{arguments:?}");
-    said.stdout
-}
-
-/// A text without its line breaks.
-fn flat(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+    limit(folder, arguments).ok()
 }
 
 #[test]
 fn the_table_has_limits_brackets_and_fits_and_says_who_has_none() {
-    let folder = folder_with(BLUNT);
+    let folder = folder(BLUNT);
     let text = ok(&folder, &["shot.toml"]);
     for part in [
         "searched from 0 to 2000 m/s, brackets of 0.1 m/s or less",
@@ -70,7 +56,7 @@ fn the_table_has_limits_brackets_and_fits_and_says_who_has_none() {
 
 #[test]
 fn json_has_an_entry_a_model_with_stable_names() {
-    let folder = folder_with(BLUNT);
+    let folder = folder(BLUNT);
     let object = json(&ok(
         &folder,
         &["shot.toml", "--json", "--shots", "shots.csv"],
@@ -113,7 +99,7 @@ fn json_has_an_entry_a_model_with_stable_names() {
 
 #[test]
 fn a_range_that_is_stopped_or_perforated_throughout_is_an_answer() {
-    let folder = folder_with(BLUNT);
+    let folder = folder(BLUNT);
     let text = ok(
         &folder,
         &["shot.toml", "--model", "plugging", "--velocity", "10..100"],
@@ -141,7 +127,7 @@ fn a_range_that_is_stopped_or_perforated_throughout_is_an_answer() {
 
 #[test]
 fn where_no_model_applies_the_reasons_are_the_error() {
-    let folder = folder_with("
+    let folder = folder("
 projectile = { material = 'ofhc-copper', length = '23.47 mm', diameter = '7.62 mm', velocity = '183 m/s' }
 target = { rigid_wall = true }
 ");
@@ -156,7 +142,7 @@ target = { rigid_wall = true }
 
 #[test]
 fn files_and_figures_are_written() {
-    let folder = folder_with(BLUNT);
+    let folder = folder(BLUNT);
     ok(
         &folder,
         &[
@@ -198,7 +184,7 @@ fn files_and_figures_are_written() {
 
 #[test]
 fn shots_need_no_case_and_separated_ones_have_no_likeliest_v50() {
-    let folder = folder_with(BLUNT);
+    let folder = folder(BLUNT);
     let text = ok(&folder, &["--shots", "shots.csv"]);
     assert!(
         flat(&text).contains(
@@ -226,7 +212,7 @@ fn shots_need_no_case_and_separated_ones_have_no_likeliest_v50() {
 
 #[test]
 fn what_is_wrong_is_said_with_its_place() {
-    let folder = folder_with(BLUNT);
+    let folder = folder(BLUNT);
     fs::write(
         folder.path().join("bad.csv"),
         "velocity_m_s,perforated\n184,maybe\n",

@@ -1,7 +1,5 @@
 //! `percuss serve` refuses what is not safe and says where it serves.
 
-mod support;
-
 use std::{
     fs,
     io::{BufRead, BufReader, Read, Write},
@@ -10,14 +8,13 @@ use std::{
     process::{Command, Stdio},
 };
 
-use support::percuss;
+use crate::support::{flat, percuss};
 
 /// Arguments that are refused, and words of the answer.
 fn refused(arguments: &[&str], words: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     let said = percuss(folder.path(), [&["serve"][..], arguments].concat());
-    let text: Vec<&str> = said.stderr.split_whitespace().collect();
-    let text = text.join(" ");
+    let text = flat(&said.stderr);
     assert_eq!(said.code, 2, "{arguments:?}: {text}");
     for words in words {
         assert!(text.contains(words), "{arguments:?}: {text}");

@@ -1,11 +1,7 @@
 //! `percuss sweep`: rows that do not depend on who computes them or how often that is ended.
 
-mod support;
-
 use std::{
     fs::{self, File},
-    path::{Path, PathBuf},
-    process::{Child, Command, Stdio},
     thread,
     time::Duration,
 };
@@ -14,14 +10,12 @@ use parquet::{
     file::reader::{FileReader, SerializedFileReader},
     record::RowAccessor,
 };
-use support::{Said, percuss};
 use tempfile::TempDir;
 
-const CASE: &str = "
-projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }
-target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
-chain = { projectile_elements = 20, target_elements = 40 }
-";
+use crate::support::{
+    CASE, flat, folder_with, interrupt, percuss, refuses_all_of,
+    sweeps::{block, count_blocks, merged, ok, spawn, sweep},
+};
 
 /// 320 shots of a few milliseconds.
 const GRID: &str = "
@@ -54,51 +48,11 @@ triangular = { from = 0, mode = 0.577, to = 1 }
 ";
 
 fn folder() -> TempDir {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("scenario.toml"), CASE).unwrap();
-    fs::write(folder.path().join("grid.toml"), GRID).unwrap();
-    fs::write(folder.path().join("random.toml"), RANDOM).unwrap();
-    folder
-}
-
-fn sweep(folder: &TempDir, arguments: &[&str]) -> Said {
-    percuss(folder.path(), [&["sweep"], arguments].concat())
-}
-
-fn ok(folder: &TempDir, arguments: &[&str]) -> String {
-    let said = sweep(folder, arguments);
-    assert_eq!((said.code, said.stderr.as_str()), (0, ""), "{arguments:?}");
-    said.stdout
-}
-
-/// The merged rows of folders.
-fn merged(folder: &TempDir, parts: &[&str]) -> Vec<u8> {
-    ok(
-        folder,
-        &[&["merge"], parts, &["--out", "rows.parquet"]].concat(),
-    );
-    fs::read(folder.path().join("rows.parquet")).unwrap()
-}
-
-fn spawn(folder: &TempDir, arguments: &[&str]) -> Child {
-    Command::new(assert_cmd::cargo::cargo_bin!("percuss"))
-        .arg("sweep")
-        .args(arguments)
-        .current_dir(folder.path())
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
-}
-
-fn blocks(folder: &Path) -> Vec<PathBuf> {
-    let Ok(entries) = fs::read_dir(folder) else {
-        return Vec::new();
-    };
-    let paths = entries.map(|entry| entry.unwrap().path());
-    paths
-        .filter(|path| path.extension().is_some_and(|end| end == "parquet"))
-        .collect()
+    folder_with(&[
+        ("scenario.toml", CASE),
+        ("grid.toml", GRID),
+        ("random.toml", RANDOM),
+    ])
 }
 
 #[test]
@@ -172,9 +126,11 @@ fn what_is_lost_or_damaged_is_computed_anew() {
     let folder = folder();
     ok(&folder, &["random.toml", "--out", "rows"]);
     let whole = merged(&folder, &["rows"]);
-    let block = |n: u32| folder.path().join(format!("rows/block-{n:06}.parquet"));
-    fs::remove_file(block(2)).unwrap();
-    let cut = File::options().write(true).open(block(7)).unwrap();
+    fs::remove_file(block(&folder, "rows", 2)).unwrap();
+    let cut = File::options()
+        .write(true)
+        .open(block(&folder, "rows", 7))
+        .unwrap();
     cut.set_len(500).unwrap();
     fs::write(
         folder.path().join("rows/.block-000002.parquet.1-0.tmp"),
@@ -204,8 +160,8 @@ fn a_folder_of_another_sweep_is_refused() {
     let refused = |words: &str| {
         let said = sweep(&folder, &["random.toml", "--out", "rows", "--resume"]);
         assert_eq!(said.code, 2, "{}", said.stderr);
-        let flat = said.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(flat.contains(words), "{flat}");
+        let said = flat(&said.stderr);
+        assert!(said.contains(words), "{said}");
     };
     let again = sweep(&folder, &["random.toml", "--out", "rows"]);
     assert!(
@@ -239,7 +195,7 @@ fn a_second_process_is_refused_and_ctrl_c_ends_the_first_cleanly() {
         .replace("count = 8", "count = 800");
     fs::write(folder.path().join("slow.toml"), slow).unwrap();
     let child = spawn(&folder, &["slow.toml", "--out", "rows"]);
-    while blocks(&folder.path().join("rows")).is_empty() {
+    while count_blocks(&folder.path().join("rows")) == 0 {
         thread::sleep(Duration::from_millis(5));
     }
     let said = sweep(&folder, &["slow.toml", "--out", "rows", "--resume"]);
@@ -251,17 +207,7 @@ fn a_second_process_is_refused_and_ctrl_c_ends_the_first_cleanly() {
     );
     let said = ok(&folder, &["status", "rows"]);
     assert!(said.contains("a process is computing it now"), "{said}");
-    let id = child.id().to_string();
-    assert!(
-        Command::new("kill")
-            .args(["-INT", &id])
-            .status()
-            .unwrap()
-            .success()
-    );
-    let output = child.wait_with_output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(130), "{said}");
+    let said = interrupt(child);
     assert!(
         said.contains("the sweep was stopped with") && said.contains("--resume"),
         "{said}"
@@ -271,30 +217,11 @@ fn a_second_process_is_refused_and_ctrl_c_ends_the_first_cleanly() {
 
 #[test]
 fn wrong_sweep_files_are_refused_with_their_place() {
-    let bad = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad-sweeps");
     let out = TempDir::new().unwrap();
     let out = out.path().join("rows");
-    let mut names: Vec<String> = fs::read_dir(&bad)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    assert!(names.len() >= 20, "{}", names.len());
-    for name in names {
-        let said = percuss(&bad, ["sweep", &name, "--out", out.to_str().unwrap()]);
-        assert_eq!(said.code, 2, "{name}: {}", said.stderr);
-        assert!(
-            said.stderr.contains(&format!("--> {name}")),
-            "{name}: {}",
-            said.stderr
-        );
+    refuses_all_of("bad-sweeps", 20, |bad, name| {
+        let said = percuss(bad, ["sweep", name, "--out", out.to_str().unwrap()]);
         assert!(!out.exists(), "{name}");
-        insta::with_settings!({
-            snapshot_path => "snapshots/bad-sweeps",
-            prepend_module_to_snapshot => false,
-            omit_expression => true,
-        }, {
-            insta::assert_snapshot!(name.trim_end_matches(".toml"), said.stderr);
-        });
-    }
+        said
+    });
 }

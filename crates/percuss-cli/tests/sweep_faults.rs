@@ -2,16 +2,14 @@
 //! or damaged, or several processes want the same folder. The result is right or there is a clear error.
 #![cfg(unix)]
 
-mod support;
-
 use std::{
     fs::{self, File, Permissions},
     os::unix::{
         fs::{MetadataExt, PermissionsExt},
         process::CommandExt,
     },
-    path::{Path, PathBuf},
-    process::{Child, Command, Output, Stdio},
+    path::Path,
+    process::{Child, Command, Output},
     thread,
     time::Duration,
 };
@@ -20,39 +18,24 @@ use parquet::{
     file::reader::{FileReader, SerializedFileReader},
     record::RowAccessor,
 };
-use support::{Said, percuss};
 use tempfile::TempDir;
 
-const CASE: &str = "
-projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }
-target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
-chain = { projectile_elements = 20, target_elements = 40 }
-";
+use crate::support::{
+    CASE, flat, folder_with,
+    sweeps::{block, count_blocks, merged, ok, spawn, sweep},
+};
 
 /// The user that a test is who must not write everywhere.
 const NOBODY: u32 = 65534;
 
 /// A sweep in blocks of two shots.
 fn folder(samples: u32) -> TempDir {
-    let folder = TempDir::new().unwrap();
     let sweep = format!(
         "base = 'scenario.toml'\nmodel = 'chain'\ndesign = 'sobol'\nsamples = {samples}\nblock_size = 2
 [[parameter]]\nkey = 'projectile.velocity'\nuniform = {{ from = '150 m/s', to = '400 m/s' }}
 [[parameter]]\nkey = 'chain.target_closure'\nvalues = ['column', 'diverging', 'expanding-cavity']\n"
     );
-    fs::write(folder.path().join("scenario.toml"), CASE).unwrap();
-    fs::write(folder.path().join("sweep.toml"), sweep).unwrap();
-    folder
-}
-
-fn sweep(folder: &TempDir, arguments: &[&str]) -> Said {
-    percuss(folder.path(), [&["sweep"], arguments].concat())
-}
-
-fn ok(folder: &TempDir, arguments: &[&str]) -> String {
-    let said = sweep(folder, arguments);
-    assert_eq!((said.code, said.stderr.as_str()), (0, ""), "{arguments:?}");
-    said.stdout
+    folder_with(&[("scenario.toml", CASE), ("sweep.toml", &sweep)])
 }
 
 /// What a command that fails says, on one line.
@@ -60,10 +43,6 @@ fn fails(folder: &TempDir, arguments: &[&str], code: i32) -> String {
     let said = sweep(folder, arguments);
     assert_eq!(said.code, code, "{arguments:?}: {}", said.stderr);
     flat(&said.stderr)
-}
-
-fn flat(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 fn compute(folder: &TempDir, out: &str) {
@@ -74,44 +53,8 @@ fn resume(folder: &TempDir, out: &str) {
     ok(folder, &["sweep.toml", "--out", out, "--quiet", "--resume"]);
 }
 
-/// The merged rows of folders.
-fn merged(folder: &TempDir, parts: &[&str]) -> Vec<u8> {
-    ok(
-        folder,
-        &[&["merge"], parts, &["--out", "rows.parquet"]].concat(),
-    );
-    fs::read(folder.path().join("rows.parquet")).unwrap()
-}
-
-fn block(folder: &TempDir, out: &str, block: u32) -> PathBuf {
-    folder
-        .path()
-        .join(format!("{out}/block-{block:06}.parquet"))
-}
-
 fn program() -> &'static Path {
     assert_cmd::cargo::cargo_bin!("percuss")
-}
-
-fn spawn(folder: &TempDir, arguments: &[&str]) -> Child {
-    Command::new(program())
-        .arg("sweep")
-        .args(arguments)
-        .current_dir(folder.path())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap()
-}
-
-fn count_blocks(path: &Path) -> usize {
-    let Ok(entries) = fs::read_dir(path) else {
-        return 0;
-    };
-    let names = entries.map(|entry| entry.unwrap().file_name());
-    names
-        .filter(|name| name.to_string_lossy().starts_with("block-"))
-        .count()
 }
 
 /// Numbers that look drawn, the same in every run.

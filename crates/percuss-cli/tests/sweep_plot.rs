@@ -1,11 +1,10 @@
 //! `percuss sweep plot`: the figure that suits what is varied, with every shot shown or counted.
 
-mod support;
-
 use std::fs;
 
-use support::{Said, percuss};
 use tempfile::TempDir;
+
+use crate::support::{Said, flat, folder_with, percuss};
 
 const CASE: &str = "
 projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }
@@ -28,11 +27,9 @@ log = { from = '4 mm', to = '20 mm', count = 7 }\n";
 
 /// Computes a sweep into `rows`.
 fn computed(design: &str, parameters: &[&str]) -> TempDir {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("scenario.toml"), CASE).unwrap();
     let head = format!("base = 'scenario.toml'\nmodel = 'chain'\n{design}\nblock_size = 10\n");
     let text = head + &parameters.concat();
-    fs::write(folder.path().join("sweep.toml"), text).unwrap();
+    let folder = folder_with(&[("scenario.toml", CASE), ("sweep.toml", &text)]);
     let arguments = ["sweep", "sweep.toml", "--out", "rows", "--quiet"];
     let said = percuss(folder.path(), arguments);
     assert_eq!((said.code, said.stderr.as_str()), (0, ""));
@@ -128,7 +125,7 @@ fn a_request_that_does_not_fit_is_refused_with_what_does() {
     let folder = computed("design = 'grid'", &[SPEEDS]);
     let refused = |more: &[&str], words: [&str; 2]| {
         let said = plot(&folder, more);
-        let flat = said.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+        let flat = flat(&said.stderr);
         assert_eq!(said.code, 2, "{more:?}: {flat}");
         assert!(
             words.iter().all(|word| flat.contains(word)),

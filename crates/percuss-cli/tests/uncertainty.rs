@@ -1,12 +1,10 @@
 //! `percuss uncertainty`: what uncertain numbers of a case do to its results.
 
-mod support;
+use std::fs;
 
-use std::{fs, path::Path};
-
-use serde_json::Value;
-use support::{Said, percuss};
 use tempfile::TempDir;
+
+use crate::support::{Said, flat, folder_with, json, names_in, percuss, refuses_all_of};
 
 const CASE: &str = "
 projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }
@@ -41,34 +39,20 @@ normal = { mean = '184.5 m/s', standard_deviation = '5 m/s' }
 ";
 
 fn folder() -> TempDir {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("case.toml"), CASE).unwrap();
-    fs::write(
-        folder.path().join("joint.toml"),
-        format!("{CASE}{CORRELATION}"),
-    )
-    .unwrap();
-    fs::write(folder.path().join("blunt.toml"), BLUNT).unwrap();
-    folder
+    folder_with(&[
+        ("case.toml", CASE),
+        ("joint.toml", &format!("{CASE}{CORRELATION}")),
+        ("blunt.toml", BLUNT),
+    ])
 }
 
 fn run(folder: &TempDir, arguments: &[&str]) -> Said {
     percuss(folder.path(), [&["uncertainty"], arguments].concat())
 }
 
+#[track_caller]
 fn ok(folder: &TempDir, arguments: &[&str]) -> String {
-    let said = run(folder, arguments);
-    assert_eq!((said.code, said.stderr.as_str()), (0, ""), "{arguments:?}");
-    said.stdout
-}
-
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
-}
-
-/// A text without its line breaks.
-fn flat(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    run(folder, arguments).ok()
 }
 
 #[test]
@@ -167,11 +151,6 @@ fn a_folder_holds_numbers_and_figures() {
     let text = ok(&folder, &arguments);
     assert!(text.contains("over speed, 256 shots each"), "{text}");
     let found = folder.path().join("found");
-    let mut names: Vec<String> = fs::read_dir(&found)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
     let figures = [
         "bands-residual-velocity",
         "histogram-residual-velocity",
@@ -193,7 +172,7 @@ fn a_folder_holds_numbers_and_figures() {
     expected.extend(tables.map(str::to_owned));
     expected.push("uncertainty.json".to_owned());
     expected.sort();
-    assert_eq!(names, expected);
+    assert_eq!(names_in(&found), expected);
     let samples = fs::read_to_string(found.join("samples.csv")).unwrap();
     assert_eq!(samples.lines().count(), 1025);
     assert!(
@@ -269,70 +248,36 @@ fn what_cannot_be_computed_is_refused() {
 
 #[test]
 fn wrong_tables_are_refused_with_their_place() {
-    let bad = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad-uncertainties");
-    let mut names: Vec<String> = fs::read_dir(&bad)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    assert!(names.len() >= 7, "{}", names.len());
-    for name in names {
-        let said = percuss(&bad, ["uncertainty", &name]);
-        assert_eq!(said.code, 2, "{name}: {}", said.stderr);
-        assert!(
-            said.stderr.contains(&format!("--> {name}")),
-            "{name}: {}",
-            said.stderr
-        );
-        insta::with_settings!({
-            snapshot_path => "snapshots/bad-uncertainties",
-            prepend_module_to_snapshot => false,
-            omit_expression => true,
-        }, {
-            insta::assert_snapshot!(name.trim_end_matches(".toml"), said.stderr);
-        });
-    }
+    refuses_all_of("bad-uncertainties", 7, |bad, name| {
+        percuss(bad, ["uncertainty", name])
+    });
 }
 
 #[test]
 #[cfg(unix)]
 fn ctrl_c_ends_it_and_leaves_no_result() {
-    use std::{
-        process::{Command, Stdio},
-        thread,
-        time::Duration,
-    };
+    use std::{thread, time::Duration};
+
+    use crate::support::{interrupt, spawn};
+
     let folder = folder();
-    let child = Command::new(assert_cmd::cargo::cargo_bin!("percuss"))
-        .args([
+    let child = spawn(
+        folder.path(),
+        &[
             "uncertainty",
             "case.toml",
             "--samples",
             "1048576",
             "--out",
             "found",
-        ])
-        .current_dir(folder.path())
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+        ],
+    );
     // The copy of the case is written just before the first shot.
     while !folder.path().join("found/case-as-run.toml").exists() {
         thread::sleep(Duration::from_millis(5));
     }
     thread::sleep(Duration::from_millis(300));
-    let id = child.id().to_string();
-    assert!(
-        Command::new("kill")
-            .args(["-INT", &id])
-            .status()
-            .unwrap()
-            .success()
-    );
-    let output = child.wait_with_output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(130), "{said}");
+    let said = interrupt(child);
     assert!(
         said.contains("the analysis was stopped and left no result"),
         "{said}"

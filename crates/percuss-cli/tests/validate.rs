@@ -1,12 +1,10 @@
 //! `percuss validate` on small files, and what it says of wrong ones.
 
-mod support;
-
 use std::{fs, path::Path};
 
-use serde_json::Value;
-use support::{Said, percuss};
 use tempfile::TempDir;
+
+use crate::support::{Said, json, percuss};
 
 const SHOTS: &str = "\
 id,source,kind,projectile_material,diameter_mm,length_mm,impact_velocity_m_s,target_material,measured,unit,flag
@@ -21,6 +19,7 @@ fn folder_with(shots: &str) -> TempDir {
     folder
 }
 
+#[track_caller]
 fn ok(folder: &Path, arguments: &[&str]) -> String {
     let said = percuss(
         folder,
@@ -30,8 +29,7 @@ fn ok(folder: &Path, arguments: &[&str]) -> String {
         ]
         .concat(),
     );
-    assert_eq!((said.code, said.stderr.as_str()), (0, ""), "{arguments:?}");
-    said.stdout
+    said.ok()
 }
 
 #[test]
@@ -61,7 +59,7 @@ fn a_users_shots_take_the_place_of_the_programs() {
 #[test]
 fn json_holds_statistics_and_predictions() {
     let folder = folder_with(SHOTS);
-    let json: Value = serde_json::from_str(&ok(folder.path(), &["--json"])).unwrap();
+    let json = json(&ok(folder.path(), &["--json"]));
     assert_eq!(json["shots"], 3);
     let predictions = json["predictions"].as_array().unwrap();
     assert_eq!(predictions.len(), 4);
@@ -146,6 +144,7 @@ fn refused(shots: &str, arguments: &[&str]) -> String {
         code,
         stdout,
         stderr,
+        ..
     } = percuss(folder.path(), [&["validate"], arguments].concat());
     assert_eq!((code, stdout.as_str()), (2, ""), "{stderr}");
     assert!(

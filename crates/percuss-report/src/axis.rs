@@ -72,6 +72,14 @@ impl Axis {
         self
     }
 
+    /// Gives data that start at zero the margin that other data have, unless the range is set.
+    pub(crate) fn clear_of_zero(self, extent: (f64, f64)) -> Self {
+        match extent.0 == 0.0 && !self.tight && !self.log {
+            true => self.range_around(extent, (MARGIN, MARGIN)),
+            false => self,
+        }
+    }
+
     /// Whether a value can be shown.
     pub(crate) fn shows(&self, value: f64) -> bool {
         value.is_finite() && (!self.log || value > 0.0)

@@ -6,7 +6,8 @@ use kuva::render::render::TextAnchor;
 use crate::{
     Axis, Figure, Mark,
     frame::{Frame, plain},
-    primitives::{area_entry, bar, border, line, mark, mark_entry, text},
+    mark,
+    primitives::{area_entry, bar, border, line, text},
 };
 
 /// Most characters of a name.
@@ -109,7 +110,6 @@ impl BarRows {
             .colors
             .iter()
             .map(|(name, color)| area_entry(name, color));
-        let marks = self.marks.iter().filter(|mark| !mark.name.is_empty());
         let frame = Frame {
             name: &self.name,
             title: &self.title,
@@ -120,9 +120,7 @@ impl BarRows {
             y_extent: (0.5, count + 0.5),
             height: SURROUNDINGS + ROW * count.max(2.0),
             right_margin: None,
-            legend: legend
-                .chain(marks.map(|mark| mark_entry(&mark.name)))
-                .collect(),
+            legend: legend.chain(mark::entries(&self.marks)).collect(),
             marks: Vec::new(),
         };
         // Axes are drawn only for a plot, so there is one without content.
@@ -155,8 +153,8 @@ impl BarRows {
                     ));
                 }
             }
-            for at in &self.marks {
-                scene.add(mark(place, at.value));
+            for across in mark::lines(&self.marks, place) {
+                scene.add(across);
             }
             let (left, top) = (place.margin_left, place.margin_top);
             scene.add(border(left, top, place.plot_width(), place.plot_height()));

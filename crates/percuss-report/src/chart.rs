@@ -6,18 +6,16 @@ use kuva::plot::{
     line::{LineStyle, ScatterPoint as LinePoint},
     scatter::{MarkerShape, ScatterPoint},
 };
-use kuva::render::{annotations::ReferenceLine, plots::Plot};
+use kuva::render::plots::Plot;
 
 use crate::{
     Axis, Figure, Mark, Series, Style,
     frame::{Frame, HEIGHT, WIDTH, plain},
-    palette,
+    mark, palette,
 };
 
 /// Dashes of a dashed line and gaps between them [px], short enough for two of them in the legend.
 const DASHES: &str = "5 2.5";
-/// Dashes of a mark [px].
-const MARK_DASHES: &str = "2 2";
 /// Opacity of the area of a band.
 const BAND_OPACITY: f64 = 0.18;
 /// Most characters of a name in the legend.
@@ -101,15 +99,27 @@ impl LineChart {
             height: HEIGHT,
             right_margin: None,
             legend: self.legend(),
-            marks: self.reference_lines(),
+            marks: mark::reference_lines(&self.marks),
         };
         let (mut x, mut y) = (self.x.clone(), self.y.clone());
         if self.true_to_scale {
             frame.height = true_to_scale(&mut x, &mut y, frame.x_extent, frame.y_extent);
-            frame.x = &x;
-            frame.y = &y;
         }
+        // A marker at zero would be cut in halves by an axis that starts there.
+        if self.has_marker_at(|point| point.0 == 0.0) {
+            x = x.clear_of_zero(x_extent);
+        }
+        if self.has_marker_at(|point| point.1 == 0.0) {
+            y = y.clear_of_zero(y_extent);
+        }
+        frame.x = &x;
+        frame.y = &y;
         frame.draw(self.plots(), |_, _| {})
+    }
+
+    fn has_marker_at(&self, place: impl Fn(&(f64, f64)) -> bool) -> bool {
+        let marked = self.series.iter().filter(|s| s.style.has_markers());
+        marked.flat_map(|series| &series.points).any(place)
     }
 
     /// Smallest and largest value on either axis.
@@ -228,17 +238,7 @@ impl LineChart {
             let dashes = (series.style == Style::Dashed).then(|| DASHES.to_owned());
             (legend_name(series), self.color(index), shape, dashes)
         });
-        let marks = self.marks.iter().map(|mark| {
-            let dashes = Some(MARK_DASHES.to_owned());
-            (
-                mark.name.clone(),
-                palette::MARK.to_owned(),
-                LegendShape::Line,
-                dashes,
-            )
-        });
         series
-            .chain(marks)
             .filter(|entry| !entry.0.is_empty())
             .map(|(name, color, shape, dasharray)| LegendEntry {
                 label: plain(&name, LEGEND_CHARS),
@@ -246,22 +246,7 @@ impl LineChart {
                 shape,
                 dasharray,
             })
-            .collect()
-    }
-
-    fn reference_lines(&self) -> Vec<ReferenceLine> {
-        self.marks
-            .iter()
-            .map(|mark| {
-                let line = if mark.vertical {
-                    ReferenceLine::vertical(mark.value)
-                } else {
-                    ReferenceLine::horizontal(mark.value)
-                };
-                line.with_color(palette::MARK)
-                    .with_stroke_width(1.2)
-                    .with_dasharray(MARK_DASHES)
-            })
+            .chain(mark::entries(&self.marks))
             .collect()
     }
 }

@@ -5,8 +5,8 @@ use kuva::plot::LinePlot;
 use crate::{
     Axis, Figure, Mark,
     frame::{Frame, HEIGHT},
-    palette,
-    primitives::{bar, border, mark, mark_entry},
+    mark, palette,
+    primitives::{bar, border},
 };
 
 /// Fewest and most bins.
@@ -101,12 +101,7 @@ impl Histogram {
             y_extent: y.extent(parts.iter().copied().chain([0.0])),
             height: HEIGHT,
             right_margin: None,
-            legend: self
-                .marks
-                .iter()
-                .filter(|mark| !mark.name.is_empty())
-                .map(|mark| mark_entry(&mark.name))
-                .collect(),
+            legend: mark::entries(&self.marks).collect(),
             marks: Vec::new(),
         };
         // Axes are drawn only for a plot, so there is one without content.
@@ -119,8 +114,8 @@ impl Histogram {
                     palette::symbol_color(4),
                 ));
             }
-            for at in &self.marks {
-                scene.add(mark(place, at.value));
+            for line in mark::lines(&self.marks, place) {
+                scene.add(line);
             }
             let (left, top) = (place.margin_left, place.margin_top);
             scene.add(border(left, top, place.plot_width(), place.plot_height()));

@@ -3,14 +3,11 @@
 use kuva::plot::legend::{LegendEntry, LegendShape};
 use kuva::render::{
     color::Color,
-    layout::ComputedLayout,
     render::{PathData, Primitive, TextAnchor},
 };
 
-use crate::{frame::plain, palette};
+use crate::frame::plain;
 
-/// Dashes of a mark [px].
-const MARK_DASHES: &str = "2 2";
 /// Most characters of a name in the legend.
 const NAME_CHARS: usize = 34;
 
@@ -64,30 +61,6 @@ pub(crate) fn bar(from: (f64, f64), to: (f64, f64), color: &str) -> Primitive {
         stroke: None,
         stroke_width: None,
         opacity: None,
-    }
-}
-
-/// A vertical dashed line that marks a value, from top to bottom.
-pub(crate) fn mark(place: &ComputedLayout, value: f64) -> Primitive {
-    let (x, top) = (place.map_x(value), place.margin_top);
-    Primitive::Line {
-        x1: x,
-        y1: top,
-        x2: x,
-        y2: top + place.plot_height(),
-        stroke: Color::from(palette::MARK),
-        stroke_width: 1.2,
-        stroke_dasharray: Some(MARK_DASHES.to_owned()),
-    }
-}
-
-/// What the legend says of a mark.
-pub(crate) fn mark_entry(name: &str) -> LegendEntry {
-    LegendEntry {
-        label: plain(name, NAME_CHARS),
-        color: palette::MARK.to_owned(),
-        shape: LegendShape::Line,
-        dasharray: Some(MARK_DASHES.to_owned()),
     }
 }
 

@@ -1,13 +1,11 @@
 //! Charts of one value a row, each with its range.
 
 use kuva::plot::forest::{ForestPlot, ForestRow};
-use kuva::plot::legend::{LegendEntry, LegendShape};
-use kuva::render::annotations::ReferenceLine;
 
 use crate::{
     Axis, Figure, Mark,
     frame::{Frame, plain},
-    palette,
+    mark,
 };
 
 /// Most characters of a name.
@@ -17,8 +15,6 @@ const ROW: f64 = 30.0;
 const SURROUNDINGS: f64 = 150.0;
 /// Half the size of the square at a value [px].
 const MARKER: f64 = 5.0;
-/// Dashes of a mark [px].
-const MARK_DASHES: &str = "2 2";
 
 /// A chart of named values, the first one at the top.
 #[derive(Debug, Clone, PartialEq)]
@@ -125,27 +121,8 @@ impl RowChart {
             y_extent: (0.5, count.max(1.0) + 0.5),
             height: SURROUNDINGS + ROW * count.max(2.0),
             right_margin: None,
-            legend: self
-                .marks
-                .iter()
-                .filter(|mark| !mark.name.is_empty())
-                .map(|mark| LegendEntry {
-                    label: plain(&mark.name, NAME_CHARS),
-                    color: palette::MARK.to_owned(),
-                    shape: LegendShape::Line,
-                    dasharray: Some(MARK_DASHES.to_owned()),
-                })
-                .collect(),
-            marks: self
-                .marks
-                .iter()
-                .map(|mark| {
-                    ReferenceLine::vertical(mark.value)
-                        .with_color(palette::MARK)
-                        .with_stroke_width(1.2)
-                        .with_dasharray(MARK_DASHES)
-                })
-                .collect(),
+            legend: mark::entries(&self.marks).collect(),
+            marks: mark::reference_lines(&self.marks),
         };
         frame.draw(vec![plot.into()], |_, _| {})
     }

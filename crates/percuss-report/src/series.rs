@@ -88,30 +88,3 @@ impl Series {
         self
     }
 }
-
-/// A line across the plot at one value.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Mark {
-    pub(crate) name: String,
-    pub(crate) value: f64,
-    pub(crate) vertical: bool,
-}
-
-impl Mark {
-    /// A horizontal line at `y`; an empty name keeps it out of the legend.
-    pub fn horizontal(name: impl Into<String>, y: f64) -> Self {
-        Self {
-            name: name.into(),
-            value: y,
-            vertical: false,
-        }
-    }
-
-    /// A vertical line at `x`; an empty name keeps it out of the legend.
-    pub fn vertical(name: impl Into<String>, x: f64) -> Self {
-        Self {
-            vertical: true,
-            ..Self::horizontal(name, x)
-        }
-    }
-}

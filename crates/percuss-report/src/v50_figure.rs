@@ -60,10 +60,13 @@ pub fn v50_figure(name: &str, shots: &[Shot], v50: &V50) -> Figure {
 /// V50 and the ends of its interval.
 fn marks(mut chart: LineChart, entry: &Estimate) -> LineChart {
     if let Some(value) = entry.v50_m_s {
-        chart = chart.mark(Mark::vertical(format!("V50 {}", significant(value)), value));
+        chart = chart.mark(Mark::vertical(
+            format!("V50 {} m/s", significant(value)),
+            value,
+        ));
     }
     if let (Some(low), Some(high)) = (entry.low_m_s, entry.high_m_s) {
-        let name = format!("95 % {} to {}", significant(low), significant(high));
+        let name = format!("95 % {} to {} m/s", significant(low), significant(high));
         chart = chart.mark(Mark::vertical(name, low));
         chart = chart.mark(Mark::vertical("", high));
     }

@@ -1,8 +1,6 @@
 //! The axisymmetric model on case files: rods on a rigid wall.
 
-mod common;
-
-use common::{assert_near, scenario};
+use crate::common::{assert_near, scenario};
 use percuss::{
     model::{self, Control},
     outcome::RunResult,
@@ -62,7 +60,7 @@ fn a_copper_rod_is_as_long_as_in_an_independent_program() {
 fn a_copper_rod_is_near_the_measured_length_without_a_fit() {
     // [wilkins1973], by the power law of quasi-static tests and the paper's density.
     for (speed, length) in [(89.0, 21.01), (183.0, 16.81)] {
-        let result = axi(&common::wilkins(speed));
+        let result = axi(&crate::common::wilkins(speed));
         let computed = 1e3 * result.projectile_final_length.unwrap();
         assert_near(&format!("length at {speed} m/s"), computed, length, 4e-2);
         let widened = result.projectile_final_diameter.unwrap() / 7.62e-3;

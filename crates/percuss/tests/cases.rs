@@ -1,7 +1,5 @@
 //! Every folder of `cases/` gives what its `expected.toml` says.
 
-mod common;
-
 use std::{fs, path::PathBuf};
 
 use percuss::{
@@ -77,13 +75,13 @@ fn check(folder: &str) {
             expected.quantity.as_str(),
         ) {
             (Some(from), Some(to), "interface_velocity_m_s") => {
-                common::mean(&result, from.si(), to.si(), |s| s.interface_velocity)
+                crate::common::mean(&result, from.si(), to.si(), |s| s.interface_velocity)
             }
             (Some(from), Some(to), "back_velocity_m_s") => {
-                common::mean(&result, from.si(), to.si(), |s| s.back_velocity)
+                crate::common::mean(&result, from.si(), to.si(), |s| s.back_velocity)
             }
             (Some(from), Some(to), "contact_force_kn") => {
-                common::mean(&result, from.si(), to.si(), |s| s.contact_force * 1e-3)
+                crate::common::mean(&result, from.si(), to.si(), |s| s.contact_force * 1e-3)
             }
             (None, None, "projectile_mass_g") => scenario.projectile.mass * 1e3,
             (None, None, quantity) => {

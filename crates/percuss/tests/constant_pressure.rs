@@ -1,8 +1,6 @@
 //! Ladder 4: a projectile that does not deform against a constant pressure stops after `ρ L V²/(2R)`.
 
-mod common;
-
-use common::{assert_near, run};
+use crate::common::{assert_near, run};
 use percuss::outcome::Outcome;
 
 fn stopped_by(pressure_mpa: f64, velocity: f64, courant: f64) -> percuss::outcome::RunResult {

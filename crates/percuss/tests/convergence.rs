@@ -1,8 +1,6 @@
 //! Ladder 8: observed order of convergence on problems with an exact solution.
 
-mod common;
-
-use common::{mean, run, run_recorded};
+use crate::common::{mean, run, run_recorded};
 
 /// Order from errors on meshes that are each twice as fine as the last, from the coarsest to the finest.
 fn order(errors: &[f64]) -> f64 {

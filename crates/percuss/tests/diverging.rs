@@ -1,10 +1,8 @@
 //! Ladder 1, 5 and 8: targets that widen, against what is known exactly of a cone and of steady penetration.
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{assert_near, paper, plastic_metal, run, run_recorded};
+use crate::common::{assert_near, paper, plastic_metal, run, run_recorded};
 use percuss::{analytic::Rods, case, history::Sample, outcome::RunResult};
 
 const RADIUS: f64 = 5e-3;

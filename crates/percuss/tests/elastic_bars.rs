@@ -1,8 +1,6 @@
 //! Ladder 1: elastic bars have exact solutions.
 
-mod common;
-
-use common::{assert_near, mean, run_recorded};
+use crate::common::{assert_near, mean, rods::elastic_bars, run_recorded};
 use percuss::outcome::Outcome;
 
 /// Two elastic bars with the elastic constants of Table 1, in small strain.
@@ -14,30 +12,11 @@ fn bars(
     elements: (u32, u32),
     options: &str,
 ) -> String {
-    format!(
-        r#"
-        projectile = {{ material = "rod", length = "12.74 mm", diameter = "4.8 mm", velocity = "{velocity} m/s" }}
-        target = {{ material = "{target}", thickness = "{thickness_mm} mm", back_face = "{back_face}" }}
-        [chain]
-        projectile_elements = {}
-        target_elements = {}
-        border_shear = 0.0
-        {options}
-        [materials.rod]
-        name = "elastic copper"
-        density = "8500 kg/m3"
-        youngs_modulus = "114 GPa"
-        poissons_ratio = 0.34
-        strength.elastic = {{}}
-        [materials.plate]
-        name = "elastic aluminium"
-        density = "2780 kg/m3"
-        youngs_modulus = "70 GPa"
-        poissons_ratio = 0.33
-        strength.elastic = {{}}
-        "#,
-        elements.0, elements.1
-    )
+    let (projectile, plate) = elements;
+    let options = format!(
+        "[chain]\nprojectile_elements = {projectile}\ntarget_elements = {plate}\nborder_shear = 0.0\n{options}"
+    );
+    elastic_bars(velocity, target, thickness_mm, back_face, &options)
 }
 
 const SMALL: &str = "kinematics = \"small-strain\"";

@@ -1,10 +1,8 @@
 //! Ladder 5: long eroding rods by the chain against Alekseevskii and Tate with the same strengths.
 
-mod common;
-
 use std::{f64::consts::PI, fmt};
 
-use common::{plastic_metal, run, run_recorded, scenario};
+use crate::common::{plastic_metal, run, run_recorded, scenario};
 use percuss::{
     analytic::{Rods, Tate},
     case,

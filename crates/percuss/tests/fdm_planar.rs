@@ -1,8 +1,6 @@
 //! Planar finite differences against exact shocks, jump conditions and wave diagrams.
 
-mod common;
-
-use common::{assert_near, fdm_recorded};
+use crate::common::{assert_near, fdm_recorded};
 use percuss::{
     fdm::planar::{
         Boundary, CellState, Column, DEFAULT_VISCOSITY, Layer, Medium, Solid, StateEquation,
@@ -523,7 +521,7 @@ fn a_flyer_plate_as_a_case() {
 #[test]
 fn planar_cases_outside_are_refused_with_a_reason() {
     let refusal = |text: &str| {
-        let scenario = common::scenario(text);
+        let scenario = crate::common::scenario(text);
         let model = percuss::model::model("fdm").unwrap();
         let mut control = percuss::model::Control::default();
         percuss::model::run(model, &scenario, &mut control)

@@ -1,8 +1,6 @@
 //! Properties that hold for any valid case.
 
-mod common;
-
-use common::run;
+use crate::common::run;
 use percuss::{
     Error, case,
     material::{Library, MaterialClass},
@@ -249,7 +247,7 @@ fn lengths_scale() {
 #[test]
 fn depth_grows_with_speed() {
     let depth = |velocity: f64| {
-        run(&common::paper(velocity, (40, 80), ""))
+        run(&crate::common::paper(velocity, (40, 80), ""))
             .depth_of_penetration
             .unwrap()
     };

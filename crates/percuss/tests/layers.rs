@@ -1,8 +1,6 @@
 //! Ladder 1: layers of elastic material, against exact solutions.
 
-mod common;
-
-use common::{assert_near, run, run_recorded};
+use crate::common::{assert_near, run, run_recorded};
 use percuss::{history::ElementState, outcome::RunResult};
 
 /// Elastic materials: Young's modulus [GPa] and density [kg/m3].

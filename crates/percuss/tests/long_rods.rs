@@ -1,8 +1,6 @@
 //! What must hold of every model of long eroding rods, through the case file.
 
-mod common;
-
-use common::scenario;
+use crate::common::scenario;
 use percuss::{
     analytic::{Hydrodynamic, LanzOdermatt, Tate, WalkerAnderson},
     model::{self, Control, Model},

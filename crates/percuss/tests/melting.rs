@@ -1,8 +1,6 @@
 //! Rate and heat act in projectile and target alike, up to the melting point.
 
-mod common;
-
-use common::run;
+use crate::common::run;
 use percuss::outcome::RunResult;
 
 /// A rod on a plate of the same metal, which melts at a temperature [K].

@@ -1,8 +1,6 @@
 //! Models of perforation under oblique impact: exact relations, who takes it, and measured limits.
 
-mod common;
-
-use common::plates::{METAL, OGIVE, refusal, run, scenario, try_run};
+use crate::common::plates::{METAL, OGIVE, refusal, run, scenario, try_run};
 use percuss::{Scenario, model};
 
 /// A case with its path at an angle to the normal [deg].

@@ -1,10 +1,8 @@
 //! Models of the perforation of plates against exact answers and measured ballistic limits.
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::plates::{CONE, METAL, OGIVE, detail, refusal, run, scenario};
+use crate::common::plates::{CONE, METAL, OGIVE, detail, refusal, run, scenario};
 use percuss::{
     Scenario, case,
     material::cylindrical_cavity_pressure,

@@ -3,9 +3,7 @@
 //! Its figures are depths [mm] with the tip at the moment the projectile's momentum is used up. They are no truth; where
 //! the two differ, `docs/verification.md` says why.
 
-mod common;
-
-use common::{assert_near, paper, run, wilkins};
+use crate::common::{assert_near, paper, run, wilkins};
 
 /// The target that both implement.
 const COLUMN: &str = "target_closure = \"column\"";

@@ -1,8 +1,6 @@
 //! Scheme `published`: what the paper prints, and what two readings of it give.
 
-mod common;
-
-use common::{assert_near, paper, run, scenario};
+use crate::common::{assert_near, paper, run, scenario};
 use percuss::chain::Published;
 
 /// Five meshes of the paper's figure 8.

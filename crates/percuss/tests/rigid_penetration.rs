@@ -1,8 +1,6 @@
 //! Rigid projectiles in thick targets: limits, scaling, guards, by every model that takes them.
 
-mod common;
-
-use common::{assert_near, scenario};
+use crate::common::{assert_near, scenario};
 use percuss::{
     Error, Scenario,
     analytic::{CavityExpansion, effective_yield_stress},

@@ -1,8 +1,6 @@
 //! Rods on a rigid wall, by the models of one flow stress.
 
-mod common;
-
-use common::{assert_near, scenario, wilkins};
+use crate::common::{assert_near, scenario, wilkins};
 use percuss::{
     Scenario,
     analytic::{mean_flow_stress, taylor_yield_stress, wilkins_guinan_length},

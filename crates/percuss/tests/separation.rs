@@ -1,8 +1,6 @@
 //! Ladder 1: bodies that part in tension, against exact solutions of elastic bars.
 
-mod common;
-
-use common::{assert_near, mean, run_recorded};
+use crate::common::{assert_near, mean, run_recorded};
 use percuss::{fragments::Fragment, outcome::RunResult};
 
 /// A flyer (length, modulus, density) at a speed on a free plate; all elastic, in small strain.
@@ -182,7 +180,8 @@ fn bodies_that_cannot_part_are_named() {
         )
     };
     let chain = percuss::model::model("chain").unwrap();
-    let reason = percuss::model::applicability(chain, &common::scenario(&shot(""))).unwrap_err();
+    let reason =
+        percuss::model::applicability(chain, &crate::common::scenario(&shot(""))).unwrap_err();
     assert!(
         reason.contains("`chain.failure.spall`") && reason.contains("`spall_strength`"),
         "{reason}"
@@ -200,7 +199,7 @@ fn bodies_that_cannot_part_are_named() {
 /// Gaps and bonds are the chain's alone.
 #[test]
 fn models_that_take_layers_as_one_body_refuse_gaps() {
-    let scenario = common::scenario(
+    let scenario = crate::common::scenario(
         "projectile = { material = \"4340\", length = \"5 mm\", diameter = \"8 mm\", velocity = \"100 m/s\" }\n\
          target = { layers = [{ material = \"4340\", thickness = \"5 mm\" }, { material = \"4340\", thickness = \"5 mm\", gap = \"1 mm\" }] }",
     );

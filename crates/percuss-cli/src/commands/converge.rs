@@ -16,6 +16,7 @@ use crate::{
     progress::Progress,
     run_folder::make_folder,
     terminal::{self, bold, width, wrap},
+    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
@@ -102,13 +103,7 @@ impl Converge {
         );
         text += &table(&study);
         text += &verdicts(&study);
-        if !written.is_empty() {
-            text += &format!("\n{}\n", bold("wrote"));
-            for file in written {
-                text += &format!("  {}\n", file.display());
-            }
-        }
-        terminal::print(&text)
+        Written::new(&written).print_under(text)
     }
 
     /// What the command prints with --json.

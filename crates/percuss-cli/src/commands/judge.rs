@@ -8,12 +8,8 @@ use percuss_report::judgement::{self, Judgement, Origin};
 use serde::Serialize;
 
 use crate::{
-    diagnostic,
-    failure::Failure,
-    judgement_table,
-    progress::Progress,
-    run_folder::make_folder,
-    terminal::{self, bold},
+    diagnostic, failure::Failure, judgement_table, progress::Progress, run_folder::make_folder,
+    terminal, written::Written,
 };
 
 const LONG_ABOUT: &str = "\
@@ -138,20 +134,15 @@ impl Judge {
             reference: origin,
             command: self.command(),
         };
-        let mut written = String::new();
+        let mut paths = Vec::new();
         if let Some(out) = &self.out {
             progress.update(0.7, "drawing figures");
-            for path in judgement::write(out, &judgement, &origin)? {
-                written += &format!("  {}\n", path.display());
-            }
+            paths = judgement::write(out, &judgement, &origin)?;
         }
         progress.finish();
+        let written = Written::new(&paths);
         if self.json {
-            terminal::print_json(&record(&judgement, &origin))?;
-            if !written.is_empty() && !self.quiet {
-                diagnostic::print(&format!("wrote\n{written}"));
-            }
-            return Ok(());
+            return written.print_json(&record(&judgement, &origin), self.quiet);
         }
         if self.quiet {
             let lines: String = judge::statistics(&judgement.verdicts, Grouping::All)
@@ -161,11 +152,7 @@ impl Judge {
             return terminal::print(&lines);
         }
         let by: Vec<Grouping> = self.by.iter().copied().map(Grouping::from).collect();
-        let mut text = judgement_table::text(&judgement, &origin, &by);
-        if !written.is_empty() {
-            text += &format!("\n{}\n{written}", bold("wrote"));
-        }
-        terminal::print(&text)
+        written.print_under(judgement_table::text(&judgement, &origin, &by))
     }
 
     /// The reference and what it comes from.

@@ -10,7 +10,8 @@ use crate::{
     failure::Failure,
     progress::Progress,
     run_folder::make_folder,
-    terminal::{self, bold, width, wrap, yellow},
+    terminal::{bold, width, wrap, yellow},
+    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
@@ -59,7 +60,7 @@ impl Reproduce {
     pub fn run(&self) -> Result<(), Failure> {
         make_folder(&self.out)?;
         let mut progress = Progress::new(true);
-        let (mut text, written) = match self.work {
+        let (text, written) = match self.work {
             Work::Paper => {
                 let reproduction = paper::reproduce(&mut |fraction| {
                     progress.update(fraction, "running the paper's cases");
@@ -76,11 +77,7 @@ impl Reproduce {
             }
         };
         progress.finish();
-        text += &format!("\n{}\n", bold("wrote"));
-        for file in written {
-            text += &format!("  {}\n", file.display());
-        }
-        terminal::print(&text)
+        Written::new(&written).print_under(text)
     }
 }
 

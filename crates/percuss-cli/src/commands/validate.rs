@@ -12,14 +12,8 @@ use percuss_report::validation::{self, Origin};
 use serde::Serialize;
 
 use crate::{
-    answer::Hear,
-    diagnostic,
-    failure::Failure,
-    progress::Progress,
-    run_folder::make_folder,
-    shot_data,
-    terminal::{self, bold},
-    validation_table,
+    answer::Hear, failure::Failure, progress::Progress, run_folder::make_folder, shot_data,
+    terminal, validation_table, written::Written,
 };
 
 const LONG_ABOUT: &str = "\
@@ -112,7 +106,7 @@ impl Validate {
         let validation = self.compute(&models, &shots, &library, &mut progress.hear());
         progress.finish();
         let validation = validation?;
-        let mut written = String::new();
+        let mut paths = Vec::new();
         if let Some(out) = &self.out {
             let origin = Origin {
                 files: files.clone(),
@@ -120,18 +114,13 @@ impl Validate {
             };
             let mut progress = Progress::new(!self.quiet);
             progress.update(0.5, "drawing figures");
-            let paths = validation::write(out, &validation, &origin);
+            let wrote = validation::write(out, &validation, &origin);
             progress.finish();
-            for path in paths? {
-                written += &format!("  {}\n", path.display());
-            }
+            paths = wrote?;
         }
+        let written = Written::new(&paths);
         if self.json {
-            terminal::print_json(&record(&validation, files))?;
-            if !written.is_empty() && !self.quiet {
-                diagnostic::print(&format!("wrote\n{written}"));
-            }
-            return Ok(());
+            return written.print_json(&record(&validation, files), self.quiet);
         }
         if self.quiet {
             let lines: String = validate::statistics(&validation, Grouping::All)
@@ -140,11 +129,8 @@ impl Validate {
                 .collect();
             return terminal::print(&lines);
         }
-        let mut text = validation_table::text(&validation, &files, self.model.len() == 1);
-        if !written.is_empty() {
-            text += &format!("\n{}\n{written}", bold("wrote"));
-        }
-        terminal::print(&text)
+        let text = validation_table::text(&validation, &files, self.model.len() == 1);
+        written.print_under(text)
     }
 
     /// What the command prints with --json.

@@ -1,27 +1,76 @@
 //! Running the program and looking at what it says.
 
-use std::{ffi::OsStr, path::Path};
+pub mod sweeps;
+
+use std::{
+    ffi::OsStr,
+    fs,
+    path::Path,
+    process::{Child, Command, Stdio},
+    time::Duration,
+};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// A quick case.
+pub const CASE: &str = r#"
+title = "Copper on aluminium"
+projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+target = { material = "aluminium-2024-t351", thickness = "25 mm" }
+chain = { projectile_elements = 20, target_elements = 40 }
+"#;
+
+/// A folder that holds files of these names and texts.
+pub fn folder_with(files: &[(&str, &str)]) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    for (name, text) in files {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+/// A folder with a case `shot.toml`.
+pub fn shot(case: &str) -> TempDir {
+    folder_with(&[("shot.toml", case)])
+}
 
 /// What a run of the program left.
 pub struct Said {
+    asked: String,
     pub code: i32,
     pub stdout: String,
     pub stderr: String,
 }
 
+impl Said {
+    /// What a command says that must succeed without a word on standard error.
+    #[track_caller]
+    pub fn ok(self) -> String {
+        let Self {
+            asked,
+            code,
+            stdout,
+            stderr,
+        } = self;
+        assert_eq!((code, stderr.as_str()), (0, ""), "{asked}");
+        stdout
+    }
+}
+
 /// Runs the program in a folder.
 pub fn percuss<I: AsRef<OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = I>) -> Said {
-    let output = assert_cmd::Command::cargo_bin("percuss")
-        .expect("the program is built")
+    let mut command = assert_cmd::Command::cargo_bin("percuss").expect("the program is built");
+    command
         .args(arguments)
         .current_dir(folder)
         .env_remove("NO_COLOR")
         .env_remove("COLUMNS")
-        .timeout(std::time::Duration::from_secs(120))
-        .output()
-        .expect("the program starts");
+        .timeout(Duration::from_secs(120));
+    let output = command.output().expect("the program starts");
     let text = |bytes| String::from_utf8(bytes).expect("output is UTF-8");
     let said = Said {
+        asked: format!("{command:?}"),
         code: output.status.code().expect("the program ends by itself"),
         stdout: text(output.stdout),
         stderr: text(output.stderr),
@@ -34,4 +83,78 @@ pub fn percuss<I: AsRef<OsStr>>(folder: &Path, arguments: impl IntoIterator<Item
         assert!(!text.contains("panicked"), "{text}");
     }
     said
+}
+
+/// What a command says that must succeed without a word on standard error.
+#[track_caller]
+pub fn ok(folder: &Path, arguments: &[&str]) -> String {
+    percuss(folder, arguments).ok()
+}
+
+/// A text without its line breaks.
+pub fn flat(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[track_caller]
+pub fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+/// Starts the program in a folder and goes on.
+pub fn spawn(folder: &Path, arguments: &[&str]) -> Child {
+    Command::new(assert_cmd::cargo::cargo_bin!("percuss"))
+        .args(arguments)
+        .current_dir(folder)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+/// Presses Ctrl-C and returns what the program says then.
+#[cfg(unix)]
+pub fn interrupt(child: Child) -> String {
+    let id = child.id().to_string();
+    let sent = Command::new("kill").args(["-INT", &id]).status().unwrap();
+    assert!(sent.success());
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    said
+}
+
+/// Every file of a folder of wrong ones is refused with its place, in the approved words.
+pub fn refuses_all_of(folder: &str, at_least: usize, command: impl Fn(&Path, &str) -> Said) {
+    let bad = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests")
+        .join(folder);
+    let names = names_in(&bad);
+    assert!(names.len() >= at_least, "{}", names.len());
+    for name in names {
+        let said = command(&bad, &name);
+        assert_eq!(said.code, 2, "{name}: {}", said.stderr);
+        assert!(
+            said.stderr.contains(&format!("--> {name}")),
+            "{name}: {}",
+            said.stderr
+        );
+        insta::with_settings!({
+            snapshot_path => format!("../snapshots/{folder}"),
+            prepend_module_to_snapshot => false,
+            omit_expression => true,
+        }, {
+            insta::assert_snapshot!(name.trim_end_matches(".toml"), said.stderr);
+        });
+    }
+}
+
+/// Names of what a folder holds, in order.
+pub fn names_in(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> = entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
 }

@@ -55,7 +55,8 @@ fn parameter_columns() -> Vec<Column<ParameterRecord>> {
         marginal("quantile_50", |m| m.quantiles[1]),
         marginal("quantile_97_5", |m| m.quantiles[2]),
         marginal("r_hat", |m| m.r_hat),
-        marginal("effective_size", |m| m.effective_size),
+        marginal("bulk_effective_size", |m| m.bulk_effective_size),
+        marginal("tail_effective_size", |m| m.tail_effective_size),
     ]
 }
 

@@ -64,11 +64,11 @@ fn percent(prediction: &Prediction, difference: f64) -> f64 {
 
 fn caption(calibration: &Calibration) -> String {
     let of = |quality: &percuss::calibrate::Quality| {
-        let inside = quality
-            .inside
-            .map_or_else(String::new, |inside| format!(", {inside} in their bands"));
+        let inside = quality.inside.map_or_else(String::new, |inside| {
+            format!(", {inside} of them within their bars")
+        });
         format!(
-            "RMS {:.1} % of {}{inside}",
+            "RMS error {:.1} % over {} values{inside}",
             100.0 * quality.rms,
             quality.count
         )

@@ -48,7 +48,7 @@ pub(super) fn bands(
         caption(scenario, None)
     ))
     .series(
-        Series::new("median", percentile(50.0))
+        Series::new("median (25 to 75 % darker)", percentile(50.0))
             .color(color)
             .band(between(5.0, 95.0)),
     )
@@ -122,7 +122,7 @@ pub(super) fn perforation(scenario: &Scenario, found: &Uncertainty) -> Option<Fi
         Axis::new("chance of perforation [%]").range(-4.0, 104.0),
     )
     .caption(format!(
-        "{}; band: 95 % interval of the number of shots",
+        "{}; band: 95 % interval, for the number of shots is finite",
         caption(scenario, None)
     ))
     .series(Series::new(format!("model {}", found.model), curve).band(band));

@@ -12,7 +12,7 @@ use crate::{
     Error, Scenario,
     case::Target,
     check::{Check, limits},
-    guard::{Guard, Measure, Outside, Range},
+    guard::{Guard, Range},
     material::cavity_expansion_pressure,
     model::{Control, Model},
     outcome::{BandQuantity, Outcome, RunResult},
@@ -117,13 +117,7 @@ impl Model for CraterEnergy {
             &Guard {
                 predicts: &[BandQuantity::DepthOfPenetration],
                 targets: TargetKind::DEEP,
-                ranges: &[Range {
-                    measure: Measure::ThicknessToDiameter,
-                    min: 5.0,
-                    max: f64::INFINITY,
-                    outside: Outside::Warning,
-                    because: "the resistance is that of an infinite body: free surfaces within a few diameters weaken it",
-                }],
+                ranges: &[Range::INFINITE_BODY],
                 sees_back_face: false,
                 notes: &[
                     "all kinetic energy goes into the crater, which has the same width at every depth",

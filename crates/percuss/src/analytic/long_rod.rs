@@ -1,9 +1,11 @@
 //! What the models of long rods read from a case: a rod of one metal on a target of one metal.
 
 use crate::{
+    case::Nose,
     error::NumericalError,
     material::Material,
     outcome::Detail,
+    regime::{ProjectileRegime, Regime},
     scenario::{Scenario, TargetBody},
     units::{Pressure, significant},
 };
@@ -12,6 +14,14 @@ use super::ode::Stuck;
 
 /// Plastic strain at which a flow stress stands for a strength, as in [`crate::regime`].
 pub(super) const STRENGTH_STRAIN: f64 = 0.1;
+
+/// Why a model without noses does not apply to a sharp projectile that stays rigid; `None` for every other case.
+pub(super) fn sharp_and_rigid(scenario: &Scenario) -> Option<String> {
+    let nose = scenario.projectile.nose;
+    let sharp = matches!(nose, Nose::Cone { .. } | Nose::Ogive { .. });
+    (sharp && Regime::of(scenario).projectile == ProjectileRegime::Rigid)
+        .then(|| "it takes no account of the sharp nose of a rigid projectile".to_owned())
+}
 
 /// A flat-ended rod and the metal that it strikes.
 #[derive(Debug, Clone, Copy)]

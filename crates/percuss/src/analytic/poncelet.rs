@@ -12,7 +12,7 @@ use crate::{
     Error, Scenario,
     case::{Nose, Target},
     check::{Check, limits},
-    guard::{Guard, Measure, Outside, Range},
+    guard::{Guard, Range},
     material::cavity_expansion_pressure,
     model::{Control, Model},
     outcome::{BandQuantity, RunResult},
@@ -88,13 +88,7 @@ impl Model for Poncelet {
                     TargetKind::Plate,
                     TargetKind::ConstantPressure,
                 ],
-                ranges: &[Range {
-                    measure: Measure::ThicknessToDiameter,
-                    min: 5.0,
-                    max: f64::INFINITY,
-                    outside: Outside::Warning,
-                    because: "the resistance is that of an infinite body: free surfaces within a few diameters weaken it",
-                }],
+                ranges: &[Range::INFINITE_BODY],
                 sees_back_face: false,
                 notes: &[
                     "the cross-section of the shank is loaded from first contact",

@@ -1,10 +1,13 @@
 //! A body: its law, its particles in chunks, and its nodes.
 
 use super::{
+    block::{Block, LANES, Members},
+    deform::Work,
     field::{Field, Strip},
-    law::{Law, Work},
+    kernel::first_node,
+    law::Law,
     particle::Particle,
-    transfer::{gather, scatter},
+    transfer::Deposit,
 };
 
 /// Particles that one task takes. It does not depend on the number of threads, so sums come out the same on any.
@@ -38,6 +41,18 @@ pub(super) struct Limits {
     pub(super) front: f64,
 }
 
+/// What the steps of a chunk did, summed up [J].
+#[derive(Debug, Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
+pub(super) struct WorkSums {
+    pub(super) total: f64,
+    pub(super) plastic: f64,
+    pub(super) viscous: f64,
+    pub(super) failure: f64,
+    /// Power of the stress at the start and at the end of the step, both on the strain rate of the step [W].
+    pub(super) power_at_start: f64,
+    pub(super) power_at_end: f64,
+}
+
 /// Sums over a chunk after a step.
 #[derive(Debug, Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Sums {
@@ -46,7 +61,7 @@ pub(super) struct Sums {
     pub(super) momentum: f64,
     pub(super) kinetic: f64,
     /// Work of the step [J].
-    pub(super) work: Work,
+    pub(super) work: WorkSums,
     /// What left the body in the step: particles, their axial momentum and kinetic energy.
     pub(super) lost: (usize, f64, f64),
     /// Largest square of a wave speed and of a particle's speed [m2/s2].
@@ -159,75 +174,85 @@ fn advance_here(
     let per_cell = 1.0 / pass.cell;
     let mut sums = Sums::default();
     let (mut least, mut most, mut widest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
-    for particle in particles.iter_mut().filter(|particle| particle.mass > 0.0) {
-        let mut power_at_end = 0.0;
+    let mut from = 0;
+    while let Some(members) = Members::next(particles, &mut from) {
+        let mut block = Block::of(particles, &members);
+        // Not in a closure: what is in one is compiled without the wide instructions.
+        let mut work = Work::NONE;
         if pass.time_step > 0.0 {
-            let work = step(particle, law, field, pass);
-            sums.work.total += work.total;
-            sums.work.plastic += work.plastic;
-            sums.work.viscous += work.viscous;
-            sums.work.failure += work.failure;
-            sums.work.power_at_start += work.power_at_start;
-            power_at_end = work.power_at_end;
+            block.gather(per_cell, field);
+            let hoop_rate = block.hoop_rate(law);
+            block.travel(pass.time_step);
+            work = law.deform(
+                particles,
+                &members,
+                &mut block,
+                hoop_rate,
+                pass.time_step,
+                pass.cell,
+            );
+        } else {
+            block.keep_motion(particles, &members);
         }
-        let [radius, depth] = particle.position;
-        let kinetic = particle.kinetic_energy(pass.cell);
-        // A comparison with what is no number fails, so this finds those too.
-        if !(kinetic + particle.pressure + depth + radius).is_finite() {
-            sums.broken = true;
-            particle.mass = 0.0;
-            continue;
+        let kinetic = block.kinetic_energy(pass.cell);
+        let wave_squared = law.wave_speed_squared(&block);
+        for (l, place) in members.iter() {
+            sums.work.total += work.total[l];
+            sums.work.plastic += work.plastic[l];
+            sums.work.viscous += work.viscous[l];
+            sums.work.failure += work.failure[l];
+            sums.work.power_at_start += work.power_at_start[l];
+            let particle = &mut particles[place];
+            let [radius, depth] = particle.position;
+            // A comparison with what is no number fails, so this finds those too.
+            if !(kinetic[l] + particle.pressure + depth + radius).is_finite() {
+                sums.broken = true;
+                particle.mass = 0.0;
+                continue;
+            }
+            let limits = &pass.limits;
+            let is_beyond = radius > limits.radius || depth < limits.back || depth > limits.front;
+            if is_beyond || law.erodes(particle) {
+                sums.lost.0 += 1;
+                sums.lost.1 += particle.mass * particle.velocity[1];
+                sums.lost.2 += kinetic[l];
+                sums.work.failure += law.elastic_energy(particle);
+                particle.mass = 0.0;
+                continue;
+            }
+            sums.work.power_at_end += work.power_at_end[l];
+            least = least.min(depth);
+            most = most.max(depth);
+            widest = widest.max(radius);
+            let [v_r, v_z] = particle.velocity;
+            sums.mass += particle.mass;
+            sums.momentum += particle.mass * v_z;
+            sums.kinetic += kinetic[l];
+            sums.speed_squared = sums.speed_squared.max(v_r * v_r + v_z * v_z);
+            sums.wave_squared = sums.wave_squared.max(wave_squared[l]);
         }
-        let limits = &pass.limits;
-        let is_beyond = radius > limits.radius || depth < limits.back || depth > limits.front;
-        if is_beyond || law.erodes(particle) {
-            sums.lost.0 += 1;
-            sums.lost.1 += particle.mass * particle.velocity[1];
-            sums.lost.2 += kinetic;
-            sums.work.failure += law.elastic_energy(particle);
-            particle.mass = 0.0;
-            continue;
-        }
-        sums.work.power_at_end += power_at_end;
-        least = least.min(depth);
-        most = most.max(depth);
-        widest = widest.max(radius);
-        let [v_r, v_z] = particle.velocity;
-        sums.mass += particle.mass;
-        sums.momentum += particle.mass * v_z;
-        sums.kinetic += kinetic;
-        sums.speed_squared = sums.speed_squared.max(v_r * v_r + v_z * v_z);
-        sums.wave_squared = sums.wave_squared.max(law.wave_speed_squared(particle));
     }
     if least > most {
         strip.open(0, 0, 0);
         return sums;
     }
-    let row = |depth: f64| (depth * per_cell - 0.5).floor() as isize;
-    let columns = (widest * per_cell - 0.5).floor() as isize + 4;
+    let row = |depth: f64| first_node(depth * per_cell);
+    let columns = first_node(widest * per_cell) + 4;
     strip.open(
         row(least),
         (row(most) + 3 - row(least)) as usize,
         columns as usize,
     );
-    for particle in particles.iter().filter(|particle| particle.mass > 0.0) {
-        scatter(particle, per_cell, law.axisymmetric, strip);
+    // All of a block by way of memory: so a node's numbers stay side by side.
+    let mut deposits = [Deposit::default(); LANES];
+    let mut from = 0;
+    while let Some(members) = Members::next(particles, &mut from) {
+        for (l, place) in members.iter() {
+            deposits[l] = Deposit::of(&particles[place], per_cell, law.axisymmetric);
+        }
+        for deposit in &deposits[..members.count()] {
+            deposit.add_to(strip);
+        }
     }
     sums
-}
-
-#[inline(always)]
-fn step(particle: &mut Particle, law: &Law, field: &Field, pass: &Pass) -> Work {
-    gather(particle, 1.0 / pass.cell, field);
-    let radius = particle.position[0];
-    let hoop_rate = if law.axisymmetric {
-        particle.velocity[0] / radius
-    } else {
-        0.0
-    };
-    for k in 0..2 {
-        particle.position[k] += pass.time_step * particle.velocity[k];
-    }
-    particle.position[0] = particle.position[0].abs();
-    law.deform(particle, hoop_rate, pass.time_step, pass.cell)
 }

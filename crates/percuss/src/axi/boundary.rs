@@ -225,7 +225,7 @@ impl Load {
     }
 
     fn add(&mut self, other: &Self) {
-        for (entry, added) in self.node.iter_mut().zip(other.node) {
+        for (entry, added) in self.node.iter_mut().zip(other.node.0) {
             *entry += added;
         }
         for (entry, added) in self.taken.iter_mut().zip(other.taken) {

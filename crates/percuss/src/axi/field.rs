@@ -1,7 +1,25 @@
 //! Nodes of one body: masses, momenta and forces come in from particles, velocities go back.
 
 /// What particles add to a node: mass [kg], momentum radial and axial [kg m/s], volume [m3], force radial and axial [N].
-pub(super) type Node = [f64; 6];
+///
+/// Filled up to a line of the cache, which one instruction loads.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[repr(align(64))]
+pub(super) struct Node(pub(super) [f64; 8]);
+
+impl std::ops::Deref for Node {
+    type Target = [f64; 8];
+
+    fn deref(&self) -> &[f64; 8] {
+        &self.0
+    }
+}
+
+impl std::ops::DerefMut for Node {
+    fn deref_mut(&mut self) -> &mut [f64; 8] {
+        &mut self.0
+    }
+}
 
 pub(super) const MASS: usize = 0;
 pub(super) const MOMENTUM: usize = 1;
@@ -26,7 +44,7 @@ impl Strip {
         self.rows = rows;
         self.columns = columns;
         self.nodes.clear();
-        self.nodes.resize(rows * columns, [0.0; 6]);
+        self.nodes.resize(rows * columns, Node::default());
     }
 
     /// Nodes of a row, if the strip has it.
@@ -58,7 +76,7 @@ impl Field {
         self.first_row = first;
         self.rows = (last - first) as usize;
         self.columns = strips.iter().map(|s| s.columns).max().unwrap_or(0);
-        self.nodes.resize(self.rows * self.columns, [0.0; 6]);
+        self.nodes.resize(self.rows * self.columns, Node::default());
         self.velocity.resize(self.rows * self.columns, [0.0; 2]);
         self.impulse.clear();
         self.impulse.resize(self.rows * self.columns, [0.0; 2]);
@@ -79,7 +97,7 @@ impl Field {
     /// The node, or an empty one outside the window.
     pub(super) fn node(&self, row: isize, column: usize) -> Node {
         self.index(row, column)
-            .map_or([0.0; 6], |index| self.nodes[index])
+            .map_or(Node::default(), |index| self.nodes[index])
     }
 }
 

@@ -1,12 +1,14 @@
 //! Model `axi`: axisymmetric continuum mechanics by the material point method, the reference of the one-dimensional models.
 
 mod axial;
+mod block;
 mod body;
 mod books;
 mod boundary;
 mod checkpoint;
 mod contact;
 mod crater;
+mod deform;
 mod field;
 mod kernel;
 mod law;

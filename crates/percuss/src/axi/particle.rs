@@ -54,14 +54,14 @@ impl Particle {
     pub fn has_failed(&self) -> bool {
         self.damage >= 1.0
     }
+}
 
-    /// Kinetic energy, that of the velocity gradient within the particle's kernel included [J].
-    #[inline(always)]
-    pub(super) fn kinetic_energy(&self, cell: f64) -> f64 {
-        let [r, z] = self.velocity;
-        let affine: f64 = self.gradient.iter().map(|entry| entry * entry).sum();
-        0.5 * self.mass * (r * r + z * z + 0.25 * cell * cell * affine)
-    }
+/// Kinetic energy of a particle, that of the velocity gradient within its kernel included [J].
+#[inline(always)]
+pub(super) fn kinetic_energy(mass: f64, velocity: [f64; 2], gradient: [f64; 4], cell: f64) -> f64 {
+    let [r, z] = velocity;
+    let affine: f64 = gradient.iter().map(|entry| entry * entry).sum();
+    0.5 * mass * (r * r + z * z + 0.25 * cell * cell * affine)
 }
 
 /// Equivalent stress of von Mises of a deviator `[rr, zz, rz]` [Pa].

@@ -258,10 +258,10 @@ impl Solver {
 
 /// Adds up a row of nodes over all strips, in their order, and folds the image in the axis onto its original.
 fn add_up(strips: &[Strip], row: isize, nodes: &mut [Node]) {
-    nodes.fill([0.0; 6]);
+    nodes.fill(Node::default());
     for source in strips.iter().filter_map(|strip| strip.row(row)) {
         for (node, added) in nodes.iter_mut().zip(source) {
-            for (entry, value) in node.iter_mut().zip(added) {
+            for (entry, value) in node.iter_mut().zip(added.0) {
                 *entry += value;
             }
         }
@@ -276,7 +276,7 @@ fn add_up(strips: &[Strip], row: isize, nodes: &mut [Node]) {
             };
             nodes[2][k] += sign * value;
         }
-        nodes[0] = [0.0; 6];
+        nodes[0] = Node::default();
         for k in [MOMENTUM, FORCE] {
             nodes[1][k] = 0.0;
         }

@@ -1,19 +1,89 @@
-//! Whether a sample can be relied on: the split R-hat and the effective sample size.
+//! Whether a sample can be relied on: R-hat and effective sample sizes of ranks in place of values \[vehtari2021\].
+//!
+//! Chains are lists of equal length. Ranks do not care about heavy tails, nor about the scale a parameter is measured on.
 
-/// Split R-hat of Gelman and others: between-chain and within-chain variance of the halves of all chains \[gelman1992, vehtari2021\].
+use super::predictive::quantile;
+use crate::sweep;
+
+/// R-hat of chains \[vehtari2021\]: near 1 where they agree, more than 1.01 where more has to be sampled.
 ///
-/// Near 1 where all halves have the same distribution; not a number for chains of fewer than four states, infinite for chains that
-/// stand still at different values.
-pub fn split_r_hat(chains: &[Vec<f64>]) -> f64 {
-    let halves: Vec<&[f64]> = chains
+/// The larger of the split R-hat of the normal scores of the ranks, which finds chains at different places, and that of the distances
+/// from the median, which finds chains that spread differently. Not a number for chains of fewer than four states, infinite for
+/// chains that stand still at different values.
+pub fn r_hat(chains: &[Vec<f64>]) -> f64 {
+    let located = split_r_hat(&normal_scores(chains));
+    if located.is_nan() {
+        return located;
+    }
+    located.max(split_r_hat(&normal_scores(&folded(chains))))
+}
+
+/// Effective sample size for means and medians: that of the normal scores of the ranks \[vehtari2021\].
+///
+/// `together` neighbours of a chain belong to one step and depend on each other, such as the walkers of an ensemble; 1 for chains
+/// of single states. Not a number for chains of fewer than four steps; 0 for chains that stand still.
+pub fn bulk_effective_size(chains: &[Vec<f64>], together: usize) -> f64 {
+    effective_size(&normal_scores(chains), together)
+}
+
+/// Effective sample size for the ends of intervals: the smaller of those of being below the 5 % and below the 95 % quantile
+/// \[vehtari2021\]. The rest as for [`bulk_effective_size`].
+pub fn tail_effective_size(chains: &[Vec<f64>], together: usize) -> f64 {
+    let all = chains.concat();
+    let of = |chance| {
+        let end = quantile(&all, chance);
+        let is_below = map(chains, |value| f64::from(u8::from(value <= end)));
+        effective_size(&is_below, together)
+    };
+    match all.is_empty() {
+        true => f64::NAN,
+        false => of(0.05).min(of(0.95)),
+    }
+}
+
+/// Normal quantiles of the ranks among the states of all chains, `(r − 3/8)/(S + 1/4)`; equal states share the mean of their ranks.
+fn normal_scores(chains: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut places: Vec<(usize, usize)> = Vec::new();
+    for (i, chain) in chains.iter().enumerate() {
+        places.extend((0..chain.len()).map(|j| (i, j)));
+    }
+    places.sort_by(|a, b| chains[a.0][a.1].total_cmp(&chains[b.0][b.1]));
+    let mut scores: Vec<Vec<f64>> = chains.iter().map(|chain| vec![0.0; chain.len()]).collect();
+    let mut before = 0;
+    for equal in places.chunk_by(|a, b| chains[a.0][a.1] == chains[b.0][b.1]) {
+        let rank = before as f64 + 0.5 * (equal.len() + 1) as f64;
+        let score = sweep::score((rank - 0.375) / (places.len() as f64 + 0.25));
+        for &(i, j) in equal {
+            scores[i][j] = score;
+        }
+        before += equal.len();
+    }
+    scores
+}
+
+/// Distances from the median of all chains.
+fn folded(chains: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let median = quantile(&chains.concat(), 0.5);
+    map(chains, |value| (value - median).abs())
+}
+
+fn map(chains: &[Vec<f64>], of: impl Fn(f64) -> f64) -> Vec<Vec<f64>> {
+    let mapped = |chain: &Vec<f64>| chain.iter().map(|&value| of(value)).collect();
+    chains.iter().map(mapped).collect()
+}
+
+/// First and second halves of all chains. The middle state of an odd number of them belongs to neither.
+fn halves(chains: &[Vec<f64>]) -> Vec<&[f64]> {
+    let of = |chain: &'_ Vec<f64>| chain.len() / 2;
+    chains
         .iter()
-        .flat_map(|chain| {
-            let half = chain.len() / 2;
-            // The middle state of an odd number of them belongs to neither half.
-            [&chain[..half], &chain[chain.len() - half..]]
-        })
-        .collect();
-    let Some(spread) = Spread::of(&halves) else {
+        .flat_map(|chain| [&chain[..of(chain)], &chain[chain.len() - of(chain)..]])
+        .collect()
+}
+
+/// Between-chain and within-chain variance of the halves of all chains \[gelman1992\].
+fn split_r_hat(chains: &[Vec<f64>]) -> f64 {
+    let Some(spread) = Spread::of(&halves(chains)) else {
         return f64::NAN;
     };
     match (spread.within == 0.0, spread.between == 0.0) {
@@ -22,30 +92,39 @@ pub fn split_r_hat(chains: &[Vec<f64>]) -> f64 {
     }
 }
 
-/// Effective sample size of chains of equal length: their states over the integrated autocorrelation time.
-///
-/// Autocorrelations of all chains together, of which Geyer's initial monotone sequence is summed \[vehtari2021, geyer1992\]. Not a
-/// number for chains of fewer than four states; 0 for chains that stand still.
-pub fn effective_sample_size(chains: &[Vec<f64>]) -> f64 {
-    let slices: Vec<&[f64]> = chains.iter().map(Vec::as_slice).collect();
-    let Some(spread) = Spread::of(&slices) else {
+/// Effective size of the series of the means of what belongs together, times how much less they vary than a single value
+/// \[goodman2010\].
+fn effective_size(chains: &[Vec<f64>], together: usize) -> f64 {
+    let means = |chain: &Vec<f64>| chain.chunks(together).map(mean).collect();
+    let series: Vec<Vec<f64>> = chains.iter().map(means).collect();
+    let size = series_size(&halves(&series));
+    match together == 1 || size == 0.0 {
+        true => size,
+        false => size * variance(&chains.concat()) / variance(&series.concat()),
+    }
+}
+
+/// Effective size of series of equal length: their states over the integrated autocorrelation time, by autocorrelations of all
+/// series together, of which Geyer's initial monotone sequence is summed \[vehtari2021, geyer1992\].
+fn series_size(series: &[&[f64]]) -> f64 {
+    let Some(spread) = Spread::of(series) else {
         return f64::NAN;
     };
     let pooled = spread.pooled();
     if pooled == 0.0 {
         return 0.0;
     }
-    let length = chains[0].len();
-    let means: Vec<f64> = slices.iter().map(|chain| mean(chain)).collect();
+    let length = series[0].len();
+    let means: Vec<f64> = series.iter().map(|states| mean(states)).collect();
     let correlation = |lag: usize| {
-        let covariance = |(chain, mean): (&&[f64], &f64)| {
-            let products = chain[lag..].iter().zip(chain.iter());
+        let covariance = |(states, mean): (&&[f64], &f64)| {
+            let products = states[lag..].iter().zip(states.iter());
             products.map(|(a, b)| (a - mean) * (b - mean)).sum::<f64>() / length as f64
         };
-        let sum: f64 = slices.iter().zip(&means).map(covariance).sum();
+        let sum: f64 = series.iter().zip(&means).map(covariance).sum();
         // Biased covariances, as the variance within a chain is unbiased: at lag 0 they have to agree.
         let scale = length as f64 / (length as f64 - 1.0);
-        1.0 - (spread.within - scale * sum / slices.len() as f64) / pooled
+        1.0 - (spread.within - scale * sum / series.len() as f64) / pooled
     };
     // Sums of neighbours are positive and fall for a reversible chain; beyond the first that is not there is noise only.
     let mut time = -1.0;
@@ -58,7 +137,7 @@ pub fn effective_sample_size(chains: &[Vec<f64>]) -> f64 {
         smallest = sum.min(smallest);
         time += 2.0 * smallest;
     }
-    let states = (chains.len() * length) as f64;
+    let states = (series.len() * length) as f64;
     // Of chains that alternate the sum may be tiny; more than this would not be believed.
     states / time.max(1.0 / states.log10())
 }
@@ -110,76 +189,5 @@ impl Spread {
 }
 
 #[cfg(test)]
-mod tests {
-    use rand_distr::{Distribution, StandardNormal};
-    use rand_pcg::{Pcg64, rand_core::SeedableRng};
-
-    use super::*;
-
-    /// Chains of `x' = φ x + √(1 − φ²) e`, with the standard normal distribution throughout.
-    fn autoregressive(phi: f64, chains: u64, length: usize) -> Vec<Vec<f64>> {
-        let chain = |seed| {
-            let mut random = Pcg64::seed_from_u64(seed);
-            let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
-            let mut x = normal();
-            (0..length)
-                .map(|_| {
-                    x = phi * x + (1.0 - phi * phi).sqrt() * normal();
-                    x
-                })
-                .collect()
-        };
-        (0..chains).map(chain).collect()
-    }
-
-    /// By hand: the halves 1 2, 3 4, 2 3, 5 6 have variances 1/2 and means 1.5, 3.5, 2.5, 5.5, whose variance is 8.75/3.
-    #[test]
-    fn r_hat_of_a_few_numbers_is_the_one_by_hand() {
-        let chains = [vec![1.0, 2.0, 3.0, 4.0], vec![2.0, 3.0, 5.0, 6.0]];
-        let exact: f64 = (0.5 * 0.5 + 8.75 / 3.0) / 0.5;
-        assert!((split_r_hat(&chains) - exact.sqrt()).abs() < 1e-14);
-    }
-
-    #[test]
-    fn r_hat_tells_one_distribution_from_two() {
-        let mut chains = autoregressive(0.0, 4, 2000);
-        let same = split_r_hat(&chains);
-        assert!((same - 1.0).abs() < 2e-3, "{same}");
-        // Means 0, 0, 3, 3 of halves with unit variance: R² = 1 + variance of the means, 9/4 · 8/7.
-        for chain in &mut chains[2..] {
-            chain.iter_mut().for_each(|x| *x += 3.0);
-        }
-        let exact = (1.0 + 9.0 / 4.0 * 8.0 / 7.0_f64).sqrt();
-        assert!((split_r_hat(&chains) / exact - 1.0).abs() < 0.03);
-        // A drift within the chains is seen by their halves: means ±0.75, variances 1 and that of an even spread over 1.5.
-        let drift = |x: (usize, f64)| x.1 + 3.0 * x.0 as f64 / 2000.0;
-        let drifting = autoregressive(0.0, 4, 2000)
-            .into_iter()
-            .map(|chain| chain.into_iter().enumerate().map(drift).collect());
-        let exact = (1.0 + 0.75 * 0.75 * 8.0 / 7.0 / (1.0 + 1.5 * 1.5 / 12.0_f64)).sqrt();
-        let found = split_r_hat(&drifting.collect::<Vec<_>>());
-        assert!((found / exact - 1.0).abs() < 0.03, "{found} {exact}");
-    }
-
-    #[test]
-    fn chains_that_stand_still_have_no_sample() {
-        assert_eq!(split_r_hat(&[vec![1.0; 8], vec![1.0; 8]]), 1.0);
-        assert_eq!(split_r_hat(&[vec![1.0; 8], vec![2.0; 8]]), f64::INFINITY);
-        assert_eq!(effective_sample_size(&[vec![1.0; 8]]), 0.0);
-        assert!(split_r_hat(&[vec![1.0]]).is_nan());
-    }
-
-    /// An autoregressive process has the integrated autocorrelation time (1 + φ)/(1 − φ).
-    #[test]
-    fn sample_size_of_an_autoregressive_process_is_the_analytic_one() {
-        for (phi, allowed) in [(-0.5, 0.1), (0.0, 0.1), (0.5, 0.1), (0.9, 0.15)] {
-            let chains = autoregressive(phi, 4, 40_000);
-            let exact = 160_000.0 * (1.0 - phi) / (1.0 + phi);
-            let found = effective_sample_size(&chains);
-            assert!(
-                (found / exact - 1.0).abs() < allowed,
-                "{phi}: {found} {exact}"
-            );
-        }
-    }
-}
+#[path = "diagnostics_tests.rs"]
+mod tests;

@@ -41,7 +41,7 @@ use std::{
 
 use serde::Serialize;
 
-pub use diagnostics::{effective_sample_size, split_r_hat};
+pub use diagnostics::{bulk_effective_size, r_hat, tail_effective_size};
 pub use identifiability::{Finding, Weakness};
 pub use noise::Noise;
 pub use observation::{LeftOut, Observation, Observations};

@@ -14,14 +14,11 @@ use super::{
     predictive::{CHANCES, quantile},
     sampler,
 };
-use crate::{
-    Error,
-    sweep::{self, Cut, Distribution},
-};
+use crate::{Error, sweep};
 
 /// How much wider than the estimated posterior the walkers start: R-hat sees ensembles that have not met.
 const SPREAD: f64 = 2.0;
-/// Split R-hat from which ensembles have not mixed, and the effective size that intervals need \[vehtari2021\].
+/// R-hat from which ensembles have not mixed, and the effective sizes that intervals need \[vehtari2021\].
 const R_HAT: f64 = 1.01;
 const SIZE: f64 = 400.0;
 /// What random numbers are drawn for.
@@ -36,10 +33,12 @@ pub struct Marginal {
     pub standard_deviation: f64,
     /// 2.5 %, 50 % and 97.5 %.
     pub quantiles: [f64; 3],
-    /// Split R-hat over the ensembles: 1 where they agree.
+    /// Rank-normalised split R-hat over the ensembles, the folded one included: 1 where they agree.
     pub r_hat: f64,
-    /// Effective sample size.
-    pub effective_size: f64,
+    /// Effective sample size for the mean and the median.
+    pub bulk_effective_size: f64,
+    /// Effective sample size for the ends of intervals.
+    pub tail_effective_size: f64,
 }
 
 impl Marginal {
@@ -50,7 +49,8 @@ impl Marginal {
             standard_deviation: variance(&values).sqrt(),
             quantiles: CHANCES.map(|chance| quantile(&values, chance)),
             r_hat: sample.r_hat(parameter),
-            effective_size: sample.effective_size(parameter),
+            bulk_effective_size: sample.bulk_effective_size(parameter),
+            tail_effective_size: sample.tail_effective_size(parameter),
         }
     }
 
@@ -92,15 +92,7 @@ pub(super) fn sample(
             let stream = sweep::stream(seed, PLACE + ensemble as u64, dimension);
             let u =
                 ((sweep::bits(stream, walker as u64) >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
-            Distribution::Normal {
-                mean: 0.0,
-                deviation: SPREAD,
-                cut: Cut {
-                    min: f64::NEG_INFINITY,
-                    max: f64::INFINITY,
-                },
-            }
-            .quantile(u)
+            SPREAD * sweep::score(u)
         };
         let count = fit.values.len();
         let away = &root * DVector::from_iterator(count, (0..count).map(normal));
@@ -179,17 +171,23 @@ pub(super) fn warnings(parameters: &[ParameterRecord], scatter: &ScatterRecord) 
     let mut warnings = Vec::new();
     for (name, marginal) in all {
         let Some(marginal) = marginal else { continue };
-        if marginal.r_hat > R_HAT {
+        // Not a number where there are too few steps to tell.
+        if marginal.r_hat.is_nan() || marginal.r_hat > R_HAT {
             warnings.push(format!(
-                "the ensembles do not agree on {name}: split R-hat is {:.3}, more than {R_HAT}; sample more steps",
+                "the ensembles do not agree on {name}: R-hat is {:.3}, more than {R_HAT}; sample more steps",
                 marginal.r_hat
             ));
         }
-        if marginal.effective_size < SIZE {
-            warnings.push(format!(
-                "the sample of {name} is worth {:.0} independent values, fewer than {SIZE}; sample more steps",
-                marginal.effective_size
-            ));
+        let sizes = [
+            ("for its mean and median", marginal.bulk_effective_size),
+            ("for the ends of its range", marginal.tail_effective_size),
+        ];
+        for (what_for, size) in sizes {
+            if size.is_nan() || size < SIZE {
+                warnings.push(format!(
+                    "the sample of {name} is worth {size:.0} independent values {what_for}, fewer than {SIZE}; sample more steps"
+                ));
+            }
         }
     }
     warnings

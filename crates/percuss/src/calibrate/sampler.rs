@@ -10,7 +10,7 @@ use rand_pcg::{Pcg64, rand_core::SeedableRng};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::diagnostics::{effective_sample_size, mean, split_r_hat, variance};
+use super::diagnostics::{bulk_effective_size, r_hat, tail_effective_size};
 use crate::sweep;
 
 /// How a density is sampled.
@@ -159,34 +159,32 @@ impl Sample {
             .collect()
     }
 
-    /// Split R-hat over the ensembles, all walkers of an ensemble together: they depend on each other, ensembles do not.
-    pub fn r_hat(&self, parameter: usize) -> f64 {
-        let pooled = |ensemble: usize| {
-            let steps = self.steps(ensemble, parameter);
-            steps[self.sampling.burn_in..].concat()
-        };
-        let chains: Vec<Vec<f64>> = (0..self.states.len()).map(pooled).collect();
-        split_r_hat(&chains)
+    /// Kept values of a parameter, a list an ensemble: step by step, walker by walker.
+    fn chains(&self, parameter: usize) -> Vec<Vec<f64>> {
+        let kept = |ensemble| self.steps(ensemble, parameter)[self.sampling.burn_in..].concat();
+        (0..self.states.len()).map(kept).collect()
     }
 
-    /// Effective sample size. Walkers of an ensemble depend on each other, so that the series of the ensemble's means is what is
-    /// looked at \[goodman2010\]: its effective size, times how much less it varies than a single value.
-    pub fn effective_size(&self, parameter: usize) -> f64 {
-        let means: Vec<Vec<f64>> = (0..self.states.len())
-            .map(|ensemble| {
-                let steps = &self.steps(ensemble, parameter)[self.sampling.burn_in..];
-                steps.iter().map(|step| mean(step)).collect()
-            })
-            .collect();
-        let all: Vec<f64> = means.iter().flatten().copied().collect();
-        let gain = variance(&self.values(parameter)) / variance(&all);
-        effective_sample_size(&means) * gain
+    /// R-hat over the ensembles, all walkers of an ensemble together: they depend on each other, ensembles do not.
+    pub fn r_hat(&self, parameter: usize) -> f64 {
+        r_hat(&self.chains(parameter))
+    }
+
+    /// Effective sample size for the mean and the median.
+    pub fn bulk_effective_size(&self, parameter: usize) -> f64 {
+        bulk_effective_size(&self.chains(parameter), self.sampling.walkers)
+    }
+
+    /// Effective sample size for the ends of intervals.
+    pub fn tail_effective_size(&self, parameter: usize) -> f64 {
+        tail_effective_size(&self.chains(parameter), self.sampling.walkers)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::calibrate::diagnostics::{mean, variance};
 
     const SAMPLING: Sampling = Sampling {
         ensembles: 4,
@@ -226,8 +224,9 @@ mod tests {
         let sample = sampled(1);
         let values = [sample.values(0), sample.values(1)];
         for i in 0..2 {
-            let size = sample.effective_size(i);
-            assert!(size > 2000.0, "{size}");
+            let size = sample.bulk_effective_size(i);
+            let tail = sample.tail_effective_size(i);
+            assert!(size > 2000.0 && tail > 2000.0, "{size} {tail}");
             let error = (mean(&values[i]) - MEAN[i]) / DEVIATION[i] * size.sqrt();
             assert!(error.abs() < 4.0, "{error}");
             // Of a normal distribution the estimated variance scatters by √(2/size).

@@ -150,7 +150,7 @@ fn intervals_cover_the_truth_and_the_hold_out() {
         let ratio = marginal.standard_deviation / parameter.standard_error.unwrap();
         assert!((0.75..1.35).contains(&ratio), "{ratio}");
         assert!(
-            marginal.effective_size > 60.0 && marginal.r_hat < 1.1,
+            marginal.bulk_effective_size > 60.0 && marginal.r_hat < 1.1,
             "{marginal:?}"
         );
     }

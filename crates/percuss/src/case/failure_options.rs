@@ -1,7 +1,8 @@
 //! Checks of the chain's options of failure, and of what does not go with them or with separate layers.
 
 use super::{
-    options::{ChainOptions, ErosionClosure, TargetClosure},
+    chain_words::{ErosionClosure, TargetClosure},
+    options::ChainOptions,
     target::Target,
 };
 use crate::check::{Check, limits};

@@ -1,5 +1,7 @@
 //! Case files: what strikes what, how fast, and by which model options.
 
+mod chain_defaults;
+mod chain_words;
 mod document;
 mod experiment;
 mod failure_options;
@@ -17,6 +19,7 @@ mod template;
 #[cfg(test)]
 mod tests;
 
+pub use chain_words::*;
 pub(crate) use document::Document;
 pub use experiment::{Experiment, SourceKeys, Uncertainty};
 pub(crate) use load::read_text;

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
+    chain_words::{ArtificialViscosity, ErosionClosure, Kinematics, Scheme, TargetClosure},
     number_or_word::{ConstraintFactor, ErosionStrain, NumberOrWord},
     published_options::PublishedOptions,
     shear_band::{BorderShearLaw, ShearBandOptions},
@@ -74,168 +75,10 @@ pub struct ChainOptions {
     pub published: Option<PublishedOptions>,
 }
 
-/// Scheme of the 1-D discrete element model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Scheme {
-    /// Large strain, plastic unloading, balanced books; converges.
-    #[default]
-    Conservative,
-    /// The equations of the paper as printed, with every ambiguous reading selectable.
-    Published,
-}
-
-impl Scheme {
-    /// Name as the file has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Conservative => "conservative",
-            Self::Published => "published",
-        }
-    }
-}
-
-/// Strain measure of the conservative scheme.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Kinematics {
-    /// `ε = ln(l₀/l)` and an area that grows as the element shortens: `A = A₀ l₀/l`.
-    #[default]
-    Logarithmic,
-    /// `ε = (l₀ − l)/l₀` and a constant area: for comparison with small-strain theory.
-    SmallStrain,
-}
-
-/// What stands for the target.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum TargetClosure {
-    /// The column in line with the projectile, with a constraint factor and border shear.
-    #[default]
-    Column,
-    /// A truncated cone that is as stiff as a half-space under the projectile, with neither.
-    Diverging,
-    /// The same cone, into which the tip penetrates where the load would exceed the resistance to steady penetration.
-    DivergingPenetrable,
-    /// A crater floor that advances against the pressure of an expanding cavity, carried by an elastic cone, under a projectile that
-    /// takes time to widen.
-    ExpandingCavity,
-}
-
-impl TargetClosure {
-    /// Name as the file has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Column => "column",
-            Self::Diverging => "diverging",
-            Self::DivergingPenetrable => "diverging-penetrable",
-            Self::ExpandingCavity => "expanding-cavity",
-        }
-    }
-}
-
-/// How what erodes leaves the tip.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum ErosionClosure {
-    /// Elements mushroom and leave at `erosion_strain`.
-    #[default]
-    Strain,
-    /// Elements keep their area until their length is used up, a mass of target moves with the tip, and the target ahead of it is
-    /// held: the steady flow is that of Alekseevskii and Tate.
-    Tate,
-}
-
-/// Artificial viscosity `q = ρ l |ε̇| (c_l c + c_q l |ε̇|)` in compression.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct ArtificialViscosity {
-    /// Linear coefficient c_l.
-    pub linear: f64,
-    /// Quadratic coefficient c_q.
-    pub quadratic: f64,
-}
-
 /// Most elements that one body may have: beyond it a run takes hours and its histories gigabytes.
 pub const MAX_ELEMENTS: u32 = 100_000;
 
 impl ChainOptions {
-    /// Elements along the projectile.
-    pub fn projectile_elements(&self) -> usize {
-        self.projectile_elements.unwrap_or(40) as usize
-    }
-
-    /// Elements through the target.
-    pub fn target_elements(&self) -> usize {
-        self.target_elements.unwrap_or(80) as usize
-    }
-
-    /// Border-shear coefficient C.
-    pub fn border_shear(&self) -> f64 {
-        self.border_shear.unwrap_or(0.577)
-    }
-
-    /// Factor on the target's flow stress.
-    pub fn constraint_factor(&self) -> ConstraintFactor {
-        self.constraint_factor
-            .unwrap_or(ConstraintFactor::Value(2.7))
-    }
-
-    /// What stands for the target: of a [`Scenario`](crate::Scenario), where the default of its case is worked out.
-    pub fn target_closure(&self) -> TargetClosure {
-        self.target_closure.unwrap_or_default()
-    }
-
-    /// Keys that only a column has, and whether they are given.
-    fn column_keys(&self) -> [(&'static str, bool); 3] {
-        [
-            ("constraint_factor", self.constraint_factor.is_some()),
-            ("border_shear", self.border_shear.is_some()),
-            (
-                "erosion_closure",
-                self.erosion_closure() == ErosionClosure::Tate,
-            ),
-        ]
-    }
-
-    /// Keys of a chain of springs through the target that an expanding cavity has no use for, and whether they are given.
-    fn spring_keys(&self) -> [(&'static str, bool); 6] {
-        [
-            ("kinematics", self.kinematics.is_some()),
-            ("artificial_viscosity", self.artificial_viscosity.is_some()),
-            ("damping_ratio", self.damping_ratio.is_some()),
-            ("local_damping", self.local_damping.is_some()),
-            ("failure", self.failure.is_some()),
-            ("fracture_energy", self.fracture_energy.is_some()),
-        ]
-    }
-
-    /// Whether an option is given that an expanding cavity does not have.
-    pub(crate) fn asks_for_a_column(&self) -> bool {
-        let perforates =
-            self.border_shear_law.is_some() || self.shear_band.is_some() || self.dishing.is_some();
-        let given = |(_, given): &(&str, bool)| *given;
-        perforates || self.column_keys().iter().any(given) || self.spring_keys().iter().any(given)
-    }
-
-    /// How what erodes leaves the tip.
-    pub fn erosion_closure(&self) -> ErosionClosure {
-        self.erosion_closure.unwrap_or_default()
-    }
-
-    /// Strain measure; the closure of Tate has one of its own.
-    pub fn kinematics(&self) -> Kinematics {
-        match self.erosion_closure() {
-            ErosionClosure::Strain => self.kinematics.unwrap_or_default(),
-            ErosionClosure::Tate => Kinematics::SmallStrain,
-        }
-    }
-
-    /// Readings of the paper.
-    pub fn published(&self) -> PublishedOptions {
-        self.published.unwrap_or_default()
-    }
-
     pub(super) fn check(&self, check: &mut Check<'_>, target: &Target) {
         let target_is_solid = target.is_solid();
         self.check_target(check, target_is_solid);

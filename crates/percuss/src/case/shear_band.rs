@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    options::{ChainOptions, ErosionClosure, Scheme, TargetClosure},
+    chain_words::{ErosionClosure, Scheme, TargetClosure},
+    options::ChainOptions,
     target::{BackFace, Target},
 };
 use crate::{

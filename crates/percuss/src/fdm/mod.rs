@@ -1,6 +1,7 @@
 //! Model `fdm`: one-dimensional finite differences on a staggered grid, stresses in cells and velocities at nodes.
 
 mod grid;
+mod numerics;
 mod options;
 pub mod planar;
 mod rod;

@@ -256,7 +256,7 @@ fn chance(z: f64) -> f64 {
 
 /// Quantile of the standard normal distribution: the rational estimate 26.2.23 of Abramowitz and Stegun, made exact by three of
 /// Halley's steps.
-pub(super) fn score(u: f64) -> f64 {
+pub(crate) fn score(u: f64) -> f64 {
     let tail = u.min(1.0 - u);
     if tail <= 0.0 {
         return if u < 0.5 {

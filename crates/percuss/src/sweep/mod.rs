@@ -35,7 +35,7 @@ pub(crate) use axis::{Values, values};
 pub use batch::BatchKernel;
 pub(crate) use copula::Copula;
 pub use correlation::Correlation;
-pub(crate) use distribution::{Cut, Distribution};
+pub(crate) use distribution::{Distribution, score};
 pub use entry::Entry;
 pub use file::{Design, Lognormal, Normal, Parameter, Steps, Triangular, Uniform};
 pub use inputs::UncertainInputs;

@@ -1,8 +1,7 @@
 //! Cases that several tests build on.
 
-#![allow(dead_code)] // Each test file uses its own part of this.
-
 pub mod plates;
+pub mod rods;
 
 use percuss::{
     Scenario, case,

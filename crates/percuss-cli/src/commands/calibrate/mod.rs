@@ -19,8 +19,8 @@ use percuss::{
 };
 
 use crate::{
-    diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, shot_data, terminal,
-    workers,
+    failure::Failure, progress::Progress, run_folder::RunFolder, shot_data, terminal, workers,
+    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
@@ -36,11 +36,12 @@ as sweeps have them. Constants of library materials are
 materials.ID.strength.LAW.NAME.
 
 Least squares (Levenberg-Marquardt) give the best values; an ensemble sampler
-(stretch move) the posterior, with split R-hat and effective sample size. Values
-scatter about the model by a Gaussian: their stated standard deviation, and a
-relative scatter that is estimated unless --noise says otherwise. Sources that
---hold-out names are not fitted to: they test the result. Parameters that the
-data do not determine are named.
+(stretch move) the posterior, with rank-normalised split R-hat (more than 1.01
+is a warning) and effective sample sizes of its bulk and tails. Values scatter
+about the model by a Gaussian: their stated standard deviation, and a relative
+scatter that is estimated unless --noise says otherwise. Sources that --hold-out
+names are not fitted to: they test the result. Parameters that the data do not
+determine are named.
 
 With --out DIR the result (calibration.json), tables of parameters and
 predictions, the sample (sample.parquet), the calibrated materials
@@ -270,16 +271,9 @@ impl Calibrate {
         records: &[Record],
         files: &[PathBuf],
     ) -> Result<(), Failure> {
-        let wrote: String = files
-            .iter()
-            .map(|file| format!("  {}\n", file.display()))
-            .collect();
+        let written = Written::new(files);
         if self.json {
-            terminal::print_json(calibration)?;
-            if !files.is_empty() && !self.quiet {
-                diagnostic::print(&format!("wrote\n{wrote}"));
-            }
-            return Ok(());
+            return written.print_json(calibration, self.quiet);
         }
         if self.quiet {
             return terminal::print(&table::lines(calibration));
@@ -291,10 +285,7 @@ impl Calibrate {
                 text += &format!("{heading}\n{}\n", record.toml());
             }
         }
-        if !files.is_empty() {
-            text += &format!("{}\n{wrote}", terminal::bold("wrote"));
-        }
-        terminal::print(&text)
+        written.print_under(text)
     }
 }
 

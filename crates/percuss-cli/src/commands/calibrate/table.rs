@@ -44,8 +44,8 @@ pub fn lines(calibration: &Calibration) -> String {
         if let Some(m) = &parameter.posterior {
             let [low, median, high] = m.quantiles;
             line += &format!(
-                " median={median:?} low={low:?} high={high:?} r_hat={:?} effective_size={:?}",
-                m.r_hat, m.effective_size
+                " median={median:?} low={low:?} high={high:?} r_hat={:?} bulk_effective_size={:?} tail_effective_size={:?}",
+                m.r_hat, m.bulk_effective_size, m.tail_effective_size
             );
         }
         line + "\n"
@@ -57,20 +57,21 @@ fn parameters(calibration: &Calibration) -> String {
     let sampled = calibration.sampling.is_some();
     let mut header = vec!["parameter", "prior 95 %", "best ± error"];
     if sampled {
-        header.extend(["posterior 95 %", "R-hat", "size"]);
+        header.extend(["posterior 95 %", "R-hat", "bulk", "tail"]);
     }
     let mut table = table(header.into_iter().map(str::to_owned).collect());
     let rounded = |value: f64| significant(value, 4);
     let from_to = |low: f64, high: f64| format!("{} to {}", rounded(low), rounded(high));
     let sampled_cells = |marginal: Option<Marginal>| {
         let Some(m) = marginal else {
-            return vec![String::new(); 3];
+            return vec![String::new(); 4];
         };
         let [low, _, high] = m.quantiles;
         vec![
             from_to(low, high),
             format!("{:.3}", m.r_hat),
-            format!("{:.0}", m.effective_size),
+            format!("{:.0}", m.bulk_effective_size),
+            format!("{:.0}", m.tail_effective_size),
         ]
     };
     let names = names(&calibration.parameters);

@@ -18,8 +18,8 @@ use percuss::{
 };
 
 use crate::{
-    answer::Hear, diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder,
-    speeds::Speeds, terminal,
+    answer::Hear, failure::Failure, progress::Progress, run_folder::RunFolder, speeds::Speeds,
+    terminal, written::Written,
 };
 
 const LONG_ABOUT: &str = "\
@@ -167,16 +167,9 @@ impl Compare {
         comparison: &Comparison,
         files: &[PathBuf],
     ) -> Result<(), Failure> {
-        let wrote: String = files
-            .iter()
-            .map(|file| format!("  {}\n", file.display()))
-            .collect();
+        let written = Written::new(files);
         if self.json {
-            terminal::print_json(comparison)?;
-            if !files.is_empty() && !self.quiet {
-                diagnostic::print(&format!("wrote\n{wrote}"));
-            }
-            return Ok(());
+            return written.print_json(comparison, self.quiet);
         }
         if self.quiet {
             return terminal::print(&single::lines(comparison));
@@ -202,9 +195,6 @@ impl Compare {
                 )
             );
         }
-        if !files.is_empty() {
-            text += &format!("\n{}\n{wrote}", terminal::bold("wrote"));
-        }
-        terminal::print(&text)
+        written.print_under(text)
     }
 }

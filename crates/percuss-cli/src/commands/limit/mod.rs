@@ -13,7 +13,8 @@ use percuss::{
 use serde::Serialize;
 
 use crate::{
-    answer::Hear, diagnostic, failure::Failure, progress::Progress, run_folder::RunFolder, terminal,
+    answer::Hear, failure::Failure, progress::Progress, run_folder::RunFolder, terminal,
+    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
@@ -209,16 +210,9 @@ impl Limit {
     }
 
     fn print(&self, found: &Found, files: &[PathBuf]) -> Result<(), Failure> {
-        let wrote: String = files
-            .iter()
-            .map(|file| format!("  {}\n", file.display()))
-            .collect();
+        let written = Written::new(files);
         if self.json {
-            terminal::print_json(&found.record())?;
-            if !files.is_empty() && !self.quiet {
-                diagnostic::print(&format!("wrote\n{wrote}"));
-            }
-            return Ok(());
+            return written.print_json(&found.record(), self.quiet);
         }
         let mut text = String::new();
         if self.quiet {
@@ -242,10 +236,7 @@ impl Limit {
         if let (Some((_, v50)), Some(path)) = (&found.shots, &self.shots) {
             text += &table::v50_text(&path.display().to_string(), v50);
         }
-        if !files.is_empty() {
-            text += &format!("{}\n{wrote}", terminal::bold("wrote"));
-        }
-        terminal::print(&text)
+        written.print_under(text)
     }
 }
 

@@ -22,6 +22,7 @@ use crate::{
     result_table,
     run_folder::{self, RunFolder},
     terminal,
+    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
@@ -145,32 +146,19 @@ impl Run {
             }
             None => Vec::new(),
         };
-        let mut wrote: String = files
-            .iter()
-            .map(|file| format!("  {}\n", file.display()))
-            .collect();
+        let mut written = Written::new(&files);
         if !run_folder::has_history(&result) {
-            wrote += &format!(
-                "  no time history: this model {}\n",
-                without_history(&result)
-            );
+            let why = without_history(&result);
+            written = written.with_note(&format!("no time history: this model {why}"));
         }
         if self.json {
-            terminal::print_json(&results)?;
-            if !files.is_empty() && !self.quiet {
-                diagnostic::print(&format!("wrote\n{wrote}"));
-            }
-            return Ok(());
+            return written.print_json(&results, self.quiet);
         }
         if self.quiet {
             let lines: String = results.results.iter().map(one_line).collect();
             return terminal::print(&lines);
         }
-        let mut text = result_table::text(&scenario, &result, &results.results[0]);
-        if !files.is_empty() {
-            text += &format!("\n{}\n{wrote}", terminal::bold("wrote"));
-        }
-        terminal::print(&text)
+        written.print_under(result_table::text(&scenario, &result, &results.results[0]))
     }
 
     /// Refuses options that would have no effect.

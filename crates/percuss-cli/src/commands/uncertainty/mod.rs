@@ -16,12 +16,12 @@ use percuss::{
 };
 
 use crate::{
-    diagnostic,
     failure::Failure,
     progress::Progress,
     run_folder::RunFolder,
     speeds::{Speeds, SpeedsError},
     terminal, workers,
+    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
@@ -203,25 +203,14 @@ impl Uncertainty {
     }
 
     fn print(&self, study: &Study, found: &Found, files: &[PathBuf]) -> Result<(), Failure> {
-        let wrote: String = files
-            .iter()
-            .map(|file| format!("  {}\n", file.display()))
-            .collect();
+        let written = Written::new(files);
         if self.json {
-            terminal::print_json(found)?;
-            if !files.is_empty() && !self.quiet {
-                diagnostic::print(&format!("wrote\n{wrote}"));
-            }
-            return Ok(());
+            return written.print_json(found, self.quiet);
         }
         if self.quiet {
             return terminal::print(&table::lines(found));
         }
-        let mut text = table::text(&study.scenario, found);
-        if !files.is_empty() {
-            text += &format!("{}\n{wrote}", terminal::bold("wrote"));
-        }
-        terminal::print(&text)
+        written.print_under(table::text(&study.scenario, found))
     }
 }
 

@@ -76,7 +76,7 @@ pub(super) fn draw(data: &Data<'_>, x: usize, family: Option<usize>) -> Figure {
         Places::Intervals(..) => Style::Line,
     };
     for (symbol, points) in curves.iter().enumerate() {
-        let name = apart.map_or_else(String::new, |family| data.word(family, families[symbol]));
+        let name = apart.map_or_else(String::new, |family| data.curve(family, families[symbol]));
         let mut series = Series::new(name, points.iter().map(|(at, g)| (*at, g.mean())));
         if averaged {
             let end = |end: f64| if end.is_finite() { end } else { f64::NAN };

@@ -164,6 +164,16 @@ impl<'a> Data<'a> {
         }
     }
 
+    /// Name of the curve of a value: a number does not say by itself what it is.
+    pub(super) fn curve(&self, parameter: usize, value: f64) -> String {
+        let word = self.word(parameter, value);
+        let key = &self.parameters()[parameter].key;
+        match (self.is_numeric(parameter), key.rsplit('.').next()) {
+            (true, Some(name)) => format!("{name} {word}"),
+            _ => word,
+        }
+    }
+
     pub(super) fn value_axis(&self) -> Axis {
         Axis::new(quantity::label(self.quantity))
     }

@@ -8,16 +8,18 @@ use serde::{Deserialize, Serialize};
 
 pub use equations::{Phase, Rods, Stop};
 
-use super::long_rod::{LongRod, NOT_ONE_TARGET, STRENGTH_STRAIN, detail, rests_on, strength};
+use super::long_rod::{
+    LongRod, NOT_ONE_TARGET, STRENGTH_STRAIN, detail, rests_on, sharp_and_rigid, strength,
+};
 use crate::{
     Error, Scenario,
-    case::{Nose, Target},
+    case::Target,
     check::{Check, limits},
     guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
     material::{Material, MaterialClass, cavity_expansion_pressure},
     model::{Control, Model},
     outcome::{Band, BandQuantity, Outcome, RunResult, Termination},
-    regime::{ProjectileRegime, Regime, TargetKind},
+    regime::{ProjectileRegime, TargetKind},
     units::Pressure,
 };
 
@@ -195,14 +197,7 @@ impl Model for Tate {
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
-        let sharp = matches!(
-            scenario.projectile.nose,
-            Nose::Cone { .. } | Nose::Ogive { .. }
-        );
-        if sharp && Regime::of(scenario).projectile == ProjectileRegime::Rigid {
-            return Some("it takes no account of the sharp nose of a rigid projectile".to_owned());
-        }
-        Self::rods(scenario).err()
+        sharp_and_rigid(scenario).or_else(|| Self::rods(scenario).err())
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {

@@ -12,18 +12,18 @@ use flow::Flow;
 use motion::Motion;
 
 use super::{
-    long_rod::{LongRod, NOT_ONE_TARGET, detail, rests_on, strength},
+    long_rod::{LongRod, NOT_ONE_TARGET, detail, rests_on, sharp_and_rigid, strength},
     tate::LONG_ROD,
 };
 use crate::{
     Error, Scenario,
-    case::{Nose, Target},
+    case::Target,
     check::{Check, limits},
     guard::Guard,
     material::Material,
     model::{Control, Model},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
-    regime::{ProjectileRegime, Regime, TargetKind},
+    regime::{ProjectileRegime, TargetKind},
     units::{Length, Pressure, significant},
 };
 
@@ -183,14 +183,7 @@ impl Model for WalkerAnderson {
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
-        let sharp = matches!(
-            scenario.projectile.nose,
-            Nose::Cone { .. } | Nose::Ogive { .. }
-        );
-        if sharp && Regime::of(scenario).projectile == ProjectileRegime::Rigid {
-            return Some("it takes no account of the sharp nose of a rigid projectile".to_owned());
-        }
-        Self::motion(scenario).err()
+        sharp_and_rigid(scenario).or_else(|| Self::motion(scenario).err())
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {

@@ -1,6 +1,6 @@
 //! Failure: damage in a state that does not change, and a bar that is torn.
 
-use super::{Particle, Solid, Solver, body, rectangle, solver};
+use super::{Particle, Solid, Solver, body, deform, rectangle, solver};
 use crate::{
     axi::law::Law,
     material::{Material, PreparedDamage},
@@ -46,9 +46,9 @@ fn stretched(law: &Law, pressure: f64) -> (Particle, f64, f64) {
     particle.gradient = [rates[0], 0.0, 0.0, rates[1]];
     let (mut work, mut given) = (0.0, 0.0);
     while !particle.has_failed() {
-        let done = law.deform(&mut particle, rates[0], 1.0, 1.0);
-        work += done.total - done.plastic;
-        given += done.failure;
+        let [done, plastic, failure] = deform(law, &mut particle, rates[0]);
+        work += done - plastic;
+        given += failure;
         assert!(particle.plastic_strain < 20.0);
     }
     (particle, work, given)

@@ -12,6 +12,7 @@ mod wave_speed;
 use std::f64::consts::PI;
 
 use super::{
+    block::{Block, Members},
     body::{Body, Limits},
     boundary::Supports,
     contact::Contact,
@@ -115,6 +116,17 @@ fn body(law: Law, sections: impl IntoIterator<Item = ([f64; 2], f64)>, motion: M
     };
     let particles = sections.into_iter().map(particle).collect();
     Body::new(law, particles)
+}
+
+/// Brings one particle, whose velocity gradient is new, to the end of a step of 1 s in cells of 1 m; gives work, plastic work and what
+/// failed [J].
+fn deform(law: &Law, particle: &mut Particle, hoop_rate: f64) -> [f64; 3] {
+    let particles = std::slice::from_mut(particle);
+    let members = Members::next(particles, &mut 0).unwrap();
+    let mut block = Block::of(particles, &members);
+    block.keep_motion(particles, &members);
+    let work = law.deform(particles, &members, &mut block, [hoop_rate; _], 1.0, 1.0);
+    [work.total, work.plastic, work.failure].map(|lane| lane[0])
 }
 
 /// Sections of a rectangle in the plane of radius and depth, in a regular array with about a given spacing.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Solid, Solver, body, rectangle, solver, spherical_shell, uniform};
+use super::{Solid, Solver, body, deform, rectangle, solver, spherical_shell, uniform};
 use crate::axi::{Particle, law::Law};
 
 fn steel() -> Solid {
@@ -126,7 +126,7 @@ fn a_stress_turns_with_its_material() {
     particle.yield_point = law.slow_yield_point(&particle);
     let before = particle;
     for step in 1..=STEPS {
-        law.deform(&mut particle, 0.0, 1.0, 1.0);
+        deform(&law, &mut particle, 0.0);
         let (sine, cosine) = (2.0 * PI * f64::from(step) / f64::from(STEPS)).sin_cos();
         let [rr, zz, rz] = before.deviator;
         let turned = cosine * cosine * rr + sine * sine * zz - 2.0 * sine * cosine * rz;

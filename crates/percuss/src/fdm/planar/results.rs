@@ -3,11 +3,12 @@
 use super::{law::PlanarLaw, run::BackFaceMotion, state::impedance_match};
 use crate::{
     fdm::{
-        grid::{Grid, View, Watch},
+        grid::{Grid, Watch},
+        numerics::numerics,
         warnings::warn_of_material,
     },
     history::Recorder,
-    outcome::{Detail, Numerics, Outcome, RunResult, Termination},
+    outcome::{Detail, Outcome, RunResult, Termination},
     scenario::{Scenario, TargetBody},
     units::significant,
 };
@@ -110,32 +111,6 @@ fn details(ending: &Ending<'_>) -> Vec<Detail> {
         details.push(detail("first spall", "us", first.time * 1e6));
     }
     details
-}
-
-fn numerics(grid: &Grid<PlanarLaw>, watch: &Watch) -> Numerics {
-    let cells = |body| grid.views(body).count();
-    let target = || 1..grid.bodies.len();
-    let most = |value: fn(&View) -> f64| {
-        let of = |body| {
-            grid.views(body)
-                .map(|view| value(&view))
-                .fold(0.0, f64::max)
-        };
-        (of(0), target().map(of).fold(0.0, f64::max))
-    };
-    Numerics {
-        steps: grid.step,
-        first_time_step: watch.first_time_step,
-        smallest_time_step: watch.smallest_time_step,
-        elements: (cells(0), target().map(cells).sum()),
-        eroded_elements: (0, 0),
-        largest_plastic_strain: most(|view| view.plastic_strain),
-        largest_temperature: most(|view| view.temperature),
-        energy: grid.energy(),
-        momentum: grid.momentum(),
-        energy_residual: watch.energy_residual,
-        momentum_residual: watch.momentum_residual,
-    }
 }
 
 fn warnings(ending: &Ending<'_>, result: &RunResult) -> Vec<String> {

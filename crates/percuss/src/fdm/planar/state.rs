@@ -39,6 +39,7 @@ impl StateEquation {
     }
 
     /// `a` [Pa] and `b` [kg/m3] at a specific volume [m3/kg].
+    #[inline(always)]
     pub fn coefficients(&self, volume: f64) -> (f64, f64) {
         match *self {
             Self::MieGruneisen {
@@ -60,6 +61,7 @@ impl StateEquation {
     }
 
     /// Square of the isentropic bulk sound speed [m2/s2]: `c² = V² (−∂p/∂V + p ∂p/∂e)`; 0 where it would be negative.
+    #[inline(always)]
     pub fn sound_speed_squared(&self, volume: f64, pressure: f64) -> f64 {
         let squared = match *self {
             Self::MieGruneisen {
@@ -87,6 +89,7 @@ impl StateEquation {
     }
 
     /// Pressure on the Hugoniot at a compression `η = 1 − ρ₀ V`, and its slope [Pa].
+    #[inline(always)]
     fn hugoniot(&self, compression: f64) -> (f64, f64) {
         let Self::MieGruneisen {
             density,

@@ -3,12 +3,13 @@
 use super::{law::RodLaw, mesh};
 use crate::{
     fdm::{
-        grid::{Grid, View, Watch},
+        grid::{Grid, Watch},
+        numerics::numerics,
         options::FdmOptions,
         warnings::warn_of_material,
     },
     history::Recorder,
-    outcome::{Numerics, Outcome, RunResult, Termination},
+    outcome::{Outcome, RunResult, Termination},
     scenario::{Scenario, TargetBody},
     units::significant,
 };
@@ -106,32 +107,6 @@ fn outcome(ending: &Ending<'_>, mass: f64, momentum: f64) -> Outcome {
         Outcome::Separated
     } else {
         Outcome::AtRest
-    }
-}
-
-fn numerics(grid: &Grid<RodLaw>, watch: &Watch) -> Numerics {
-    let cells = |body| grid.views(body).count();
-    let target = || 1..grid.bodies.len();
-    let most = |value: fn(&View) -> f64| {
-        let of = |body| {
-            grid.views(body)
-                .map(|view| value(&view))
-                .fold(0.0, f64::max)
-        };
-        (of(0), target().map(of).fold(0.0, f64::max))
-    };
-    Numerics {
-        steps: grid.step,
-        first_time_step: watch.first_time_step,
-        smallest_time_step: watch.smallest_time_step,
-        elements: (cells(0), target().map(cells).sum()),
-        eroded_elements: (0, 0),
-        largest_plastic_strain: most(|view| view.plastic_strain),
-        largest_temperature: most(|view| view.temperature),
-        energy: grid.energy(),
-        momentum: grid.momentum(),
-        energy_residual: watch.energy_residual,
-        momentum_residual: watch.momentum_residual,
     }
 }
 

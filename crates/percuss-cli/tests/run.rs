@@ -1,0 +1,245 @@
+//! `percuss run`: what it prints and writes.
+
+use std::fs;
+
+use crate::support::{CASE, json, ok, percuss, shot};
+
+#[test]
+fn a_run_prints_its_results() {
+    let folder = shot(CASE);
+    let text = ok(folder.path(), &["run", "shot.toml"]);
+    for part in [
+        "Copper on aluminium\n",
+        "case shot, impact at 230 m/s, model chain, scheme conservative, target closure\nexpanding-cavity\n",
+        "outcome  ",
+        "run ended because  ",
+        "depth of penetration  ",
+        "largest depth  ",
+        "permanent depth  ",
+        "time to rest  ",
+        "residual velocity  ",
+        "final projectile length  ",
+        " % of 12.74 mm)",
+        "final projectile diameter  ",
+        "final projectile mass  ",
+        "peak force  ",
+        "energy at the end, in % of 51.8",
+        "plastic, projectile",
+        "energy residual  ",
+        "momentum residual  ",
+        "steps  ",
+        "time step  ",
+        "\nwarning: the depth rests on the target closure",
+    ] {
+        assert!(text.contains(part), "{part:?} is not in:\n{text}");
+    }
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
+}
+
+#[test]
+fn json_is_one_object_with_stable_names() {
+    let folder = shot(CASE);
+    let object = json(&ok(folder.path(), &["run", "shot.toml", "--json"]));
+    assert_eq!(object["case"], "shot");
+    assert_eq!(object["results"].as_array().unwrap().len(), 1);
+    let result = object["results"][0].as_object().unwrap();
+    let names: Vec<&str> = result.keys().map(String::as_str).collect();
+    for name in [
+        "model",
+        "scheme",
+        "outcome",
+        "termination",
+        "depth_of_penetration_mm",
+        "residual_velocity_m_s",
+        "projectile_final_length_mm",
+        "time_to_rest_us",
+        "steps",
+        "time_step_ns",
+        "energy_residual",
+        "momentum_residual",
+        "warnings",
+    ] {
+        assert!(names.contains(&name), "{name} is not in {names:?}");
+    }
+    assert_eq!(result["model"], "chain");
+    assert_eq!(result["scheme"], "conservative");
+    assert!(result["energy_residual"].as_f64().unwrap().abs() < 1e-3);
+    assert!(result["warnings"].is_array());
+    // A number that does not exist is null, not left out.
+    let wall = "projectile = { material = 'copper', length = '10 mm', diameter = '5 mm', velocity = '100 m/s' }\n\
+                target = { rigid_wall = true }";
+    let folder = shot(wall);
+    let object = json(&ok(folder.path(), &["run", "shot.toml", "--json"]));
+    let result = object["results"][0].as_object().unwrap();
+    assert!(result["depth_of_penetration_mm"].is_null());
+    assert_eq!(names, result.keys().map(String::as_str).collect::<Vec<_>>());
+}
+
+#[test]
+fn quiet_is_one_line_with_the_values_of_json() {
+    let folder = shot(CASE);
+    let line = ok(folder.path(), &["run", "shot.toml", "--quiet"]);
+    let result = json(&ok(folder.path(), &["run", "shot.toml", "--json"]))["results"][0].clone();
+    assert_eq!(line.lines().count(), 1);
+    for pair in line.split_whitespace() {
+        let (name, value) = pair.split_once('=').unwrap();
+        match name {
+            "warnings" => {
+                assert_eq!(value, result[name].as_array().unwrap().len().to_string());
+            }
+            "outcome" => assert_eq!(value, result[name].as_str().unwrap()),
+            _ if value == "null" => assert!(result[name].is_null(), "{pair}"),
+            _ => assert_eq!(
+                value.parse::<f64>().unwrap(),
+                result[name].as_f64().unwrap()
+            ),
+        }
+    }
+    for name in ["depth_of_penetration_mm", "ballistic_limit_m_s"] {
+        assert!(line.contains(&format!("{name}=")), "{line}");
+    }
+}
+
+#[test]
+fn every_model_that_applies_writes_its_folder() {
+    const PLATE: &str = r#"
+projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "300 m/s" }
+target = { material = "weldox-460-e", thickness = "12 mm" }
+chain = { projectile_elements = 10, target_elements = 10 }
+"#;
+    const ROD: &str = r#"
+projectile = { material = "4340", length = "80 mm", diameter = "5 mm", velocity = "1500 m/s" }
+target = { material = "aluminium-2024-t351", thickness = "semi-infinite" }
+chain = { projectile_elements = 10, target_elements = 10 }
+"#;
+    const CORE: &str = r#"
+projectile = { material = "apm2-core", length = "35 mm", diameter = "6.17 mm", velocity = "300 m/s", nose = { ogive = { crh = 3.0 } } }
+target = { material = "aluminium-2024-t351", thickness = "semi-infinite" }
+"#;
+    const WALL: &str = r#"
+projectile = { material = "ofhc-copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "183 m/s" }
+target = { rigid_wall = true }
+chain = { projectile_elements = 10 }
+"#;
+    let without = "  no time history: this model ";
+    let mut silent = 0;
+    for case in [CASE, PLATE, ROD, CORE, WALL] {
+        let folder = shot(case);
+        let compared = ok(folder.path(), &["compare", "shot.toml", "--json"]);
+        for result in json(&compared)["results"].as_array().unwrap() {
+            if result["outcome"] == "not_applicable" {
+                continue;
+            }
+            let model = result["model"].as_str().unwrap();
+            let out = format!("out-{model}");
+            let arguments = ["run", "shot.toml", "--model", model, "--out", &out];
+            let text = ok(folder.path(), &arguments);
+            let written = folder.path().join(&out);
+            assert!(text.contains("outcome  "), "{model}: {text}");
+            assert!(written.join("result.json").is_file(), "{model}");
+            let history = written.join("history.csv").is_file();
+            assert_eq!(text.contains(without), !history, "{model}: {text}");
+            silent += usize::from(!history);
+        }
+    }
+    assert!(silent >= 5, "{silent}");
+    let folder = shot(PLATE);
+    let arguments = ["run", "shot.toml", "--model", "plugging", "--out", "out"];
+    let text = ok(folder.path(), &arguments);
+    assert!(text.contains("no time history: this model is a formula\n"));
+}
+
+#[test]
+fn a_folder_holds_case_result_histories_and_figures() {
+    let folder = shot(CASE);
+    let arguments = ["run", "shot.toml", "--json", "--out", "deep/out"];
+    for _ in 0..2 {
+        let said = percuss(folder.path(), arguments);
+        assert_eq!(said.code, 0, "{}", said.stderr);
+        let files: Vec<&str> = said.stderr.lines().skip(1).map(str::trim).collect();
+        for file in &files {
+            assert!(folder.path().join(file).is_file(), "{file}");
+        }
+        for name in [
+            "case-as-run.toml",
+            "result.json",
+            "history.csv",
+            "depth-time.svg",
+        ] {
+            assert!(
+                files.contains(&&*format!("deep/out/{name}")),
+                "{name}: {files:?}"
+            );
+        }
+        let written = fs::read_to_string(folder.path().join("deep/out/result.json")).unwrap();
+        assert_eq!(written, said.stdout);
+        let copy = fs::read_to_string(folder.path().join("deep/out/case-as-run.toml")).unwrap();
+        assert_eq!(copy, CASE);
+    }
+    // The copy of the case can be run, into its own folder.
+    let again = [
+        "run",
+        "deep/out/case-as-run.toml",
+        "-q",
+        "--out",
+        "deep/out",
+    ];
+    assert_eq!(ok(folder.path(), &again).lines().count(), 1);
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_said_before_the_run() {
+    let folder = shot(CASE);
+    for out in ["shot.toml", "shot.toml/out"] {
+        let said = percuss(folder.path(), ["run", "shot.toml", "--out", out]);
+        assert_eq!((said.code, said.stdout.as_str()), (4, ""));
+        let start = format!("error: cannot write `{out}`: ");
+        assert!(said.stderr.starts_with(&start), "{}", said.stderr);
+    }
+}
+
+#[test]
+fn the_published_scheme_and_a_named_model_run() {
+    let case = CASE.replace(
+        "projectile_elements = 20",
+        "scheme = 'published', projectile_elements = 20",
+    );
+    let folder = shot(&case);
+    let text = ok(folder.path(), &["run", "shot.toml", "--model", "chain"]);
+    assert!(text.contains("scheme published"), "{text}");
+    let said = percuss(folder.path(), ["run", "shot.toml", "--model", "chian"]);
+    assert_eq!(said.code, 2);
+    assert!(
+        said.stderr.contains("a similar value exists: 'chain'"),
+        "{}",
+        said.stderr
+    );
+}
+
+#[test]
+fn a_numerical_failure_has_its_own_exit_code() {
+    // Elements that never erode are compressed to nothing at this speed.
+    let case = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '9 km/s' }\n\
+                target = { material = 'aluminium-2024-t351', thickness = 'semi-infinite' }\n\
+                chain = { erosion_strain = 'never', courant = 1.0 }";
+    let folder = shot(case);
+    let said = percuss(folder.path(), ["run", "shot.toml"]);
+    assert_eq!(
+        (said.code, said.stdout.as_str()),
+        (3, ""),
+        "{}",
+        said.stderr
+    );
+    assert!(
+        said.stderr.contains(" at step ")
+            && said.stderr.contains(
+                "
+help: "
+            ),
+        "{}",
+        said.stderr
+    );
+}

@@ -1,0 +1,274 @@
+//! How a block of particles answers to its velocity gradients in a step.
+
+use super::{
+    block::{Block, LANES, Lane, Members, each_of, lanes, one},
+    law::{Law, Pressure},
+    particle::{Particle, equivalent},
+};
+use crate::material::Trial;
+
+/// What a step did in every particle of a block [J].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Work {
+    pub(super) total: Lane,
+    pub(super) plastic: Lane,
+    pub(super) viscous: Lane,
+    pub(super) failure: Lane,
+    /// Power of the stress at the start and at the end of the step, both on the strain rate of the step [W].
+    pub(super) power_at_start: Lane,
+    pub(super) power_at_end: Lane,
+}
+
+impl Work {
+    /// That of a step that takes no time.
+    pub(super) const NONE: Self = Self {
+        total: [0.0; LANES],
+        plastic: [0.0; LANES],
+        viscous: [0.0; LANES],
+        failure: [0.0; LANES],
+        power_at_start: [0.0; LANES],
+        power_at_end: [0.0; LANES],
+    };
+}
+
+impl Law {
+    /// Brings particles, whose velocity gradients are new in their block, to the end of a step, and stores the block in them.
+    #[inline(always)]
+    pub(super) fn deform(
+        &self,
+        particles: &mut [Particle],
+        members: &Members,
+        block: &mut Block,
+        hoop_rate: Lane,
+        time_step: f64,
+        cell: f64,
+    ) -> Work {
+        let [rr, zz, rz, expansion, spin] = rates(block, hoop_rate, time_step);
+        let rate = |l: usize| [rr[l], zz[l], rz[l]];
+        let before = block.deviator;
+        let pressure_before = block.pressure;
+        let volume_before = block.volume;
+        let volume = lanes(|l| {
+            // (1 + x/2)/(1 − x/2) is the exponential to third order and reversible.
+            let half = 0.5 * time_step * expansion[l];
+            volume_before[l] * ((1.0 + half) / (1.0 - half))
+        });
+        let stiffness = 2.0 * self.shear_modulus * time_step;
+        let mut trial = each_of(|l| {
+            let mut trial = turned(one(&before, l), spin[l] * time_step);
+            for (entry, rate) in trial.iter_mut().zip(rate(l)) {
+                *entry += stiffness * rate;
+            }
+            trial
+        });
+        let size = lanes(|l| equivalent(&one(&trial, l)));
+        let mean_volume = lanes(|l| 0.5 * (volume_before[l] + volume[l]));
+        let mut plastic: Lane = [0.0; _];
+        let mut increments: Lane = [0.0; _];
+        for (l, place) in members.iter() {
+            let particle = &mut particles[place];
+            if particle.has_failed() {
+                for entry in &mut trial {
+                    entry[l] = 0.0;
+                }
+            } else if !particle.yield_point.holds(size[l]) {
+                let before = particle.yield_point.stress();
+                let increment = self.flow(particle, size[l], time_step);
+                let after = size[l] - 3.0 * self.shear_modulus * increment;
+                let scale = 1.0 - 3.0 * self.shear_modulus * increment / size[l];
+                for entry in &mut trial {
+                    entry[l] *= scale;
+                }
+                plastic[l] = 0.5 * (before.min(after) + after) * increment * mean_volume[l];
+                increments[l] = increment;
+            }
+        }
+        block.deviator = trial;
+        block.volume = volume;
+        let viscous_before = block.viscous_pressure;
+        let power_at_start = lanes(|l| {
+            volume_before[l]
+                * (shear_power(one(&before, l), rate(l))
+                    - (pressure_before[l] + viscous_before[l]) * expansion[l])
+        });
+        let shear_work = lanes(|l| {
+            let (before, trial) = (one(&before, l), one(&trial, l));
+            let mean = [
+                0.5 * (before[0] + trial[0]),
+                0.5 * (before[1] + trial[1]),
+                0.5 * (before[2] + trial[2]),
+            ];
+            mean_volume[l] * time_step * shear_power(mean, rate(l))
+        });
+        block.viscous_pressure = self.artificial_viscosity(block, &expansion, cell);
+        let viscous_pressure = block.viscous_pressure;
+        let change = lanes(|l| volume[l] - volume_before[l]);
+        let viscous = lanes(|l| -viscous_pressure[l] * change[l]);
+        let volume_work = self.compress(block, &change, &lanes(|l| shear_work[l] + viscous[l]));
+        let (temperature, mass) = (block.temperature, block.mass);
+        block.temperature =
+            lanes(|l| temperature[l] + self.heating * (plastic[l] + viscous[l]) * (1.0 / mass[l]));
+        let total = lanes(|l| shear_work[l] + volume_work[l] + viscous[l]);
+        block.store(particles, members);
+        if self.strength.depends_on_pressure() {
+            for (_, place) in members.iter() {
+                particles[place].yield_point.forget();
+            }
+        }
+        let mut failure: Lane = [0.0; _];
+        if self.can_fail() {
+            for (l, place) in members.iter() {
+                let particle = &mut particles[place];
+                failure[l] = self.fail(particle, increments[l], time_step);
+                for (entry, value) in block.deviator.iter_mut().zip(particle.deviator) {
+                    entry[l] = value;
+                }
+                block.pressure[l] = particle.pressure;
+            }
+        }
+        let (deviator, pressure) = (block.deviator, block.pressure);
+        let power_at_end = lanes(|l| {
+            let pressure = pressure[l] + viscous_pressure[l];
+            let power = shear_power(one(&deviator, l), rate(l));
+            volume[l] * (power - pressure * expansion[l])
+        });
+        Work {
+            total,
+            plastic,
+            viscous,
+            failure,
+            power_at_start,
+            power_at_end,
+        }
+    }
+
+    /// Returns a trial stress of a particle to the yield surface, radially; gives the increment of plastic strain.
+    #[inline]
+    fn flow(&self, particle: &mut Particle, size: f64, time_step: f64) -> f64 {
+        let state = particle.flow_state();
+        let trial = Trial {
+            stress: size,
+            modulus: 3.0 * self.shear_modulus,
+            pressure_fall: 0.0,
+            elapsed: self.rate_effects.then_some(time_step),
+        };
+        let increment = particle
+            .yield_point
+            .plastic_increment(&*self.strength, &state, &trial);
+        particle.plastic_strain += increment;
+        increment
+    }
+
+    /// Artificial viscosity [Pa].
+    #[inline(always)]
+    fn artificial_viscosity(&self, block: &Block, expansion: &Lane, cell: f64) -> Lane {
+        let squared = self.wave_speed_squared(block);
+        let (mass, volume) = (block.mass, block.volume);
+        lanes(|l| {
+            let density = mass[l] / volume[l];
+            let approach = -cell * expansion[l];
+            let sound = squared[l].sqrt();
+            let pressure = density
+                * approach
+                * (self.viscosity.quadratic * approach + self.viscosity.linear * sound);
+            if approach > 0.0 { pressure } else { 0.0 }
+        })
+    }
+
+    /// New pressure and energy; gives the work of the pressure [J].
+    #[inline(always)]
+    fn compress(&self, block: &mut Block, change: &Lane, other_work: &Lane) -> Lane {
+        let Block {
+            mass,
+            volume,
+            energy,
+            damage,
+            pressure: before,
+            ..
+        } = *block;
+        // A failed particle bears no tension.
+        let whole = |l: usize, pressure: f64| {
+            if damage[l] >= 1.0 {
+                pressure.max(0.0)
+            } else {
+                pressure
+            }
+        };
+        let work = |l: usize, pressure: f64| -0.5 * (before[l] + pressure) * change[l];
+        let [pressure, energy, done] = match &self.pressure {
+            Pressure::Linear => each_of(|l| {
+                let density = mass[l] / volume[l];
+                let pressure = whole(l, self.bulk_modulus * (density / self.density - 1.0));
+                let work = work(l, pressure);
+                let energy = energy[l] + (work + other_work[l]) * (1.0 / mass[l]);
+                [pressure, energy, work]
+            }),
+            Pressure::MieGruneisen(state) => each_of(|l| {
+                let per_mass = 1.0 / mass[l];
+                // The pressure is linear in the energy, so the energy that takes half the new pressure's work is explicit.
+                let (cold, slope) = state.coefficients(volume[l] * per_mass);
+                let specific = change[l] * per_mass;
+                let known =
+                    energy[l] + other_work[l] * per_mass - 0.5 * (before[l] + cold) * specific;
+                let energy = known / (1.0 + 0.5 * slope * specific);
+                let pressure = whole(l, cold + slope * energy);
+                [pressure, energy, work(l, pressure)]
+            }),
+        };
+        block.pressure = pressure;
+        block.energy = energy;
+        done
+    }
+}
+
+/// Deviatoric strain rates rr, zz, rz, the rate of volume, and the spin [1/s], all on the configuration half a step on.
+///
+/// Particles move by the velocities at the start of the step, which the gradient C belongs to: on the mean configuration,
+/// `C (1 + C Δt/2)⁻¹`, it gives their change of shape to second order, and that of a turning body, which straight ways make larger, too.
+#[inline(always)]
+fn rates(block: &Block, hoop_rate: Lane, time_step: f64) -> [Lane; 5] {
+    let [rr, rz, zr, zz] = block.gradient;
+    let half = 0.5 * time_step;
+    each_of(|l| {
+        let product = half * (rr[l] * zz[l] - rz[l] * zr[l]);
+        let scale = 1.0 / (1.0 + half * (rr[l] + zz[l] + product));
+        let (rr, rz, zr, zz) = (
+            (rr[l] + product) * scale,
+            rz[l] * scale,
+            zr[l] * scale,
+            (zz[l] + product) * scale,
+        );
+        let hoop = hoop_rate[l] / (1.0 + half * hoop_rate[l]);
+        let expansion = rr + zz + hoop;
+        let third = expansion / 3.0;
+        [
+            rr - third,
+            zz - third,
+            0.5 * (rz + zr),
+            expansion,
+            0.5 * (rz - zr),
+        ]
+    })
+}
+
+/// Power per volume of a deviator on a deviatoric rate, both `[rr, zz, rz]` [W/m3].
+#[inline(always)]
+fn shear_power(deviator: [f64; 3], rate: [f64; 3]) -> f64 {
+    deviator[0] * (2.0 * rate[0] + rate[1])
+        + deviator[1] * (2.0 * rate[1] + rate[0])
+        + 2.0 * deviator[2] * rate[2]
+}
+
+/// A deviator `[rr, zz, rz]` turned by an angle, with the rotation of the midpoint rule, which is exact in its invariants.
+#[inline(always)]
+fn turned([rr, zz, rz]: [f64; 3], angle: f64) -> [f64; 3] {
+    let half = 0.5 * angle;
+    let scale = 1.0 / (1.0 + half * half);
+    let (cosine, sine) = ((1.0 - half * half) * scale, 2.0 * half * scale);
+    let (cc, ss, cs) = (cosine * cosine, sine * sine, cosine * sine);
+    [
+        cc * rr + ss * zz + 2.0 * cs * rz,
+        ss * rr + cc * zz - 2.0 * cs * rz,
+        (cc - ss) * rz + cs * (zz - rr),
+    ]
+}

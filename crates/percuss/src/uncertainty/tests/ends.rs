@@ -1,0 +1,92 @@
+//! Shots without a result, threads, and analyses that end early.
+
+use std::sync::Mutex;
+
+use super::*;
+
+#[test]
+fn shots_that_fail_are_counted_and_left_out() {
+    let kernel = Linear { fails_above: 236.0 };
+    let found = analysed(&study(NORMALS), &kernel, &settings(1024));
+    let failed = found
+        .draws
+        .iter()
+        .filter(|draw| draw.inputs[0] > 236.0)
+        .count();
+    // One normal variable in 15 is more than 1.5 deviations above its mean.
+    assert!((60..77).contains(&failed), "{failed}");
+    assert_eq!(found.failures.shots, failed);
+    let depth = &found.quantities[0];
+    assert_eq!(
+        (depth.statistics.shots, depth.without_value),
+        (1024 - failed, 0)
+    );
+    let rows = depth.indices.as_ref().unwrap().rows;
+    assert!(rows < 1024 - failed && rows > 800, "{rows}");
+    assert!(
+        found.warnings[0].contains("have no result and are left out"),
+        "{:?}",
+        found.warnings
+    );
+    let perforation = found.perforation.unwrap();
+    assert_eq!(
+        (perforation.undecided, perforation.probability),
+        (failed, 0.0)
+    );
+}
+
+#[test]
+fn threads_make_no_difference_and_progress_reaches_its_end() {
+    let study = study(NORMALS);
+    let with = |threads| {
+        let reached = Mutex::new((0, 0));
+        let watch = Watch {
+            stop: &AtomicBool::new(false),
+            progress: &|done, total| {
+                let mut reached = reached.lock().unwrap();
+                *reached = (done.max(reached.0), total);
+            },
+        };
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        let chain = model("chain").unwrap();
+        let found = pool.install(|| analyse(&study, chain, &LINEAR, &settings(128), &watch));
+        let (done, total) = *reached.lock().unwrap();
+        assert_eq!((done, total), (6 + 128 * 5, 6 + 128 * 5));
+        found.unwrap()
+    };
+    assert_eq!(with(1), with(3));
+}
+
+#[test]
+fn a_stopped_analysis_says_so_and_a_model_that_does_not_apply_why() {
+    let study = study(NORMALS);
+    let chain = model("chain").unwrap();
+    let stop = AtomicBool::new(true);
+    let watch = |stop| Watch {
+        stop,
+        progress: &|_, _| {},
+    };
+    let ended = analyse(&study, chain, &LINEAR, &settings(64), &watch(&stop));
+    assert!(matches!(ended, Err(Error::Cancelled { .. })));
+    let concrete = model("forrestal_concrete").unwrap();
+    let go = AtomicBool::new(false);
+    let kernel = ScalarKernel::new(concrete);
+    let ended = analyse(&study, concrete, &kernel, &settings(64), &watch(&go));
+    assert!(
+        matches!(ended, Err(Error::NotApplicable { .. })),
+        "{ended:?}"
+    );
+}
+
+#[test]
+fn a_case_without_the_table_says_what_to_write() {
+    let error = load(CASE).unwrap_err().to_string();
+    assert!(
+        error.contains("says nothing of what is uncertain"),
+        "{error}"
+    );
+    assert!(error.contains("[[uncertainty.parameter]]"), "{error}");
+}

@@ -1,0 +1,87 @@
+//! Sobol' indices of functions whose indices are known.
+
+use std::f64::consts::PI;
+
+use super::super::{SobolIndices, design::Rows, indices::indices};
+use super::holds;
+
+/// Indices of a function of numbers drawn evenly between 0 and 1.
+fn indices_of(function: &dyn Fn(&[f64]) -> f64, dimensions: usize, seed: u64) -> SobolIndices {
+    let rows = Rows::new(4096, seed, dimensions);
+    let row = |i| {
+        (0..rows.width())
+            .map(|place| function(&rows.point(i, place)))
+            .collect()
+    };
+    let values: Vec<Vec<f64>> = (0..4096).map(row).collect();
+    let keys: Vec<String> = (0..dimensions).map(|i| i.to_string()).collect();
+    let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
+    indices(&values, &keys, seed).unwrap()
+}
+
+/// Ishigami's function: `sin x + 7 sin² y + 0.1 z⁴ sin x`, each between -π and π.
+#[test]
+fn indices_of_ishigamis_function_are_the_exact_ones() {
+    let (a, b) = (7.0, 0.1_f64);
+    let function = |u: &[f64]| {
+        let x: Vec<f64> = u.iter().map(|u| PI * (2.0 * u - 1.0)).collect();
+        x[0].sin() + a * x[1].sin().powi(2) + b * x[2].powi(4) * x[0].sin()
+    };
+    let v1 = 0.5 * (1.0 + b * PI.powi(4) / 5.0).powi(2);
+    let v2 = a * a / 8.0;
+    let v13 = b * b * PI.powi(8) * (1.0 / 18.0 - 1.0 / 50.0);
+    let v = v1 + v2 + v13;
+    for seed in [1, 2] {
+        let found = indices_of(&function, 3, seed).parameters;
+        let first = [v1, v2, 0.0];
+        let total = [v1 + v13, v2, v13];
+        for i in 0..3 {
+            holds(
+                found[i].first_order,
+                first[i] / v,
+                0.02,
+                &format!("first {i}"),
+            );
+            holds(found[i].total, total[i] / v, 0.02, &format!("total {i}"));
+        }
+    }
+}
+
+/// Sobol's function: the product of `(|4 x - 2| + a) / (1 + a)`.
+#[test]
+fn indices_of_the_g_function_are_the_exact_ones() {
+    let a = [0.0, 1.0, 4.5, 9.0, 99.0, 99.0];
+    let function = |u: &[f64]| {
+        let factor = |(u, a): (&f64, &f64)| ((4.0 * u - 2.0).abs() + a) / (1.0 + a);
+        u.iter().zip(&a).map(factor).product::<f64>()
+    };
+    let parts: Vec<f64> = a
+        .iter()
+        .map(|a| 1.0 / 3.0 / (1.0 + a) / (1.0 + a))
+        .collect();
+    let whole: f64 = parts.iter().map(|v| 1.0 + v).product::<f64>() - 1.0;
+    let found = indices_of(&function, 6, 4).parameters;
+    for (i, part) in parts.iter().enumerate() {
+        let others = (whole + 1.0) / (1.0 + part);
+        holds(
+            found[i].first_order,
+            part / whole,
+            0.02,
+            &format!("first {i}"),
+        );
+        holds(
+            found[i].total,
+            part * others / whole,
+            0.02,
+            &format!("total {i}"),
+        );
+    }
+}
+
+#[test]
+fn a_constant_has_no_indices() {
+    let rows = vec![vec![2.5; 5]; 64];
+    let refused = indices(&rows, &["a", "b", "c"], 0).unwrap_err();
+    assert!(refused.contains("the same in all shots"), "{refused}");
+    assert!(indices(&rows[..3], &["a", "b", "c"], 0).is_err());
+}

@@ -1,0 +1,30 @@
+//! All integration tests of this crate as one program: what it tests is linked once, not once a file.
+
+mod axi;
+mod axi_output;
+mod cases;
+mod common;
+mod consistency;
+mod constant_pressure;
+mod convergence;
+mod diverging;
+mod elastic_bars;
+mod eroding_rods;
+mod fdm_planar;
+mod fdm_rod;
+mod hot_rod;
+mod invariants;
+mod judgement;
+mod layers;
+mod long_rods;
+mod melting;
+mod oblique;
+mod perforation;
+mod plastic_wave;
+mod plugging;
+mod prototype;
+mod published;
+mod rigid_penetration;
+mod rod_on_wall;
+mod separation;
+mod taylor_bar;
