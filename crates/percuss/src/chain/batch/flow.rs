@@ -12,24 +12,6 @@ use crate::{
 /// Elastic strain from which a trial is done anew: less than the one up to which it is exact.
 const LARGE: f64 = 0.09;
 
-/// The lanes whose bits are set in a number, and after them others.
-pub(super) const SET_LANES: [[u32; LANES]; 256] = {
-    let mut table = [[0; LANES]; 256];
-    let mut bits = 0;
-    while bits < 256 {
-        let (mut count, mut lane) = (0, 0);
-        while lane < LANES {
-            if bits >> lane & 1 == 1 {
-                table[bits][count] = lane as u32;
-                count += 1;
-            }
-            lane += 1;
-        }
-        bits += 1;
-    }
-    table
-};
-
 /// What a return to the yield surface starts from, in eight places.
 struct Start {
     trial: [f64; LANES],

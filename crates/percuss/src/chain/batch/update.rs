@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use super::{
     bundle::{Bundle, LIMITS_AT_ONCE},
-    flow::{SET_LANES, flow_gathered, flow_in_place},
-    lanes::{LANES, Lanes, larger, smaller},
+    flow::{flow_gathered, flow_in_place},
+    lanes::{LANES, Lanes, SET_LANES, larger, smaller},
     step::{Found, Step},
 };
 
