@@ -1,11 +1,12 @@
-//! Time of single runs of the chain model. Compare two versions side by side on one machine; absolute times wander.
+//! Time of runs of the chain model, single and side by side. Compare two versions side by side on one machine; absolute times wander.
 
-use std::hint::black_box;
+use std::{hint::black_box, sync::atomic::AtomicBool};
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use percuss::{
     Scenario, case,
     model::{self, Control},
+    sweep::{BatchKernel, Kernel, Shot},
 };
 
 const COLUMN: &str = "target_closure = \"column\"";
@@ -55,5 +56,22 @@ fn runs(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, runs);
+fn side_by_side(criterion: &mut Criterion) {
+    let chain = model::model("chain").unwrap_or_else(|error| panic!("{error}"));
+    let shot = |i: u32| Shot {
+        index: u64::from(i),
+        inputs: Vec::new(),
+        scenario: Ok(paper(150.0 + 3.5 * f64::from(i), (40, 80), COLUMN)),
+    };
+    let shots: Vec<Shot> = (0..64).map(shot).collect();
+    let mut group = criterion.benchmark_group("chain");
+    group.throughput(Throughput::Elements(shots.len() as u64));
+    group.bench_function("64 shots side by side, 40-80", |bencher| {
+        let rows = || BatchKernel::new(chain).rows(shots.clone(), &AtomicBool::new(false));
+        bencher.iter(|| black_box(rows()));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, runs, side_by_side);
 criterion_main!(benches);

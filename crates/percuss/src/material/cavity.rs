@@ -1,5 +1,7 @@
 //! Quasi-static expansion of a spherical or cylindrical cavity: the pressure that a metal opposes to slow penetration.
 
+use std::cell::RefCell;
+
 use super::{FlowState, Material};
 
 /// Strain beyond which the rest of the integral is below 1e-12 of the whole.
@@ -13,7 +15,7 @@ const PANELS: u32 = 2000;
 /// `2Y/3`, and the strength law beyond it, slow and at room temperature. With constant flow stress it is
 /// `(2Y/3)(1 + ln(2E/3Y))` up to terms of the order of Y/E.
 pub fn cavity_expansion_pressure(material: &Material) -> Option<f64> {
-    expansion_pressure(material, 1.5)
+    remembered_pressure(material, 1.5)
 }
 
 /// Pressure that expands a long cylindrical cavity from nothing, slowly, in plane strain, in an infinite incompressible body [Pa]
@@ -24,7 +26,25 @@ pub fn cavity_expansion_pressure(material: &Material) -> Option<f64> {
 /// `(Y/√3)(1 + ln(E/(√3 Y)))` up to terms of the order of Y/E, and for `σ = Y (Eε/Y)ⁿ` it is
 /// `(Y/√3){1 + [E/(√3 Y)]ⁿ ∫₀^{1−√3Y/E} (−ln x)ⁿ/(1−x) dx}`.
 pub fn cylindrical_cavity_pressure(material: &Material) -> Option<f64> {
-    expansion_pressure(material, 3.0_f64.sqrt())
+    remembered_pressure(material, 3.0_f64.sqrt())
+}
+
+thread_local! {
+    /// The last integral: material, exponent and value.
+    static LAST: RefCell<Option<(Material, f64, Option<f64>)>> = const { RefCell::new(None) };
+}
+
+/// [`expansion_pressure`], and the last one again where nothing has changed: shots of a sweep mostly have the same target, and the
+/// integral takes as long as a third of a shot.
+fn remembered_pressure(material: &Material, exponent: f64) -> Option<f64> {
+    LAST.with_borrow_mut(|last| match last {
+        Some((known, of, pressure)) if known == material && *of == exponent => *pressure,
+        _ => {
+            let pressure = expansion_pressure(material, exponent);
+            *last = Some((material.clone(), exponent, pressure));
+            pressure
+        }
+    })
 }
 
 /// `∫₀^∞ σ(ε)/(e^{gε} − 1) dε`: g is 3/2 for a sphere and √3 for a cylinder.
@@ -67,6 +87,24 @@ mod tests {
             "name = 'a'\ndensity = '2700 kg/m3'\nyoungs_modulus = '68.9 GPa'\npoissons_ratio = 0.33\nstrength.{strength}"
         ))
         .unwrap()
+    }
+
+    #[test]
+    fn a_pressure_is_remembered_for_its_material_and_shape_only() {
+        let metals = ["500", "276"].map(|stress| {
+            material(&format!(
+                "perfectly_plastic = {{ flow_stress = '{stress} MPa' }}"
+            ))
+        });
+        for metal in metals.iter().chain(&metals) {
+            for _ in 0..2 {
+                let sphere = cavity_expansion_pressure(metal);
+                assert_eq!(sphere, expansion_pressure(metal, 1.5));
+                let cylinder = cylindrical_cavity_pressure(metal);
+                assert_eq!(cylinder, expansion_pressure(metal, 3.0_f64.sqrt()));
+                assert!(sphere > cylinder);
+            }
+        }
     }
 
     #[test]

@@ -30,9 +30,14 @@ impl BatchKernel {
         }
     }
 
+    /// Whether shots like this one are computed side by side.
+    pub(super) fn takes(model: &dyn Model, scenario: &Scenario) -> bool {
+        model.name() == chain::Chain.name() && chain::is_for_batch(scenario)
+    }
+
     /// What is known of a shot before it is computed, if it can be computed beside others.
     fn prepare(&self, scenario: &Scenario) -> Option<(Regime, Vec<String>)> {
-        if self.model.name() != chain::Chain.name() || !chain::is_for_batch(scenario) {
+        if !Self::takes(self.model, scenario) {
             return None;
         }
         let regime = Regime::of(scenario);

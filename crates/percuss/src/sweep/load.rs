@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{
-    Sweep,
+    BatchKernel, Sweep,
     axis::Axis,
     file::{Design, SweepFile},
     inputs::{check_values, resolve},
@@ -22,6 +22,8 @@ use crate::{
 const LARGEST_BLOCK: u64 = 1024;
 /// Blocks that there are at least, where there are as many shots: they are what threads share.
 const BLOCKS: u64 = 64;
+/// Shots that a block of shots computed side by side has at least, where there are as many: fewer leave lanes empty.
+const SIDE_BY_SIDE: u64 = 64;
 
 pub(super) fn load(path: &Path) -> Result<Sweep, Error> {
     let document = Document::read(path)?;
@@ -56,21 +58,32 @@ pub(super) fn load(path: &Path) -> Result<Sweep, Error> {
     document.report(findings)?;
 
     let canonical: toml::Table = document.parse()?;
-    let block_size = file
-        .block_size
-        .unwrap_or_else(|| shots.div_ceil(BLOCKS).clamp(1, LARGEST_BLOCK));
-    Ok(Sweep {
+    let mut sweep = Sweep {
         title: file.title,
         base,
         model: model(&file.model)?,
         points: Points::new(file.design, shots, file.seed.unwrap_or(0), axes.len()),
         seed: file.seed.unwrap_or(0),
-        block_size,
+        block_size: 1,
         content: canonical.to_string(),
         axes,
         copula,
         template,
-    })
+    };
+    sweep.block_size = file.block_size.unwrap_or_else(|| block_size(&sweep));
+    Ok(sweep)
+}
+
+/// Shots in a block where the file does not say: the file and the case alone decide, so that every machine has the same blocks.
+fn block_size(sweep: &Sweep) -> u64 {
+    let shots = sweep.shots();
+    let first = sweep.shot(0).scenario;
+    let least = match first.is_ok_and(|first| BatchKernel::takes(sweep.model, &first)) {
+        true => SIDE_BY_SIDE,
+        false => 1,
+    };
+    let blocks = (shots / least).clamp(1, BLOCKS);
+    shots.div_ceil(blocks).min(LARGEST_BLOCK)
 }
 
 fn check_model(file: &SweepFile, check: &mut Check<'_>) {

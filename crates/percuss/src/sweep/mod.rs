@@ -6,6 +6,8 @@
 mod amount;
 mod axis;
 mod batch;
+#[cfg(test)]
+mod block_tests;
 mod caught;
 mod copula;
 mod correlation;

@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Loads a sweep written into a folder of its own, beside the case that it names.
-fn load(name: &str, text: &str) -> Result<Sweep, Error> {
+pub(super) fn load(name: &str, text: &str) -> Result<Sweep, Error> {
     let folder = std::env::temp_dir().join(format!("percuss-sweep-{}-{name}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let case =

@@ -1,5 +1,7 @@
 //! The state of eight shots on meshes alike.
 
+use std::ops::Range;
+
 use super::lanes::{LANES, Lanes};
 use crate::{
     case::BackFace,
@@ -38,7 +40,19 @@ impl Mesh {
             back,
         }
     }
+
+    /// Elements of the projectile (0) or the target (1).
+    pub(super) fn elements_of(&self, body: usize) -> Range<usize> {
+        let [projectile, target] = self.elements;
+        match body {
+            0 => 0..projectile,
+            _ => projectile..projectile + target,
+        }
+    }
 }
+
+/// Stable time steps that are compared at once.
+pub(super) const LIMITS_AT_ONCE: usize = 4;
 
 /// A point mass.
 #[derive(Debug, Clone, Copy, Default)]
@@ -70,6 +84,15 @@ pub(super) struct Flow {
     pub(super) largest_rate: Lanes,
 }
 
+/// What is known of an element in all lanes together.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Mark {
+    /// Whether an update to the same length would change nothing in any lane.
+    pub(super) settled: bool,
+    /// Whether it flowed in the last step in any lane.
+    pub(super) flowed: bool,
+}
+
 /// What is the same for all of a projectile or target.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Body {
@@ -92,6 +115,31 @@ pub(super) struct Body {
     /// Lengths at which an element erodes.
     pub(super) shortest: Lanes,
     pub(super) longest: Lanes,
+}
+
+/// What the response of an element needs of its body.
+#[derive(Clone, Copy)]
+pub(super) struct Elastic {
+    pub(super) modulus: Lanes,
+    pub(super) compliance: Lanes,
+    pub(super) slowness: Lanes,
+    pub(super) volume: Lanes,
+    pub(super) shortest: Lanes,
+    pub(super) longest: Lanes,
+}
+
+impl Body {
+    #[inline(always)]
+    pub(super) fn elastic(&self) -> Elastic {
+        Elastic {
+            modulus: self.modulus,
+            compliance: self.compliance,
+            slowness: self.slowness,
+            volume: self.volume,
+            shortest: self.shortest,
+            longest: self.longest,
+        }
+    }
 }
 
 /// What there is one of in every shot.
@@ -138,16 +186,14 @@ pub(super) struct Bundle {
     pub(super) flows: Vec<Flow>,
     /// Whether a node moves in any lane.
     pub(super) moves: Vec<bool>,
-    /// Whether an update of an element to the same length would change nothing, in any lane.
-    pub(super) settled: Vec<bool>,
-    /// Elements that a pass takes up.
-    pub(super) active: Vec<usize>,
-    /// Whether an element flowed in the last step, in any lane.
-    pub(super) flowed: Vec<bool>,
+    /// What is known of the elements.
+    pub(super) marks: Vec<Mark>,
+    /// Largest stable time step of every element, and of none up to a multiple of [`LIMITS_AT_ONCE`].
+    pub(super) limits: Vec<Lanes>,
     /// Those that flow or flowed in the last step.
     pub(super) working: Vec<usize>,
-    /// Where something flows: elements and lanes.
-    pub(super) flowing: Vec<(u32, u32)>,
+    /// Where single lanes of elements flow: elements and lanes.
+    pub(super) gathered: Vec<(u32, u32)>,
     pub(super) bodies: [Body; 2],
     pub(super) whole: Whole,
     /// Which of the two stresses of an element is the one after the last step.
@@ -163,11 +209,10 @@ impl Bundle {
             springs: vec![Spring::default(); elements],
             flows: vec![Flow::default(); elements],
             moves: vec![false; elements + 2],
-            settled: vec![false; elements],
-            active: vec![0; elements],
-            flowed: vec![false; elements],
+            marks: vec![Mark::default(); elements],
+            limits: vec![Lanes::all(f64::INFINITY); elements.next_multiple_of(LIMITS_AT_ONCE)],
             working: vec![0; elements],
-            flowing: vec![(0, 0); (elements + 1) * LANES],
+            gathered: vec![(0, 0); (elements + 1) * LANES],
             bodies: [Body::default(); 2],
             whole: Whole::default(),
             now: 0,

@@ -51,7 +51,14 @@ impl Bundle {
             body.longest.0[lane] = length * stretch / CLOSE;
         }
         self.whole.take_in(lane, run);
-        self.settled.fill(false);
+        self.unsettle();
+    }
+
+    /// Has every element updated in the next step.
+    fn unsettle(&mut self) {
+        for mark in &mut self.marks {
+            mark.settled = false;
+        }
     }
 
     /// Keeps up what the single run has done with a lane that was let out.
@@ -130,7 +137,7 @@ impl Bundle {
             body.longest.0[lane] = f64::INFINITY;
         }
         self.whole.park(lane);
-        self.settled.fill(false);
+        self.unsettle();
     }
 }
 

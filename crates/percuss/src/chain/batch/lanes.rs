@@ -14,6 +14,24 @@ impl Lanes {
     }
 }
 
+/// The lanes whose bits are set in a number, and after them others.
+pub(super) const SET_LANES: [[u32; LANES]; 256] = {
+    let mut table = [[0; LANES]; 256];
+    let mut bits = 0;
+    while bits < 256 {
+        let (mut count, mut lane) = (0, 0);
+        while lane < LANES {
+            if bits >> lane & 1 == 1 {
+                table[bits][count] = lane as u32;
+                count += 1;
+            }
+            lane += 1;
+        }
+        bits += 1;
+    }
+    table
+};
+
 // Loops over the lanes work on copies of whole arrays: what a compiler can tell apart from memory becomes vector instructions.
 
 /// The larger of two numbers of which neither is undefined.

@@ -4,17 +4,22 @@
 //! of another one, so that a shot ends with the same bits in whatever company it was computed. Whatever is rare (the books, the end
 //! of a shot, erosion) is left to the single run: the lane's state is put into its [`Conservative`] and goes on there.
 
+// Loops over the lanes run along many arrays at once.
+#![allow(clippy::needless_range_loop)]
+
 mod accepts;
 mod bundle;
+mod contact;
+mod end;
 mod exchange;
+mod flow;
+mod kick;
 mod lanes;
-// Loops over the lanes run along many arrays at once.
-#[allow(clippy::needless_range_loop)]
 mod spring;
-#[allow(clippy::needless_range_loop)]
 mod step;
 #[cfg(test)]
 mod tests;
+mod update;
 
 use std::{
     collections::BTreeMap,
@@ -28,12 +33,20 @@ pub(crate) use accepts::accepts;
 use bundle::{Bundle, Mesh};
 use lanes::LANES;
 
-use super::conservative::{AUDIT_INTERVAL, Conservative};
+use super::{
+    conservative::{AUDIT_INTERVAL, Conservative},
+    part::constraint_factor,
+};
 use crate::{
     Error, Scenario,
     model::{Control, Progress},
     outcome::RunResult,
+    scenario::TargetBody,
 };
+
+/// Stages of [`AUDIT_INTERVAL`] steps that an empty lane waits for others to end: shots that start together have their waves in
+/// the same places.
+const PATIENCE: u32 = 4;
 
 /// The caller stopped the batch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,8 +76,9 @@ pub(crate) fn run(
     for (mesh, mut shots) in meshes {
         // Shots that resemble each other have their waves in the same places: less is computed in vain. The slowest goes first.
         shots.sort_by(|&a, &b| {
-            let speed = |shot: usize| scenarios[shot].impact_speed;
-            speed(a).total_cmp(&speed(b))
+            let [a, b] = [a, b].map(|shot| scenarios[shot]);
+            let by_reach = reach(a).total_cmp(&reach(b));
+            by_reach.then(a.impact_speed.total_cmp(&b.impact_speed))
         });
         let mut ride = Ride {
             bundle: Bundle::new(mesh),
@@ -80,6 +94,16 @@ pub(crate) fn run(
     Ok(results.flatten().collect())
 }
 
+/// Length of target whose border shear is in balance with the stress of its front, as a part of what a border shear and a constraint
+/// factor of 1 give: how far from the front elements move.
+fn reach(scenario: &Scenario) -> f64 {
+    let options = &scenario.options.chain;
+    let TargetBody::Layers { layers, .. } = &scenario.target else {
+        return 0.0;
+    };
+    constraint_factor(options.constraint_factor(), &layers[0].material) / options.border_shear()
+}
+
 struct Ride<'a, 'b> {
     bundle: Bundle,
     lanes: [Option<Passenger<'a>>; LANES],
@@ -91,18 +115,17 @@ struct Ride<'a, 'b> {
 impl Ride<'_, '_> {
     fn run(&mut self, mut waiting: Vec<usize>) -> Result<(), Stopped> {
         let arch = Arch::new();
+        let mut patience = 0;
         loop {
-            for lane in 0..LANES {
-                if self.lanes[lane].is_none()
-                    && let Some(shot) = waiting.pop()
-                {
-                    let run = Conservative::new(self.scenarios[shot]);
-                    self.bundle.take_in(lane, &run);
-                    self.lanes[lane] = Some(Passenger { shot, run });
-                }
-            }
-            if self.lanes.iter().all(Option::is_none) {
+            let empty = self.lanes.iter().filter(|lane| lane.is_none()).count();
+            if empty == LANES && waiting.is_empty() {
                 return Ok(());
+            }
+            if empty == LANES || patience == 0 {
+                self.board(&mut waiting);
+                patience = PATIENCE;
+            } else if empty > 0 {
+                patience -= 1;
             }
             // Lanes change passengers between these stages, so that the books of all are due at the same time.
             let mut left = AUDIT_INTERVAL;
@@ -120,6 +143,19 @@ impl Ride<'_, '_> {
             }
             if self.stop.load(Ordering::Relaxed) {
                 return Err(Stopped);
+            }
+        }
+    }
+
+    /// Fills the empty lanes.
+    fn board(&mut self, waiting: &mut Vec<usize>) {
+        for (lane, seat) in self.lanes.iter_mut().enumerate() {
+            if seat.is_none()
+                && let Some(shot) = waiting.pop()
+            {
+                let run = Conservative::new(self.scenarios[shot]);
+                self.bundle.take_in(lane, &run);
+                *seat = Some(Passenger { shot, run });
             }
         }
     }

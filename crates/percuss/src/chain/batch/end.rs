@@ -1,0 +1,101 @@
+//! The end of a step: `Watch::follow` in every lane, and which lanes the single run has to look at.
+
+use super::{
+    bundle::{Back, Bundle},
+    lanes::{LANES, Lanes, larger, smaller},
+    step::{Found, Step},
+};
+use crate::chain::solver::LARGEST_STRAIN_STEP;
+
+impl Bundle {
+    /// Ends the step and finds the lanes that the single run has to look at.
+    #[inline(always)]
+    pub(super) fn end(&mut self, step: &Step, found: &Found, is_last: bool) -> [bool; LANES] {
+        let [projectile, target] = self.mesh.elements;
+        let face = self.nodes[projectile + 1].position.0;
+        let back = self.nodes[projectile + 1 + target].position.0;
+        let tail = self.nodes[0].velocity.0;
+        let is_open = self.mesh.back == Back::Open;
+        let mut depth = [0.0; LANES];
+        let mut calls = [false; LANES];
+        let mut may_rest = false;
+        let erodes = match found.erodes {
+            true => self.eroding(),
+            false => [false; LANES],
+        };
+        let whole = &mut self.whole;
+        for l in 0..LANES {
+            whole.time_step.0[l] = step.length.0[l];
+            whole.time.0[l] += step.length.0[l];
+            whole.step.0[l] += 1.0;
+            let of_approach = LARGEST_STRAIN_STEP / found.fastest.0[l];
+            whole.stable_step.0[l] = smaller(of_approach, found.stable_step.0[l]);
+            let drift = back[l] - whole.back_position.0[l];
+            depth[l] = if is_open { face[l] - drift } else { face[l] };
+            calls[l] = is_last
+                | erodes[l]
+                | (depth[l] >= whole.perforated.0[l])
+                | (whole.time.0[l] >= whole.next_look.0[l])
+                | (whole.step.0[l] >= whole.most_steps.0[l]);
+            may_rest |= tail[l] < whole.slow_tail.0[l];
+        }
+        if may_rest {
+            let momentum = self.projectile_momentum();
+            for l in 0..LANES {
+                calls[l] |= (tail[l] < self.whole.slow_tail.0[l]) & (momentum.0[l] <= 0.0);
+            }
+        }
+        let whole = &mut self.whole;
+        for l in 0..LANES {
+            if calls[l] {
+                continue;
+            }
+            whole.largest_depth.0[l] = larger(depth[l], whole.largest_depth.0[l]);
+            whole.peak_force.0[l] = larger(whole.contact_force.0[l], whole.peak_force.0[l]);
+            whole.smallest_time_step.0[l] =
+                smaller(whole.time_step.0[l], whole.smallest_time_step.0[l]);
+            if whole.closed.0[l] > 0.0 {
+                whole.contact_time.0[l] += whole.time_step.0[l];
+                whole.touched.0[l] = 1.0;
+            }
+        }
+        calls
+    }
+
+    /// Lanes in which an element is about to erode.
+    #[cold]
+    #[inline(never)]
+    fn eroding(&self) -> [bool; LANES] {
+        let mut erodes = [false; LANES];
+        for (b, body) in self.bodies.iter().enumerate() {
+            for e in self.mesh.elements_of(b) {
+                let [back, front] = [e + b, e + b + 1].map(|node| self.nodes[node].position.0);
+                for l in 0..LANES {
+                    let length = front[l] - back[l];
+                    erodes[l] |= (length <= body.shortest.0[l]) | (length >= body.longest.0[l]);
+                }
+            }
+        }
+        erodes
+    }
+
+    /// Momentum of the projectile.
+    #[inline(always)]
+    fn projectile_momentum(&self) -> Lanes {
+        let count = self.mesh.elements[0];
+        let body = &self.bodies[0];
+        let mut sum = Lanes::all(0.0);
+        for (i, node) in self.nodes[..=count].iter().enumerate() {
+            let mass = if i == 0 || i == count {
+                body.end_mass
+            } else {
+                body.mass
+            };
+            let velocity = node.velocity;
+            for l in 0..LANES {
+                sum.0[l] += mass.0[l] * velocity.0[l];
+            }
+        }
+        sum
+    }
+}
