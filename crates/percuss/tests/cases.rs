@@ -149,4 +149,5 @@ cases! {
     concrete_forrestal_1994: "concrete-forrestal-1994",
     weldox_460e_12mm_blunt: "weldox-460e-12mm-blunt",
     apm2_core_oblique: "apm2-core-oblique",
+    ball_on_304_sheet: "ball-on-304-sheet",
 }
