@@ -4,6 +4,7 @@ mod axi;
 mod bad_input;
 mod calibrate;
 mod compare;
+mod docs;
 mod help;
 mod judge;
 mod layout;

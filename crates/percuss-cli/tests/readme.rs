@@ -6,6 +6,8 @@ use std::{
     process::Command,
 };
 
+use crate::support::blocks;
+
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
@@ -15,18 +17,13 @@ fn readme() -> String {
 }
 
 /// Lines of all blocks of a language.
-fn blocks(text: &str, language: &str) -> Vec<String> {
-    let mut inside = false;
-    let mut lines = Vec::new();
-    for line in text.lines() {
-        match line.trim_end() {
-            "```" => inside = false,
-            fence if fence.starts_with("```") => inside = fence[3..].trim() == language,
-            line if inside => lines.push(line.to_owned()),
-            _ => {}
-        }
-    }
-    lines
+fn lines(text: &str, language: &str) -> Vec<String> {
+    let blocks = blocks(text, language);
+    blocks
+        .iter()
+        .flat_map(|block| block.lines())
+        .map(str::to_owned)
+        .collect()
 }
 
 #[test]
@@ -41,7 +38,7 @@ fn every_percuss_command_of_the_readme_runs() {
             fs::copy(file.path(), case.join(file.file_name())).unwrap();
         }
     }
-    let commands = blocks(&readme(), "sh");
+    let commands = lines(&readme(), "sh");
     let own: Vec<&String> = commands
         .iter()
         .filter(|line| line.starts_with("percuss "))
@@ -63,7 +60,7 @@ fn every_percuss_command_of_the_readme_runs() {
 /// `.ci/run` runs these two word for word.
 #[test]
 fn two_commands_set_everything_up() {
-    let commands = blocks(&readme(), "sh");
+    let commands = lines(&readme(), "sh");
     assert_eq!(
         commands[..2],
         [
@@ -75,7 +72,7 @@ fn two_commands_set_everything_up() {
 
 #[test]
 fn the_short_case_of_the_readme_runs() {
-    let case = blocks(&readme(), "toml").join("\n");
+    let case = lines(&readme(), "toml").join("\n");
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scenario.toml");
     fs::write(&path, case).unwrap();
@@ -102,7 +99,7 @@ fn the_table_of_the_readme_is_real() {
         .output()
         .unwrap();
     let table = String::from_utf8_lossy(&output.stdout).into_owned();
-    for line in blocks(&readme(), "text") {
+    for line in lines(&readme(), "text") {
         let is_row = ["outcome", "depth of", "time to", "final projectile", "peak"]
             .iter()
             .any(|start| line.starts_with(start));
@@ -125,7 +122,7 @@ fn the_comparison_of_the_readme_is_real() {
         .output()
         .unwrap();
     let printed = String::from_utf8_lossy(&output.stdout).into_owned();
-    let shown = blocks(&readme(), "text");
+    let shown = lines(&readme(), "text");
     let from = shown
         .iter()
         .position(|line| line.starts_with("regime "))
