@@ -5,6 +5,7 @@ from __future__ import annotations
 import doctest
 import importlib
 import pkgutil
+import runpy
 from pathlib import Path
 
 import percuss
@@ -54,6 +55,11 @@ def test_the_examples_of_a_module_run(module: str) -> None:
     for test in doctest.DocTestFinder().find(importlib.import_module(name), name, extraglobs={"percuss": percuss}):
         runner.run(test, out=said.append)
     assert not runner.failures, "".join(said)
+
+
+def test_the_reference_is_what_the_docstrings_say() -> None:
+    program = runpy.run_path(str(ROOT / "crates/percuss-py/reference.py"))
+    assert program["PAGE"].read_text(encoding="utf-8") == program["page"](), "run `python crates/percuss-py/reference.py`"
 
 
 def test_every_function_has_an_example() -> None:

@@ -1,6 +1,6 @@
 """First-order impact and penetration mechanics: what strikes what, how fast, how deep it goes, and how far to trust that.
 
-Everything that the program ``percuss`` can do, with the same names and the same numbers. Cases are data: the tables of a case file,
+The runs, comparisons and studies of the program ``percuss``, with the same names and the same numbers. Cases are data: the tables of a case file,
 from a file or as keyword arguments. Numbers in code are in SI units; the names of results end with their unit.
 
 Examples
