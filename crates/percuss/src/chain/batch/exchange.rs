@@ -18,9 +18,11 @@ impl Bundle {
     /// Puts a shot at the moment of impact into a lane.
     pub(super) fn take_in(&mut self, lane: usize, run: &Conservative<'_>) {
         let state = &run.state;
-        for (node, from) in self.nodes.iter_mut().zip(&state.nodes) {
-            node.position.0[lane] = from.position;
-            node.velocity.0[lane] = from.velocity;
+        for (i, from) in state.nodes.iter().enumerate() {
+            self.nodes[i].position.0[lane] = from.position;
+            self.nodes[i].velocity.0[lane] = from.velocity;
+            self.masses[i].0[lane] = from.mass;
+            self.frictions[i].0[lane] = from.friction;
         }
         let elements = self.springs.iter_mut().zip(&mut self.flows);
         for ((spring, flow), from) in elements.zip(&state.elements) {
@@ -55,7 +57,7 @@ impl Bundle {
     }
 
     /// Has every element updated in the next step.
-    fn unsettle(&mut self) {
+    pub(super) fn unsettle(&mut self) {
         for mark in &mut self.marks {
             mark.settled = false;
         }
@@ -69,12 +71,12 @@ impl Bundle {
     /// Puts a lane into the state of its shot; false when an element has no length any more.
     pub(super) fn let_out(&self, lane: usize, run: &mut Conservative<'_>) -> bool {
         let state = &mut run.state;
-        for (node, to) in self.nodes.iter().zip(&mut state.nodes) {
-            to.position = node.position.0[lane];
-            to.velocity = node.velocity.0[lane];
-        }
         let mut is_sound = true;
         for segment in &state.segments {
+            for i in segment.first_node..=segment.last_node {
+                state.nodes[i].position = self.nodes[i].position.0[lane];
+                state.nodes[i].velocity = self.nodes[i].velocity.0[lane];
+            }
             for e in segment.elements() {
                 let node = e + segment.shift;
                 let to = &mut state.elements[e];
@@ -83,6 +85,12 @@ impl Bundle {
                 self.springs[e].let_out(lane, to, self.now);
                 self.flows[e].let_out(lane, to, self.springs[e].yield_stress.0[lane]);
             }
+        }
+        if let Some(tip) = state.tip_segment() {
+            state.joints[tip].closed = self.whole.closed.0[lane] > 0.0;
+        }
+        for joint in self.joints.iter().filter(|joint| joint.lane == lane) {
+            state.joints[joint.place].closed = joint.closed;
         }
         self.whole.let_out(lane, run);
         is_sound
@@ -95,6 +103,8 @@ impl Bundle {
             // Tip and face stand in one place.
             node.position.0[lane] = (i - usize::from(i > projectile)) as f64;
             node.velocity.0[lane] = 0.0;
+            self.masses[i].0[lane] = 1.0;
+            self.frictions[i].0[lane] = 0.0;
         }
         for (spring, flow) in self.springs.iter_mut().zip(&mut self.flows) {
             let steps = [&mut flow.plastic_step, &mut flow.step_before];
@@ -137,6 +147,7 @@ impl Bundle {
             body.longest.0[lane] = f64::INFINITY;
         }
         self.whole.park(lane);
+        self.mend(lane);
         self.unsettle();
     }
 }
@@ -221,7 +232,6 @@ impl Whole {
         state.time_step = self.time_step.0[lane];
         state.stable_step = self.stable_step.0[lane];
         state.contact_force = self.contact_force.0[lane];
-        state.joints[0].closed = self.closed.0[lane] > 0.0;
         state.meetings = self.meetings.0[lane] as u64;
         let books = &mut state.books;
         books.plastic = self.plastic_work.map(|work| work.0[lane]);

@@ -11,8 +11,10 @@ mod accepts;
 mod bundle;
 mod contact;
 mod end;
+mod erosion;
 mod exchange;
 mod flow;
+mod joints;
 mod kick;
 mod lanes;
 mod spring;
@@ -177,10 +179,16 @@ impl Ride<'_, '_> {
         };
         let shot = passenger.shot;
         let result = if self.bundle.let_out(lane, run) {
+            let left = |run: &Conservative<'_>| -> usize {
+                let segments = run.state.segments.iter();
+                segments.map(|segment| segment.elements().len()).sum()
+            };
+            let before = left(run);
             run.state.erode(run.control.erosion_strain);
+            let erodes = left(run) < before;
             run.watch.follow(&run.state, self.scenarios[shot]);
             match run.ended(&mut control) {
-                Ok(None) if !run.state.elements.iter().any(|e| e.eroded) => {
+                Ok(None) if !erodes || self.bundle.erode(lane, run) => {
                     self.bundle.follow(lane, run);
                     return Ok(());
                 }

@@ -44,9 +44,15 @@ impl Bundle {
     fn step(&mut self, is_last: bool) -> [bool; LANES] {
         let step = self.begin();
         let force_behind = self.kick_projectile(&step);
+        let [projectile, target] = self.mesh.elements;
+        let [tip, face] = [projectile, projectile + 1];
         self.kick_contact(force_behind, &step);
-        self.drift(self.mesh.elements[0], &step);
+        self.kick_joints(face, &step);
         self.kick_target(&step);
+        self.close_joints(&step);
+        for end in [tip, face, face + target] {
+            self.drift(end, &step);
+        }
         let found = self.update(&step);
         self.now = 1 - self.now;
         self.end(&step, &found, is_last)
