@@ -14,6 +14,7 @@ use crate::{
     case::{ErosionClosure, ErosionStrain},
     error::NumericalError,
     history::Recorder,
+    ledger::{EnergyLedger, MomentumLedger},
     model::{Control, Progress},
     outcome::{RunResult, Termination},
     scenario::TargetBody,
@@ -173,8 +174,7 @@ impl<'a> Conservative<'a> {
             return Ok(Some(Termination::StepLimit));
         }
         if self.state.step.is_multiple_of(AUDIT_INTERVAL) {
-            self.audit()?;
-            self.check_time_step()?;
+            self.look(self.state.energy(), self.state.momentum())?;
             control.report(self.progress())?;
         }
         if !self
@@ -191,6 +191,16 @@ impl<'a> Conservative<'a> {
             Some(_) => Termination::Quiescent,
             None => Termination::ProjectileConsumed,
         }))
+    }
+
+    /// Looks at the books between two steps, and at the time step.
+    pub(super) fn look(
+        &mut self,
+        energy: EnergyLedger,
+        momentum: MomentumLedger,
+    ) -> Result<(), Failure> {
+        self.audit_books(energy, momentum)?;
+        Ok(self.check_time_step()?)
     }
 
     /// Looks at the books a last time and sums up.
@@ -210,10 +220,15 @@ impl<'a> Conservative<'a> {
     }
 
     fn audit(&mut self) -> Result<(), Failure> {
-        let residuals = [
-            self.state.energy().residual(),
-            self.state.momentum().residual(),
-        ];
+        self.audit_books(self.state.energy(), self.state.momentum())
+    }
+
+    fn audit_books(
+        &mut self,
+        energy: EnergyLedger,
+        momentum: MomentumLedger,
+    ) -> Result<(), Failure> {
+        let residuals = [energy.residual(), momentum.residual()];
         let moment = self.moment();
         let audited = self
             .watch

@@ -10,7 +10,7 @@ use crate::chain::solver::LARGEST_STRAIN_STEP;
 impl Bundle {
     /// Ends the step and finds the lanes that the single run has to look at.
     #[inline(always)]
-    pub(super) fn end(&mut self, step: &Step, found: &Found, is_last: bool) -> [bool; LANES] {
+    pub(super) fn end(&mut self, step: &Step, found: &Found) -> [bool; LANES] {
         let [projectile, target] = self.mesh.elements;
         let back = self.nodes[projectile + 1 + target].position.0;
         let (mut face, mut tail) = ([0.0; LANES], [0.0; LANES]);
@@ -35,8 +35,7 @@ impl Bundle {
             whole.stable_step.0[l] = smaller(of_approach, found.stable_step.0[l]);
             let drift = back[l] - whole.back_position.0[l];
             depth[l] = if is_open { face[l] - drift } else { face[l] };
-            calls[l] = is_last
-                | erodes[l]
+            calls[l] = erodes[l]
                 | (depth[l] >= whole.perforated.0[l])
                 | (whole.time.0[l] >= whole.next_look.0[l])
                 | (whole.step.0[l] >= whole.most_steps.0[l]);

@@ -103,9 +103,8 @@ impl Bundle {
             let body = &self.bodies[usize::from(i > projectile)];
             let mass = if i == 0 { body.end_mass } else { body.mass };
             let (masses, frictions) = (self.masses[i], self.frictions[i]);
-            let is_odd = |l: usize| {
-                masses.0[l] != mass.0[l] || frictions.0[l] != body.friction.0[l]
-            };
+            let is_odd =
+                |l: usize| masses.0[l] != mass.0[l] || frictions.0[l] != body.friction.0[l];
             if self.tied[i] != 0 || (0..LANES).any(is_odd) {
                 self.odd.push(i);
             }

@@ -225,7 +225,7 @@ impl Whole {
         self.next_look.0[lane] = 0.0;
     }
 
-    fn let_out(&self, lane: usize, run: &mut Conservative<'_>) {
+    pub(super) fn let_out(&self, lane: usize, run: &mut Conservative<'_>) {
         let state = &mut run.state;
         state.time = self.time.0[lane];
         state.step = self.step.0[lane] as u64;

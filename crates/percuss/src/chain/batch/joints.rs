@@ -66,7 +66,9 @@ impl Bundle {
     #[inline(always)]
     pub(super) fn close_joints(&mut self, step: &Step) {
         let projectile = self.mesh.elements[0];
-        let inside = self.joints.partition_point(|joint| joint.ahead <= projectile);
+        let inside = self
+            .joints
+            .partition_point(|joint| joint.ahead <= projectile);
         for j in 0..inside {
             self.close_joint(j, step);
         }
@@ -101,7 +103,10 @@ impl Bundle {
             }
         }
         // Tip and face are moved in all lanes.
-        for i in nodes.into_iter().filter(|i| ![projectile, projectile + 1].contains(i)) {
+        for i in nodes
+            .into_iter()
+            .filter(|i| ![projectile, projectile + 1].contains(i))
+        {
             let node = &mut self.nodes[i];
             node.position.0[l] += node.velocity.0[l] * length;
             self.moves[i] |= node.velocity.0[l] != 0.0;
