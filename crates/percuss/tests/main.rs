@@ -5,6 +5,7 @@ mod axi_output;
 mod cases;
 mod common;
 mod consistency;
+mod constants;
 mod constant_pressure;
 mod convergence;
 mod diverging;
