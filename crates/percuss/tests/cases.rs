@@ -137,6 +137,7 @@ macro_rules! cases {
 
 cases! {
     paper_table1: "paper-table1",
+    paper_table1_constants: "paper-table1-constants",
     paper_table1_uncertainty: "paper-table1-uncertainty",
     copper_on_aluminium_800: "copper-on-aluminium-800",
     taylor_copper_wilkins: "taylor-copper-wilkins",
