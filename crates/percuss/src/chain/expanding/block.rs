@@ -4,6 +4,10 @@
 // Loops over the places run along many arrays at once.
 #![allow(clippy::needless_range_loop)]
 
+#[cfg(test)]
+#[path = "block_tests.rs"]
+mod tests;
+
 use pulp::NullaryFnOnce;
 
 use super::{
