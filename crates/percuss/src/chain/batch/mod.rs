@@ -1,8 +1,8 @@
 //! Many independent shots at once: eight of them side by side, each in a lane of the processor's vector unit.
 //!
 //! [`Bundle`] advances the state of eight shots by the equations of the single run, in the same order, lane by lane: no lane knows
-//! of another one, so that a shot ends with the same bits in whatever company it was computed. Whatever is rare (the books, the end
-//! of a shot, erosion) is left to the single run: the lane's state is put into its [`Conservative`] and goes on there.
+//! of another one, so that a shot ends with the same bits in whatever company it was computed. Whatever is rare (the end of a shot,
+//! erosion) is left to the single run: the lane's state is put into its [`Conservative`], and what that makes of it is put back.
 
 // Loops over the lanes run along many arrays at once.
 #![allow(clippy::needless_range_loop)]
