@@ -1,7 +1,7 @@
 //! Scheme `conservative`: the run from impact to its end.
 
 use super::{
-    between::Moment,
+    between::{Failure, Moment},
     mesh,
     results::Results,
     solver::StepControl,
@@ -42,25 +42,6 @@ pub struct Conservative<'a> {
     pub(super) watch: Watch,
     pub(super) end_time: f64,
     pub(super) max_steps: u64,
-}
-
-/// Why a run gave no result.
-pub(super) enum Failure {
-    /// The books do not balance: a smaller time step may help.
-    Unbalanced(NumericalError),
-    Other(Error),
-}
-
-impl From<NumericalError> for Failure {
-    fn from(error: NumericalError) -> Self {
-        Self::Other(error.into())
-    }
-}
-
-impl From<Error> for Failure {
-    fn from(error: Error) -> Self {
-        Self::Other(error)
-    }
 }
 
 impl<'a> Conservative<'a> {

@@ -4,7 +4,7 @@ use super::{
     bundle::Bundle,
     lanes::{LANES, Lanes},
 };
-use crate::chain::conservative::{Conservative, Failure};
+use crate::chain::{between::Failure, conservative::Conservative};
 
 /// Energy and momentum of projectile and target in every lane.
 #[derive(Default)]

@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::{
     joints::Joint,
     lanes::{LANES, Lanes},
+    whole::Whole,
 };
 use crate::{
     case::BackFace,
@@ -150,40 +151,6 @@ impl Body {
             longest: self.longest,
         }
     }
-}
-
-/// What there is one of in every shot.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Whole {
-    pub(super) courant: Lanes,
-    pub(super) time: Lanes,
-    pub(super) step: Lanes,
-    pub(super) time_step: Lanes,
-    pub(super) stable_step: Lanes,
-    /// 1 where projectile and target touch, 0 where they do not.
-    pub(super) closed: Lanes,
-    pub(super) meetings: Lanes,
-    pub(super) contact_force: Lanes,
-    pub(super) impedance: Lanes,
-    pub(super) plastic_work: [Lanes; 2],
-    pub(super) friction_work: Lanes,
-    pub(super) friction_impulse: Lanes,
-    pub(super) contact_loss: Lanes,
-    pub(super) support_impulse: Lanes,
-    pub(super) boundary_work: Lanes,
-    pub(super) largest_depth: Lanes,
-    pub(super) peak_force: Lanes,
-    pub(super) smallest_time_step: Lanes,
-    pub(super) contact_time: Lanes,
-    /// 1 where they have touched since the window began.
-    pub(super) touched: Lanes,
-    pub(super) back_position: Lanes,
-    /// Depth and step at which a shot is over, time at which it is looked at.
-    pub(super) perforated: Lanes,
-    pub(super) most_steps: Lanes,
-    pub(super) next_look: Lanes,
-    /// Speed of the tail below which the projectile may be at rest; −∞ once it has been.
-    pub(super) slow_tail: Lanes,
 }
 
 /// Eight shots.

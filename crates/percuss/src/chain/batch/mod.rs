@@ -23,6 +23,7 @@ mod step;
 #[cfg(test)]
 mod tests;
 mod update;
+mod whole;
 
 use std::{
     collections::BTreeMap,
