@@ -194,7 +194,7 @@ impl Start {
             let size = trial[p].abs();
             let first = (size - self.yield_stress[p]) / (modulus + self.slope[p]);
             let reached = self.strain[p] + first;
-            let (stress, strain_slope) = self.law(p).at(reached);
+            let (stress, strain_slope) = self.law(p).at_here(reached);
             let excess = size - modulus * first - stress;
             let step = excess / (modulus + strain_slope);
             let newton = first + step;
