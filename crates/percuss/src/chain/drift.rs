@@ -225,21 +225,13 @@ fn flow_eight(
     time_step: f64,
 ) {
     let mut start = Start {
-        trial: [0.0; LANES],
-        stress_before: [0.0; LANES],
-        yield_stress: [0.0; LANES],
-        slope: [0.0; LANES],
-        unloaded: [0.0; LANES],
-        strain: [0.0; LANES],
-        axial: [0.0; LANES],
-        largest_rate: [0.0; LANES],
-        temperature: [0.0; LANES],
         modulus: [part.modulus; LANES],
         heating: [part.heating; LANES],
         coefficient: [law.coefficient; LANES],
         exponent: [law.exponent; LANES],
         first_strain: [law.first_strain; LANES],
         per_time: [1.0 / time_step; LANES],
+        ..Start::default()
     };
     for (p, &place) in places.iter().enumerate() {
         let element = &elements[place];

@@ -13,6 +13,7 @@ use crate::{
 const LARGE: f64 = 0.09;
 
 /// What a return to the yield surface starts from, in eight places.
+#[derive(Default)]
 pub(in crate::chain) struct Start {
     pub(in crate::chain) trial: [f64; LANES],
     pub(in crate::chain) stress_before: [f64; LANES],
@@ -123,23 +124,7 @@ fn flow_eight(
     rate: &Lanes,
     now: usize,
 ) {
-    let mut start = Start {
-        trial: [0.0; LANES],
-        stress_before: [0.0; LANES],
-        yield_stress: [0.0; LANES],
-        slope: [0.0; LANES],
-        unloaded: [0.0; LANES],
-        strain: [0.0; LANES],
-        axial: [0.0; LANES],
-        largest_rate: [0.0; LANES],
-        temperature: [0.0; LANES],
-        modulus: [0.0; LANES],
-        heating: [0.0; LANES],
-        coefficient: [0.0; LANES],
-        exponent: [0.0; LANES],
-        first_strain: [0.0; LANES],
-        per_time: [0.0; LANES],
-    };
+    let mut start = Start::default();
     for (p, &(element, lane)) in places.iter().enumerate() {
         let (e, l) = (element as usize, lane as usize % LANES);
         let (spring, flow) = (&springs[e], &flows[e]);
