@@ -114,9 +114,9 @@ impl State {
         let is_viscous = control.is_viscous();
         let first_element = segment.elements().start;
         let limit = limit.filter(|limit| segment.elements().contains(&limit.element));
-        // What flows by a power of the plastic strain waits until it can do so side by side.
+        // What flows by a power of the plastic strain waits until it can do so side by side, in logarithmic strain.
         let law = part.strength.hardening();
-        let law = law.filter(|_| !is_viscous && limit.is_none());
+        let law = law.filter(|_| is_logarithmic && !is_viscous && limit.is_none());
         let mut plastic_work = 0.0;
         let working = &mut self.working;
         working.clear();
