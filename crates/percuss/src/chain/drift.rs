@@ -15,6 +15,10 @@ use crate::{
     material::{Hardening, YieldPoint},
 };
 
+#[cfg(test)]
+#[path = "drift_tests.rs"]
+mod tests;
+
 /// A drift, compiled once for every instruction set.
 struct Drift<'a> {
     state: &'a mut State,

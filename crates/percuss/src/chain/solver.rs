@@ -157,7 +157,8 @@ impl State {
             let joined_behind = s < last_segment && self.joints[s].closed;
             let is_boundary = s == last_segment && self.end != End::Free;
             let to = last_node + 1 - usize::from(joined_behind || is_boundary);
-            self.kick_inner(from..to, kick);
+            // A wall is one node that stands: it has none that are free.
+            self.kick_inner(from..to.max(from), kick);
             if is_boundary && from <= last_node {
                 self.kick_boundary(last_node, kick);
             }
