@@ -1,5 +1,5 @@
 /*
- * x^n to the last places, as accurate as percuss's own power: the same steps, fused where the compiler can.
+ * x^n right to the last two places, by compensated sums, fused where the compiler can.
  *
  * For positive normal x. At x = 0 it is some small positive number, which the cap by the elastic line takes away.
  */

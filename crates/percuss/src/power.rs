@@ -1,6 +1,10 @@
 //! `x^n` and small strains, written so that a loop over many numbers becomes vector instructions.
 //!
-//! Sums and products only, in a fixed order and without fused operations: every machine and every width of vector gives the same bits.
+//! Sums, products and fused multiply-adds in a fixed order. A fused multiply-add is rounded once and correctly wherever it is computed, so every
+//! machine and every width of vector gives the same bits. A processor without one (x86-64 before 2013) computes it in software: the same bits, but much
+//! more slowly.
+
+use pulp::{Arch, NullaryFnOnce};
 
 #[cfg(test)]
 #[path = "power_tests.rs"]
@@ -10,85 +14,67 @@ mod tests;
 const SQRT_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
 const ONE: u64 = 0x3ff0_0000_0000_0000;
 const EXPONENT: u64 = 0xfff0_0000_0000_0000;
-/// Low bits of an exponent `n` that are split off, so that the rest times `k` is exact.
-const HIGH: u64 = 0xffff_ffff_f800_0000;
 /// 2^52: a small whole number in its low bits makes it that much larger.
 const COUNTER: f64 = 4_503_599_627_370_496.0;
 /// 1.5 · 2^52: adding and taking it away rounds to a whole number, which stands in the low bits in between.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
-/// `2 / ln 2`, and what its nearest 64-bit number leaves.
-const LOG_LEAD: f64 = 2.885_390_081_777_926_8;
-const LOG_REST: f64 = 4.071_054_748_186_206_6e-17;
-/// `(log2 m / s − 2/ln 2) / s²` in powers of `s²`, with `s = (m − 1)/(m + 1)`: interpolated at Chebyshev points, 5e-18 of the logarithm.
-const LOG: [f64; 7] = [
-    0.961_796_693_925_976,
-    0.577_078_016_354_135_5,
-    0.412_198_583_898_078,
-    0.320_598_738_017_563_67,
-    0.262_323_639_700_489_5,
-    0.221_189_987_214_124,
-    0.210_870_794_760_151_72,
+/// `log2 m / s` in powers of `s²`, with `s = (m − 1)/(m + 1)`: interpolated at Chebyshev points, 7e-15 of `log2 m`.
+const LOG: [f64; 6] = [
+    2.885_390_081_777_428_5,
+    0.961_796_694_399_656_3,
+    0.577_077_887_919_534_6,
+    0.412_213_478_534_201_6,
+    0.319_762_170_652_681_37,
+    0.284_672_888_719_683_8,
 ];
-/// `(2^r − 1) / r` in powers of `r` from −1/2 to 1/2: interpolated at Chebyshev points, 2e-17 of the power.
-const EXP: [f64; 11] = [
-    std::f64::consts::LN_2,
-    0.240_226_506_959_100_97,
-    0.055_504_108_664_821_6,
-    0.009_618_129_107_606_888,
-    0.001_333_355_814_641_693_6,
-    0.000_154_035_304_417_360_5,
-    1.525_273_382_983_612e-5,
-    1.321_544_258_792_169e-6,
-    1.017_806_244_584_577_4e-7,
-    7.072_585_949_269_223e-9,
-    4.454_960_598_186_518_6e-10,
+/// `(2^r − 1) / r` in powers of `r` from −1/2 to 1/2: the largest error is the smallest possible, 1.6e-14 of `2^r`.
+const EXP: [f64; 9] = [
+    0.693_147_180_559_885_4,
+    0.240_226_506_957_232_72,
+    0.055_504_108_668_407_08,
+    0.009_618_129_181_066_776,
+    0.001_333_355_762_615_605_3,
+    0.000_154_034_409_466_494_62,
+    1.525_298_983_123_263_3e-5,
+    1.325_832_309_950_517_2e-6,
+    1.014_835_160_765_126_7e-7,
 ];
 
-/// `x^n` of a positive number, 0 of zero, no number of what is none: within 2 units in the last place for exponents up to 1 in magnitude, on average 0.15.
+/// `x^n` of a positive number, 0 of zero, no number of what is none: within 2.2e-14 of its value for exponents up to 1 in magnitude.
 ///
-/// `x` is 0 or normal, and `x^n` neither overflows nor becomes subnormal. Beyond 1 the error grows with the exponent.
+/// `x` is 0 or normal, and `x^n` neither overflows nor becomes subnormal. The error is at most 1.7e-14 and 5e-15 for each unit of the exponent, and
+/// 1.6e-16 more for each factor of 2 that the power is away from 1. Powers of 0 and of 1, and powers of two that are powers of two, are exact.
 ///
 /// ```
 /// use percuss::power::power;
 /// assert_eq!(power(32.0, 0.2), 2.0);
 /// assert_eq!(power(0.0, 0.1), 0.0);
+/// assert!((power(2.0, 0.5) - 2.0_f64.sqrt()).abs() < 3e-14);
 /// ```
-#[inline(always)]
 pub fn power(x: f64, n: f64) -> f64 {
-    let result = Split::of(x).logarithm(Exponent::new(n)).raise();
+    struct Power(f64, f64);
+    impl NullaryFnOnce for Power {
+        type Output = f64;
+        #[inline(always)]
+        fn call(self) -> f64 {
+            power_here(self.0, self.1)
+        }
+    }
+    Arch::new().dispatch(Power(x, n))
+}
+
+/// The same for code that has been dispatched to an instruction set, of which it becomes a part; elsewhere it would be slow.
+#[inline(always)]
+pub(crate) fn power_here(x: f64, n: f64) -> f64 {
+    let result = Split::of(x).logarithm(n).raise();
     if x > 0.0 { result } else { x }
-}
-
-/// The exponent of a power, in two parts.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Exponent {
-    n: f64,
-    /// Its leading bits: a product with a small whole number is exact.
-    high: f64,
-    rest: f64,
-}
-
-impl Exponent {
-    /// The exponent `n`.
-    #[inline(always)]
-    pub fn new(n: f64) -> Self {
-        let high = f64::from_bits(n.to_bits() & HIGH);
-        let rest = n - high;
-        Self { n, high, rest }
-    }
-
-    /// The exponent as a number.
-    #[inline(always)]
-    pub fn value(self) -> f64 {
-        self.n
-    }
 }
 
 /// The first of three stages of a [`power`]: `x = 2^binary (1 + ratio)/(1 − ratio)`.
 ///
 /// A loop over many powers is faster as three loops, one for each stage: the chains of dependent operations are shorter, so that a processor
-/// works on more of them at a time.
+/// works on more of them at a time. The loops have to be dispatched to an instruction set with fused multiply-add, as by the crate `pulp`.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Split {
     /// A whole number.
@@ -109,48 +95,34 @@ impl Split {
         Self { binary, ratio }
     }
 
-    /// The second stage: `n log2 x`.
+    /// The second stage.
     #[inline(always)]
-    pub fn logarithm(self, n: Exponent) -> Logarithm {
-        let Self {
-            binary: k,
-            ratio: s,
-        } = self;
+    pub fn logarithm(self, n: f64) -> Logarithm {
+        let s = self.ratio;
         let z = s * s;
-        let z2 = z * z;
-        let low = (LOG[0] + z * LOG[1]) + z2 * (LOG[2] + z * LOG[3]);
-        let high = (LOG[4] + z * LOG[5]) + z2 * LOG[6];
-        let fraction = s * LOG_LEAD + s * (LOG_REST + z * (low + z2 * z2 * high));
-        Logarithm {
-            whole: n.high * k,
-            part: n.rest * k + n.n * fraction,
-        }
+        let high = LOG[5].mul_add(z, LOG[4]);
+        let high = high.mul_add(z, LOG[3]).mul_add(z, LOG[2]);
+        let fraction = high.mul_add(z, LOG[1]).mul_add(z, LOG[0]);
+        Logarithm(n * s.mul_add(fraction, self.binary))
     }
 }
 
-/// The second stage of a [`power`]: `n log2 x` as a sum.
+/// The second stage of a [`power`]: `n log2 x`.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Logarithm {
-    /// What is large in it, exact.
-    pub whole: f64,
-    /// The rest.
-    pub part: f64,
-}
+pub struct Logarithm(pub f64);
 
 impl Logarithm {
     /// The third stage: the power.
     #[inline(always)]
     pub fn raise(self) -> f64 {
-        let Self { whole, part } = self;
-        // Less the nearest whole number: what is large in it is exact.
-        let shifted = (whole + part) + ROUNDER;
-        let r = (whole - (shifted - ROUNDER)) + part;
-        let r2 = r * r;
-        let r4 = r2 * r2;
-        let low = (EXP[0] + r * EXP[1]) + r2 * (EXP[2] + r * EXP[3]);
-        let middle = (EXP[4] + r * EXP[5]) + r2 * (EXP[6] + r * EXP[7]);
-        let high = (EXP[8] + r * EXP[9]) + r2 * EXP[10];
-        let scaled = 1.0 + r * (low + r4 * (middle + r4 * high));
+        // Less the nearest whole number.
+        let shifted = self.0 + ROUNDER;
+        let r = self.0 - (shifted - ROUNDER);
+        let high = EXP[8].mul_add(r, EXP[7]);
+        let high = high.mul_add(r, EXP[6]).mul_add(r, EXP[5]);
+        let middle = high.mul_add(r, EXP[4]).mul_add(r, EXP[3]);
+        let low = middle.mul_add(r, EXP[2]).mul_add(r, EXP[1]);
+        let scaled = low.mul_add(r, EXP[0]).mul_add(r, 1.0);
         f64::from_bits(scaled.to_bits().wrapping_add(shifted.to_bits() << 52))
     }
 }

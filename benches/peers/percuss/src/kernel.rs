@@ -1,6 +1,6 @@
 //! The work of the other programs, by percuss's power function and in lanes like those of its batch engine.
 
-use percuss::power::{Exponent, Logarithm, Split};
+use percuss::power::{Logarithm, Split};
 use pulp::{Arch, NullaryFnOnce};
 use rayon::prelude::*;
 
@@ -81,7 +81,7 @@ impl<const LINEAR: bool> NullaryFnOnce for One<'_, LINEAR> {
         let column = |of: fn(&Spring) -> f64| springs.iter().map(of).collect::<Vec<f64>>();
         let (kick, per_length) = (column(|s| s.kick), column(|s| s.per_length));
         let (stiffness, coefficient) = (column(|s| s.stiffness), column(|s| s.coefficient));
-        let exponents = column(|s| s.exponent.value());
+        let exponents = column(|s| s.exponent);
         // The last place is the wall, and nothing pulls at the front of the chain.
         let (mut positions, mut velocities) = (vec![0.0; count + 1], vec![0.0; count]);
         let (mut strains, mut forces) = (vec![0.0; count], vec![0.0; count + 1]);
@@ -107,9 +107,7 @@ impl<const LINEAR: bool> NullaryFnOnce for One<'_, LINEAR> {
             if !LINEAR {
                 for i in 0..count {
                     let (binary, ratio) = (first[i], second[i]);
-                    let Logarithm { whole, part } =
-                        Split { binary, ratio }.logarithm(Exponent::new(exponents[i]));
-                    (first[i], second[i]) = (whole, part);
+                    first[i] = Split { binary, ratio }.logarithm(exponents[i]).0;
                 }
                 for i in 0..count {
                     let spring = Spring {
@@ -117,15 +115,14 @@ impl<const LINEAR: bool> NullaryFnOnce for One<'_, LINEAR> {
                         coefficient: coefficient[i],
                         ..Spring::default()
                     };
-                    let (whole, part) = (first[i], second[i]);
-                    ahead[i] = force(&spring, strains[i], Logarithm { whole, part });
+                    ahead[i] = force(&spring, strains[i], Logarithm(first[i]));
                 }
             }
             let (behind, ahead) = (&forces[..count], &forces[1..][..count]);
             let (positions, velocities) = (&mut positions[..count], &mut velocities[..count]);
             for i in 0..count {
-                velocities[i] += (behind[i] - ahead[i]) * kick[i];
-                positions[i] += velocities[i] * time_step;
+                velocities[i] = (behind[i] - ahead[i]).mul_add(kick[i], velocities[i]);
+                positions[i] = velocities[i].mul_add(time_step, positions[i]);
             }
         }
         positions.truncate(count);
@@ -177,29 +174,29 @@ impl NullaryFnOnce for Bundle<'_> {
                     (strains[group], firsts[group], seconds[group]) = (strain, first, second);
                 }
                 for (group, springs) in springs.iter().enumerate() {
-                    let (mut first, mut second) = (firsts[group], seconds[group]);
+                    let (mut first, second) = (firsts[group], seconds[group]);
                     for l in 0..LANES {
                         for (i, spring) in springs.iter().enumerate() {
                             let (binary, ratio) = (first[i].0[l], second[i].0[l]);
-                            let log = Split { binary, ratio }.logarithm(spring.exponent);
-                            (first[i].0[l], second[i].0[l]) = (log.whole, log.part);
+                            first[i].0[l] = Split { binary, ratio }.logarithm(spring.exponent).0;
                         }
                     }
-                    (firsts[group], seconds[group]) = (first, second);
+                    firsts[group] = first;
                 }
                 for (group, springs) in springs.iter().enumerate() {
                     let positions = &mut positions[start + group * GROUP..][..GROUP];
                     let velocities = &mut velocities[start + group * GROUP..][..GROUP];
-                    let (strain, first, second) = (strains[group], firsts[group], seconds[group]);
+                    let (strain, first) = (strains[group], firsts[group]);
                     let (mut position, mut velocity) = (Group::default(), Group::default());
                     position.copy_from_slice(positions);
                     velocity.copy_from_slice(velocities);
                     for l in 0..LANES {
                         for (i, spring) in springs.iter().enumerate() {
-                            let (whole, part) = (first[i].0[l], second[i].0[l]);
-                            let ahead = force(spring, strain[i].0[l], Logarithm { whole, part });
-                            velocity[i].0[l] += (behind.0[l] - ahead) * spring.kick;
-                            position[i].0[l] += velocity[i].0[l] * time_step;
+                            let ahead = force(spring, strain[i].0[l], Logarithm(first[i].0[l]));
+                            let push = behind.0[l] - ahead;
+                            velocity[i].0[l] = push.mul_add(spring.kick, velocity[i].0[l]);
+                            position[i].0[l] =
+                                velocity[i].0[l].mul_add(time_step, position[i].0[l]);
                             behind.0[l] = ahead;
                         }
                     }

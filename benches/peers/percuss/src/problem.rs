@@ -2,8 +2,6 @@
 
 use std::{fs, str::FromStr};
 
-use percuss::power::Exponent;
-
 use crate::Outcome;
 
 /// A spring and the mass at its front end.
@@ -17,7 +15,7 @@ pub(crate) struct Spring {
     pub(crate) stiffness: f64,
     /// Force of the power law at strain 1 [N].
     pub(crate) coefficient: f64,
-    pub(crate) exponent: Exponent,
+    pub(crate) exponent: f64,
 }
 
 /// Chains that differ in impact speed.
@@ -50,7 +48,7 @@ pub(crate) fn read(path: &str) -> Outcome<Problem> {
             per_length: 1.0 / length,
             stiffness: next(&mut words)?,
             coefficient: next(&mut words)?,
-            exponent: Exponent::new(next(&mut words)?),
+            exponent: next(&mut words)?,
         })
     });
     let springs = springs.collect::<Outcome<_>>()?;

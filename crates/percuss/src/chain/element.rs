@@ -13,7 +13,18 @@ impl Element {
     ///
     /// The work that belongs to a time is its stress times half the plastic strain of the steps before and after it: with
     /// that, kinetic, elastic and plastic energy of a chain of small strain add up to rounding.
+    #[inline(always)]
     pub(super) fn deform(&mut self, part: &Part, length: f64, time_step: f64) -> f64 {
+        let step_before = self.stretch(part, length);
+        if !self.yield_point.holds(self.stress.abs()) {
+            self.flow(part, time_step);
+        }
+        self.settle(part, step_before)
+    }
+
+    /// Brings the element to a new length as if nothing flowed; returns the plastic strain of the last step.
+    #[inline(always)]
+    pub(super) fn stretch(&mut self, part: &Part, length: f64) -> f64 {
         self.length = length;
         let elastic = match part.kinematics {
             // Plastic strain changes the unloaded length, so that the logarithm is one of a small strain.
@@ -23,23 +34,24 @@ impl Element {
             }
         };
         self.strain = self.plastic_axial + elastic;
-        let trial = part.modulus * elastic;
         self.stress_before = self.stress;
-        self.stress = trial;
-        let step_before = self.plastic_step;
-        self.plastic_step = 0.0;
-        if !self.yield_point.holds(trial.abs()) {
-            self.flow(part, trial, time_step);
-        }
+        self.stress = part.modulus * elastic;
+        std::mem::take(&mut self.plastic_step)
+    }
+
+    /// Sets the force once what flows has flowed; returns the plastic work as [`Element::deform`] does.
+    #[inline(always)]
+    pub(super) fn settle(&mut self, part: &Part, step_before: f64) -> f64 {
         self.axial_force = match part.kinematics {
-            Kinematics::Logarithmic => self.stress * self.volume * (1.0 / length),
+            Kinematics::Logarithmic => self.stress * self.volume * (1.0 / self.length),
             Kinematics::SmallStrain => self.stress * self.rest_area,
         };
         0.5 * self.stress_before * (step_before + self.plastic_step)
     }
 
     /// Returns a trial stress to the yield surface.
-    fn flow(&mut self, part: &Part, trial: f64, time_step: f64) {
+    pub(super) fn flow(&mut self, part: &Part, time_step: f64) {
+        let trial = self.stress;
         let increment = self.yield_point.plastic_increment(
             &*part.strength,
             &FlowState {
@@ -69,6 +81,7 @@ impl Element {
     }
 
     /// Whether an update to the same length would change nothing.
+    #[inline(always)]
     pub(super) fn is_settled(&self) -> bool {
         self.plastic_step == 0.0
             && self.viscous_force == 0.0
@@ -77,6 +90,7 @@ impl Element {
     }
 
     /// Largest stable time step of the undamped element [s]: the time a wave takes through it.
+    #[inline(always)]
     pub(super) fn stable_step(&self, part: &Part) -> f64 {
         match part.kinematics {
             // The force grows faster than the stress as the area grows: the tangent is E + σ, and 1/sqrt(1 + x) > 1 − x/2.

@@ -17,12 +17,12 @@ impl State {
         while s < self.segments.len() {
             let segment = self.segments[s];
             let limit = limit * self.endurance(self.parts[segment.part].role);
-            let found = segment
-                .elements()
-                .find(|&e| self.elements[e].strain.abs() >= limit);
+            let found = self.elements[segment.elements()]
+                .iter()
+                .position(|element| element.strain.abs() >= limit);
             match found {
                 // The segment at `s` is another one afterwards: look again.
-                Some(e) => self.remove_element(s, e),
+                Some(e) => self.remove_element(s, segment.elements().start + e),
                 None => s += 1,
             }
         }

@@ -225,6 +225,7 @@ fn assemble(
         time_step: 0.0,
         stable_step: f64::INFINITY,
         partings: Vec::new(),
+        working: Vec::new(),
         meetings: 0,
         contact_force: 0.0,
         back_force: 0.0,

@@ -12,6 +12,7 @@ mod contact;
 mod damping;
 mod dishing;
 mod dishing_mesh;
+mod drift;
 mod element;
 mod erosion;
 mod expanding;

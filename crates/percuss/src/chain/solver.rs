@@ -1,14 +1,13 @@
 //! One step of explicit central differences, with the books kept so that only integration error is left in them.
 
+use std::ops::Range;
+
 use super::{
-    friction::rub,
+    friction::rub_one,
     part::Part,
-    state::{Element, End, Segment, State},
+    state::{Element, End, Node, Segment, State},
 };
-use crate::{
-    case::{ArtificialViscosity, Kinematics},
-    error::NumericalError,
-};
+use crate::{case::ArtificialViscosity, error::NumericalError};
 
 /// Largest change of strain that one element may make in one step.
 pub(super) const LARGEST_STRAIN_STEP: f64 = 0.03;
@@ -33,7 +32,7 @@ pub(super) struct StepControl {
 }
 
 impl StepControl {
-    fn is_viscous(&self) -> bool {
+    pub(super) fn is_viscous(&self) -> bool {
         self.viscosity != ArtificialViscosity::default() || self.damping_ratio > 0.0
     }
 
@@ -51,7 +50,7 @@ impl StepControl {
     }
 
     /// Sets the viscous force of an element whose ends approach at a speed; returns the factor on its stable step.
-    fn damp(&self, element: &mut Element, part: &Part, approach: f64) -> f64 {
+    pub(super) fn damp(&self, element: &mut Element, part: &Part, approach: f64) -> f64 {
         let mut ratio = self.damping_ratio;
         if approach > 0.0 {
             ratio += self.viscosity.linear + self.viscosity.quadratic * approach * part.slowness;
@@ -65,6 +64,29 @@ impl StepControl {
 /// Part of the undamped stable step that is left with a damping ratio, for central differences with lagged velocities.
 fn damped_limit(ratio: f64) -> f64 {
     (1.0 + ratio * ratio).sqrt() - ratio
+}
+
+impl Node {
+    /// Starts a step with the force of the elements, viscosity included, and without it.
+    fn begin(&mut self, force: f64, spring_force: f64) {
+        self.force = force;
+        self.spring_force = spring_force;
+        self.velocity_before = self.velocity;
+    }
+
+    /// Kicks the node for a time over its mass and returns the impulse of friction.
+    #[inline(always)]
+    fn kick(&mut self, ratio: f64) -> f64 {
+        let change = self.force * ratio;
+        let before = self.velocity;
+        if self.friction > 0.0 {
+            self.velocity = rub_one(before, change, self.friction * ratio);
+            self.mass * (before + change - self.velocity)
+        } else {
+            self.velocity = before + change;
+            0.0
+        }
+    }
 }
 
 impl State {
@@ -103,20 +125,18 @@ impl State {
     }
 
     fn collect_forces(&mut self) {
-        for node in &mut self.nodes {
-            node.force = 0.0;
-            node.spring_force = 0.0;
-            node.velocity_before = node.velocity;
-        }
         for segment in &self.segments {
             let nodes = &mut self.nodes[segment.first_node..=segment.last_node];
             let elements = &self.elements[segment.elements()];
-            for (i, element) in elements.iter().enumerate() {
+            let (mut behind, mut spring_behind) = (0.0, 0.0);
+            let (inner, last) = nodes.split_at_mut(elements.len());
+            for (node, element) in inner.iter_mut().zip(elements) {
                 let force = element.axial_force + element.viscous_force;
-                nodes[i].force -= force;
-                nodes[i].spring_force -= element.axial_force;
-                nodes[i + 1].force += force;
-                nodes[i + 1].spring_force += element.axial_force;
+                node.begin(behind - force, spring_behind - element.axial_force);
+                (behind, spring_behind) = (force, element.axial_force);
+            }
+            for node in last {
+                node.begin(behind, spring_behind);
             }
         }
     }
@@ -137,9 +157,8 @@ impl State {
             let joined_behind = s < last_segment && self.joints[s].closed;
             let is_boundary = s == last_segment && self.end != End::Free;
             let to = last_node + 1 - usize::from(joined_behind || is_boundary);
-            for i in from..to {
-                self.kick_free(i, kick);
-            }
+            // A wall is one node that stands: it has none that are free.
+            self.kick_inner(from..to.max(from), kick);
             if is_boundary && from <= last_node {
                 self.kick_boundary(last_node, kick);
             }
@@ -169,22 +188,45 @@ impl State {
         self.books.viscous_work += work;
     }
 
+    /// Kicks nodes that touch nothing.
+    fn kick_inner(&mut self, nodes: Range<usize>, kick: f64) {
+        if self.tip_friction > 0.0 {
+            for i in nodes {
+                self.kick_free(i, kick);
+            }
+            return;
+        }
+        let (mut impulse, mut work) = (self.books.friction_impulse, self.books.friction_work);
+        let (mut mass, mut ratio) = (f64::NAN, f64::NAN);
+        for node in &mut self.nodes[nodes] {
+            // Neighbours mostly have one mass, and a division takes long.
+            if node.mass != mass {
+                mass = node.mass;
+                ratio = kick / mass;
+            }
+            let before = node.velocity;
+            let rubbed = node.kick(ratio);
+            if node.friction > 0.0 {
+                impulse += rubbed;
+                work += rubbed * 0.5 * (before + node.velocity);
+            }
+        }
+        self.books.friction_impulse = impulse;
+        self.books.friction_work = work;
+    }
+
     pub(super) fn kick_free(&mut self, i: usize, kick: f64) {
-        let ratio = kick / self.nodes[i].mass;
-        let change = self.nodes[i].force * ratio;
-        self.nodes[i].velocity = if self.nodes[i].friction > 0.0 {
-            let before = self.nodes[i].velocity;
-            let limit = self.nodes[i].friction * ratio;
-            let after = rub(before, change, limit);
-            let impulse = self.book_friction(self.nodes[i].mass, before, change, after);
+        let node = &mut self.nodes[i];
+        let before = node.velocity;
+        let impulse = node.kick(kick / node.mass);
+        if node.friction > 0.0 {
+            self.books.friction_impulse += impulse;
+            self.books.friction_work += impulse * 0.5 * (before + node.velocity);
             if self.tip_friction > 0.0 {
                 // A constant-pressure target has no other friction.
                 self.contact_force = impulse / kick;
             }
-            after
-        } else {
-            self.nodes[i].velocity + change
-        };
+        }
     }
 
     /// Books what friction took and returns its impulse.
@@ -227,66 +269,6 @@ impl State {
 
     pub(super) fn is_fixed(&self, i: usize) -> bool {
         self.end == End::Fixed && self.is_boundary(i)
-    }
-
-    /// Moves the nodes and updates every element.
-    fn drift(&mut self, control: &StepControl, time_step: f64) -> Result<(), NumericalError> {
-        let viscous = control.is_viscous();
-        let mut stable_step = f64::INFINITY;
-        // Largest rate at which the ends of an element approach or part, as a part of its length [1/s].
-        let mut fastest = 0.0_f64;
-        let limit = self.penetration_limit();
-        for segment in &self.segments {
-            let part = &self.parts[segment.part];
-            let nodes = &mut self.nodes[segment.first_node..=segment.last_node];
-            for node in nodes.iter_mut() {
-                node.position += node.velocity * time_step;
-            }
-            let first_element = segment.elements().start;
-            let elements = &mut self.elements[segment.elements()];
-            let mut plastic_work = 0.0;
-            for (i, (pair, element)) in nodes.windows(2).zip(elements).enumerate() {
-                let held = pair[0].velocity == 0.0 && pair[1].velocity == 0.0;
-                if held && element.is_settled() {
-                    // Where no wave has come, or border shear holds, nothing changes.
-                    stable_step = stable_step.min(element.stable_step(part));
-                    continue;
-                }
-                let distance = pair[1].position - pair[0].position;
-                if let Some(limit) = limit.filter(|limit| limit.element == first_element + i) {
-                    plastic_work += element.penetrate(part, distance, time_step, limit);
-                }
-                let length = distance + element.advance;
-                if length <= 0.0 {
-                    return Err(inverted(self.step, self.time, first_element + i));
-                }
-                plastic_work += element.volume * element.deform(part, length, time_step);
-                let approach =
-                    pair[0].velocity - pair[1].velocity - element.advance_step / time_step;
-                let mut limit = element.stable_step(part);
-                if viscous {
-                    limit *= control.damp(element, part, approach);
-                }
-                if part.kinematics == Kinematics::Logarithmic {
-                    fastest = fastest.max(approach.abs() * (1.0 / length));
-                }
-                stable_step = stable_step.min(limit);
-            }
-            self.books.plastic[part.role as usize] += plastic_work;
-        }
-        self.stable_step = stable_step.min(LARGEST_STRAIN_STEP / fastest);
-        Ok(())
-    }
-}
-
-fn inverted(step: u64, time: f64, element: usize) -> NumericalError {
-    NumericalError {
-        what: "an element was compressed to nothing".to_owned(),
-        step,
-        time_us: time * 1e6,
-        element: Some(element),
-        remedy: "use logarithmic kinematics, or lower `chain.courant` or `chain.erosion_strain`"
-            .to_owned(),
     }
 }
 

@@ -6,6 +6,7 @@
 
 use super::{
     dishing::Dishing,
+    drift::Working,
     joint::Joint,
     part::{Part, Role},
     penetration::Penetration,
@@ -159,6 +160,9 @@ pub(super) struct State {
     pub(super) nodes: Vec<Node>,
     /// All elements, eroded ones too.
     pub(super) elements: Vec<Element>,
+
+    /// Elements that flow in a step or flowed in the one before: kept for its memory.
+    pub(super) working: Vec<Working>,
 
     pub(super) time: f64,
     pub(super) step: u64,

@@ -55,7 +55,7 @@ pub(crate) struct FirstReturn {
 }
 
 /// Return of an equivalent stress [Pa] beyond the yield stress to a flow stress that is a power of the plastic strain, as far as the
-/// first step of Newton's method goes: what [`YieldPoint::plastic_increment`] does, for loops over many returns. The yield stress
+/// first step of Newton's method goes: what [`YieldPoint::plastic_increment`] does, for loops over many returns that have been dispatched to an instruction set. The yield stress
 /// and its slope are those at the plastic strain before.
 #[inline(always)]
 pub(crate) fn first_return(
@@ -67,7 +67,7 @@ pub(crate) fn first_return(
 ) -> FirstReturn {
     let first = (size - yield_stress) / (modulus + slope);
     let reached = plastic_strain + first;
-    let (stress, strain_slope) = law.at(reached);
+    let (stress, strain_slope) = law.at_here(reached);
     let excess = size - modulus * first - stress;
     let step = excess / (modulus + strain_slope);
     let increment = first + step;

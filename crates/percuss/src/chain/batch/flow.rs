@@ -13,35 +13,36 @@ use crate::{
 const LARGE: f64 = 0.09;
 
 /// What a return to the yield surface starts from, in eight places.
-struct Start {
-    trial: [f64; LANES],
-    stress_before: [f64; LANES],
-    yield_stress: [f64; LANES],
-    slope: [f64; LANES],
-    unloaded: [f64; LANES],
-    strain: [f64; LANES],
-    axial: [f64; LANES],
-    largest_rate: [f64; LANES],
-    temperature: [f64; LANES],
-    modulus: [f64; LANES],
-    heating: [f64; LANES],
-    coefficient: [f64; LANES],
-    exponent: [f64; LANES],
-    first_strain: [f64; LANES],
-    per_time: [f64; LANES],
+#[derive(Default)]
+pub(in crate::chain) struct Start {
+    pub(in crate::chain) trial: [f64; LANES],
+    pub(in crate::chain) stress_before: [f64; LANES],
+    pub(in crate::chain) yield_stress: [f64; LANES],
+    pub(in crate::chain) slope: [f64; LANES],
+    pub(in crate::chain) unloaded: [f64; LANES],
+    pub(in crate::chain) strain: [f64; LANES],
+    pub(in crate::chain) axial: [f64; LANES],
+    pub(in crate::chain) largest_rate: [f64; LANES],
+    pub(in crate::chain) temperature: [f64; LANES],
+    pub(in crate::chain) modulus: [f64; LANES],
+    pub(in crate::chain) heating: [f64; LANES],
+    pub(in crate::chain) coefficient: [f64; LANES],
+    pub(in crate::chain) exponent: [f64; LANES],
+    pub(in crate::chain) first_strain: [f64; LANES],
+    pub(in crate::chain) per_time: [f64; LANES],
 }
 
 /// What it ends with.
-struct End {
-    stress: [f64; LANES],
-    yield_stress: [f64; LANES],
-    slope: [f64; LANES],
-    unloaded: [f64; LANES],
-    plastic_step: [f64; LANES],
-    strain: [f64; LANES],
-    axial: [f64; LANES],
-    largest_rate: [f64; LANES],
-    temperature: [f64; LANES],
+pub(in crate::chain) struct End {
+    pub(in crate::chain) stress: [f64; LANES],
+    pub(in crate::chain) yield_stress: [f64; LANES],
+    pub(in crate::chain) slope: [f64; LANES],
+    pub(in crate::chain) unloaded: [f64; LANES],
+    pub(in crate::chain) plastic_step: [f64; LANES],
+    pub(in crate::chain) strain: [f64; LANES],
+    pub(in crate::chain) axial: [f64; LANES],
+    pub(in crate::chain) largest_rate: [f64; LANES],
+    pub(in crate::chain) temperature: [f64; LANES],
 }
 
 /// Lets an element flow in those lanes whose bits are set.
@@ -123,23 +124,7 @@ fn flow_eight(
     rate: &Lanes,
     now: usize,
 ) {
-    let mut start = Start {
-        trial: [0.0; LANES],
-        stress_before: [0.0; LANES],
-        yield_stress: [0.0; LANES],
-        slope: [0.0; LANES],
-        unloaded: [0.0; LANES],
-        strain: [0.0; LANES],
-        axial: [0.0; LANES],
-        largest_rate: [0.0; LANES],
-        temperature: [0.0; LANES],
-        modulus: [0.0; LANES],
-        heating: [0.0; LANES],
-        coefficient: [0.0; LANES],
-        exponent: [0.0; LANES],
-        first_strain: [0.0; LANES],
-        per_time: [0.0; LANES],
-    };
+    let mut start = Start::default();
     for (p, &(element, lane)) in places.iter().enumerate() {
         let (e, l) = (element as usize, lane as usize % LANES);
         let (spring, flow) = (&springs[e], &flows[e]);
@@ -183,7 +168,7 @@ fn flow_eight(
 impl Start {
     /// Returns the trial stresses to the yield surface; those places count whose bits are set in `places`.
     #[inline(always)]
-    fn flow(&self, places: u8, length: impl Fn(usize) -> f64) -> End {
+    pub(in crate::chain) fn flow(&self, places: u8, length: impl Fn(usize) -> f64) -> End {
         let mut trial = self.trial;
         let mut increment = [0.0; LANES];
         let mut yield_stress = [0.0; LANES];

@@ -1,7 +1,7 @@
 //! One number of eight shots.
 
 /// Shots side by side: as many numbers as the widest registers hold.
-pub(super) const LANES: usize = 8;
+pub(in crate::chain) const LANES: usize = 8;
 
 /// A number of every shot, where one load brings all of them.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

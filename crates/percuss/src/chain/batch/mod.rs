@@ -36,7 +36,8 @@ use pulp::{Arch, NullaryFnOnce};
 pub(crate) use accepts::accepts;
 use books::Sums;
 use bundle::{Bundle, Mesh};
-use lanes::LANES;
+pub(in crate::chain) use flow::Start;
+pub(in crate::chain) use lanes::LANES;
 
 use super::{
     conservative::{AUDIT_INTERVAL, Conservative},

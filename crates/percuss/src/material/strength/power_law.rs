@@ -5,7 +5,7 @@ use super::{FlowState, FlowStress, PreparedStrength, StrengthLaw};
 use crate::{
     check::{Check, limits},
     material::Material,
-    power::power,
+    power::{power, power_here},
     units::Pressure,
 };
 
@@ -51,8 +51,18 @@ impl Hardening {
     }
 
     /// Flow stress and its slope with the plastic strain [Pa].
-    #[inline(always)]
     pub fn at(&self, plastic_strain: f64) -> (f64, f64) {
+        self.by(power, plastic_strain)
+    }
+
+    /// The same for code that has been dispatched to an instruction set.
+    #[inline(always)]
+    pub(crate) fn at_here(&self, plastic_strain: f64) -> (f64, f64) {
+        self.by(power_here, plastic_strain)
+    }
+
+    #[inline(always)]
+    fn by(&self, power: impl Fn(f64, f64) -> f64, plastic_strain: f64) -> (f64, f64) {
         let strain = self.first_strain + plastic_strain;
         let stress = self.coefficient * power(strain, self.exponent);
         (stress, self.exponent * stress / strain)

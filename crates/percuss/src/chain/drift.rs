@@ -1,0 +1,275 @@
+//! The way of the nodes in a step, and what it does to the elements.
+
+use pulp::{Arch, NullaryFnOnce};
+
+use super::{
+    batch::{LANES, Start},
+    part::Part,
+    penetration::Limit,
+    solver::{LARGEST_STRAIN_STEP, StepControl},
+    state::{Element, Segment, State},
+};
+use crate::{
+    case::Kinematics,
+    error::NumericalError,
+    material::{Hardening, YieldPoint},
+};
+
+#[cfg(test)]
+#[path = "drift_tests.rs"]
+mod tests;
+
+/// A drift, compiled once for every instruction set.
+struct Drift<'a> {
+    state: &'a mut State,
+    control: &'a StepControl,
+    time_step: f64,
+}
+
+impl NullaryFnOnce for Drift<'_> {
+    type Output = Result<(), NumericalError>;
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        self.state.drift_here(self.control, self.time_step)
+    }
+}
+
+/// What sets the next time step.
+struct Found {
+    stable_step: f64,
+    /// Largest rate at which the ends of an element approach or part, as a part of its length [1/s].
+    fastest: f64,
+}
+
+impl Found {
+    /// A stable time step of an element.
+    #[inline(always)]
+    fn allow(&mut self, time_step: f64) {
+        if time_step < self.stable_step {
+            self.stable_step = time_step;
+        }
+    }
+
+    /// A rate at which its ends approach or part.
+    #[inline(always)]
+    fn approaches(&mut self, rate: f64) {
+        if rate > self.fastest {
+            self.fastest = rate;
+        }
+    }
+}
+
+/// An element that flows, or flowed in the last step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Working {
+    /// Its place in its segment.
+    element: usize,
+    /// Plastic strain of the last step.
+    step_before: f64,
+    /// Whether it flows in this one.
+    flows: bool,
+}
+
+impl State {
+    /// Moves the nodes and updates every element.
+    pub(super) fn drift(
+        &mut self,
+        control: &StepControl,
+        time_step: f64,
+    ) -> Result<(), NumericalError> {
+        Arch::new().dispatch(Drift {
+            state: self,
+            control,
+            time_step,
+        })
+    }
+
+    #[inline(always)]
+    fn drift_here(&mut self, control: &StepControl, time_step: f64) -> Result<(), NumericalError> {
+        let mut found = Found {
+            stable_step: f64::INFINITY,
+            fastest: 0.0,
+        };
+        let limit = self.penetration_limit();
+        for s in 0..self.segments.len() {
+            let segment = self.segments[s];
+            if let Err(element) = self.drift_segment(segment, control, time_step, limit, &mut found)
+            {
+                return Err(inverted(self.step, self.time, element));
+            }
+        }
+        self.stable_step = found.stable_step.min(LARGEST_STRAIN_STEP / found.fastest);
+        Ok(())
+    }
+
+    /// Fails with the number of an element that was compressed to nothing.
+    #[inline(always)]
+    fn drift_segment(
+        &mut self,
+        segment: Segment,
+        control: &StepControl,
+        time_step: f64,
+        limit: Option<Limit>,
+        found: &mut Found,
+    ) -> Result<(), usize> {
+        let part = &self.parts[segment.part];
+        let is_logarithmic = part.kinematics == Kinematics::Logarithmic;
+        let is_viscous = control.is_viscous();
+        let first_element = segment.elements().start;
+        let limit = limit.filter(|limit| segment.elements().contains(&limit.element));
+        // What flows by a power of the plastic strain waits until it can do so side by side, in logarithmic strain.
+        let law = part.strength.hardening();
+        let law = law.filter(|_| is_logarithmic && !is_viscous && limit.is_none());
+        let mut plastic_work = 0.0;
+        let working = &mut self.working;
+        working.clear();
+        let nodes = &mut self.nodes[segment.first_node..=segment.last_node];
+        let elements = &mut self.elements[segment.elements()];
+        let Some((first, others)) = nodes.split_first_mut() else {
+            return Ok(());
+        };
+        first.position += first.velocity * time_step;
+        let (mut position, mut velocity) = (first.position, first.velocity);
+        for (i, (element, node)) in elements.iter_mut().zip(others).enumerate() {
+            node.position += node.velocity * time_step;
+            let distance = node.position - position;
+            let held = velocity == 0.0 && node.velocity == 0.0;
+            let closing = velocity - node.velocity;
+            (position, velocity) = (node.position, node.velocity);
+            if held && element.is_settled() {
+                // Where no wave has come, or border shear holds, nothing changes.
+                found.allow(element.stable_step(part));
+                continue;
+            }
+            if let Some(limit) = limit.filter(|limit| limit.element == first_element + i) {
+                plastic_work += element.penetrate(part, distance, time_step, limit);
+            }
+            let length = distance + element.advance;
+            if length <= 0.0 {
+                return Err(first_element + i);
+            }
+            // Only the mouth of a cone advances, and a division takes long.
+            let approach = match element.advance_step {
+                0.0 => closing,
+                advance => closing - advance / time_step,
+            };
+            if is_logarithmic {
+                found.approaches(approach.abs() * (1.0 / length));
+            }
+            let step_before = element.stretch(part, length);
+            let flows = !element.yield_point.holds(element.stress.abs());
+            if law.is_some() && (flows || step_before != 0.0) {
+                working.push(Working {
+                    element: i,
+                    step_before,
+                    flows,
+                });
+                continue;
+            }
+            if flows {
+                element.flow(part, time_step);
+            }
+            plastic_work += element.volume * element.settle(part, step_before);
+            let mut limit = element.stable_step(part);
+            if is_viscous {
+                limit *= control.damp(element, part, approach);
+            }
+            found.allow(limit);
+        }
+        if let Some(law) = law {
+            flow_together(elements, working, part, law, time_step);
+        }
+        for working in working {
+            let element = &mut elements[working.element];
+            plastic_work += element.volume * element.settle(part, working.step_before);
+            found.allow(element.stable_step(part));
+        }
+        self.books.plastic[part.role as usize] += plastic_work;
+        Ok(())
+    }
+}
+
+/// Lets those elements flow that do.
+#[inline(always)]
+fn flow_together(
+    elements: &mut [Element],
+    working: &[Working],
+    part: &Part,
+    law: Hardening,
+    time_step: f64,
+) {
+    let mut waiting = working.iter().filter(|working| working.flows);
+    loop {
+        let mut places = [0; LANES];
+        let mut count = 0;
+        while count < LANES
+            && let Some(working) = waiting.next()
+        {
+            places[count] = working.element;
+            count += 1;
+        }
+        if count == 0 {
+            return;
+        }
+        let last = places[count - 1];
+        places[count..].fill(last);
+        flow_eight(elements, &places, count, part, law, time_step);
+    }
+}
+
+/// Lets elements flow side by side, as in the batch engine: of the places, so many count.
+#[inline(always)]
+fn flow_eight(
+    elements: &mut [Element],
+    places: &[usize; LANES],
+    count: usize,
+    part: &Part,
+    law: Hardening,
+    time_step: f64,
+) {
+    let mut start = Start {
+        modulus: [part.modulus; LANES],
+        heating: [part.heating; LANES],
+        coefficient: [law.coefficient; LANES],
+        exponent: [law.exponent; LANES],
+        first_strain: [law.first_strain; LANES],
+        per_time: [1.0 / time_step; LANES],
+        ..Start::default()
+    };
+    for (p, &place) in places.iter().enumerate() {
+        let element = &elements[place];
+        start.trial[p] = element.stress;
+        start.stress_before[p] = element.stress_before;
+        start.yield_stress[p] = element.yield_point.stress();
+        start.slope[p] = element.yield_point.strain_slope();
+        start.unloaded[p] = element.unloaded_length;
+        start.strain[p] = element.plastic_strain;
+        start.axial[p] = element.plastic_axial;
+        start.largest_rate[p] = element.largest_rate;
+        start.temperature[p] = element.temperature;
+    }
+    let end = start.flow(u8::MAX, |p| elements[places[p]].length);
+    for (p, &place) in places[..count].iter().enumerate() {
+        let element = &mut elements[place];
+        element.stress = end.stress[p];
+        element.yield_point = YieldPoint::known(end.yield_stress[p], end.slope[p]);
+        element.unloaded_length = end.unloaded[p];
+        element.plastic_step = end.plastic_step[p];
+        element.plastic_strain = end.strain[p];
+        element.plastic_axial = end.axial[p];
+        element.largest_rate = end.largest_rate[p];
+        element.temperature = end.temperature[p];
+    }
+}
+
+fn inverted(step: u64, time: f64, element: usize) -> NumericalError {
+    NumericalError {
+        what: "an element was compressed to nothing".to_owned(),
+        step,
+        time_us: time * 1e6,
+        element: Some(element),
+        remedy: "use logarithmic kinematics, or lower `chain.courant` or `chain.erosion_strain`"
+            .to_owned(),
+    }
+}

@@ -1,0 +1,63 @@
+use super::*;
+use crate::{case, chain::mesh};
+
+/// A chain at rest, of a projectile that hardens by a power of the strain.
+fn chain() -> State {
+    let text = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '200 m/s' }\n\
+                target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n\
+                [chain]\ntarget_closure = 'column'\nprojectile_elements = 27\ntarget_elements = 5\n";
+    mesh::build(&case::load_str("shot", text).unwrap_or_else(|error| panic!("{error}")))
+}
+
+/// Everything that flow changes.
+fn bits(element: &Element) -> [u64; 9] {
+    [
+        element.stress,
+        element.plastic_step,
+        element.plastic_strain,
+        element.plastic_axial,
+        element.unloaded_length,
+        element.temperature,
+        element.largest_rate,
+        element.yield_point.stress(),
+        element.yield_point.strain_slope(),
+    ]
+    .map(f64::to_bits)
+}
+
+#[test]
+fn elements_that_flow_side_by_side_do_so_to_the_bits_of_each_by_itself() {
+    const TIME_STEP: f64 = 1e-8;
+    let mut state = chain();
+    let part = &state.parts[0];
+    let law = part.strength.hardening().unwrap();
+    let together = &mut state.elements[..part.elements];
+    let mut alone = together.to_vec();
+    let (mut flowed, mut iterated) = (0, 0);
+    for step in 0..60 {
+        let mut working = Vec::new();
+        for (i, (one, other)) in together.iter_mut().zip(&mut alone).enumerate() {
+            // Compression and tension in turn, from what stays elastic to what only iteration follows.
+            let size = 0.12 * ((step * 7 + i * 5) % 29) as f64 / 29.0;
+            let length = one.rest_length * (1.0 + size * if step % 4 < 2 { -1.0 } else { 1.0 });
+            let step_before = one.stretch(part, length);
+            other.stretch(part, length);
+            let flows = !one.yield_point.holds(one.stress.abs());
+            working.push(Working {
+                element: i,
+                step_before,
+                flows,
+            });
+            flowed += usize::from(flows);
+            iterated += usize::from(one.stress.abs() > 0.09 * part.modulus);
+            if flows {
+                other.flow(part, TIME_STEP);
+            }
+        }
+        flow_together(together, &working, part, law, TIME_STEP);
+        for (one, other) in together.iter().zip(&alone) {
+            assert_eq!(bits(one), bits(other), "step {step}: {one:?} {other:?}");
+        }
+    }
+    assert!(flowed > 300 && iterated > 30, "{flowed} {iterated}");
+}
