@@ -24,19 +24,21 @@ def save(axes: Axes, path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def records() -> dict[type[Record], list[Record]]:
+def records(tmp_path_factory: pytest.TempPathFactory) -> dict[type[Record], list[Record]]:
     case = Path(__file__).resolve().parents[3] / CASE
     wall = case.parents[1] / "taylor-copper-wilkins/scenario.toml"
     plate = case.parents[1] / "weldox-460e-12mm-blunt/scenario.toml"
     spread = percuss.load(case.parents[1] / "paper-table1-uncertainty/scenario.toml")
     spread = spread.replace({"chain.projectile_elements": 8, "chain.target_elements": 12})
     law = "materials.copper-woodward.strength.power_law"
+    shots = tmp_path_factory.mktemp("shots") / "shots.csv"
+    shots.write_text("velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
     coefficient = {f"{law}.coefficient": "150..900 MPa"}
     copper: dict[str, Any] = {"data": "builtin", "source": "wilkins1973", "model": "wilkins_guinan"}
     return {
         percuss.RunResult: [percuss.run(case), percuss.run(wall, "taylor", history=False)],
         percuss.Comparison: [percuss.compare(case), percuss.compare(case, velocity="200..400:3")],
-        percuss.Limits: [percuss.limit(plate, model=["plugging", "recht_ipson", "tate"])],
+        percuss.Limits: [percuss.limit(plate, model=["plugging", "recht_ipson", "tate"], shots=shots)],
         percuss.Convergence: [percuss.converge(wall, levels=3)],
         percuss.Validation: [percuss.validate(model="taylor", kind="taylor")],
         percuss.Uncertainty: [percuss.uncertainty(spread, samples=16, velocity=[150, 230])],
@@ -44,6 +46,8 @@ def records() -> dict[type[Record], list[Record]]:
             percuss.calibrate(fit={**coefficient, f"{law}.exponent": (0.02, 0.4)}, **copper, ensembles=2, walkers=6, steps=20),
             percuss.calibrate(fit=coefficient, **copper, least_squares=True),
         ],
+        percuss.Judgement: [percuss.judge()],
+        percuss.Reproduction: [percuss.reproduce("paper"), percuss.reproduce("damping")],
         percuss.Material: [percuss.material("copper"), *percuss.materials()],
         percuss.Model: list(percuss.models()),
     }
@@ -91,12 +95,39 @@ def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], 
     (spread,) = records[percuss.Uncertainty]
     assert isinstance(spread, percuss.Uncertainty)
     drawn = [spread.plot_tornado(), spread.plot_indices(), spread.plot_bands(), spread.plot_perforation()]
+    (limits,) = records[percuss.Limits]
+    assert isinstance(limits, percuss.Limits)
+    drawn.append(limits.plot_v50())
+    (judgement,) = records[percuss.Judgement]
+    assert isinstance(judgement, percuss.Judgement)
+    for by in ("speed", "length", "regime", "materials", "uncertainty"):
+        assert len(judgement.errors(by)) > 10
+        save(judgement.plot(by), tmp_path / f"{by}.png")
+    with pytest.raises(percuss.UsageError, match="groups: speed, length"):
+        judgement.plot("moon")
     (found, _) = records[percuss.Calibration]
     assert isinstance(found, percuss.Calibration)
     drawn += [found.plot_posterior("coefficient"), found.plot_posterior("scatter"), found.plot_pair("coefficient", "exponent")]
     for i, axes in enumerate(drawn):
         assert axes.get_xlabel() and axes.get_legend() is not None
         save(axes, tmp_path / f"study-{i}.png")
+
+
+def test_lists_are_tables() -> None:
+    for listed in (percuss.materials(), percuss.models()):
+        assert len(listed.to_pandas()) == listed.to_arrow().num_rows == len(listed) > 10
+        assert listed._repr_html_().count("<tr>") == len(listed) + 1
+
+
+def test_what_was_not_asked_for_is_not_drawn(tmp_path: Path) -> None:
+    shots = tmp_path / "shots.csv"
+    shots.write_text("velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n")
+    limits = percuss.limit(shots=shots)
+    assert limits.to_pandas().empty and limits.plot_v50().collections
+    with pytest.raises(ValueError, match="no case was searched"):
+        limits.plot()
+    with pytest.raises(ValueError, match="no shots that scatter"):
+        percuss.limit("cases/weldox-460e-12mm-blunt/scenario.toml", model="plugging", points=0).plot_v50()
 
 
 def test_text_of_a_case_cannot_become_markup() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -109,6 +111,8 @@ def comparison(comparison: Comparison, ax: Axes | None) -> Axes:
 
 
 def limits(limits: Limits, ax: Axes | None) -> Axes:
+    if "results" not in limits:
+        raise ValueError("no case was searched: `plot_v50` draws the shots")
     ax = new_axes(ax)
     for model in limits.results:
         if model.ballistic_limit_m_s is None:
@@ -123,6 +127,39 @@ def limits(limits: Limits, ax: Axes | None) -> Axes:
     if ax.lines:
         ax.legend()
     return ax
+
+
+def v50(limits: Limits, ax: Axes | None) -> Axes:
+    import numpy
+
+    if limits.v50 is None or limits.shots is None:
+        raise ValueError("no shots that scatter were given: `shots` names a file of them")
+    ax = new_axes(ax)
+    speeds = [shot.velocity_m_s for shot in limits.shots]
+    margin = 0.15 * (max(speeds) - min(speeds))
+    at = numpy.linspace(min(speeds) - margin, max(speeds) + margin, 200)
+    for estimate in limits.v50.estimates:
+        value, deviation = estimate.v50_m_s, estimate.standard_deviation_m_s
+        if value is None or not deviation:
+            continue
+        chances = [_chance(estimate.method, (speed - value) / deviation) for speed in at]
+        (line,) = ax.plot(at, chances, label=f"{estimate.method}: {value:.4g} m/s")
+        if estimate.low_m_s is not None and estimate.high_m_s is not None:
+            ax.hlines(0.5, estimate.low_m_s, estimate.high_m_s, color=line.get_color(), alpha=0.4, linewidth=5)
+    for perforated, colour, words in ((True, "C3", "went through"), (False, "C2", "stopped")):
+        chosen = [shot.velocity_m_s for shot in limits.shots if shot.perforated is perforated]
+        ax.plot(chosen, [float(perforated)] * len(chosen), "o", color=colour, mfc="none", label=words)
+    level = f"{100 * limits.v50.confidence:g} %"
+    ax.set(xlabel="impact velocity [m/s]", ylabel="chance of going through", title=f"V50 of {len(speeds)} shots, {level} intervals")
+    ax.legend()
+    return ax
+
+
+def _chance(method: str, standardised: float) -> float:
+    """Chance of going through at a speed by how many standard deviations it lies above V50."""
+    if method == "logit":
+        return 1 / (1 + math.exp(-standardised * math.pi / math.sqrt(3)))
+    return 0.5 * math.erfc(-standardised / math.sqrt(2))
 
 
 def convergence(study: Convergence, quantity: str | None, ax: Axes | None) -> Axes:
