@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -23,7 +24,11 @@ Call = Callable[[Path, Path], Any]
 
 def small(path: str, folder: Path, **more: Any) -> percuss.Case:
     """A case on a coarse mesh, with a file beside it."""
-    case = percuss.load(path).replace({"chain.projectile_elements": 8, "chain.target_elements": 12, **more})
+    meshes = {"chain.projectile_elements": 8}
+    case = percuss.load(path)
+    if "rigid_wall" not in case.text:
+        meshes["chain.target_elements"] = 12
+    case = case.replace({**meshes, **more})
     case.save(folder / f"{case.name}.toml")
     return case
 
@@ -79,8 +84,12 @@ CALLS: dict[str, tuple[Callable[[Path], list[str]], Call]] = {
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    """All files of a folder and its folders."""
-    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    """All files of a folder and its folders. Ids in figures count the figures that a process has drawn: they are left out."""
+
+    def content(path: Path) -> bytes:
+        return re.sub(rb"kuva-clip-\d+", b"kuva-clip", path.read_bytes())
+
+    return {str(path.relative_to(folder)): content(path) for path in folder.rglob("*") if path.is_file()}
 
 
 @pytest.mark.parametrize("what", CALLS)
@@ -92,8 +101,11 @@ def test_a_folder_is_that_of_the_program(what: str, program: Program, tmp_path: 
     result = call(tmp_path, tmp_path / "out")
     ours = contents(tmp_path / "out")
     written = {str(path.relative_to(tmp_path / "out")) for path in result.files}
-    # The fields are one file that names many.
-    assert written == set(ours) or what == "run axi" and written < set(ours)
+    if what == "run axi":
+        # Pictures are named by their folder, fields by the file that lists them.
+        assert {"frames", "fields.pvd"} <= written
+        written = (written - {"frames"}) | {name for name in ours if name.startswith(("frames/", "fields/"))}
+    assert written == set(ours)
     (tmp_path / "out").rename(tmp_path / "python")
     said = program(*words(tmp_path), "--out", tmp_path / "out")
     assert said.returncode == 0, said.stderr
@@ -130,9 +142,9 @@ def test_a_run_that_is_stopped_goes_on_with_the_same_numbers(tmp_path: Path) -> 
 def test_what_has_no_effect_is_refused(program: Program, tmp_path: Path) -> None:
     for given in ({"field": "speed"}, {"resume": True}, {"checkpoint": 60.0}):
         with pytest.raises(percuss.UsageError, match="--out <DIR>"):
-            percuss.run(TAYLOR, **given)  # type: ignore[arg-type]
+            percuss.run(TAYLOR, **given)
         with pytest.raises(percuss.UsageError, match="has no effect with model `chain`"):
-            percuss.run(TAYLOR, out=tmp_path, **given)  # type: ignore[arg-type]
+            percuss.run(TAYLOR, out=tmp_path, **given)
     with pytest.raises(percuss.UsageError, match="leave out `out`"):
         percuss.run(TAYLOR, out=tmp_path, projectile_law=lambda *_: 3e8)
     (tmp_path / "file").write_text("")
@@ -151,7 +163,7 @@ def test_the_case_that_was_run_is_kept(tmp_path: Path) -> None:
 def test_a_starter_case_is_that_of_the_program(program: Program, tmp_path: Path) -> None:
     path = percuss.new(tmp_path / "shot")
     assert path == tmp_path / "shot/scenario.toml"
-    with pytest.raises(percuss.WriteError, match="it exists already") as refused:
+    with pytest.raises(percuss.WriteError, match=r"it exists\s+already") as refused:
         percuss.new(tmp_path / "shot")
     assert str(refused.value) == program("new", tmp_path / "shot").stderr.rstrip()
     text = path.read_text()

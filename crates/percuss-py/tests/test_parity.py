@@ -48,9 +48,9 @@ def options(program: Program, command: tuple[str, ...]) -> list[str]:
 
 def in_python(there: str) -> Callable[..., Any] | property | None:
     """The function, method or property that a cell names."""
-    names = code(there)
-    if not names:
+    if there.startswith("none: "):
         return None
+    names = code(there)
     thing: Any = percuss
     for part in names[0].removesuffix("()").split("."):
         thing = getattr(thing, part)

@@ -99,7 +99,8 @@ class Answered(Record):
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """The files that were written, in the order of writing; none where no folder ``out`` was given."""
+        """The files that were written, in the order of writing; none where no folder ``out`` was given. Pictures of fields are named by
+        their folder, fields by the file that lists them."""
         return self._files
 
 
