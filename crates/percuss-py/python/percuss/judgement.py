@@ -64,7 +64,7 @@ class Judgement(Result):
 
     def _repr_html_(self) -> str:
         def percent(part: float) -> str:
-            return f"{100 * part:+.0f} %"
+            return f"{round(100 * part):+d} %"
 
         rows = [
             [e.contender, str(e.count), percent(e.median), f"{percent(e.low)} to {percent(e.high)}", f"{100 * e.within_25_percent:.0f} %"]
@@ -117,8 +117,7 @@ def judge(
 
     Examples
     --------
-    >>> judgement = percuss.judge()
-    >>> judgement.findings[0]
+    >>> percuss.judge().findings[0]  # doctest: +SKIP
     '104 shots; on 66 of them the reference itself is known within 10 %.'
     """
     return Judgement(native_answer("judge", reference=reference, study=study, compute=compute, cells=cells, out=out, progress=progress))

@@ -43,13 +43,20 @@ def label(name: str) -> tuple[str, float]:
     return name.replace("_", " "), 1.0
 
 
-def new_axes(ax: Axes | None) -> Axes:
-    """These axes, or new ones."""
+def new_axes(ax: Axes | None, size: tuple[float, float] | None = None) -> Axes:
+    """These axes, or new ones, of a size [in] that is not the usual one where it is given."""
     if ax is not None:
         return ax
     import matplotlib.pyplot
 
-    return matplotlib.pyplot.subplots(layout="constrained")[1]
+    return matplotlib.pyplot.subplots(layout="constrained", figsize=size)[1]
+
+
+def plain_logarithmic(ax: Axes) -> None:
+    """Makes the axis from left to right logarithmic, with numbers as they are."""
+    ax.set_xscale("log")
+    ax.xaxis.set_major_formatter("{x:g}")
+    ax.xaxis.set_minor_formatter("{x:g}")
 
 
 def history(result: RunResult, what: str, ax: Axes | None, **style: Any) -> Axes:
@@ -67,13 +74,25 @@ def stress(result: RunResult, ax: Axes | None) -> Axes:
 
     ax = new_axes(ax)
     profiles = result.history.profiles
-    time = numpy.concatenate([numpy.full(len(p.part), p.time_s * 1e6) for p in profiles])
-    position = numpy.concatenate([p.position_m for p in profiles]) * 1e3
-    value = numpy.concatenate([p.stress_pa for p in profiles]) * 1e-6
+    every = numpy.concatenate([p.stress_pa for p in profiles]) * 1e-6
     # The largest stresses belong to a few elements under the contact: the waves are what a figure is to show.
-    top = float(numpy.percentile(numpy.abs(value), 99.5)) or 1.0
-    dots = ax.scatter(position, time, c=value, s=4, marker="s", cmap="RdBu_r", vmin=-top, vmax=top, linewidths=0)
-    ax.figure.colorbar(dots, ax=ax, label="axial stress, compression positive [MPa]", extend="both")
+    top = float(numpy.percentile(numpy.abs(every), 99.5)) or 1.0
+    drawn: Any = None
+    # A body by itself: nothing is drawn across a gap.
+    for part in numpy.unique(numpy.concatenate([p.part for p in profiles])):
+        rows = [(p, p.part == part) for p in profiles]
+        counts = {int(chosen.sum()) for _, chosen in rows}
+        position = [p.position_m[chosen] * 1e3 for p, chosen in rows]
+        value = [p.stress_pa[chosen] * 1e-6 for p, chosen in rows]
+        time = [numpy.full(len(at), p.time_s * 1e6) for at, (p, _) in zip(position, rows, strict=True)]
+        style: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -top, "vmax": top}
+        if len(counts) == 1 and min(counts) > 1:
+            drawn = ax.pcolormesh(numpy.array(position), numpy.array(time), numpy.array(value), shading="nearest", rasterized=True, **style)
+        else:
+            # Elements that come and go make no grid.
+            x, y, c = (numpy.concatenate(values) for values in (position, time, value))
+            drawn = ax.scatter(x, y, c=c, s=4, marker="s", linewidths=0, **style)
+    ax.figure.colorbar(drawn, ax=ax, label="axial stress, compression positive [MPa]", extend="both")
     ax.set(xlabel="position, struck face at 0 [mm]", ylabel="time [us]", title=result.case)
     return ax
 
@@ -170,7 +189,10 @@ def convergence(study: Convergence, quantity: str | None, ax: Axes | None) -> Ax
     ax.plot(elements, chosen.values, marker="o", label=name)
     if "richardson" in chosen.verdict:
         ax.axhline(chosen.verdict.richardson, color="0.5", linestyle="--", label="extrapolated (Richardson)")
-    ax.set(xlabel="elements", ylabel=f"{name} [{chosen.unit}]", xscale="log")
+    ax.set_xscale("log")
+    ax.set_xticks(elements, [str(count) for count in elements])
+    ax.set_xticks([], minor=True)
+    ax.set(xlabel="elements", ylabel=f"{name} [{chosen.unit}]")
     ax.legend()
     return ax
 
@@ -183,7 +205,8 @@ def validation(validation: Validation, ax: Axes | None) -> Axes:
         points = [(p.measured, p.predicted / p.measured) for p in counted if p.model == name and p.measured]
         ax.plot(*zip(*points, strict=True), ".", label=name)
     ax.axhline(1.0, color="k", linewidth=1)
-    ax.set(xlabel=f"measured [{', '.join(units)}]", ylabel="predicted / measured", xscale="log")
+    plain_logarithmic(ax)
+    ax.set(xlabel=f"measured [{', '.join(units)}]", ylabel="predicted / measured")
     ax.legend()
     return ax
 

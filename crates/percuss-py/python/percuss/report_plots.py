@@ -21,7 +21,7 @@ _EDGE = 200.0
 
 def errors(judgement: Judgement, by: str | None, ax: Axes | None) -> Axes:
     best_first = [e.contender for e in sorted(judgement.errors(), key=lambda e: float(e.median_absolute))]
-    ax = new_axes(ax)
+    ax = new_axes(ax, (8.0, 5.0 if by is None else 6.0))
     if by is not None:
         return _magnitudes(judgement, by, best_first, ax)
     of = {e.contender: e for e in judgement.errors()}
@@ -35,7 +35,7 @@ def errors(judgement: Judgement, by: str | None, ax: Axes | None) -> Axes:
     ax.set(
         xlabel="error of the depth [%]",
         xlim=(-105, _EDGE + 5),
-        title="median, and eight of ten errors (number of shots)",
+        title="median and eight of ten errors",
     )
     return ax
 
@@ -51,9 +51,10 @@ def _magnitudes(judgement: Judgement, by: str, contenders: list[str], ax: Axes) 
         if not numpy.isnan(value):
             ax.text(column, row, f"{value:.0f}", ha="center", va="center", color="w" if value > 50 else "k", fontsize="small")
     ax.figure.colorbar(drawn, ax=ax, label="median magnitude of the error [%]", extend="max")
-    ax.set_xticks(range(len(values)), values, rotation=30, ha="right", fontsize="small")
+    lines = [value.replace(" on ", "\non ") for value in values]
+    ax.set_xticks(range(len(values)), lines, rotation=40, ha="right", rotation_mode="anchor", fontsize="small")
     ax.set_yticks(range(len(contenders)), contenders, fontsize="small")
-    ax.set_xlabel(by)
+    ax.set_title(f"by {by}")
     return ax
 
 
@@ -61,7 +62,8 @@ def verdicts(found: Reproduction, ax: Axes | None) -> Axes:
     ax = new_axes(ax)
     count = Counter(item.verdict.replace("_", " ") for item in found.items)
     names = [name for name, _ in count.most_common()]
-    ax.bar_label(ax.barh(names, [count[name] for name in names]))
+    ax.bar_label(ax.barh(names, [count[name] for name in names]), padding=3)
+    ax.margins(x=0.1)
     ax.invert_yaxis()
     ax.set(xlabel="statements", title="the seed paper, item by item")
     return ax

@@ -137,6 +137,10 @@ class RunResult(Result):
 
     def _repr_html_(self) -> str:
         rows = [[name, value] for name, value in self._shown()]
+        if self.expected_error is not None:
+            error = self.expected_error
+            ends = f"{100 * error.low:+.0f} % to {100 * error.high:+.0f} % for eight of ten of {error.shots} shots like this one"
+            rows.append(["expected error of the depth", f"median {100 * error.median:+.0f} %, {ends}"])
         rows += [["warning", warning] for warning in self.warnings]
         return table_html(["", ""], rows, f"{self.case}, model {self.model}")
 
@@ -173,11 +177,14 @@ class Comparison(Result):
 
     def _repr_html_(self) -> str:
         quantities = self.quantities
+        chosen = {choice.model for at in self.recommended for choice in at.models}
+        # What a model says comes before why others say nothing.
+        results = sorted(self.results, key=lambda r: r.reason is not None)
         rows = [
-            [r.model, shown(r.impact_velocity_m_s), *(shown(r[q]) for q in quantities), r.outcome.replace("_", " "), r.reason or ""]
-            for r in self.results
+            [f"{r.model} ★" if r.model in chosen else r.model, shown(r.impact_velocity_m_s), *(shown(r[q]) for q in quantities), r.outcome.replace("_", " "), r.reason or ""]
+            for r in results
         ]
-        return table_html(["model", "impact_velocity_m_s", *quantities, "outcome", "reason"], rows, self.case)
+        return table_html(["model", "impact_velocity_m_s", *quantities, "outcome", "reason"], rows, f"{self.case} (★ recommended)")
 
 
 class Limits(Result):
@@ -257,7 +264,10 @@ class Convergence(Result):
 
     def _repr_html_(self) -> str:
         rows = self._rows()
-        return table_html(list(rows[0]), [[shown(value) for value in row.values()] for row in rows])
+        text = table_html(list(rows[0]), [[shown(value) for value in row.values()] for row in rows])
+        names = ["kind", "order", "richardson", "index"]
+        verdicts = [[q.name, *(shown(q.verdict._data.get(name)) for name in names)] for q in self.quantities]
+        return text + table_html(["quantity", "verdict", "order", "extrapolated", "grid-convergence index"], verdicts)
 
 
 class Validation(Result):
