@@ -61,7 +61,7 @@ def test_a_sweep_is_that_of_the_program(program: Program, tmp_path: Path) -> Non
         for file in drawn.files:
             assert content(file) == content(tmp_path / "figure" / file.name)
         assert [file.suffix for file in drawn.files] == [".svg", ".png"] and drawn._repr_svg_().startswith("<svg")
-    with pytest.raises(percuss.UsageError, match="does not vary `speed`"):
+    with pytest.raises(percuss.UsageError, match=r"does not\s+vary `speed`"):
         percuss.plot(rows, x="speed")
     status = program("sweep", "status", tmp_path / "python", "--json")
     assert json.loads(status.stdout) == rows.status.to_dict()
