@@ -1,4 +1,5 @@
 mod checkpoints;
+mod others;
 mod task;
 
 use std::{path::PathBuf, sync::Arc, sync::atomic::AtomicBool, time::Duration};
@@ -25,7 +26,8 @@ use crate::{
 const LONG_ABOUT: &str = "\
 Run a case and print its results: how the shot ended, how deep it went, what is
 left of the projectile, where the energy went, how well the books of energy and
-momentum balance, and what to know before relying on the numbers.
+momentum balance, and what to know before relying on the numbers. Without --model the model is `chain`,
+and the leading result of every other quick model that applies stands beside it.
 
 With --quiet one line is printed, of NAME=VALUE pairs with the names of --json:
   outcome=at_rest depth_of_penetration_mm=0.0436 residual_velocity_m_s=-1.2
@@ -66,10 +68,10 @@ pub struct Run {
     /// Case file; `percuss new` writes one to start from
     #[arg(value_name = "CASE.toml")]
     case: PathBuf,
-    /// Model to compute with; `percuss models` describes them, `percuss compare CASE` names those that apply
-    #[arg(long, value_name = "NAME", default_value = "chain")]
+    /// Model to compute with; `percuss models` describes them, `percuss compare CASE` names those that apply [default: chain]
+    #[arg(long, value_name = "NAME")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
-    model: String,
+    model: Option<String>,
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]
     json: bool,
@@ -91,6 +93,8 @@ pub struct Run {
     resume: bool,
 }
 
+/// Model of a run that names none.
+const DEFAULT_MODEL: &str = "chain";
 /// Part of the work that is done when the run has come to its end; the rest is writing.
 const COMPUTED: f64 = 0.9;
 
@@ -136,9 +140,14 @@ impl Run {
         })
     }
 
+    /// Name of the model.
+    fn model(&self) -> &str {
+        self.model.as_deref().unwrap_or(DEFAULT_MODEL)
+    }
+
     /// Whether the model, if there is such a one, leaves checkpoints in the folder.
     fn leaves_checkpoints(&self) -> bool {
-        let chosen = MODELS.iter().find(|model| model.name() == self.model);
+        let chosen = MODELS.iter().find(|model| model.name() == self.model());
         self.out.is_some() && chosen.is_some_and(|model| model.has_fields())
     }
 
@@ -156,8 +165,18 @@ impl Run {
             let lines: String = results.results.iter().map(one_line).collect();
             return terminal::print(&lines);
         }
+        let others = match self.model {
+            Some(_) => None,
+            None => {
+                let mut progress = Progress::new(true);
+                let others = others::rows(&ran.scenario, self.model(), &mut progress);
+                progress.finish();
+                Some(others?)
+            }
+        };
         let record = &results.results[0];
-        written.print_under(result_table::text(&ran.scenario, &ran.result, record))
+        let text = result_table::text(&ran.scenario, &ran.result, record, others);
+        written.print_under(text)
     }
 }
 

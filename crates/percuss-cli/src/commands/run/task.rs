@@ -74,7 +74,7 @@ impl<'a> Task<'a> {
     ) -> Result<Self, Failure> {
         let document = at_hand.read(&options.case)?;
         let scenario = document.scenario()?;
-        let model = model::model(&options.model)?;
+        let model = model::model(options.model())?;
         check_use(options, model)?;
         let start = start(options, model, &scenario, say)?;
         // A model that does not apply leaves no folder.
