@@ -26,8 +26,10 @@ LONG = {
     " fit={'materials.copper-woodward.strength.power_law.coefficient': '150..900 MPa'})",
 }
 
+# A shell that starts the tests in the background lets them ignore Ctrl-C.
 SCRIPT = """
-import sys, percuss
+import signal, sys, percuss
+signal.signal(signal.SIGINT, signal.default_int_handler)
 case = percuss.load("cases/paper-table1/scenario.toml").replace({{"axi.cells_per_radius": 24}})
 print("started", flush=True)
 try:
@@ -48,7 +50,10 @@ def test_ctrl_c_ends_it(what: str, tmp_path: Path) -> None:
         time.sleep(1.0)
         process.send_signal(signal.SIGINT)
         start = time.monotonic()
-        output, _ = process.communicate(timeout=60)
+        try:
+            output, _ = process.communicate(timeout=60)
+        finally:
+            process.kill()
         assert output == "interrupted\n"
         assert time.monotonic() - start < 20
     if what == "run with its folder":
