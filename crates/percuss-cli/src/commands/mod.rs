@@ -29,7 +29,7 @@ pub use materials::Materials;
 pub use models::Models;
 pub use new::New;
 pub use reproduce::Reproduce;
-pub use run::Run;
+pub use run::{Ran, Run};
 pub use schema::Schema;
 pub use serve::Serve;
 pub use sweep::Sweep;

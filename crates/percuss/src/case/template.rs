@@ -157,7 +157,7 @@ fn put(table: &mut Table, key: &str, value: Value) -> Result<(), String> {
     let mut at: Option<&mut Value> = None;
     for (depth, part) in way.iter().enumerate() {
         let here = parts[..=depth].join(".");
-        let list_is_due = parts[depth + 1].parse::<usize>().is_ok();
+        let inner = parts[depth + 1];
         let next = match at {
             None => table
                 .entry(*part)
@@ -176,7 +176,11 @@ fn put(table: &mut Table, key: &str, value: Value) -> Result<(), String> {
             }
             Some(_) => return Err(format!("the case has no table above `{here}`")),
         };
-        if list_is_due && !next.is_array() {
+        // Digits are an index, unless a table has them for a key: ids of materials may be nothing but digits.
+        let is_key = next
+            .as_table()
+            .is_some_and(|table| table.contains_key(inner));
+        if inner.parse::<usize>().is_ok() && !next.is_array() && !is_key {
             return Err(format!("the case has no list `{here}`"));
         }
         at = Some(next);

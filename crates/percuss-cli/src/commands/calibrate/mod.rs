@@ -22,7 +22,7 @@ use percuss::{
 pub use calibrated::Calibrated;
 
 use crate::{
-    answer::{AtHand, Hear},
+    answer::{Answer, AtHand, Found, Hear},
     failure::Failure,
     progress::Progress,
     run_folder::RunFolder,
@@ -135,30 +135,30 @@ impl Calibrate {
     pub fn run(&self) -> Result<(), Failure> {
         let problem = self.problem(&AtHand::default())?;
         let settings = self.settings(&problem)?;
-        let folder = match &self.out {
-            Some(out) => Some(RunFolder::create_for(out, None)?),
-            None => None,
-        };
+        let folder = RunFolder::wanted(self.out.as_deref(), None)?;
         let found = self.watched(&problem, &settings)?;
-        let files = match folder {
-            Some(folder) => found.write(folder)?,
-            None => Vec::new(),
-        };
+        let files = written(folder, &found)?;
         self.print(&found, &files)
     }
 
     /// What the command finds out.
-    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Calibrated, Failure> {
+    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Answer, Failure> {
         let problem = self.problem(at_hand)?;
         let settings = self.settings(&problem)?;
+        let folder = RunFolder::wanted(self.out.as_deref(), None)?;
         let sampled = settings.sampling.is_some();
         let hear = Mutex::new(hear);
-        self.solve(&problem, &settings, &|stage, part, runs| {
+        let found = self.solve(&problem, &settings, &|stage, part, runs| {
             let mut hear = hear.lock().unwrap_or_else(PoisonError::into_inner);
             hear(
                 progress::whole(stage, part, sampled),
                 &progress::words(stage, runs),
             )
+        })?;
+        let files = written(folder, &found)?;
+        Ok(Answer {
+            found: Found::Calibration(Box::new(found)),
+            files,
         })
     }
 
@@ -297,6 +297,11 @@ impl Calibrate {
         }
         written.print_under(text)
     }
+}
+
+/// The files of a calibration, where a folder is wanted.
+fn written(folder: Option<RunFolder>, found: &Calibrated) -> Result<Vec<PathBuf>, Failure> {
+    folder.map_or_else(|| Ok(Vec::new()), |folder| found.write(folder))
 }
 
 fn no_source(key: &str, known: &str) -> Failure {
