@@ -9,11 +9,10 @@ use std::{
 };
 
 use clap::Parser;
-use percuss::{Error, case::Document, uncertainty::Uncertainty};
+use percuss::{Error, calibrate::Calibrated, case::Document, uncertainty::Uncertainty};
 
 use crate::{
     cli::{Cli, Command},
-    commands::Calibrated,
     failure::Failure,
     terminal,
 };

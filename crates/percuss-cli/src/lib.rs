@@ -24,7 +24,6 @@ use std::{ffi::OsString, process::ExitCode};
 use clap::{CommandFactory, Parser};
 
 pub use answer::{Answer, AtHand, Hear, answer};
-pub use commands::Calibrated;
 pub use failure::Failure;
 
 /// What the command line holds, for pages that explain it.

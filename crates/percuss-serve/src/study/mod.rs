@@ -1,8 +1,12 @@
-//! Studies of a case: models side by side, convergence with the mesh, ballistic limits, uncertainty, and runs in two dimensions.
+//! Studies of a case: models side by side, convergence with the mesh, ballistic limits, sweeps, uncertainty, calibration, and runs in
+//! two dimensions.
 
 mod compared;
 mod converged;
+mod fitted;
 mod limits;
+mod shots;
+mod swept;
 mod uncertain;
 mod uncertain_example;
 
@@ -17,7 +21,7 @@ use percuss::{
     Scenario,
     model::{self, Model},
 };
-use percuss_report::{Chart, ChartData};
+use percuss_report::{Chart, ChartData, Figure};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -35,8 +39,18 @@ struct Study {
     #[serde(flatten)]
     record: Value,
     charts: Vec<ChartData>,
+    /// Figures that are no charts.
+    pictures: Vec<Picture>,
     /// Files to take away, by name: text.
     files: BTreeMap<String, String>,
+}
+
+/// A figure that is no chart, as it is drawn.
+#[derive(Serialize)]
+struct Picture {
+    name: String,
+    title: String,
+    svg: String,
 }
 
 impl Study {
@@ -52,7 +66,20 @@ impl Study {
         Self {
             record,
             charts: charts.iter().map(Chart::data).collect(),
+            pictures: Vec::new(),
             files: drawings.chain(files).collect(),
+        }
+    }
+
+    fn with_pictures(self, figures: impl IntoIterator<Item = Figure>) -> Self {
+        let picture = |figure: Figure| Picture {
+            name: figure.name,
+            title: figure.title,
+            svg: figure.svg,
+        };
+        Self {
+            pictures: figures.into_iter().map(picture).collect(),
+            ..self
         }
     }
 }
@@ -71,6 +98,8 @@ pub(crate) async fn post(
         "compare" => follow(&workers, asked, compared::compared).await,
         "converge" => follow(&workers, asked, converged::converged).await,
         "limit" => follow(&workers, asked, limits::limits).await,
+        "sweep" => follow(&workers, asked, swept::swept).await,
+        "calibrate" => follow(&workers, asked, fitted::fitted).await,
         "uncertainty" => follow(&workers, asked, uncertain::uncertain).await,
         "run" => follow(&workers, asked, slow_run).await,
         _ => Problem::with_status(StatusCode::NOT_FOUND, "there is no such study", "")
