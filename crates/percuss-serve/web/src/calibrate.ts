@@ -53,7 +53,6 @@ function show(done: Calibrated): HTMLElement[] {
   if (found.findings.length) {
     said.push(make("p", {}, make("b", {}, "Not determined:")), list(found.findings.map((finding) => finding.words)));
   }
-  if (found.warnings.length) said.push(list(found.warnings));
   const left = found.left_out;
   const rest = left.length
     ? [make("details", {}, make("summary", {}, `${left.length} measured values left out`), list(left.map((one) => `${one.id}: ${one.reason}`)))]
@@ -61,7 +60,8 @@ function show(done: Calibrated): HTMLElement[] {
   const material = done.material
     ? [make("details", {}, make("summary", {}, "The calibrated material, as the table materials of a case takes it"), make("pre", { tabindex: "0" }, done.material))]
     : [];
-  return [...said, parameterTable(done), qualityTable(done), predictions(done), ...rest, ...material];
+  const warnings = found.warnings.length ? [list(found.warnings)] : [];
+  return [...said, parameterTable(done), qualityTable(done), predictions(done), ...warnings, ...rest, ...material];
 }
 
 const marginal = (of: Marginal | null, factor = 1) =>

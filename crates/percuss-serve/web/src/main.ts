@@ -63,14 +63,17 @@ async function answerAll(): Promise<void> {
     const control = new AbortController();
     const since = performance.now();
     current = { control, since };
-    const sent = text.value;
+    const [sent, asked] = [text.value, model];
     const busy = window.setTimeout(() => wait(control), PATIENCE_MS);
     try {
       const seen = [...views].filter(([, view]) => view.inView).map(([chart]) => chart);
       const body = { name, case: sent, edits: [...edits.values()], model, ...(moving ? { in_view: seen } : {}) };
       const answer = await post<Answer>("/api/answer", body, control.signal);
       if (text.value === sent) text.value = answer.case;
+      // A model that was chosen meanwhile is computed next.
+      const chosen = model === asked ? null : model;
       show(answer, since, moving);
+      if (chosen) models.value = model = chosen;
       if (moving && !pending) rest = window.setTimeout(() => ask(), REST_MS);
     } catch (error) {
       if (control.signal.aborted) {

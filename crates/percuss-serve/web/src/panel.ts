@@ -112,6 +112,6 @@ export function panel(kind: Kind, views: Views, page: Page): HTMLElement {
     ];
   }
 
-  const head = make("div", { class: "bar" }, start, ...(kind.inputs ?? []), make("span", { class: "soft" }, kind.about), running);
+  const head = make("div", { class: "bar" }, start, make("span", { class: "soft" }, kind.about), ...(kind.inputs ?? []), running);
   return make("div", { class: "study" }, head, kind.below ?? null, result);
 }

@@ -30,6 +30,8 @@ mod parameter;
 mod posterior;
 mod predictive;
 mod problem;
+#[cfg(test)]
+mod problem_tests;
 mod record;
 mod sampler;
 mod stage;
