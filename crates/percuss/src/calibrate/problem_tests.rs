@@ -21,7 +21,7 @@ fn a_problem_that_is_stopped_computes_nothing() {
     let set_up = || {
         let text = "projectile = { material = 'copper', length = '20 mm', diameter = '8 mm', velocity = '200 m/s' }
             target = { rigid_wall = true }
-            experiments = [{ projectile_final_length = '15 mm', source = 'test' }]";
+            experiments = [{ velocity = '200 m/s', projectile_final_length = '15 mm', source = 'test' }]";
         let mut observations = Observations::default();
         let case = Document::new("rod", text);
         observations.add_case(&case).unwrap();
