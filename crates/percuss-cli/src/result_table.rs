@@ -22,8 +22,13 @@ const BAR: f64 = 30.0;
 /// Part of the initial energy below which a line is rounding, not physics.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// Table, energy shares, books and warnings.
-pub fn text(scenario: &Scenario, result: &RunResult, record: &ResultRecord) -> String {
+/// Table, energy shares, books, what other models say under a heading of its own, and warnings.
+pub fn text(
+    scenario: &Scenario,
+    result: &RunResult,
+    record: &ResultRecord,
+    others: Option<(String, Vec<Row>)>,
+) -> String {
     let mut text = String::new();
     head(scenario, result, record, &mut text);
     let mut outcome = result_rows::outcome_rows(scenario, result, record);
@@ -41,6 +46,9 @@ pub fn text(scenario: &Scenario, result: &RunResult, record: &ResultRecord) -> S
         energy(numerics, &mut text);
         let books = result_rows::book_rows(numerics, result.end_time.unwrap_or(0.0));
         block("books and steps", &books, &mut text);
+    }
+    if let Some((heading, others)) = others {
+        block(&wrap(&heading, width(), 0), &others, &mut text);
     }
     warnings(result, &mut text);
     text

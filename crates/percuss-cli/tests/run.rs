@@ -29,6 +29,9 @@ fn a_run_prints_its_results() {
         "momentum residual  ",
         "steps  ",
         "time step  ",
+        "depth by other models (`percuss compare` says which to rely on)\n",
+        "\nfdm                         0.05129",
+        "\ncrater_energy               0.924",
         "\nwarning: the depth rests on the target closure",
     ] {
         assert!(text.contains(part), "{part:?} is not in:\n{text}");
@@ -37,6 +40,8 @@ fn a_run_prints_its_results() {
         text.lines().all(|line| line.chars().count() <= 80),
         "{text}"
     );
+    let named = ok(folder.path(), &["run", "shot.toml", "--model", "chain"]);
+    assert!(!named.contains("by other models"), "{named}");
 }
 
 #[test]

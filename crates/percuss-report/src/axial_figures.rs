@@ -8,8 +8,8 @@ use crate::{
     stress_grid::{GAP, StressGrid, spacing},
 };
 
-/// Colours of a part: plastic strain, total strain.
-const STRAIN_COLORS: [[&str; 2]; 4] = [
+/// Colours of a part: what leads in a chart, what stands beside it.
+const COLORS: [[&str; 2]; 4] = [
     ["#0072b2", "#7fd0ff"],
     ["#d55e00", "#ffb84d"],
     ["#009e73", "#7fe0c0"],
@@ -46,35 +46,53 @@ pub(crate) fn strain(history: &History, along: Along, caption: &str) -> Option<L
         }),
     )
     .caption(format!("{caption}; at {} µs", significant(last.time * 1e6)));
-    for part in parts(first) {
-        let name = match part {
-            0 => "projectile".to_owned(),
-            _ if parts(first).len() <= 2 => "target".to_owned(),
-            _ => format!("layer {part}"),
-        };
-        let gap = GAP * spacing(first, part);
-        let points = |value: fn(&ElementState) -> f64| {
-            let elements = last.elements.iter().filter(|e| e.part == part);
-            with_gaps(
-                elements.map(|e| (e.initial_position * 1e3, value(e))),
-                gap * 1e3,
-            )
-        };
-        let [plastic, total] = STRAIN_COLORS[part % STRAIN_COLORS.len()];
+    for body in bodies(first, last) {
+        let [plastic, total] = body.colors;
+        let name = &body.name;
         if along == Along::Space {
-            chart = chart.series(Series::new(name, points(|e| e.plastic_strain)).color(plastic));
+            let points = body.points(|e| e.plastic_strain);
+            chart = chart.series(Series::new(name, points).color(plastic));
             continue;
         }
         chart = chart
             .series(
-                Series::new(format!("{name}, plastic"), points(|e| e.plastic_strain))
-                    .color(plastic),
+                Series::new(
+                    format!("{name}, plastic"),
+                    body.points(|e| e.plastic_strain),
+                )
+                .color(plastic),
             )
             .series(
-                Series::new(format!("{name}, axial total"), points(|e| e.strain))
+                Series::new(format!("{name}, axial total"), body.points(|e| e.strain))
                     .style(Style::Dashed)
                     .color(total),
             );
+    }
+    Some(chart.mark(Mark::vertical("", 0.0)))
+}
+
+/// Of a run in which anything became hotter.
+pub(crate) fn temperature(history: &History, along: Along, caption: &str) -> Option<LineChart> {
+    let (first, last) = (history.profiles.first()?, history.profiles.last()?);
+    let bodies = bodies(first, last);
+    let start = |part: usize| first.elements.iter().find(|e| e.part == part);
+    let is_heated = |body: &Body<'_>| {
+        let start = start(body.part).map(|e| e.temperature);
+        body.elements.iter().any(|e| Some(e.temperature) > start)
+    };
+    if !bodies.iter().any(is_heated) {
+        return None;
+    }
+    let mut chart = LineChart::new(
+        "temperature-profile",
+        "Temperature along the axis at the end",
+        along.axis(),
+        Axis::new("temperature [K]"),
+    )
+    .caption(format!("{caption}; at {} µs", significant(last.time * 1e6)));
+    for body in &bodies {
+        let points = body.points(|e| e.temperature);
+        chart = chart.series(Series::new(&body.name, points).color(body.colors[0]));
     }
     Some(chart.mark(Mark::vertical("", 0.0)))
 }
@@ -135,6 +153,44 @@ pub(crate) fn shape(history: &History, caption: &str) -> Option<LineChart> {
             .color(palette::MARK),
     );
     Some(chart.true_to_scale())
+}
+
+/// A part of the shot along the axis.
+struct Body<'a> {
+    part: usize,
+    name: String,
+    colors: [&'static str; 2],
+    elements: Vec<&'a ElementState>,
+    /// Distance of neighbours from which on something has eroded between them [m].
+    gap: f64,
+}
+
+impl Body<'_> {
+    /// A value over the initial position in mm.
+    fn points(&self, value: fn(&ElementState) -> f64) -> Vec<(f64, f64)> {
+        let points = self.elements.iter();
+        with_gaps(
+            points.map(|e| (e.initial_position * 1e3, value(e))),
+            self.gap * 1e3,
+        )
+    }
+}
+
+/// All parts that a profile has, as a later one has them.
+fn bodies<'a>(first: &Profile, last: &'a Profile) -> Vec<Body<'a>> {
+    let parts = parts(first);
+    let of = |&part: &usize| Body {
+        part,
+        name: match part {
+            0 => "projectile".to_owned(),
+            _ if parts.len() <= 2 => "target".to_owned(),
+            _ => format!("layer {part}"),
+        },
+        colors: COLORS[part % COLORS.len()],
+        elements: last.elements.iter().filter(|e| e.part == part).collect(),
+        gap: GAP * spacing(first, part),
+    };
+    parts.iter().map(of).collect()
 }
 
 fn parts(profile: &Profile) -> Vec<usize> {

@@ -21,7 +21,7 @@ const CELLS: [usize; 2] = [300, 220];
 /// Draws all figures that a result has data for.
 ///
 /// Against time: `depth-time` (a target that can be penetrated), `length-time` (a rigid wall, or a projectile that
-/// erodes), `velocity-time`, `force-time` and `energy-time`. Along the axis: `strain-profile`, `stress-xt` and
+/// erodes), `velocity-time`, `force-time` and `energy-time`. Along the axis: `strain-profile`, `temperature-profile` (where anything became hotter), `stress-xt` and
 /// `rod-shape`, or `final-shape` of a model that knows crater and projectile in two dimensions. A run in which nothing moves has but `strain-profile` and `rod-shape`.
 ///
 /// # Errors
@@ -67,6 +67,7 @@ pub fn run_charts(
         None => Along::Initial,
     };
     charts.extend(axial_figures::strain(history, along, &caption).map(Chart::from));
+    charts.extend(axial_figures::temperature(history, along, &caption).map(Chart::from));
     let stress = cells.and_then(|cells| axial_figures::stress(history, along, cells, &caption));
     charts.extend(stress.map(Chart::from));
     match &result.shapes {

@@ -103,6 +103,18 @@ fn an_eroding_rod_has_depth_and_length() {
 }
 
 #[test]
+fn what_heats_up_shows_its_temperature() {
+    let hot = TAYLOR.replace("\"copper\"", "\"ofhc-copper-johnson-cook\"");
+    assert_ne!(hot, TAYLOR);
+    for (text, shown) in [(hot.as_str(), true), (TAYLOR, false)] {
+        let (scenario, result) = run(text);
+        let figures = run_figures(&scenario, &result).unwrap();
+        assert_eq!(names(&figures).contains(&"temperature-profile"), shown);
+        assert_drawn(&figures);
+    }
+}
+
+#[test]
 fn a_case_at_rest_has_figures_along_the_axis() {
     let (scenario, result) = run(&TAYLOR.replace("183 m/s", "0 m/s"));
     let figures = run_figures(&scenario, &result).unwrap();

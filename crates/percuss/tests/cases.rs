@@ -137,9 +137,11 @@ macro_rules! cases {
 
 cases! {
     paper_table1: "paper-table1",
+    paper_table1_constants: "paper-table1-constants",
     paper_table1_uncertainty: "paper-table1-uncertainty",
     copper_on_aluminium_800: "copper-on-aluminium-800",
     taylor_copper_wilkins: "taylor-copper-wilkins",
+    taylor_copper_hot: "taylor-copper-hot",
     elastic_bars: "elastic-bars",
     spall_two_plates: "spall-two-plates",
     spall_delayed: "spall-delayed",

@@ -36,8 +36,20 @@ fn a_hotter_rod_ends_shorter() {
 
 #[test]
 fn a_rod_gets_hotter_from_where_it_starts() {
-    let result = run("etp-copper-johnson-cook", ", temperature = '718 K'").unwrap();
+    let text = "projectile = { material = 'etp-copper-johnson-cook', length = '30 mm', diameter = '6 mm', velocity = '188 m/s', temperature = '718 K' }\n\
+                target = { rigid_wall = true }";
+    let scenario = case::load_str("hot", text).unwrap();
+    let chain = model::model("chain").unwrap();
+    let result = model::run(chain, &scenario, &mut Control::recording()).unwrap();
     assert!(result.numerics().largest_temperature.0 > 718.0);
+    // Elements have equal masses, and nine tenths of the plastic work are heat.
+    let last = result.history.as_ref().unwrap().profiles.last().unwrap();
+    let rises = last.elements.iter().map(|e| e.temperature - 718.0);
+    let mean = rises.sum::<f64>() / last.elements.len() as f64;
+    let heat = 0.9 * result.numerics().energy.plastic_projectile;
+    let expected = heat / (scenario.projectile.mass * 383.0);
+    println!("mean rise {mean} K of {expected} K");
+    assert!((mean / expected - 1.0).abs() < 1e-10);
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod cases;
 mod common;
 mod consistency;
 mod constant_pressure;
+mod constants;
 mod convergence;
 mod diverging;
 mod elastic_bars;

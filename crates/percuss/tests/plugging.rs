@@ -171,19 +171,23 @@ fn limit(within: f64, shot: impl Fn(f64) -> Scenario) -> f64 {
 
 #[test]
 fn limit_and_residual_velocity_converge_with_the_mesh() {
-    let meshes = [(20, 12), (40, 24), (80, 48)];
-    let limits = meshes.map(|mesh| limit(1.0, |speed| weldox(speed, mesh, "dishing = true")));
+    let meshes = [(10, 6), (20, 12), (40, 24), (80, 48)];
+    let limits = meshes.map(|mesh| limit(0.25, |speed| weldox(speed, mesh, "dishing = true")));
     let residuals = meshes.map(|mesh| {
         let result = run(&weldox(300.0, mesh, "dishing = true"));
         result.residual_velocity.unwrap()
     });
     println!("limits {limits:.2?} m/s, residual velocities at 300 m/s {residuals:.2?} m/s");
     for values in [limits, residuals] {
-        assert!((values[2] / values[1] - 1.0).abs() < 0.01, "{values:?}");
-        assert!((values[1] / values[0] - 1.0).abs() < 0.05, "{values:?}");
+        let changes = [1, 2, 3].map(|i| (values[i] / values[i - 1] - 1.0).abs());
+        assert!(
+            changes[0] > changes[1] && changes[1] > changes[2],
+            "{values:?}"
+        );
+        assert!(changes[1] < 0.04 && changes[2] < 0.006, "{values:?}");
     }
     // Against 184.5 m/s measured: 26 % high, told of in the case. A change of it is a change of the prediction.
-    assert!((limits[1] / 232.7 - 1.0).abs() < 0.01, "{limits:?}");
+    assert!((limits[2] / 232.7 - 1.0).abs() < 0.01, "{limits:?}");
 }
 
 #[test]
@@ -235,7 +239,7 @@ fn the_books_close_whatever_holds_the_plug() {
     }
 }
 
-/// Slower than half the width's effect of the mesh: half the width takes less work, twice the width more.
+/// Half the width takes less work, twice the width more.
 #[test]
 fn the_width_is_the_length_scale() {
     let of_width = |width: &str| {
@@ -245,6 +249,20 @@ fn the_width_is_the_length_scale() {
     let limits = ["0.325 mm", "0.65 mm", "1.3 mm"].map(of_width);
     println!("limits by width, rigid plate: {limits:.1?} m/s");
     assert!(limits[0] < 0.85 * limits[1] && limits[1] < 0.85 * limits[2]);
+}
+
+/// Where the plate dishes the width hardly matters from a 48th of the thickness on; what is narrower is finer than a plate's section can be told of.
+#[test]
+fn between_plates_only_a_narrow_width_is_the_length_scale() {
+    let of_width = |width: &str| {
+        let chain = format!("dishing = true\nshear_band = {{ width = \"{width}\" }}");
+        limit(2.0, |speed| weldox(speed, (40, 24), &chain))
+    };
+    let limits = ["0.0625 mm", "0.125 mm", "0.25 mm", "0.5 mm", "1 mm"].map(of_width);
+    println!("limits by width, with dishing: {limits:.1?} m/s");
+    assert!((limits[3] / limits[2] - 1.0).abs() < 0.06);
+    assert!((limits[4] / limits[2] - 1.0).abs() < 0.06);
+    assert!(limits[1] < 0.9 * limits[2] && limits[0] < 0.75 * limits[1]);
 }
 
 #[test]

@@ -1,4 +1,5 @@
 mod checkpoints;
+mod others;
 
 use std::{ops::ControlFlow, path::PathBuf, time::Duration};
 
@@ -28,7 +29,8 @@ use crate::{
 const LONG_ABOUT: &str = "\
 Run a case and print its results: how the shot ended, how deep it went, what is
 left of the projectile, where the energy went, how well the books of energy and
-momentum balance, and what to know before relying on the numbers.
+momentum balance, and what to know before relying on the numbers. Without --model the model is `chain`,
+and the leading result of every other quick model that applies stands beside it.
 
 With --quiet one line is printed, of NAME=VALUE pairs with the names of --json:
   outcome=at_rest depth_of_penetration_mm=0.0436 residual_velocity_m_s=-1.2
@@ -69,10 +71,10 @@ pub struct Run {
     /// Case file; `percuss new` writes one to start from
     #[arg(value_name = "CASE.toml")]
     case: PathBuf,
-    /// Model to compute with; `percuss models` describes them, `percuss compare CASE` names those that apply
-    #[arg(long, value_name = "NAME", default_value = "chain")]
+    /// Model to compute with; `percuss models` describes them, `percuss compare CASE` names those that apply [default: chain]
+    #[arg(long, value_name = "NAME")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
-    model: String,
+    model: Option<String>,
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]
     json: bool,
@@ -94,6 +96,8 @@ pub struct Run {
     resume: bool,
 }
 
+/// Model of a run that names none.
+const DEFAULT_MODEL: &str = "chain";
 /// Time between two checkpoints, unless another one is asked for.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(60);
 
@@ -108,7 +112,7 @@ struct Fields {
 impl Run {
     pub fn run(&self) -> Result<(), Failure> {
         let scenario = case::load(&self.case)?;
-        let model = model::model(&self.model)?;
+        let model = model::model(self.model.as_deref().unwrap_or(DEFAULT_MODEL))?;
         self.check_use(model)?;
         let start = self.start(model, &scenario)?;
         // Before a run that may take long: a folder that cannot be written should be known at once.
@@ -158,7 +162,17 @@ impl Run {
             let lines: String = results.results.iter().map(one_line).collect();
             return terminal::print(&lines);
         }
-        written.print_under(result_table::text(&scenario, &result, &results.results[0]))
+        let others = match self.model {
+            Some(_) => None,
+            None => {
+                let mut progress = Progress::new(true);
+                let others = others::rows(&scenario, model.name(), &mut progress);
+                progress.finish();
+                Some(others?)
+            }
+        };
+        let record = &results.results[0];
+        written.print_under(result_table::text(&scenario, &result, record, others))
     }
 
     /// Refuses options that would have no effect.

@@ -1,0 +1,56 @@
+//! What the other models say of a case, beside the one that was run: a first look at how far apart they are.
+
+use std::ops::ControlFlow;
+
+use percuss::{
+    Scenario,
+    compare::{self, Comparison, Watch},
+    model,
+    outcome::BandQuantity,
+    summary::ResultRecord,
+};
+use percuss_report::result_rows::{Row, number};
+
+use crate::{failure::Failure, progress::Progress};
+
+/// A row a quick model that has a result, but for one of this name, and under which heading they stand.
+pub fn rows(
+    scenario: &Scenario,
+    but: &str,
+    progress: &mut Progress,
+) -> Result<(String, Vec<Row>), Failure> {
+    let mut models = model::quick();
+    models.retain(|model| model.name() != but);
+    let mut report = |now: compare::Progress| {
+        progress.update(now.fraction, "other models");
+        ControlFlow::Continue(())
+    };
+    let mut watch = Watch {
+        progress: Some(&mut report),
+    };
+    let found = compare::compare(&models, scenario, &[scenario.impact_speed], &mut watch)?;
+    Ok(shown(&found))
+}
+
+fn shown(found: &Comparison) -> (String, Vec<Row>) {
+    let quantity = found.quantities[0];
+    let given = found.results.iter().filter_map(|record| {
+        let value = record.value(quantity)?;
+        Some((record.model.to_owned(), words(record, quantity, value)))
+    });
+    let heading = format!(
+        "{} by other models (`percuss compare` says which to rely on)",
+        quantity.in_words()
+    );
+    (heading, given.collect())
+}
+
+fn words(record: &ResultRecord, quantity: BandQuantity, value: f64) -> String {
+    let value = number(value, quantity.unit());
+    match (&record.expected_error, quantity) {
+        (Some(error), BandQuantity::DepthOfPenetration) => {
+            format!("{value}, expected error {}", error.in_words())
+        }
+        _ => value,
+    }
+}
