@@ -53,9 +53,9 @@ test("a picture of a sweep", () =>
     await of.getByLabel("to", { exact: true }).fill("400 m/s");
     await of.getByRole("button", { name: "Another number" }).click();
     const second = of.locator(".range").nth(1);
-    await second.getByLabel("number", { exact: true }).selectOption("projectile.length");
-    await second.getByLabel("from", { exact: true }).fill("5 mm");
-    await second.getByLabel("to", { exact: true }).fill("20 mm");
+    await second.getByLabel("number", { exact: true }).selectOption("materials.aluminium-2024-t351.strength.power_law.coefficient");
+    await second.getByLabel("from", { exact: true }).fill("400 MPa");
+    await second.getByLabel("to", { exact: true }).fill("1000 MPa");
   }, "44 shots:"));
 
 test("a picture of a calibration", () =>
