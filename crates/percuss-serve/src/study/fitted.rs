@@ -17,14 +17,8 @@ use percuss::{
 use percuss_report::calibration;
 use serde_json::json;
 
-use super::{Study, csv_files, shots::watched};
-use crate::{
-    Bounds,
-    problem::Problem,
-    request::{CaseRequest, Fitting},
-    stream::{Tell, pretty},
-    worker::Stop,
-};
+use super::{Job, Study, csv_files, shots::watched};
+use crate::{problem::Problem, request::Fitting, stream::pretty};
 
 /// Most numbers that are fitted, and measured values that they are fitted to.
 const MOST_FITTED: usize = 8;
@@ -35,14 +29,10 @@ const STEPS: std::ops::RangeInclusive<usize> = 4..=2400;
 /// Name of the file of what is fitted.
 const FILE: &str = "fit.toml";
 
-pub(super) fn fitted(
-    asked: &CaseRequest,
-    bounds: &Bounds,
-    stop: &Stop,
-    tell: &Tell,
-) -> Result<Study, Problem> {
-    let case = asked.read(asked.edited()?)?;
-    let model = asked.model(&case.scenario, bounds)?;
+pub(super) fn fitted(job: &Job<'_>) -> Result<Study, Problem> {
+    let asked = job.asked;
+    let case = job.read()?;
+    let model = job.model(&case.scenario)?;
     if model.is_slow() {
         return Err(Problem::refused(
             format!(
@@ -83,13 +73,14 @@ pub(super) fn fitted(
 
     let ended = Arc::new(AtomicBool::new(false));
     let hear = |stage: Stage, part: f64, runs: u64| {
-        tell.progress(stage.of_whole(part, steps.is_some()), &stage.in_words(runs));
+        job.tell
+            .progress(stage.of_whole(part, steps.is_some()), &stage.in_words(runs));
         match ended.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
     };
-    let found = watched(stop, tell, &ended, || {
+    let found = watched(job, &ended, || {
         let problem =
             Calibration::stoppable(model, parameters, observations, noise, Arc::clone(&ended))?;
         let sampling = steps.map(|steps| Sampling::of(&problem, ENSEMBLES, None, steps));
@@ -99,7 +90,7 @@ pub(super) fn fitted(
         };
         Calibrated::of(&problem, &settings, None, &hear)
     })
-    .map_err(|error| stop.problem(error))?;
+    .map_err(|error| job.stop.problem(error))?;
 
     let texts = [
         Some(("calibration.json", pretty(&found))),

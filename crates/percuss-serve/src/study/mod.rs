@@ -28,7 +28,7 @@ use serde_json::{Value, json};
 use crate::{
     Bounds, answer, http,
     problem::Problem,
-    request::{self, CaseRequest},
+    request::{self, CaseRequest, ReadCase},
     stream::{self, Tell},
     worker::{Stop, Workers},
 };
@@ -111,11 +111,16 @@ pub(crate) async fn post(
 async fn follow<T: Serialize + 'static>(
     workers: &Workers,
     asked: CaseRequest,
-    study: fn(&CaseRequest, &Bounds, &Stop, &Tell) -> Result<T, Problem>,
+    study: fn(&Job<'_>) -> Result<T, Problem>,
 ) -> Response {
     let bounds = *workers.bounds();
     stream::respond(workers, move |stop, tell| {
-        study(&asked, &bounds, stop, tell)
+        study(&Job {
+            asked: &asked,
+            bounds: &bounds,
+            stop,
+            tell,
+        })
     })
     .await
 }
@@ -139,27 +144,49 @@ pub(crate) async fn uncertainty_example(
     }
 }
 
-/// The case of a request, small enough for every model that answers at once.
-fn scenario(asked: &CaseRequest, bounds: &Bounds) -> Result<Scenario, Problem> {
-    let scenario = asked.read(asked.edited()?)?.scenario;
-    for model in model::quick() {
-        bounds.check(model, &scenario)?;
-    }
-    Ok(scenario)
+/// What a study works with.
+struct Job<'a> {
+    asked: &'a CaseRequest,
+    bounds: &'a Bounds,
+    /// When it has to end.
+    stop: &'a Stop,
+    /// Who hears how far it is.
+    tell: &'a Tell,
 }
 
-/// What a computation is told when it says how far it is.
-fn go_on(stop: &Stop, tell: &Tell, fraction: f64, words: &str) -> ControlFlow<()> {
-    tell.progress(fraction, words);
-    wanted(stop, tell)
-}
-
-/// Whether somebody waits and there is time left.
-fn wanted(stop: &Stop, tell: &Tell) -> ControlFlow<()> {
-    if tell.is_alone() {
-        stop.cancel();
+impl Job<'_> {
+    /// The case with what the form changes.
+    fn read(&self) -> Result<ReadCase, Problem> {
+        self.asked.read(self.asked.edited()?)
     }
-    stop.flow()
+
+    /// The case, small enough for every model that answers at once.
+    fn scenario(&self) -> Result<Scenario, Problem> {
+        let scenario = self.read()?.scenario;
+        for model in model::quick() {
+            self.bounds.check(model, &scenario)?;
+        }
+        Ok(scenario)
+    }
+
+    /// The model that is asked for, within bounds.
+    fn model(&self, scenario: &Scenario) -> Result<&'static dyn Model, Problem> {
+        self.asked.model(scenario, self.bounds)
+    }
+
+    /// What a computation is told when it says how far it is.
+    fn go_on(&self, fraction: f64, words: &str) -> ControlFlow<()> {
+        self.tell.progress(fraction, words);
+        self.wanted()
+    }
+
+    /// Whether somebody waits and there is time left.
+    fn wanted(&self) -> ControlFlow<()> {
+        if self.tell.is_alone() {
+            self.stop.cancel();
+        }
+        self.stop.flow()
+    }
 }
 
 /// Tables as text, those of them that are CSV: the page takes no Parquet.
@@ -174,13 +201,8 @@ fn csv_files(
 }
 
 /// A run of a model that takes a while, as an answer like any other.
-fn slow_run(
-    asked: &CaseRequest,
-    bounds: &Bounds,
-    stop: &Stop,
-    tell: &Tell,
-) -> Result<answer::Answer, Problem> {
-    let read = asked.read(asked.edited()?)?;
-    let model: &'static dyn Model = asked.model(&read.scenario, bounds)?;
-    answer::answer(read, model, None, stop, Some(tell))
+fn slow_run(job: &Job<'_>) -> Result<answer::Answer, Problem> {
+    let read = job.read()?;
+    let model = job.model(&read.scenario)?;
+    answer::answer(read, model, None, job.stop, Some(job.tell))
 }

@@ -11,24 +11,19 @@ use percuss::{
     sweep::{BatchKernel, Kernel, Row, Shot, Stopped, Watch},
 };
 
-use super::wanted;
-use crate::{Bounds, stream::Tell, worker::Stop};
+use super::Job;
+use crate::Bounds;
 
 /// Time between two looks whether somebody still waits.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// Works until nobody waits or time is up, which makes `ended` true: runs may be long, so that their progress is no measure of it.
-pub(super) fn watched<T>(
-    stop: &Stop,
-    tell: &Tell,
-    ended: &AtomicBool,
-    work: impl FnOnce() -> T,
-) -> T {
+pub(super) fn watched<T>(job: &Job<'_>, ended: &AtomicBool, work: impl FnOnce() -> T) -> T {
     let done = AtomicBool::new(false);
     thread::scope(|scope| {
         let looking = scope.spawn(|| {
             while !done.load(Ordering::Relaxed) {
-                if wanted(stop, tell).is_break() {
+                if job.wanted().is_break() {
                     ended.store(true, Ordering::Relaxed);
                 }
                 thread::park_timeout(LOOK);
@@ -41,17 +36,17 @@ pub(super) fn watched<T>(
 }
 
 /// Computes shots while somebody waits, and tells how many are done.
-pub(super) fn followed<T>(stop: &Stop, tell: &Tell, compute: impl FnOnce(&Watch<'_>) -> T) -> T {
+pub(super) fn followed<T>(job: &Job<'_>, compute: impl FnOnce(&Watch<'_>) -> T) -> T {
     let ended = AtomicBool::new(false);
     let progress = |finished: u64, total: u64| {
         let words = format!("{finished} of {total} shots");
-        tell.progress(finished as f64 / total as f64, &words);
+        job.tell.progress(finished as f64 / total as f64, &words);
     };
     let watch = Watch {
         stop: &ended,
         progress: &progress,
     };
-    watched(stop, tell, &ended, || compute(&watch))
+    watched(job, &ended, || compute(&watch))
 }
 
 /// Ends the thread that looks.

@@ -11,10 +11,10 @@ use percuss_report::sweep::{PlotStyle, charts, numbers, parallel_figure, rows_cs
 use serde_json::{Value, json};
 
 use super::{
-    Study, csv_files,
+    Job, Study, csv_files,
     shots::{Bounded, followed},
 };
-use crate::{Bounds, problem::Problem, request::CaseRequest, stream::Tell, worker::Stop};
+use crate::problem::Problem;
 
 /// Most shots of a sweep.
 const MOST_SHOTS: u64 = 4096;
@@ -25,13 +25,9 @@ const REASONS: usize = 3;
 /// Name that the sweep file has for the case.
 const BASE: &str = "scenario.toml";
 
-pub(super) fn swept(
-    asked: &CaseRequest,
-    bounds: &Bounds,
-    stop: &Stop,
-    tell: &Tell,
-) -> Result<Study, Problem> {
-    let case = asked.read(asked.edited()?)?;
+pub(super) fn swept(job: &Job<'_>) -> Result<Study, Problem> {
+    let asked = job.asked;
+    let case = job.read()?;
     let file = Document::new("sweep.toml", asked.sweep.as_str());
     let sweep = Sweep::of(&file, &Document::new(asked.name(), case.text.as_str()))?;
     if sweep.shots() > MOST_SHOTS {
@@ -40,10 +36,10 @@ pub(super) fn swept(
             format!("a page computes {MOST_SHOTS} at most; `percuss sweep` more"),
         ));
     }
-    bounds.check(sweep.model, &case.scenario)?;
-    let kernel = Bounded::new(sweep.model, bounds);
-    let rows = followed(stop, tell, |watch| sweep.rows(&kernel, watch));
-    let rows = rows.map_err(|_| stop.ended())?;
+    job.bounds.check(sweep.model, &case.scenario)?;
+    let kernel = Bounded::new(sweep.model, job.bounds);
+    let rows = followed(job, |watch| sweep.rows(&kernel, watch));
+    let rows = rows.map_err(|_| job.stop.ended())?;
 
     let drawn = charts(&sweep, &rows);
     let figures = drawn.iter().map(|one| {

@@ -8,26 +8,16 @@ use percuss_report::{uncertainty_charts, uncertainty_files};
 use serde_json::{Value, json};
 
 use super::{
-    Study, csv_files,
+    Job, Study, csv_files,
     shots::{Bounded, followed},
 };
-use crate::{
-    Bounds,
-    problem::Problem,
-    request::CaseRequest,
-    stream::{Tell, pretty},
-    worker::Stop,
-};
+use crate::{problem::Problem, stream::pretty};
 
 /// Most shots that the statistics of a page rest on.
 const MOST_SAMPLES: u64 = 16_384;
 
-pub(super) fn uncertain(
-    asked: &CaseRequest,
-    bounds: &Bounds,
-    stop: &Stop,
-    tell: &Tell,
-) -> Result<Study, Problem> {
+pub(super) fn uncertain(job: &Job<'_>) -> Result<Study, Problem> {
+    let asked = job.asked;
     let samples = asked.uncertainty.samples;
     if !(MIN_SAMPLES..=MOST_SAMPLES).contains(&samples) {
         return Err(Problem::refused(
@@ -38,8 +28,8 @@ pub(super) fn uncertain(
     let text = asked.edited()?;
     let name = asked.name().to_owned();
     let study = uncertainty::Study::of(&Document::new(&name, text))?;
-    let model = asked.model(&study.scenario, bounds)?;
-    let kernel = Bounded::new(model, bounds);
+    let model = job.model(&study.scenario)?;
+    let kernel = Bounded::new(model, job.bounds);
     let settings = Settings {
         samples,
         seed: asked.uncertainty.seed,
@@ -47,10 +37,10 @@ pub(super) fn uncertain(
         indices: asked.uncertainty.indices,
         speeds: Vec::new(),
     };
-    let found = followed(stop, tell, |watch| {
+    let found = followed(job, |watch| {
         uncertainty::analyse(&study, model, &kernel, &settings, watch)
     })
-    .map_err(|error| stop.problem(error))?;
+    .map_err(|error| job.stop.problem(error))?;
     if found.quantities.is_empty() && found.perforation.is_none() {
         let reasons = found.failures.reasons.join("; ");
         return Err(Problem::refused("no shot has a result", reasons));
