@@ -52,7 +52,9 @@ export class Numbers {
       const title = GROUPS[table] ?? `Model ${table}`;
       const group = groups.get(title) ?? make("optgroup", { label: title });
       groups.set(title, group);
-      group.append(make("option", { value: key }, (table === "materials" ? rest : [table, ...rest]).join(" ").replaceAll("_", " ")));
+      // What tells constants of a material apart comes first: a list has little room.
+      const words = table === "materials" ? rest.reverse().join(", ") : [table, ...rest].join(" ");
+      group.append(make("option", { value: key }, words.replaceAll("_", " ")));
     }
     return [...groups.values()];
   }
