@@ -9,12 +9,12 @@ use std::{
 };
 
 use clap::Parser;
-use percuss::{Error, case::Document, uncertainty::Uncertainty};
+use percuss::{Error, calibrate::Calibrated, case::Document, uncertainty::Uncertainty};
 use serde::Serialize;
 
 use crate::{
     cli::{Cli, Command},
-    commands::{Calibrated, Ran},
+    commands::Ran,
     failure::Failure,
     terminal,
 };

@@ -24,7 +24,7 @@ use std::{ffi::OsString, process::ExitCode};
 use clap::{CommandFactory, Parser};
 
 pub use answer::{Answer, AtHand, Found, Hear, answer};
-pub use commands::{Calibrated, Ran};
+pub use commands::Ran;
 pub use failure::Failure;
 
 /// What the command line holds, for pages that explain it.

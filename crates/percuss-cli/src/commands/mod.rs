@@ -18,7 +18,7 @@ mod sweep;
 mod uncertainty;
 mod validate;
 
-pub use calibrate::{Calibrate, Calibrated};
+pub use calibrate::Calibrate;
 pub use compare::Compare;
 pub use completions::Completions;
 pub use converge::Converge;

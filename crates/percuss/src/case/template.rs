@@ -24,11 +24,6 @@ pub(crate) struct Template {
 }
 
 impl Template {
-    /// Reads a case file, which has to be valid as it stands.
-    pub(crate) fn read(path: &Path) -> Result<Self, Error> {
-        Self::of(&Document::read(path)?)
-    }
-
     /// Reads a case, which has to be valid as it stands.
     pub(crate) fn of(document: &Document) -> Result<Self, Error> {
         document.scenario()?;
