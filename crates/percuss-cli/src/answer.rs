@@ -9,11 +9,12 @@ use std::{
 };
 
 use clap::Parser;
-use percuss::{Error, case::Document, uncertainty::Uncertainty};
+use percuss::{Error, calibrate::Calibrated, case::Document, uncertainty::Uncertainty};
+use serde::Serialize;
 
 use crate::{
     cli::{Cli, Command},
-    commands::Calibrated,
+    commands::Ran,
     failure::Failure,
     terminal,
 };
@@ -40,11 +41,22 @@ impl AtHand {
     }
 }
 
+/// What a command found out, and the files that it wrote.
+#[derive(Debug)]
+pub struct Answer {
+    /// What it found out.
+    pub found: Found,
+    /// What it wrote, in the order of writing.
+    pub files: Vec<PathBuf>,
+}
+
 /// What a command found out.
 #[derive(Debug)]
-pub enum Answer {
+pub enum Found {
     /// All of it is in the JSON.
     Json(String),
+    /// A run, with its histories.
+    Run(Box<Ran>),
     /// What uncertain numbers do, with the sample that it rests on.
     Uncertainty(Box<Uncertainty>),
     /// A calibration, with the sample of its posterior.
@@ -52,20 +64,30 @@ pub enum Answer {
 }
 
 impl Answer {
+    /// An answer that is JSON.
+    pub(crate) fn json_of(value: &impl Serialize, files: Vec<PathBuf>) -> Result<Self, Failure> {
+        Ok(Self {
+            found: Found::Json(terminal::json(value)?),
+            files,
+        })
+    }
+
     /// What the command prints with `--json`.
     ///
     /// # Errors
     /// [`Failure::Output`].
     pub fn json(&self) -> Result<String, Failure> {
-        match self {
-            Self::Json(text) => Ok(text.clone()),
-            Self::Uncertainty(found) => terminal::json(found),
-            Self::Calibration(found) => terminal::json(found),
+        match &self.found {
+            Found::Json(text) => Ok(text.clone()),
+            Found::Run(ran) => terminal::json(&ran.results()),
+            Found::Uncertainty(found) => terminal::json(found),
+            Found::Calibration(found) => terminal::json(found),
         }
     }
 }
 
-/// What a command line with `--json` finds out. It ends when `stop` becomes true, or when `hear` says so.
+/// What a command line with `--json` finds out; with `--out` it writes what the command writes. It ends when `stop` becomes true, or
+/// when `hear` says so.
 ///
 /// # Errors
 /// Those of the command, and [`Failure::CommandLine`].
@@ -76,25 +98,21 @@ pub fn answer(
     hear: Hear<'_>,
 ) -> Result<Answer, Failure> {
     let cli = Cli::try_parse_from(words).map_err(Failure::CommandLine)?;
-    let json = match cli.command {
+    match cli.command {
+        Command::Run(command) => command.answer(at_hand, stop, hear),
         Command::Compare(command) => command.answer(at_hand, hear),
         Command::Limit(command) => command.answer(at_hand, hear),
+        Command::Sweep(command) => command.answer(),
+        Command::Calibrate(command) => command.answer(at_hand, hear),
+        Command::Uncertainty(command) => command.answer(at_hand, stop, hear),
         Command::Converge(command) => command.answer(at_hand, hear),
         Command::Validate(command) => command.answer(hear),
-        Command::Materials(command) => command.answer(),
+        Command::Judge(command) => command.answer(stop, hear),
+        Command::New(command) => command.answer(),
         Command::Models(command) => command.answer(),
-        Command::Uncertainty(command) => {
-            let found = command.answer(at_hand, stop, hear)?;
-            return Ok(Answer::Uncertainty(Box::new(found)));
-        }
-        Command::Calibrate(command) => {
-            let found = command.answer(at_hand, hear)?;
-            return Ok(Answer::Calibration(Box::new(found)));
-        }
-        _ => Err(Failure::Usage {
-            message: "this command has no answer as data".to_owned(),
-            help: "run it as a command".to_owned(),
-        }),
-    };
-    json.map(Answer::Json)
+        Command::Materials(command) => command.answer(at_hand),
+        Command::Schema(command) => command.answer(),
+        Command::Reproduce(command) => command.answer(hear),
+        Command::Serve(_) | Command::Completions(_) | Command::Man(_) => Err(Failure::no_answer()),
+    }
 }

@@ -97,6 +97,14 @@ impl Failure {
         }
     }
 
+    /// What a command that gives no data answers to who asks for some.
+    pub(crate) fn no_answer() -> Self {
+        Self::Usage {
+            message: "this command has no answer as data".to_owned(),
+            help: "run it as a command".to_owned(),
+        }
+    }
+
     /// The exit code of the program.
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {

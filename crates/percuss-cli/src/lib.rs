@@ -23,8 +23,8 @@ use std::{ffi::OsString, process::ExitCode};
 
 use clap::{CommandFactory, Parser};
 
-pub use answer::{Answer, AtHand, Hear, answer};
-pub use commands::Calibrated;
+pub use answer::{Answer, AtHand, Found, Hear, answer};
+pub use commands::Ran;
 pub use failure::Failure;
 
 /// What the command line holds, for pages that explain it.

@@ -5,9 +5,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use percuss::{Scenario, compare::Comparison, outcome::RunResult, summary::CaseResults};
+use percuss::{
+    Scenario, case::Document, compare::Comparison, outcome::RunResult, summary::CaseResults,
+};
 
-use crate::{failure::Failure, progress::Progress, terminal};
+use crate::{failure::Failure, terminal};
 
 /// Name of the copy of the case: one that a user's own file is unlikely to have.
 const CASE_COPY: &str = "case-as-run.toml";
@@ -41,27 +43,22 @@ pub struct RunFolder {
 }
 
 impl RunFolder {
-    /// Makes the folder and puts a copy of the case into it.
-    pub fn create(path: &Path, case: &Path) -> Result<Self, Failure> {
-        Self::create_for(path, Some(case))
+    /// Makes the folder, if one is wanted, and puts a copy of the case into it, if there is one. To be called before runs that may
+    /// take long: a folder that cannot be written should be known at once.
+    pub fn wanted(path: Option<&Path>, case: Option<&Document>) -> Result<Option<Self>, Failure> {
+        path.map(|path| Self::create(path, case)).transpose()
     }
 
     /// Makes the folder and puts a copy of the case into it, if there is one.
-    pub fn create_for(path: &Path, case: Option<&Path>) -> Result<Self, Failure> {
+    pub fn create(path: &Path, case: Option<&Document>) -> Result<Self, Failure> {
         make_folder(path)?;
         let mut folder = Self {
             path: path.to_path_buf(),
             written: Vec::new(),
         };
-        let Some(case) = case else {
-            return Ok(folder);
-        };
-        let text = fs::read(case).map_err(|error| percuss::Error::Read {
-            path: case.to_path_buf(),
-            reason: error.to_string(),
-            source: Some(error),
-        })?;
-        folder.put(CASE_COPY, &text)?;
+        if let Some(case) = case {
+            folder.put(CASE_COPY, case.text().as_bytes())?;
+        }
         Ok(folder)
     }
 
@@ -85,7 +82,7 @@ impl RunFolder {
         scenario: &Scenario,
         result: &RunResult,
         results: &CaseResults,
-        progress: &mut Progress,
+        report: &mut (dyn FnMut(f64, &str) + Send),
     ) -> Result<Vec<PathBuf>, Failure> {
         self.put("result.json", terminal::json(results)?.as_bytes())?;
         self.written
@@ -93,7 +90,7 @@ impl RunFolder {
         if !has_history(result) {
             return Ok(self.written);
         }
-        progress.update(0.0, "writing histories");
+        report(0.0, "writing histories");
         self.written
             .extend(percuss_report::write_histories(&self.path, result)?);
         self.written
@@ -101,7 +98,7 @@ impl RunFolder {
         let figures = percuss_report::run_figures(scenario, result)?;
         let count = figures.len() as f64;
         for (i, figure) in figures.iter().enumerate() {
-            progress.update(i as f64 / count, &format!("drawing {}", figure.name));
+            report(i as f64 / count, &format!("drawing {}", figure.name));
             self.written.extend(figure.write(&self.path)?);
         }
         Ok(self.written)

@@ -80,6 +80,7 @@ fn json_holds_statistics_and_verdicts_of_the_extrapolated_reference() {
         (&all["contender"], &all["grouping"], &all["count"]),
         (&"chain: column".into(), &"all".into(), &2.into())
     );
+    assert_eq!(json["failures"], serde_json::json!([]));
     assert!(json["findings"].as_array().unwrap().len() > 3);
     assert!(json["ablation"].as_array().unwrap().len() >= 14);
 }

@@ -95,6 +95,9 @@ fn json_has_an_entry_a_model_with_stable_names() {
     let probit = &object["v50"]["estimates"][0];
     assert_eq!(probit["method"], "probit");
     assert!((number(&probit["v50_m_s"]) - 187.0).abs() < 1e-6);
+    let shots = object["shots"].as_array().unwrap();
+    assert_eq!(object["v50"]["shots"], shots.len());
+    assert!(number(&shots[0]["velocity_m_s"]) > 0.0 && shots[0]["perforated"].is_boolean());
 }
 
 #[test]

@@ -13,6 +13,7 @@ mod materials;
 mod models;
 mod new;
 mod readme;
+mod reproduce;
 mod run;
 mod schema;
 mod serve;

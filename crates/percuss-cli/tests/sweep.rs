@@ -13,7 +13,7 @@ use parquet::{
 use tempfile::TempDir;
 
 use crate::support::{
-    CASE, flat, folder_with, interrupt, percuss, refuses_all_of,
+    CASE, flat, folder_with, interrupt, json, percuss, refuses_all_of,
     sweeps::{block, count_blocks, merged, ok, spawn, sweep},
 };
 
@@ -143,6 +143,10 @@ fn what_is_lost_or_damaged_is_computed_anew() {
         "{said}"
     );
     assert!(said.contains("1 damaged file"), "{said}");
+    let status = json(&ok(&folder, &["status", "rows", "--json"]));
+    assert_eq!(status["shots_done"], 42);
+    assert_eq!(status["blocks_damaged"], serde_json::json!([7]));
+    assert_eq!(status["manifest"]["shots"], 50);
     let said = sweep(&folder, &["merge", "rows", "--out", "x.parquet"]);
     assert!(
         said.stderr.contains("the first is block-000002.parquet"),

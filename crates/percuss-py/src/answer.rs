@@ -1,16 +1,16 @@
 //! What commands find out: JSON, and the samples that it rests on as columns of numbers.
 
-use std::{collections::HashMap, ffi::OsString, sync::Arc};
+use std::{collections::HashMap, ffi::OsString, path::PathBuf, sync::Arc};
 
 use percuss::{
     calibrate::Calibration,
     case::Document,
     uncertainty::{QUANTITIES, Uncertainty},
 };
-use percuss_cli::{Answer as Found, AtHand};
+use percuss_cli::{Answer as Answered, AtHand, Found};
 use pyo3::prelude::*;
 
-use crate::{case::Case, errors::raise, history::Column, watch::watched};
+use crate::{case::Case, errors::raise, history::Column, run::RunResult, watch::watched};
 
 /// Columns by name.
 pub type Numbers = Vec<(String, Vec<f64>)>;
@@ -18,7 +18,7 @@ pub type Numbers = Vec<(String, Vec<f64>)>;
 /// What a command found out.
 #[pyclass(frozen, module = "percuss._percuss")]
 pub struct Answer {
-    found: Found,
+    answer: Answered,
     numbers: Arc<Numbers>,
 }
 
@@ -42,14 +42,14 @@ pub fn answer(
     }
     watched(py, progress.as_ref(), |board| {
         let hear = &mut |fraction: f64, words: &str| board.hear(fraction, words);
-        let found = percuss_cli::answer(words, &at_hand, board.stop(), hear)?;
-        let numbers = match &found {
-            Found::Json(_) => Numbers::new(),
+        let answer = percuss_cli::answer(words, &at_hand, board.stop(), hear)?;
+        let numbers = match &answer.found {
+            Found::Json(_) | Found::Run(_) => Numbers::new(),
             Found::Uncertainty(found) => of_draws(found),
             Found::Calibration(found) => of_sample(&found.calibration),
         };
         Ok(Answer {
-            found,
+            answer,
             numbers: Arc::new(numbers),
         })
     })
@@ -59,7 +59,20 @@ pub fn answer(
 impl Answer {
     /// What the command prints with --json.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
-        self.found.json().map_err(|failure| raise(py, failure))
+        self.answer.json().map_err(|failure| raise(py, failure))
+    }
+
+    /// The files that the command wrote.
+    fn files(&self) -> Vec<PathBuf> {
+        self.answer.files.clone()
+    }
+
+    /// What came of a run.
+    fn run(&self) -> Option<RunResult> {
+        match &self.answer.found {
+            Found::Run(ran) => Some(RunResult::of(ran)),
+            _ => None,
+        }
     }
 
     /// Names of the columns of its sample.
@@ -81,7 +94,7 @@ impl Answer {
 
     /// How each shot of an analysis of uncertainty ended.
     fn outcomes(&self) -> Vec<&'static str> {
-        match &self.found {
+        match &self.answer.found {
             Found::Uncertainty(found) => {
                 let draws = found.draws.iter();
                 draws.map(|draw| draw.outcome.in_words()).collect()

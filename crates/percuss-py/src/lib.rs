@@ -25,7 +25,7 @@ mod _percuss {
         command::command,
         history::Column,
         run::{RunResult, run},
-        sweep::{Sweep, SweepFolder, compute_sweep, merge_sweep, sweep_status},
+        sweep::{Sweep, SweepFolder, compute_sweep},
         tables::toml_text,
     };
 

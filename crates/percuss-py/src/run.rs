@@ -12,7 +12,7 @@ use percuss::{
     outcome::RunResult as Computed,
     summary::CaseResults,
 };
-use percuss_cli::Failure;
+use percuss_cli::{Failure, Ran};
 use pyo3::{exceptions::PyValueError, prelude::*};
 
 use crate::{
@@ -28,7 +28,19 @@ use crate::{
 pub struct RunResult {
     scenario: Arc<Scenario>,
     result: Arc<Computed>,
-    solver_time: Duration,
+    /// `None` where files were written on the way.
+    solver_time: Option<Duration>,
+}
+
+impl RunResult {
+    /// The result of a run that was a command line.
+    pub fn of(ran: &Ran) -> Self {
+        Self {
+            scenario: Arc::clone(&ran.scenario),
+            result: Arc::clone(&ran.result),
+            solver_time: None,
+        }
+    }
 }
 
 /// Computes a case by a model.
@@ -79,7 +91,7 @@ pub fn run(
     Ok(RunResult {
         scenario,
         result,
-        solver_time,
+        solver_time: Some(solver_time),
     })
 }
 
@@ -92,8 +104,8 @@ impl RunResult {
     }
 
     /// Time that the solver took [s].
-    fn solver_seconds(&self) -> f64 {
-        self.solver_time.as_secs_f64()
+    fn solver_seconds(&self) -> Option<f64> {
+        self.solver_time.map(|time| time.as_secs_f64())
     }
 
     /// Number of recorded moments; `None` without a history.

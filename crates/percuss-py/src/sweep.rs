@@ -1,7 +1,6 @@
 //! Sweeps: computed here, or block by block anywhere and put into a folder here.
 
 use std::{
-    collections::BTreeMap,
     path::{Path, PathBuf},
     sync::{
         Arc, Mutex, PoisonError,
@@ -11,7 +10,7 @@ use std::{
 
 use percuss::sweep::{BatchKernel, Row, Sweep as Loaded};
 use percuss_cli::Failure;
-use percuss_report::sweep::{self, Block, SweepFolder as Folder};
+use percuss_report::sweep::{Block, SweepFolder as Folder};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyBytes};
 
 use crate::{errors::raise, watch::watched};
@@ -149,25 +148,4 @@ pub fn compute_sweep(
         let kernel = BatchKernel::new(sweep.model);
         Ok(pool.install(|| folder.compute(sweep, &kernel, &blocks, board.stop(), &hear))?)
     })
-}
-
-/// Manifest of a folder as JSON, with the blocks that are there.
-#[pyfunction]
-pub fn sweep_status(py: Python<'_>, path: PathBuf) -> PyResult<String> {
-    let status = sweep::status(&path).map_err(|error| raise(py, error))?;
-    let answer = BTreeMap::from([
-        ("manifest", serde_json::json!(status.manifest)),
-        ("blocks_done", serde_json::json!(status.done)),
-        ("blocks_damaged", serde_json::json!(status.damaged)),
-        ("shots_done", serde_json::json!(status.shots_done())),
-        ("running", serde_json::json!(status.running)),
-    ]);
-    serde_json::to_string(&answer).map_err(|error| PyValueError::new_err(error.to_string()))
-}
-
-/// Joins folders that hold all parts of a sweep into one Parquet file; returns the number of rows.
-#[pyfunction]
-pub fn merge_sweep(py: Python<'_>, folders: Vec<PathBuf>, out: PathBuf) -> PyResult<u64> {
-    py.detach(|| sweep::merge(&folders, &out))
-        .map_err(|error| raise(py, error))
 }

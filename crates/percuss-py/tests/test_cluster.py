@@ -51,11 +51,41 @@ def test_a_cluster_computes_the_same_bits(
     assert contents(rows.folder) == expected
 
 
-def test_a_worker_that_is_killed_and_a_slow_one_change_nothing(
+def computed(client: Client) -> dict[str, int]:
+    """Blocks that every worker has computed so far."""
+
+    def count() -> int:
+        from percuss.cluster import _unpacked
+
+        known = _unpacked.cache_info()
+        return known.hits + known.misses
+
+    found: dict[str, int] = client.run(count)
+    return found
+
+
+def test_a_slow_worker_gets_fewer_blocks(
     cluster: Cluster, local: tuple[Path, dict[str, str]], tmp_path: Path
 ) -> None:
     path, expected = local
     _, client = cluster
+    before = computed(client)
+    slow, _ = sorted(before)
+    busy = client.submit(time.sleep, 3.0, workers=[slow], pure=False)
+    rows = percuss.sweep(path, tmp_path / "rows", client=client)
+    blocks = {worker: count - before[worker] for worker, count in computed(client).items()}
+    busy.result()
+    assert contents(rows.folder) == expected
+    # Of six blocks one at the most waits behind what keeps it busy, and none is computed twice.
+    assert blocks.pop(slow) <= 1 and sum(blocks.values()) >= 5, blocks
+
+
+def test_a_worker_that_is_killed_costs_no_row(
+    cluster: Cluster, local: tuple[Path, dict[str, str]], tmp_path: Path
+) -> None:
+    path, expected = local
+    _, client = cluster
+    # All blocks are with the worker that will be killed: the other one is busy.
     slow, killed = sorted(client.scheduler_info(n_workers=-1)["workers"])
     pid = client.run(os.getpid, workers=[killed])[killed]
     busy = client.submit(time.sleep, 2.0, workers=[slow], pure=False)
@@ -68,6 +98,7 @@ def test_a_worker_that_is_killed_and_a_slow_one_change_nothing(
 
     rows = percuss.sweep(path, tmp_path / "rows", client=client, progress=kill_once)
     assert seen and seen[0] < 1.0, "the worker was killed before the sweep was done"
+    assert pid not in client.run(os.getpid).values()
     assert contents(rows.folder) == expected
     busy.result()
 

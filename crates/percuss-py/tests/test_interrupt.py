@@ -19,12 +19,17 @@ LONG = {
     "sweep": "percuss.sweep({'base': case, 'model': 'chain', 'design': 'sobol', 'samples': 100000, 'parameter': [{'key':"
     " 'projectile.velocity', 'uniform': {'from': '150 m/s', 'to': '400 m/s'}}]}, sys.argv[1])",
     "uncertainty": "percuss.uncertainty('cases/paper-table1-uncertainty/scenario.toml', samples=1048576)",
+    "run with its folder": "percuss.run(case, 'axi', out=sys.argv[1])",
+    "judge": "percuss.judge(compute=True, study=sys.argv[1] + '.csv')",
+    "reproduce": "percuss.reproduce('damping')",
     "calibrate": "percuss.calibrate(data='builtin', source='wilkins1973', model='wilkins_guinan', steps=1000000,"
     " fit={'materials.copper-woodward.strength.power_law.coefficient': '150..900 MPa'})",
 }
 
+# A shell that starts the tests in the background lets them ignore Ctrl-C.
 SCRIPT = """
-import sys, percuss
+import signal, sys, percuss
+signal.signal(signal.SIGINT, signal.default_int_handler)
 case = percuss.load("cases/paper-table1/scenario.toml").replace({{"axi.cells_per_radius": 24}})
 print("started", flush=True)
 try:
@@ -45,9 +50,14 @@ def test_ctrl_c_ends_it(what: str, tmp_path: Path) -> None:
         time.sleep(1.0)
         process.send_signal(signal.SIGINT)
         start = time.monotonic()
-        output, _ = process.communicate(timeout=60)
+        try:
+            output, _ = process.communicate(timeout=60)
+        finally:
+            process.kill()
         assert output == "interrupted\n"
         assert time.monotonic() - start < 20
+    if what == "run with its folder":
+        assert (tmp_path / "rows/checkpoint.percuss").is_file()
 
 
 def test_progress_is_heard_and_can_end_a_run() -> None:

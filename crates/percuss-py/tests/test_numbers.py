@@ -12,6 +12,15 @@ import percuss
 import pytest
 from conftest import CASES, Program
 
+MINE = {
+    "name": "mine",
+    "density": "8 g/cm3",
+    "youngs_modulus": "100 GPa",
+    "poissons_ratio": 0.3,
+    "strength": {"perfectly_plastic": {"flow_stress": "300 MPa"}},
+}
+
+
 def answer(program: Program, *words: str) -> Any:
     """What the program prints. JSON holds as many digits as it takes to read a number back unchanged."""
     return json.loads(program(*words, "--json").stdout)
@@ -31,6 +40,14 @@ def test_a_run_gives_the_numbers_of_the_program(case: str, program: Program) -> 
 
 def test_every_command_gives_the_answer_of_the_program(program: Program, tmp_path: Path) -> None:
     case = "cases/taylor-copper-wilkins/scenario.toml"
+    loaded = percuss.load(case).replace({"materials.mine": MINE})
+    loaded.save(tmp_path / "mine.toml")
+    of_case = answer(program, "materials", "--case", str(tmp_path / "mine.toml"))
+    for given in (loaded, tmp_path / "mine.toml"):
+        listed = [m.to_dict() | {"origin": ""} for m in percuss.materials(case=given)]
+        assert listed == [m | {"origin": ""} for m in of_case]
+        assert percuss.material("mine", case=given).density == "8000 kg/m3"
+
     speeds = [150.0, 183.1]
     compared = percuss.compare(case, velocity=speeds, model=["chain", "taylor", "tate"])
     words = ["--velocity", "150,183.1", "--model", "chain", "--model", "taylor", "--model", "tate"]
@@ -51,6 +68,9 @@ def test_every_command_gives_the_answer_of_the_program(program: Program, tmp_pat
     assert [m.to_dict() for m in percuss.materials()] == answer(program, "materials")
     assert percuss.material("copper").to_dict() == answer(program, "materials", "show", "copper")
     assert [m.to_dict() for m in percuss.models()] == answer(program, "models")
+    assert percuss.model("chain").to_dict() == answer(program, "models", "chain")
+    assert percuss.schema() == json.loads(program("schema").stdout)
+    assert percuss.reproduce("paper").to_dict() == answer(program, "reproduce", "paper")
 
 
 def test_histories_are_those_of_the_program_and_no_copies(program: Program, tmp_path: Path) -> None:

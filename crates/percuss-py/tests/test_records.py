@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import typing
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from percuss.record import Record
+from test_folders import REFERENCE
 
 CASE = "cases/paper-table1/scenario.toml"
 
@@ -24,19 +26,23 @@ def save(axes: Axes, path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def records() -> dict[type[Record], list[Record]]:
+def records(tmp_path_factory: pytest.TempPathFactory) -> dict[type[Record], list[Record]]:
     case = Path(__file__).resolve().parents[3] / CASE
     wall = case.parents[1] / "taylor-copper-wilkins/scenario.toml"
     plate = case.parents[1] / "weldox-460e-12mm-blunt/scenario.toml"
     spread = percuss.load(case.parents[1] / "paper-table1-uncertainty/scenario.toml")
     spread = spread.replace({"chain.projectile_elements": 8, "chain.target_elements": 12})
     law = "materials.copper-woodward.strength.power_law"
+    folder = tmp_path_factory.mktemp("shots")
+    shots, reference = folder / "shots.csv", folder / "reference.csv"
+    reference.write_text(REFERENCE)
+    shots.write_text("velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
     coefficient = {f"{law}.coefficient": "150..900 MPa"}
     copper: dict[str, Any] = {"data": "builtin", "source": "wilkins1973", "model": "wilkins_guinan"}
     return {
         percuss.RunResult: [percuss.run(case), percuss.run(wall, "taylor", history=False)],
         percuss.Comparison: [percuss.compare(case), percuss.compare(case, velocity="200..400:3")],
-        percuss.Limits: [percuss.limit(plate, model=["plugging", "recht_ipson", "tate"])],
+        percuss.Limits: [percuss.limit(plate, model=["plugging", "recht_ipson", "tate"], shots=shots)],
         percuss.Convergence: [percuss.converge(wall, levels=3)],
         percuss.Validation: [percuss.validate(model="taylor", kind="taylor")],
         percuss.Uncertainty: [percuss.uncertainty(spread, samples=16, velocity=[150, 230])],
@@ -44,6 +50,8 @@ def records() -> dict[type[Record], list[Record]]:
             percuss.calibrate(fit={**coefficient, f"{law}.exponent": (0.02, 0.4)}, **copper, ensembles=2, walkers=6, steps=20),
             percuss.calibrate(fit=coefficient, **copper, least_squares=True),
         ],
+        percuss.Judgement: [percuss.judge(reference=reference)],
+        percuss.Reproduction: [percuss.reproduce("paper")],
         percuss.Material: [percuss.material("copper"), *percuss.materials()],
         percuss.Model: list(percuss.models()),
     }
@@ -82,7 +90,7 @@ def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], 
             assert repr(record).startswith(type(record).__name__)
             if hasattr(record, "plot") and not (isinstance(record, percuss.RunResult) and i == 1):
                 axes = record.plot()
-                assert axes.get_xlabel() and (axes.lines or axes.patches)
+                assert (axes.get_xlabel() or axes.get_title()) and (axes.lines or axes.patches)
                 save(axes, tmp_path / f"{type(record).__name__}-{i}.png")
     (run, _) = records[percuss.RunResult]
     assert isinstance(run, percuss.RunResult)
@@ -91,12 +99,57 @@ def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], 
     (spread,) = records[percuss.Uncertainty]
     assert isinstance(spread, percuss.Uncertainty)
     drawn = [spread.plot_tornado(), spread.plot_indices(), spread.plot_bands(), spread.plot_perforation()]
+    (limits,) = records[percuss.Limits]
+    assert isinstance(limits, percuss.Limits)
+    drawn.append(limits.plot_v50())
+    (judgement,) = records[percuss.Judgement]
+    assert isinstance(judgement, percuss.Judgement)
+    for by in ("speed", "length", "regime", "materials", "uncertainty"):
+        assert {error.contender for error in judgement.errors(by)} == {error.contender for error in judgement.errors()}
+        save(judgement.plot(by), tmp_path / f"{by}.png")
+    with pytest.raises(percuss.UsageError, match="groups: speed, length"):
+        judgement.plot("moon")
     (found, _) = records[percuss.Calibration]
     assert isinstance(found, percuss.Calibration)
     drawn += [found.plot_posterior("coefficient"), found.plot_posterior("scatter"), found.plot_pair("coefficient", "exponent")]
     for i, axes in enumerate(drawn):
         assert axes.get_xlabel() and axes.get_legend() is not None
         save(axes, tmp_path / f"study-{i}.png")
+
+
+def test_lists_are_tables() -> None:
+    for listed in (percuss.materials(), percuss.models()):
+        assert len(listed.to_pandas()) == listed.to_arrow().num_rows == len(listed) > 10
+        assert listed._repr_html_().count("<tr>") == len(listed) + 1
+
+
+def test_what_was_not_asked_for_is_not_drawn(tmp_path: Path) -> None:
+    shots = tmp_path / "shots.csv"
+    shots.write_text("velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n")
+    limits = percuss.limit(shots=shots)
+    assert limits.to_pandas().empty and limits.plot_v50().lines
+    with pytest.raises(ValueError, match="no case was searched"):
+        limits.plot()
+    with pytest.raises(ValueError, match="no shots that scatter"):
+        percuss.limit("cases/weldox-460e-12mm-blunt/scenario.toml", model="plugging", points=0).plot_v50()
+
+
+def test_damping_is_drawn_by_way_of_damping() -> None:
+    class Answer:
+        """What the study prints, which takes half a minute; a test of the program holds the names."""
+
+        def json(self) -> str:
+            shot = {"damping": "none", "impact_velocity_m_s": 230.0, "projectile_elements": 40, "depth_of_penetration_mm": 0.2}
+            way = {**shot, "damping": "ratio 0.1", "depth_of_penetration_mm": 0.1}
+            reference = [{"impact_velocity_m_s": 230.0, "depth_of_penetration_mm": 0.25}]
+            return json.dumps({"work": "damping", "findings": ["less"], "shots": [shot, way], "reference": reference})
+
+        def files(self) -> list[str]:
+            return []
+
+    study = percuss.Reproduction(Answer())  # type: ignore[arg-type]
+    assert [line.get_label() for line in study.plot().lines] == ["none", "ratio 0.1", "axisymmetric reference"]
+    assert len(study.to_pandas()) == 2 and "less" in study._repr_html_()
 
 
 def test_text_of_a_case_cannot_become_markup() -> None:

@@ -72,6 +72,31 @@ def test_a_bad_uncertainty_is_refused_in_the_words_of_the_program(path: Path, pr
         assert str(caught.value) == printed.stderr.rstrip() and printed.returncode == 2
 
 
+def test_a_material_whose_id_is_digits_can_be_uncertain(program: Program, tmp_path: Path) -> None:
+    key = "materials.4340.strength.perfectly_plastic.flow_stress"
+    steel = {
+        "name": "4340",
+        "density": "7.85 g/cm3",
+        "youngs_modulus": "200 GPa",
+        "poissons_ratio": 0.29,
+        "strength": {"perfectly_plastic": {"flow_stress": "900 MPa"}},
+    }
+    case = percuss.Case(
+        "rod",
+        projectile={"material": "4340", "length": "25 mm", "diameter": "7.6 mm", "velocity": "200 m/s"},
+        target={"rigid_wall": True},
+        materials={"4340": steel},
+        uncertainty={"parameter": [{"key": key, "normal": {"mean": "900 MPa", "standard_deviation": "50 MPa"}}]},
+    )
+    found = percuss.uncertainty(case, model="taylor", samples=16)
+    assert found.inputs[0].key == key and found.failures.shots == 0
+    case.save(tmp_path / "rod.toml")
+    assert found.to_dict() == answer(program, "uncertainty", str(tmp_path / "rod.toml"), "--model", "taylor", "--samples", "16")
+    # The length left rises with the flow stress.
+    order = numpy.argsort(found.draws[f"{key}_mpa"])
+    assert numpy.all(numpy.diff(found.draws.projectile_final_length_mm[order]) > 0)
+
+
 def test_what_is_not_there_is_said() -> None:
     case = small_spread()
     found = percuss.uncertainty(case, samples=16, no_indices=True)

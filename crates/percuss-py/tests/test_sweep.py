@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from pathlib import Path
 from typing import Any
 
 import percuss
 import pytest
-from conftest import Program
+from conftest import Program, content
 
 # Small enough for a test.
 SWEEP: dict[str, Any] = {
@@ -52,6 +53,18 @@ def test_a_sweep_is_that_of_the_program(program: Program, tmp_path: Path) -> Non
     assert rows.merge(tmp_path / "all.parquet") == 24
     assert program("sweep", "merge", tmp_path / "cli", "--out", tmp_path / "cli.parquet").returncode == 0
     assert (tmp_path / "all.parquet").read_bytes() == (tmp_path / "cli.parquet").read_bytes()
+    # Both draw the same figure into the folder.
+    for words in ({}, {"style": "map", "quantity": "peak_force_kn"}, {"x": "projectile.velocity"}):
+        drawn = percuss.plot(rows, out=tmp_path / "drawn", **words)
+        line = [word for name, value in words.items() for word in (f"--{name}", value)]
+        assert program("sweep", "plot", tmp_path / "cli", "--out", tmp_path / "figure", *line).returncode == 0
+        for file in drawn.files:
+            assert content(file) == content(tmp_path / "figure" / file.name)
+        assert [file.suffix for file in drawn.files] == [".svg", ".png"] and drawn._repr_svg_().startswith("<svg")
+    with pytest.raises(percuss.UsageError, match=r"does not\s+vary `speed`"):
+        percuss.plot(rows, x="speed")
+    status = program("sweep", "status", tmp_path / "python", "--json")
+    assert json.loads(status.stdout) == rows.status.to_dict()
     axes = rows.plot("projectile.velocity_m_s", "depth_of_penetration_mm", "projectile.diameter_mm")
     assert axes.get_xlabel() == "projectile.velocity_m_s" and axes.collections
     assert "24 of 24" in repr(rows) and "small" in rows._repr_html_()

@@ -80,6 +80,9 @@ struct AxisData {
     /// Whether a value stands at its negative.
     downward: bool,
     range: Option<(f32, f32)>,
+    /// What stands at 1, 2, 3, … in place of numbers.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    names: Vec<String>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -230,6 +233,7 @@ fn axis(axis: &Axis, extent: (f64, f64)) -> AxisData {
         log: axis.log,
         downward: axis.downward,
         range: range.map(pair),
+        names: axis.names.clone(),
     }
 }
 

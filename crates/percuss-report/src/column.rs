@@ -69,6 +69,16 @@ impl<R> Column<R> {
         }
     }
 
+    /// Its number in a row; a text has none.
+    pub(crate) fn number(&self, row: &R) -> Option<f64> {
+        match &self.value {
+            Value::Float(value) => Some(value(row)),
+            Value::Integer(value) => Some(value(row) as f64),
+            Value::Optional(value) => value(row),
+            Value::Text(_) => None,
+        }
+    }
+
     pub(crate) fn text(name: impl Into<String>, value: impl Fn(&R) -> String + 'static) -> Self {
         Self {
             name: name.into(),

@@ -8,6 +8,7 @@ use percuss::{
     model::{self, Control},
     units::significant,
 };
+use serde::Serialize;
 
 use crate::{
     Axis, Figure, LineChart, ReportError, Series, Style,
@@ -42,19 +43,25 @@ const PAPER_MESH: u32 = 40;
 const MESH_SPEEDS: [f64; 2] = [230.0, 600.0];
 
 /// A shot of the paper's case.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Shot {
     /// Way of damping.
+    #[serde(rename = "damping")]
     pub way: &'static str,
     /// Impact speed [m/s].
+    #[serde(rename = "impact_velocity_m_s")]
     pub speed: f64,
     /// Elements along the projectile.
+    #[serde(rename = "projectile_elements")]
     pub elements: u32,
     /// Depth of penetration [mm].
+    #[serde(rename = "depth_of_penetration_mm")]
     pub depth_mm: f64,
     /// Energy that damping and viscosity took, as a part of the impact energy.
+    #[serde(rename = "damped_energy")]
     pub damped: f64,
     /// Energy that left with what eroded, as a part of the impact energy.
+    #[serde(rename = "eroded_energy")]
     pub eroded: f64,
     /// Relative change of the depth against the same shot without damping.
     pub change: f64,

@@ -40,6 +40,14 @@ fn the_numbers_of_the_page_are_those_of_the_study() {
     assert_eq!(study.findings().len(), 9);
     let folder = tempfile::tempdir().unwrap();
     assert_eq!(study.write(folder.path()).unwrap().len(), 7);
+    // The names in JSON are those of the table.
+    let table = fs::read_to_string(folder.path().join("damping.csv")).unwrap();
+    let mut columns: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    columns.sort_unstable();
+    let json = serde_json::to_value(&study.shots[0]).unwrap();
+    let mut names: Vec<&String> = json.as_object().unwrap().keys().collect();
+    names.sort_unstable();
+    assert_eq!(names, columns);
 }
 
 #[test]

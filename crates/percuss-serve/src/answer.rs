@@ -18,7 +18,9 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::{
-    Bounds, form, http,
+    Bounds,
+    constants::{self, Constant},
+    form, http,
     problem::Problem,
     request::{self, CaseRequest, ReadCase},
     stream::Tell,
@@ -39,6 +41,8 @@ pub(crate) struct Answer {
     case: String,
     /// Its values by dotted key.
     values: BTreeMap<String, Value>,
+    /// Constants of its materials; a draft has none.
+    constants: Vec<Constant>,
     model: &'static str,
     /// What `percuss run --json` prints.
     results: CaseResults,
@@ -139,8 +143,13 @@ pub(crate) fn answer(
         Some(in_view) => draft(&scenario, &mut result, in_view)?,
         None => charts(&scenario, &result, Some(CELLS))?,
     };
+    let values = form::values(&text);
     Ok(Answer {
-        values: form::values(&text),
+        constants: match in_view {
+            Some(_) => Vec::new(),
+            None => constants::all(&values, &scenario),
+        },
+        values,
         case: text,
         model: model.name(),
         results,

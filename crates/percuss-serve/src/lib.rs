@@ -17,6 +17,7 @@ mod answer;
 mod assets;
 mod bounds;
 mod cases;
+mod constants;
 mod edit;
 mod files;
 mod form;

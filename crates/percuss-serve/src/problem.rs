@@ -85,7 +85,7 @@ impl Problem {
         Self::new(
             StatusCode::UNPROCESSABLE_ENTITY,
             format!("the run was ended after {seconds} s"),
-            "give a coarser mesh, start the page with a larger `--max-seconds`, or use the command line",
+            "ask for less, give a coarser mesh, start the page with a larger `--max-seconds`, or use the command line",
         )
     }
 

@@ -42,6 +42,12 @@ pub(crate) struct CaseRequest {
     /// How the uncertainty of the case is computed.
     #[serde(default)]
     pub(crate) uncertainty: Sampling,
+    /// The text of a sweep file, in which the case is varied whatever base it names.
+    #[serde(default)]
+    pub(crate) sweep: String,
+    /// How numbers of the case are fitted to what was measured.
+    #[serde(default)]
+    pub(crate) fit: Fitting,
     /// Charts that are to be seen while a slider moves: the answer has no others, and their curves have fewer points.
     #[serde(default)]
     pub(crate) in_view: Option<Vec<String>>,
@@ -65,6 +71,33 @@ impl Default for Sampling {
             samples: 256,
             seed: 0,
             indices: true,
+        }
+    }
+}
+
+/// A calibration.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Fitting {
+    /// The text of a file of parameters.
+    pub(crate) file: String,
+    /// Scatter about the model, as `--noise` of the command line takes it.
+    pub(crate) noise: String,
+    /// Steps of the walkers that sample the posterior; least squares only when not given.
+    pub(crate) steps: Option<usize>,
+    pub(crate) seed: u64,
+    /// Sources that test the result.
+    pub(crate) hold_out: Vec<String>,
+}
+
+impl Default for Fitting {
+    fn default() -> Self {
+        Self {
+            file: String::new(),
+            noise: "estimated".to_owned(),
+            steps: None,
+            seed: 0,
+            hold_out: Vec::new(),
         }
     }
 }

@@ -56,11 +56,16 @@ impl Stop {
     /// The problem of a run that failed with an error.
     pub(crate) fn problem(&self, error: percuss::Error) -> Problem {
         match error {
-            percuss::Error::Cancelled { .. } if self.cancelled.load(Ordering::Relaxed) => {
-                Problem::cancelled()
-            }
-            percuss::Error::Cancelled { .. } => Problem::too_slow(self.seconds),
+            percuss::Error::Cancelled { .. } => self.ended(),
             error => error.into(),
+        }
+    }
+
+    /// The problem of a run that was told to end.
+    pub(crate) fn ended(&self) -> Problem {
+        match self.cancelled.load(Ordering::Relaxed) {
+            true => Problem::cancelled(),
+            false => Problem::too_slow(self.seconds),
         }
     }
 }

@@ -13,6 +13,13 @@ import { program, root, serve } from "./server.mjs";
 const { values: given } = parseArgs({ options: { clients: { type: "string", default: "200" }, seconds: { type: "string", default: "30" } } });
 const [clients, seconds] = [Number(given.clients), Number(given.seconds)];
 const paper = readFileSync(join(root, "cases/paper-table1/scenario.toml"), "utf8");
+const sweep = `base = "scenario.toml"
+model = "chain"
+design = "grid"
+[[parameter]]
+key = "projectile.velocity"
+linear = { from = "150 m/s", to = "300 m/s", count = 4 }
+`;
 const SPEEDS = [180, 200, 220, 240, 260];
 // What memory may grow by after the first third of the time.
 const GROWTH = { part: 1.15, mebibytes: 16 };
@@ -60,7 +67,7 @@ const kinds = [
   ["answer", 8, [200, 503], async (agent, draw) => {
     const speed = SPEEDS[draw(SPEEDS.length)];
     const answer = await send(agent, "POST", "/api/answer", asked(speed));
-    if (answer.status === 200) check(speed, JSON.stringify(JSON.parse(answer.body).results));
+    if (answer.status === 200) check(`${speed} m/s`, JSON.stringify(JSON.parse(answer.body).results));
     return answer;
   }],
   ["page", 2, [200], (agent) => send(agent, "GET", "/")],
@@ -74,15 +81,23 @@ const kinds = [
   ["too large", 1, [413, 0], () => raw(post("/api/answer", " ".repeat(600_000)), true)],
   ["no HTTP", 1, [400, 0], () => raw(Buffer.from([22, 3, 1, 2, 0, 1, 0, 13, 10, 13, 10]), true)],
   ["half a request", 1, [0], () => raw(post("/api/answer", asked(200)).slice(0, 120), false)],
+  ["sweep", 1, [200, 503], async (agent) => {
+    const answer = await send(agent, "POST", "/api/study/sweep", JSON.stringify({ name: "shot", case: paper, sweep }));
+    const rows = answer.status === 200 ? JSON.parse(answer.body.toString().trim().split("\n").at(-1)).done?.files["rows.csv"] : null;
+    if (answer.status === 200) check("sweep", rows ?? "no rows");
+    return answer;
+  }],
+  ["sweep that is not valid", 1, [200, 503], (agent) => send(agent, "POST", "/api/study/sweep", JSON.stringify({ case: paper, sweep: sweep.replaceAll("m/s", "kg") }))],
   ["answer not waited for", 2, [0, 200, 503], () => raw(post("/api/answer", asked(210)), false)],
+  ["sweep not waited for", 1, [0, 200, 503], () => raw(post("/api/study/sweep", JSON.stringify({ case: paper, sweep: sweep.replace("= 4 ", "= 4000 ") })), false)],
   ["study not waited for", 1, [0, 200, 503], () => raw(post("/api/study/converge", asked(230)), false)],
 ];
 
 // The same case has the same numbers, whatever goes on around it.
-function check(speed, results) {
-  const before = known.get(speed) ?? results;
-  known.set(speed, before);
-  if (before !== results) wrong.push(`another result at ${speed} m/s`);
+function check(what, results) {
+  const before = known.get(what) ?? results;
+  known.set(what, before);
+  if (before !== results) wrong.push(`another result of ${what}`);
 }
 
 // Numbers that look random and are the same in every run.
@@ -122,7 +137,7 @@ try {
   for (const speed of SPEEDS) {
     const { status, body } = await send(undefined, "POST", "/api/answer", asked(speed));
     assert.equal(status, 200);
-    check(speed, JSON.stringify(JSON.parse(body).results));
+    check(`${speed} m/s`, JSON.stringify(JSON.parse(body).results));
   }
   const [start, used] = [performance.now(), processor()];
   const memory = [];
@@ -138,7 +153,7 @@ try {
   let last = { status: 0 };
   for (let i = 0; i < 20 && last.status !== 200; i++) last = await send(undefined, "POST", "/api/answer", asked(SPEEDS[0]));
   assert.equal(last.status, 200);
-  check(SPEEDS[0], JSON.stringify(JSON.parse(last.body).results));
+  check(`${SPEEDS[0]} m/s`, JSON.stringify(JSON.parse(last.body).results));
 
   const line = (name, { times, statuses }) => {
     times.sort((a, b) => a - b);

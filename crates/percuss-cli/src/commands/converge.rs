@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use clap::{Args, builder::PossibleValuesParser};
 use comfy_table::{CellAlignment, Table, presets::UTF8_HORIZONTAL_ONLY};
 use percuss::{
-    Scenario, case,
+    Scenario,
     converge::{self, Quantity, Study, Verdict},
     model::{self, Control, MODELS, Model},
     units::significant,
@@ -11,10 +11,10 @@ use percuss::{
 use percuss_report::convergence_figure;
 
 use crate::{
-    answer::{AtHand, Hear},
+    answer::{Answer, AtHand, Hear},
     failure::Failure,
     progress::Progress,
-    run_folder::make_folder,
+    run_folder::RunFolder,
     terminal::{self, bold, width, wrap},
     written::Written,
 };
@@ -63,28 +63,23 @@ pub struct Converge {
     out: Option<PathBuf>,
 }
 
+/// What the command found out and wrote.
+struct Found {
+    scenario: Scenario,
+    study: Study,
+    files: Vec<PathBuf>,
+}
+
 impl Converge {
     pub fn run(&self) -> Result<(), Failure> {
-        let scenario = case::load(&self.case)?;
-        let model = model::model(&self.model)?;
-        if let Some(out) = &self.out {
-            make_folder(out)?;
-        }
         let mut progress = Progress::new(true);
-        let study = self.compute(model, &scenario, &mut progress.hear());
+        let found = self.find(&AtHand::default(), &mut progress.hear());
         progress.finish();
-        let study = study?;
-        let mut written = Vec::new();
-        if let Some(out) = &self.out {
-            let path = out.join("convergence.json");
-            std::fs::write(&path, terminal::json(&study)?).map_err(Failure::write(&path))?;
-            written.push(path);
-            for i in 0..study.quantities.len() {
-                if let Some(figure) = convergence_figure(&scenario.name, &study, i) {
-                    written.extend(figure.write(out)?);
-                }
-            }
-        }
+        let Found {
+            scenario,
+            study,
+            files,
+        } = found?;
         if self.json {
             return terminal::print_json(&study);
         }
@@ -103,14 +98,33 @@ impl Converge {
         );
         text += &table(&study);
         text += &verdicts(&study);
-        Written::new(&written).print_under(text)
+        Written::new(&files).print_under(text)
     }
 
     /// What the command prints with --json.
-    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<String, Failure> {
-        let model = model::model(&self.model)?;
+    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Answer, Failure> {
+        let found = self.find(at_hand, hear)?;
+        Answer::json_of(&found.study, found.files)
+    }
+
+    fn find(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Found, Failure> {
         let scenario = at_hand.read(&self.case)?.scenario()?;
-        terminal::json(&self.compute(model, &scenario, hear)?)
+        let model = model::model(&self.model)?;
+        let mut folder = RunFolder::wanted(self.out.as_deref(), None)?;
+        let study = self.compute(model, &scenario, hear)?;
+        if let Some(folder) = &mut folder {
+            folder.put("convergence.json", terminal::json(&study)?.as_bytes())?;
+            for i in 0..study.quantities.len() {
+                if let Some(figure) = convergence_figure(&scenario.name, &study, i) {
+                    folder.add(figure.write(folder.path())?);
+                }
+            }
+        }
+        Ok(Found {
+            scenario,
+            study,
+            files: folder.map_or_else(Vec::new, RunFolder::written),
+        })
     }
 
     fn compute(

@@ -18,7 +18,7 @@ mod sweep;
 mod uncertainty;
 mod validate;
 
-pub use calibrate::{Calibrate, Calibrated};
+pub use calibrate::Calibrate;
 pub use compare::Compare;
 pub use completions::Completions;
 pub use converge::Converge;
@@ -29,7 +29,7 @@ pub use materials::Materials;
 pub use models::Models;
 pub use new::New;
 pub use reproduce::Reproduce;
-pub use run::Run;
+pub use run::{Ran, Run};
 pub use schema::Schema;
 pub use serve::Serve;
 pub use sweep::Sweep;

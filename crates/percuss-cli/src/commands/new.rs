@@ -6,7 +6,7 @@ use std::{
 
 use clap::Args;
 
-use crate::{failure::Failure, run_folder::make_folder, terminal};
+use crate::{answer::Answer, failure::Failure, run_folder::make_folder, terminal};
 
 /// The case that `percuss new` writes: it runs as it is, and shows every option, at its default or with an example.
 const STARTER: &str = include_str!("new/starter.toml");
@@ -36,6 +36,25 @@ pub struct New {
 
 impl New {
     pub fn run(&self) -> Result<(), Failure> {
+        let mut shown = self.put()?.display().to_string();
+        if shown.starts_with('-') {
+            // Or `percuss run` would take it for an option.
+            shown.insert_str(0, "./");
+        }
+        terminal::print(&format!(
+            "wrote {shown}\nnext: percuss run {}\n",
+            quoted(&shown)
+        ))
+    }
+
+    /// The case file that it writes.
+    pub fn answer(&self) -> Result<Answer, Failure> {
+        let path = self.put()?;
+        Answer::json_of(&path, vec![path.clone()])
+    }
+
+    /// Writes the case; returns its file.
+    fn put(&self) -> Result<PathBuf, Failure> {
         if self.name.as_os_str().is_empty() {
             return Err(Failure::Usage {
                 message: "the name of the case is empty".to_owned(),
@@ -56,15 +75,7 @@ impl New {
             }
             .to_owned(),
         })?;
-        let mut shown = path.display().to_string();
-        if shown.starts_with('-') {
-            // Or `percuss run` would take it for an option.
-            shown.insert_str(0, "./");
-        }
-        terminal::print(&format!(
-            "wrote {shown}\nnext: percuss run {}\n",
-            quoted(&shown)
-        ))
+        Ok(path)
     }
 
     fn write(&self, path: &Path) -> io::Result<()> {

@@ -1,7 +1,7 @@
 use clap::Args;
 use percuss::case;
 
-use crate::{failure::Failure, terminal};
+use crate::{answer::Answer, failure::Failure, terminal};
 
 const LONG_ABOUT: &str = "\
 Print the JSON Schema (draft 2020-12) of case files: every key with what it
@@ -26,5 +26,10 @@ pub struct Schema {}
 impl Schema {
     pub fn run(&self) -> Result<(), Failure> {
         terminal::print_json(&case::schema())
+    }
+
+    /// What the command prints.
+    pub fn answer(&self) -> Result<Answer, Failure> {
+        Answer::json_of(&case::schema(), Vec::new())
     }
 }

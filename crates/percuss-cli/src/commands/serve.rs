@@ -13,8 +13,9 @@ use crate::{failure::Failure, terminal};
 const LONG_ABOUT: &str = "\
 Serve a page that answers while its sliders move: the case as a form and as
 text, time histories, the stress over position and time, every model that
-applies, and convergence, ballistic limits and uncertainty on demand. Everything
-that the page needs is part of the program, and nothing leaves the machine.
+applies, and convergence, ballistic limits, sweeps, uncertainty and calibrations
+on demand. Everything that the page needs is part of the program, and nothing
+leaves the machine.
 
 Only this machine reaches the page. To serve it to others, give an address,
 --allow-remote and a token that they have to know; there is no encryption, so

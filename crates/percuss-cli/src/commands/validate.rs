@@ -12,8 +12,12 @@ use percuss_report::validation::{self, Origin};
 use serde::Serialize;
 
 use crate::{
-    answer::Hear, failure::Failure, progress::Progress, run_folder::make_folder, shot_data,
-    terminal, validation_table, written::Written,
+    answer::{Answer, Hear},
+    failure::Failure,
+    progress::Progress,
+    run_folder::make_folder,
+    shot_data, terminal, validation_table,
+    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
@@ -95,32 +99,27 @@ struct CoverageRecord {
     commonest_reason: Option<String>,
 }
 
+/// What the command found out and wrote.
+struct Found {
+    validation: Validation,
+    /// What the shots come from.
+    data: Vec<String>,
+    files: Vec<PathBuf>,
+}
+
 impl Validate {
     pub fn run(&self) -> Result<(), Failure> {
-        let (models, library) = (self.models()?, self.library()?);
-        let (shots, files) = self.shots(&library)?;
-        if let Some(out) = &self.out {
-            make_folder(out)?;
-        }
         let mut progress = Progress::new(!self.quiet);
-        let validation = self.compute(&models, &shots, &library, &mut progress.hear());
+        let found = self.find(&mut progress.hear());
         progress.finish();
-        let validation = validation?;
-        let mut paths = Vec::new();
-        if let Some(out) = &self.out {
-            let origin = Origin {
-                files: files.clone(),
-                command: self.command(),
-            };
-            let mut progress = Progress::new(!self.quiet);
-            progress.update(0.5, "drawing figures");
-            let wrote = validation::write(out, &validation, &origin);
-            progress.finish();
-            paths = wrote?;
-        }
-        let written = Written::new(&paths);
+        let Found {
+            validation,
+            data,
+            files,
+        } = found?;
+        let written = Written::new(&files);
         if self.json {
-            return written.print_json(&record(&validation, files), self.quiet);
+            return written.print_json(&record(&validation, data), self.quiet);
         }
         if self.quiet {
             let lines: String = validate::statistics(&validation, Grouping::All)
@@ -129,16 +128,37 @@ impl Validate {
                 .collect();
             return terminal::print(&lines);
         }
-        let text = validation_table::text(&validation, &files, self.model.len() == 1);
+        let text = validation_table::text(&validation, &data, self.model.len() == 1);
         written.print_under(text)
     }
 
     /// What the command prints with --json.
-    pub fn answer(&self, hear: Hear<'_>) -> Result<String, Failure> {
+    pub fn answer(&self, hear: Hear<'_>) -> Result<Answer, Failure> {
+        let found = self.find(hear)?;
+        Answer::json_of(&record(&found.validation, found.data), found.files)
+    }
+
+    fn find(&self, hear: Hear<'_>) -> Result<Found, Failure> {
         let (models, library) = (self.models()?, self.library()?);
-        let (shots, files) = self.shots(&library)?;
-        let validation = self.compute(&models, &shots, &library, hear)?;
-        terminal::json(&record(&validation, files))
+        let (shots, data) = self.shots(&library)?;
+        if let Some(out) = &self.out {
+            make_folder(out)?;
+        }
+        let validation = self.compute(&models, &shots, &library, &mut *hear)?;
+        let mut files = Vec::new();
+        if let Some(out) = &self.out {
+            let origin = Origin {
+                files: data.clone(),
+                command: self.command(),
+            };
+            let _ = hear(1.0, "drawing figures");
+            files = validation::write(out, &validation, &origin)?;
+        }
+        Ok(Found {
+            validation,
+            data,
+            files,
+        })
     }
 
     fn library(&self) -> Result<Library, Failure> {

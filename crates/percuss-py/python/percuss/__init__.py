@@ -18,7 +18,7 @@ Examples
 from ._percuss import VERSION as __version__
 from .calibration import Calibration, calibrate
 from .case import Case, load
-from .commands import ResistanceLaw, StrengthLaw, compare, converge, limit, material, materials, models, run, validate
+from .commands import ResistanceLaw, StrengthLaw, compare, converge, limit, run, validate
 from .errors import (
     CaseError,
     ClusterError,
@@ -31,12 +31,15 @@ from .errors import (
     WriteError,
 )
 from .history import History, Profile
+from .judgement import Judgement, judge
+from .library import Material, Model, material, materials, model, models, new, schema
 from .progress import Progress
-from .record import Record
-from .results import Comparison, Convergence, Limits, Material, Model, RunResult, Validation
+from .record import Record, Records, Result
+from .reproduction import Reproduction, reproduce
+from .results import Comparison, Convergence, Limits, RunResult, Validation
 from .samples import Sample
 from .spread import Uncertainty, uncertainty
-from .sweeps import SweepResult, merge, sweep
+from .sweeps import Drawing, SweepResult, merge, plot, sweep
 
 __all__ = [
     "Calibration",
@@ -45,7 +48,9 @@ __all__ = [
     "ClusterError",
     "Comparison",
     "Convergence",
+    "Drawing",
     "History",
+    "Judgement",
     "Limits",
     "Material",
     "MaterialError",
@@ -57,7 +62,10 @@ __all__ = [
     "Progress",
     "ReadError",
     "Record",
+    "Records",
+    "Reproduction",
     "ResistanceLaw",
+    "Result",
     "RunResult",
     "Sample",
     "StrengthLaw",
@@ -70,13 +78,19 @@ __all__ = [
     "calibrate",
     "compare",
     "converge",
+    "judge",
     "limit",
     "load",
     "material",
     "materials",
     "merge",
+    "model",
     "models",
+    "new",
+    "plot",
+    "reproduce",
     "run",
+    "schema",
     "sweep",
     "uncertainty",
     "validate",

@@ -21,7 +21,7 @@ Speed: TypeAlias = float | str
 
 def native_answer(
     command: str,
-    *names: str,
+    *names: Path,
     of: CaseLike | Sequence[CaseLike] | None = None,
     texts: Mapping[str, str] | None = None,
     progress: Progress | bool | None = None,
@@ -31,6 +31,16 @@ def native_answer(
 
     ``of`` are cases that follow ``names`` on the command line; ``texts`` stand in the place of files that options name.
     """
+    cases: dict[str, _percuss.Case] = {}
+
+    def word(value: Any) -> str:
+        if isinstance(value, Case):
+            # No file has this name: what is at hand stands in its place.
+            name = f"\0case-{len(cases) + 1}"
+            cases[name] = value._native
+            return name
+        return os.fspath(value) if isinstance(value, os.PathLike) else str(value)
+
     line = ["percuss", *command.split()]
     for name, value in options.items():
         flag = "--" + name.replace("_", "-")
@@ -38,21 +48,13 @@ def native_answer(
             if item is True:
                 line.append(flag)
             elif item is not None and item is not False:
-                line.append(f"{flag}={os.fspath(item) if isinstance(item, os.PathLike) else item}")
-    line += ["--", *names]
-    cases: dict[str, _percuss.Case] = {}
-    for case in several(of):
-        if isinstance(case, Case):
-            # No file has this name: what is at hand stands in its place.
-            line.append(f"\0case-{len(cases) + 1}")
-            cases[line[-1]] = case._native
-        else:
-            line.append(os.fspath(case))
+                line.append(f"{flag}={word(item)}")
+    line += ["--", *map(word, [*names, *several(of)])]
     with watching(progress) as hear:
         return _percuss.answer(line, cases, dict(texts or {}), hear)
 
 
-def answer(command: str, *names: str, **options: Any) -> Any:
+def answer(command: str, *names: Path, **options: Any) -> Any:
     """What a command prints with --json; the arguments are those of :func:`native_answer`."""
     return json.loads(native_answer(command, *names, **options).json())
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path as FilePath
@@ -12,12 +11,10 @@ from . import _percuss, study_plots
 from .ask import CaseLike, Path, native_answer, several
 from .errors import UsageError
 from .progress import Progress
-from .record import Record, frame, shown, table, table_html
+from .record import Record, Result, shown, table_html
 from .samples import Sample
 
 if TYPE_CHECKING:
-    import pandas
-    import pyarrow
     from matplotlib.axes import Axes
 
 #: What is known of a number beforehand: a range such as ``"20..300 MPa"``, its ends, or a distribution as a file has it.
@@ -27,8 +24,10 @@ Prior: TypeAlias = str | tuple[float, float] | Mapping[str, Any]
 _PRIORS = "fit.toml"
 
 
-class Calibration(Record):
+class Calibration(Result):
     """Numbers fitted to measured values, with the uncertainty that is left: the values of ``percuss calibrate --json``, and the sample.
+
+    A row a parameter; ``sample.to_pandas()`` has a row a state of the posterior.
 
     Attributes
     ----------
@@ -75,9 +74,7 @@ class Calibration(Record):
     left_out: list[Record]
     materials: Record
 
-    def __init__(self, native: _percuss.Answer) -> None:
-        super().__init__(json.loads(native.json()))
-        self._native = native
+    _native: _percuss.Answer
 
     @property
     def sample(self) -> Sample:
@@ -104,13 +101,6 @@ class Calibration(Record):
         text = _percuss.toml_text(self._data["materials"])
         FilePath(path).write_text(text, encoding="utf-8")
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A row a parameter; ``sample.to_pandas()`` has a row a state of the posterior."""
-        return frame(self._rows())
-
-    def to_arrow(self) -> pyarrow.Table:
-        """A row a parameter; ``sample.to_arrow()`` has a row a state of the posterior."""
-        return table(self._rows())
 
     def _rows(self) -> list[dict[str, Any]]:
         rows = []
@@ -164,6 +154,7 @@ def calibrate(
     steps: int | None = None,
     seed: int | None = None,
     name: str | None = None,
+    out: Path | None = None,
     progress: Progress | bool | None = None,
 ) -> Calibration:
     """Fits numbers of cases to what was measured: constants of materials, options of models.
@@ -197,6 +188,8 @@ def calibrate(
         Decides over everything drawn at random; 0 when not given.
     name : str, optional
         Id of the calibrated material; the old one with ``-calibrated`` when not given.
+    out : path, optional
+        Folder for the numbers, the calibrated materials and the figures, as ``percuss calibrate --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
         As of :func:`percuss.run`.
 
@@ -243,6 +236,7 @@ def calibrate(
         steps=steps,
         seed=seed,
         name=name,
+        out=out,
         progress=progress,
     )
     return Calibration(found)

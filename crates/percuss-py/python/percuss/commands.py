@@ -6,21 +6,27 @@ from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
 from . import _percuss
-from .ask import CaseLike, Path, Speed, answer, several, speeds, with_unit
+from .ask import CaseLike, Path, Speed, native_answer, several, speeds, with_unit
 from .case import Case, native
+from .errors import UsageError
 from .progress import Progress, watching
-from .results import Comparison, Convergence, Limits, Material, Model, RunResult, Validation
+from .results import Comparison, Convergence, Limits, RunResult, Validation
 
 #: Flow stress [Pa] from plastic strain, strain rate [1/s] and temperature [K].
 StrengthLaw: TypeAlias = Callable[[float, float, float], float]
 #: Pressure on the crater floor [Pa] from its depth [m] and the speed at which it advances [m/s].
 ResistanceLaw: TypeAlias = Callable[[float, float], float]
 
+
 def run(
     case: CaseLike,
     model: str = "chain",
     *,
     history: bool = True,
+    out: Path | None = None,
+    field: str | None = None,
+    checkpoint: float | str | None = None,
+    resume: bool = False,
     progress: Progress | bool | None = None,
     projectile_law: StrengthLaw | None = None,
     target_law: StrengthLaw | None = None,
@@ -35,7 +41,19 @@ def run(
     model : str
         Name of the model; :func:`percuss.models` lists them.
     history : bool
-        Whether to keep time histories.
+        Whether to keep time histories; with ``out`` they are kept.
+    out : path, optional
+        Folder for a copy of the case, the result, the histories and the figures, as ``percuss run --out`` writes them; made if it does
+        not exist. A model of two dimensions, which ``axi`` is, adds its fields for ParaView (``fields.pvd``), pictures of one of them and
+        an animation. ``result.files`` lists the files.
+    field : str, optional
+        Field that the pictures show: ``plastic-strain`` (when not given), ``temperature``, ``von-mises-stress``, ``pressure``, ``speed``,
+        ``density`` or ``damage``.
+    checkpoint : float or str, optional
+        How often a model of two dimensions leaves a checkpoint in ``out`` [s], or a text such as ``"5 min"``; 60 s when not given.
+        Ctrl-C leaves one as well.
+    resume : bool
+        Whether to go on from the checkpoint in ``out``; without one there, the run starts at the beginning.
     progress : callable or bool, optional
         Called with the part done, 0 to 1, and a few words; ``True`` and ``False`` show a bar or none. When not given, a bar of tqdm
         is shown after a second, where tqdm is installed and somebody sees it.
@@ -66,12 +84,21 @@ def run(
     >>> result.outcome, round(result.depth_of_penetration_mm, 4)
     ('rebounded', 0.2235)
     """
+    laws = (projectile_law, target_law, resistance_law)
+    if out is not None or field is not None or checkpoint is not None or resume:
+        if any(law is not None for law in laws):
+            raise UsageError("files are written of runs with the library's laws alone: leave out `out`, or put the law into the library")
+        every = f"{float(checkpoint)!r} s" if isinstance(checkpoint, (int, float)) else checkpoint
+        answer = native_answer("run", of=case, model=model, out=out, field=field, checkpoint=every, resume=resume, progress=progress)
+        ran = answer.run()
+        assert ran is not None
+        return RunResult(ran, answer)
     at_hand = case._native if isinstance(case, Case) else native(case)
     if progress is False or callable(progress):
         hear = progress or None
-        return RunResult(_percuss.run(at_hand, model, history, hear, projectile_law, target_law, resistance_law))
+        return RunResult(_percuss.run(at_hand, model, history, hear, *laws))
     with watching(progress) as bar:
-        return RunResult(_percuss.run(at_hand, model, history, bar, projectile_law, target_law, resistance_law))
+        return RunResult(_percuss.run(at_hand, model, history, bar, *laws))
 
 
 def compare(
@@ -79,6 +106,7 @@ def compare(
     *,
     velocity: Speed | Sequence[float] | None = None,
     model: str | Sequence[str] | None = None,
+    out: Path | None = None,
     progress: Progress | bool | None = None,
 ) -> Comparison:
     """Runs every model on a case and sets their results side by side.
@@ -92,6 +120,8 @@ def compare(
         not given.
     model : str or sequence of str, optional
         Models to compare; all that answer at once when not given.
+    out : path, optional
+        Folder for a copy of the case, the numbers and the figure, as ``percuss compare --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
         As of :func:`run`.
 
@@ -101,9 +131,8 @@ def compare(
     >>> [choice.model for choice in comparison.recommended[0].models]
     ['chain']
     """
-    return Comparison(
-        answer("compare", of=case, velocity=speeds(velocity), model=several(model), progress=progress)
-    )
+    found = native_answer("compare", of=case, velocity=speeds(velocity), model=several(model), out=out, progress=progress)
+    return Comparison(found)
 
 
 def limit(
@@ -115,6 +144,7 @@ def limit(
     model: str | Sequence[str] | None = None,
     shots: Path | None = None,
     span: Speed | None = None,
+    out: Path | None = None,
     progress: Progress | bool | None = None,
 ) -> Limits:
     """Finds the ballistic limit of a case by every model that can tell, or V50 from shots that scatter.
@@ -135,6 +165,8 @@ def limit(
         CSV file of shots with the columns ``velocity_m_s`` and ``perforated``.
     span : float or str, optional
         Widest span of the shots that V50 may be the mean of [m/s].
+    out : path, optional
+        Folder for a copy of the case, the numbers and the figures, as ``percuss limit --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
         As of :func:`run`.
 
@@ -146,7 +178,7 @@ def limit(
     """
     if isinstance(velocity, tuple):
         velocity = "..".join(repr(float(end)) for end in velocity)
-    found = answer(
+    found = native_answer(
         "limit",
         of=case,
         velocity=velocity,
@@ -155,6 +187,7 @@ def limit(
         model=several(model),
         shots=shots,
         span=with_unit(span),
+        out=out,
         progress=progress,
     )
     return Limits(found)
@@ -165,6 +198,7 @@ def converge(
     *,
     model: str | None = None,
     levels: int | None = None,
+    out: Path | None = None,
     progress: Progress | bool | None = None,
 ) -> Convergence:
     """Refines the mesh of a case and judges its convergence.
@@ -177,6 +211,8 @@ def converge(
         Name of the model; ``chain`` when not given.
     levels : int, optional
         Number of meshes, 3 to 8, each twice as fine as the last; 4 when not given.
+    out : path, optional
+        Folder for the study and its figures, as ``percuss converge --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
         As of :func:`run`.
 
@@ -186,7 +222,7 @@ def converge(
     >>> [mesh.projectile_elements for mesh in study.meshes]
     [40, 80, 160]
     """
-    return Convergence(answer("converge", of=case, model=model, levels=levels, progress=progress))
+    return Convergence(native_answer("converge", of=case, model=model, levels=levels, out=out, progress=progress))
 
 
 def validate(
@@ -195,6 +231,7 @@ def validate(
     kind: str | Sequence[str] | None = None,
     data: Path | Sequence[Path] | None = None,
     materials: Path | Sequence[Path] | None = None,
+    out: Path | None = None,
     progress: Progress | bool | None = None,
 ) -> Validation:
     """Computes every published shot with every model that applies to it, and says how far off each is.
@@ -209,6 +246,8 @@ def validate(
         CSV files of shots in place of the program's own, which are named ``builtin``.
     materials : path or sequence of paths, optional
         Files of materials that the shots name, beside the library.
+    out : path, optional
+        Folder for the report with its figures, and the numbers, as ``percuss validate --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
         As of :func:`run`.
 
@@ -218,64 +257,13 @@ def validate(
     >>> validation.models
     ['taylor']
     """
-    found = answer(
+    found = native_answer(
         "validate",
         model=several(model),
         kind=several(kind),
         data=several(data),
         materials=several(materials),
+        out=out,
         progress=progress,
     )
     return Validation(found)
-
-
-def materials(
-    *, case: Path | None = None, file: Path | None = None
-) -> list[Material]:
-    """The materials that a case can name.
-
-    Parameters
-    ----------
-    case : path, optional
-        Case file whose materials are included.
-    file : path, optional
-        File whose materials are included.
-
-    Examples
-    --------
-    >>> "copper-woodward" in [material.id for material in percuss.materials()]
-    True
-    """
-    return [Material(record) for record in answer("materials", case=case, file=file)]
-
-
-def material(
-    name: str,
-    *,
-    case: Path | None = None,
-    file: Path | None = None,
-) -> Material:
-    """Everything that is known of one material, by its id or its family.
-
-    Raises
-    ------
-    MaterialError
-        When none has the name.
-
-    Examples
-    --------
-    >>> percuss.material("copper").id
-    'copper-woodward'
-    """
-    return Material(answer("materials show", name, case=case, file=file))
-
-
-def models() -> list[Model]:
-    """The models, with what each of them is made for.
-
-    Examples
-    --------
-    >>> [model.name for model in percuss.models()][:3]
-    ['chain', 'fdm', 'axi']
-    """
-    return [Model(record) for record in answer("models")]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -41,13 +43,20 @@ def label(name: str) -> tuple[str, float]:
     return name.replace("_", " "), 1.0
 
 
-def new_axes(ax: Axes | None) -> Axes:
-    """These axes, or new ones."""
+def new_axes(ax: Axes | None, size: tuple[float, float] | None = None) -> Axes:
+    """These axes, or new ones, of a size [in] that is not the usual one where it is given."""
     if ax is not None:
         return ax
     import matplotlib.pyplot
 
-    return matplotlib.pyplot.subplots(layout="constrained")[1]
+    return matplotlib.pyplot.subplots(layout="constrained", figsize=size)[1]
+
+
+def plain_logarithmic(ax: Axes) -> None:
+    """Makes the axis from left to right logarithmic, with numbers as they are."""
+    ax.set_xscale("log")
+    ax.xaxis.set_major_formatter("{x:g}")
+    ax.xaxis.set_minor_formatter("{x:g}")
 
 
 def history(result: RunResult, what: str, ax: Axes | None, **style: Any) -> Axes:
@@ -65,13 +74,25 @@ def stress(result: RunResult, ax: Axes | None) -> Axes:
 
     ax = new_axes(ax)
     profiles = result.history.profiles
-    time = numpy.concatenate([numpy.full(len(p.part), p.time_s * 1e6) for p in profiles])
-    position = numpy.concatenate([p.position_m for p in profiles]) * 1e3
-    value = numpy.concatenate([p.stress_pa for p in profiles]) * 1e-6
+    every = numpy.concatenate([p.stress_pa for p in profiles]) * 1e-6
     # The largest stresses belong to a few elements under the contact: the waves are what a figure is to show.
-    top = float(numpy.percentile(numpy.abs(value), 99.5)) or 1.0
-    dots = ax.scatter(position, time, c=value, s=4, marker="s", cmap="RdBu_r", vmin=-top, vmax=top, linewidths=0)
-    ax.figure.colorbar(dots, ax=ax, label="axial stress, compression positive [MPa]", extend="both")
+    top = float(numpy.percentile(numpy.abs(every), 99.5)) or 1.0
+    drawn: Any = None
+    # A body by itself: nothing is drawn across a gap.
+    for part in numpy.unique(numpy.concatenate([p.part for p in profiles])):
+        rows = [(p, p.part == part) for p in profiles]
+        counts = {int(chosen.sum()) for _, chosen in rows}
+        position = [p.position_m[chosen] * 1e3 for p, chosen in rows]
+        value = [p.stress_pa[chosen] * 1e-6 for p, chosen in rows]
+        time = [numpy.full(len(at), p.time_s * 1e6) for at, (p, _) in zip(position, rows, strict=True)]
+        style: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -top, "vmax": top}
+        if len(counts) == 1 and min(counts) > 1:
+            drawn = ax.pcolormesh(numpy.array(position), numpy.array(time), numpy.array(value), shading="nearest", rasterized=True, **style)
+        else:
+            # Elements that come and go make no grid.
+            x, y, c = (numpy.concatenate(values) for values in (position, time, value))
+            drawn = ax.scatter(x, y, c=c, s=4, marker="s", linewidths=0, **style)
+    ax.figure.colorbar(drawn, ax=ax, label="axial stress, compression positive [MPa]", extend="both")
     ax.set(xlabel="position, struck face at 0 [mm]", ylabel="time [us]", title=result.case)
     return ax
 
@@ -109,6 +130,8 @@ def comparison(comparison: Comparison, ax: Axes | None) -> Axes:
 
 
 def limits(limits: Limits, ax: Axes | None) -> Axes:
+    if "results" not in limits:
+        raise ValueError("no case was searched: `plot_v50` draws the shots")
     ax = new_axes(ax)
     for model in limits.results:
         if model.ballistic_limit_m_s is None:
@@ -125,6 +148,39 @@ def limits(limits: Limits, ax: Axes | None) -> Axes:
     return ax
 
 
+def v50(limits: Limits, ax: Axes | None) -> Axes:
+    import numpy
+
+    if limits.v50 is None or limits.shots is None:
+        raise ValueError("no shots that scatter were given: `shots` names a file of them")
+    ax = new_axes(ax)
+    speeds = [shot.velocity_m_s for shot in limits.shots]
+    margin = 0.15 * (max(speeds) - min(speeds))
+    at = numpy.linspace(min(speeds) - margin, max(speeds) + margin, 200)
+    for estimate in limits.v50.estimates:
+        value, deviation = estimate.v50_m_s, estimate.standard_deviation_m_s
+        if value is None or not deviation:
+            continue
+        chances = [_chance(estimate.method, (speed - value) / deviation) for speed in at]
+        (line,) = ax.plot(at, chances, label=f"{estimate.method}: {value:.4g} m/s")
+        if estimate.low_m_s is not None and estimate.high_m_s is not None:
+            ax.hlines(0.5, estimate.low_m_s, estimate.high_m_s, color=line.get_color(), alpha=0.4, linewidth=5)
+    for perforated, colour, words in ((True, "C3", "went through"), (False, "C2", "stopped")):
+        chosen = [shot.velocity_m_s for shot in limits.shots if shot.perforated is perforated]
+        ax.plot(chosen, [float(perforated)] * len(chosen), "o", color=colour, mfc="none", label=words)
+    level = f"{100 * limits.v50.confidence:g} %"
+    ax.set(xlabel="impact velocity [m/s]", ylabel="chance of going through", title=f"V50 of {len(speeds)} shots, {level} intervals")
+    ax.legend()
+    return ax
+
+
+def _chance(method: str, standardised: float) -> float:
+    """Chance of going through at a speed by how many standard deviations it lies above V50."""
+    if method == "logit":
+        return 1 / (1 + math.exp(-standardised * math.pi / math.sqrt(3)))
+    return 0.5 * math.erfc(-standardised / math.sqrt(2))
+
+
 def convergence(study: Convergence, quantity: str | None, ax: Axes | None) -> Axes:
     ax = new_axes(ax)
     chosen = next(q for q in study.quantities if quantity in (None, q.name))
@@ -133,7 +189,10 @@ def convergence(study: Convergence, quantity: str | None, ax: Axes | None) -> Ax
     ax.plot(elements, chosen.values, marker="o", label=name)
     if "richardson" in chosen.verdict:
         ax.axhline(chosen.verdict.richardson, color="0.5", linestyle="--", label="extrapolated (Richardson)")
-    ax.set(xlabel="elements", ylabel=f"{name} [{chosen.unit}]", xscale="log")
+    ax.set_xscale("log")
+    ax.set_xticks(elements, [str(count) for count in elements])
+    ax.set_xticks([], minor=True)
+    ax.set(xlabel="elements", ylabel=f"{name} [{chosen.unit}]")
     ax.legend()
     return ax
 
@@ -146,7 +205,8 @@ def validation(validation: Validation, ax: Axes | None) -> Axes:
         points = [(p.measured, p.predicted / p.measured) for p in counted if p.model == name and p.measured]
         ax.plot(*zip(*points, strict=True), ".", label=name)
     ax.axhline(1.0, color="k", linewidth=1)
-    ax.set(xlabel=f"measured [{', '.join(units)}]", ylabel="predicted / measured", xscale="log")
+    plain_logarithmic(ax)
+    ax.set(xlabel=f"measured [{', '.join(units)}]", ylabel="predicted / measured")
     ax.legend()
     return ax
 

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+import json
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from . import _percuss
 
 if TYPE_CHECKING:
     import pandas
@@ -82,6 +86,86 @@ class Record:
         return table_html(["", ""], [[name, value] for name, value in self._shown()])
 
 
+class Answered(Record):
+    """What a command found out, and the files that it wrote."""
+
+    _native: _percuss.Answer | _percuss.RunResult
+    _files: tuple[Path, ...] = ()
+
+    def __init__(self, answer: _percuss.Answer) -> None:
+        super().__init__(json.loads(answer.json()))
+        self._native = answer
+        self._files = written(answer)
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """The files that were written, in the order of writing; none where no folder ``out`` was given. Pictures of fields are named by
+        their folder, fields by the file that lists them."""
+        return self._files
+
+
+class Result(Answered):
+    """What a command found out: values by name, and a table of the most of them.
+
+    What a row of the table is, the classes say that have the names of the commands.
+    """
+
+    def _rows(self) -> list[dict[str, Any]]:
+        raise NotImplementedError
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The table of pandas; a table within a row becomes columns with joined names such as ``band.low``."""
+        return frame(self._rows())
+
+    def to_arrow(self) -> pyarrow.Table:
+        """The table of Arrow, with the same columns."""
+        return table(self._rows())
+
+
+R = TypeVar("R", bound=Record)
+
+
+class Records(list[R]):
+    """A list of records, which is a table as well."""
+
+    #: Names that people see.
+    _names: tuple[str, ...]
+
+    def __init__(self, records: Iterable[R], *names: str) -> None:
+        super().__init__(records)
+        self._names = names
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row a record."""
+        return frame([record.to_dict() for record in self])
+
+    def to_arrow(self) -> pyarrow.Table:
+        """A row a record."""
+        return table([record.to_dict() for record in self])
+
+    def _repr_html_(self) -> str:
+        return table_html(list(self._names), [[shown(record._data.get(name)) for name in self._names] for record in self])
+
+
+def written(answer: _percuss.Answer) -> tuple[Path, ...]:
+    """The files that a command wrote."""
+    return tuple(Path(file) for file in answer.files())
+
+
+def frame(rows: list[dict[str, Any]]) -> pandas.DataFrame:
+    """A table of pandas, a row a record."""
+    import pandas
+
+    return pandas.DataFrame(columns(rows))
+
+
+def table(rows: list[dict[str, Any]]) -> pyarrow.Table:
+    """A table of Arrow, a row a record."""
+    import pyarrow
+
+    return pyarrow.table(columns(rows))
+
+
 def _wrapped(value: Any) -> Any:
     if isinstance(value, dict):
         return Record(value)
@@ -94,6 +178,8 @@ def shown(value: Any) -> str:
     """A value for people: floats to six digits."""
     if value is None:
         return "–"
+    if isinstance(value, list):
+        return ", ".join(shown(item) for item in value)
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
@@ -120,20 +206,6 @@ def _flat(row: dict[str, Any], tables: set[str]) -> dict[str, Any]:
         elif name not in tables:
             values[name] = value
     return values
-
-
-def frame(rows: list[dict[str, Any]]) -> pandas.DataFrame:
-    """A table of pandas, a row a record."""
-    import pandas
-
-    return pandas.DataFrame(columns(rows))
-
-
-def table(rows: list[dict[str, Any]]) -> pyarrow.Table:
-    """A table of Arrow, a row a record."""
-    import pyarrow
-
-    return pyarrow.table(columns(rows))
 
 
 def table_html(head: list[str], rows: list[list[str]], caption: str = "") -> str:

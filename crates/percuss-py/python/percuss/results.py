@@ -7,18 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 from . import _percuss, plots
 from .history import History
-from .record import Record, frame, shown, table, table_html
+from .record import Record, Result, shown, table_html, written
 
 if TYPE_CHECKING:
-    import pandas
-    import pyarrow
     from matplotlib.axes import Axes
 
 
-class RunResult(Record):
+class RunResult(Result):
     """The result of a run: the values of ``percuss run --json`` and the histories.
 
-    A number that the model does not give is ``None``.
+    A number that the model does not give is ``None``. The table has one row; ``history.to_pandas()`` gives the histories.
 
     Attributes
     ----------
@@ -88,8 +86,11 @@ class RunResult(Record):
     details: list[Record]
     warnings: list[str]
 
-    def __init__(self, native: _percuss.RunResult) -> None:
+    _native: _percuss.RunResult
+
+    def __init__(self, native: _percuss.RunResult, answer: _percuss.Answer | None = None) -> None:
         self._native = native
+        self._files = () if answer is None else written(answer)
 
     def __getattr__(self, name: str) -> Any:
         if name == "_data":
@@ -113,13 +114,8 @@ class RunResult(Record):
             raise ValueError(f"the run by model `{self.model}` kept no history")
         return History(self._native)
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """The numbers as a table of pandas with one row; ``history.to_pandas()`` gives the histories."""
-        return frame([self._data])
-
-    def to_arrow(self) -> pyarrow.Table:
-        """The numbers as a table of Arrow with one row."""
-        return table([self._data])
+    def _rows(self) -> list[dict[str, Any]]:
+        return [self._data]
 
     def plot(self, what: str = "depth_m", ax: Axes | None = None, **style: Any) -> Axes:
         """Draws a column of the history against time [us].
@@ -141,12 +137,16 @@ class RunResult(Record):
 
     def _repr_html_(self) -> str:
         rows = [[name, value] for name, value in self._shown()]
+        if self.expected_error is not None:
+            error = self.expected_error
+            ends = f"{100 * error.low:+.0f} % to {100 * error.high:+.0f} % for eight of ten of {error.shots} shots like this one"
+            rows.append(["expected error of the depth", f"median {100 * error.median:+.0f} %, {ends}"])
         rows += [["warning", warning] for warning in self.warnings]
         return table_html(["", ""], rows, f"{self.case}, model {self.model}")
 
 
-class Comparison(Record):
-    """What every model says of a case: the values of ``percuss compare --json``.
+class Comparison(Result):
+    """What every model says of a case: the values of ``percuss compare --json``. A row a speed and model.
 
     Attributes
     ----------
@@ -168,13 +168,8 @@ class Comparison(Record):
     experiments: list[Record]
     results: list[Record]
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A row a speed and model."""
-        return frame(self._data["results"])
-
-    def to_arrow(self) -> pyarrow.Table:
-        """A row a speed and model."""
-        return table(self._data["results"])
+    def _rows(self) -> list[dict[str, Any]]:
+        return list(self._data["results"])
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draws the leading quantity: by model at one speed, against the speed at many."""
@@ -182,15 +177,18 @@ class Comparison(Record):
 
     def _repr_html_(self) -> str:
         quantities = self.quantities
+        chosen = {choice.model for at in self.recommended for choice in at.models}
+        # What a model says comes before why others say nothing.
+        results = sorted(self.results, key=lambda r: r.reason is not None)
         rows = [
-            [r.model, shown(r.impact_velocity_m_s), *(shown(r[q]) for q in quantities), r.outcome.replace("_", " "), r.reason or ""]
-            for r in self.results
+            [f"{r.model} ★" if r.model in chosen else r.model, shown(r.impact_velocity_m_s), *(shown(r[q]) for q in quantities), r.outcome.replace("_", " "), r.reason or ""]
+            for r in results
         ]
-        return table_html(["model", "impact_velocity_m_s", *quantities, "outcome", "reason"], rows, self.case)
+        return table_html(["model", "impact_velocity_m_s", *quantities, "outcome", "reason"], rows, f"{self.case} (★ recommended)")
 
 
-class Limits(Record):
-    """Ballistic limits: the values of ``percuss limit --json``.
+class Limits(Result):
+    """Ballistic limits: the values of ``percuss limit --json``. A row a model.
 
     Attributes
     ----------
@@ -201,7 +199,10 @@ class Limits(Record):
     results : list of Record
         An entry a model: ``ballistic_limit_m_s``, ``bracket``, ``curve`` of residual velocities and the ``fit`` to it.
     v50 : Record or None
-        V50 of shots that scatter, when a file of them was given.
+        V50 of shots that scatter, when a file of them was given: ``estimates``, an entry a ``method`` with ``v50_m_s`` and the ends of
+        its interval, ``low_m_s`` and ``high_m_s`` [m/s].
+    shots : list of Record or None
+        Those shots: ``velocity_m_s`` [m/s] and whether they ``perforated``.
     """
 
     case: str
@@ -210,27 +211,34 @@ class Limits(Record):
     experiments: list[Record]
     results: list[Record]
     v50: Record | None
+    shots: list[Record] | None
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A row a model."""
-        return frame(self._data.get("results", []))
-
-    def to_arrow(self) -> pyarrow.Table:
-        """A row a model."""
-        return table(self._data.get("results", []))
+    def _rows(self) -> list[dict[str, Any]]:
+        return list(self._data.get("results", []))
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draws residual velocity against impact velocity for every model that found a limit."""
         return plots.limits(self, ax)
 
+    def plot_v50(self, ax: Axes | None = None) -> Axes:
+        """Draws the shots, the likeliest chances of going through, and V50 with its interval."""
+        return plots.v50(self, ax)
+
     def _repr_html_(self) -> str:
-        results = self._data.get("results", [])
-        rows = [[r["model"], r["outcome"].replace("_", " "), shown(r.get("ballistic_limit_m_s"))] for r in results]
-        return table_html(["model", "outcome", "ballistic_limit_m_s"], rows, self._data.get("case", ""))
+        text = ""
+        if "results" in self:
+            rows = [[r.model, r.outcome.replace("_", " "), shown(r.ballistic_limit_m_s), r.reason or ""] for r in self.results]
+            text += table_html(["model", "outcome", "ballistic_limit_m_s", "reason"], rows, self.case)
+        if self.v50 is not None:
+            names = ["method", "v50_m_s", "low_m_s", "high_m_s", "standard_deviation_m_s", "reason"]
+            rows = [[shown(estimate[name]).replace("_", " ") for name in names] for estimate in self.v50.estimates]
+            caption = f"V50 of {self.v50.shots} shots, {self.v50.perforated} of which went through"
+            text += table_html(names, rows, caption)
+        return text
 
 
-class Convergence(Record):
-    """A case on finer and finer meshes: the values of ``percuss converge --json``.
+class Convergence(Result):
+    """A case on finer and finer meshes: the values of ``percuss converge --json``. A row a mesh.
 
     Attributes
     ----------
@@ -242,14 +250,6 @@ class Convergence(Record):
 
     meshes: list[Record]
     quantities: list[Record]
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """A row a mesh."""
-        return frame(self._rows())
-
-    def to_arrow(self) -> pyarrow.Table:
-        """A row a mesh."""
-        return table(self._rows())
 
     def plot(self, quantity: str | None = None, ax: Axes | None = None) -> Axes:
         """Draws a quantity, the first when not named, against the number of elements."""
@@ -264,11 +264,14 @@ class Convergence(Record):
 
     def _repr_html_(self) -> str:
         rows = self._rows()
-        return table_html(list(rows[0]), [[shown(value) for value in row.values()] for row in rows])
+        text = table_html(list(rows[0]), [[shown(value) for value in row.values()] for row in rows])
+        names = ["kind", "order", "richardson", "index"]
+        verdicts = [[q.name, *(shown(q.verdict._data.get(name)) for name in names)] for q in self.quantities]
+        return text + table_html(["quantity", "verdict", "order", "extrapolated", "grid-convergence index"], verdicts)
 
 
-class Validation(Record):
-    """Models against published shots: the values of ``percuss validate --json``.
+class Validation(Result):
+    """Models against published shots: the values of ``percuss validate --json``. A row a prediction.
 
     Attributes
     ----------
@@ -288,48 +291,19 @@ class Validation(Record):
     coverage: list[Record]
     predictions: list[Record]
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A row a prediction."""
-        return frame(self._data["predictions"])
-
-    def to_arrow(self) -> pyarrow.Table:
-        """A row a prediction."""
-        return table(self._data["predictions"])
+    def _rows(self) -> list[dict[str, Any]]:
+        return list(self._data["predictions"])
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draws predicted against measured values of the counted predictions."""
         return plots.validation(self, ax)
 
-
-class Material(Record):
-    """What is known of a material: the values of ``percuss materials --json``.
-
-    Attributes
-    ----------
-    id, name, family, state, trust, note : str
-        Its names, how far its numbers are established, and what to know of them.
-    sources : list of str
-        Keys of the bibliography.
-    strength : Record
-        The strength law and its constants, as a case file has them.
-    bar_wave_speed_m_s, bar_impedance_kg_m2_s : float
-        Speed of elastic waves in a bar [m/s] and its impedance per area [kg/(m2 s)].
-    """
-
-    id: str
-    name: str
-    density: str
-    strength: Record
-    trust: str
-    sources: list[str]
-    bar_wave_speed_m_s: float
-    bar_impedance_kg_m2_s: float
-
-
-class Model(Record):
-    """What a model is made for: the values of ``percuss models --json``."""
-
-    name: str
-    summary: str
-    guard: Record
-    page: str
+    def _repr_html_(self) -> str:
+        errors = ["bias", "rms", "median_absolute", "worst"]
+        rows = [
+            [group.model, group.kind.replace("_", " "), str(group.count), *(f"{100 * group[error]:.1f}" for error in errors)]
+            for group in self.statistics
+            if group.grouping == "all"
+        ]
+        head = ["model", "kind", "shots", *(f"{error.replace('_', ' ')} [%]" for error in errors)]
+        return table_html(head, rows, f"{self.shots} shots: {', '.join(self.data)}")

@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _percuss, study_plots
-from .ask import CaseLike, Speed, native_answer, several, speeds
+from .ask import CaseLike, Path, Speed, native_answer, several, speeds
 from .progress import Progress
-from .record import Record, frame, shown, table, table_html
+from .record import Record, Result, shown, table_html
 from .samples import Sample
 
 if TYPE_CHECKING:
-    import pandas
-    import pyarrow
     from matplotlib.axes import Axes
 
 
-class Uncertainty(Record):
+class Uncertainty(Result):
     """Spread, chances and sensitivities of a case's results: the values of ``percuss uncertainty --json``, and the shots behind them.
+
+    A row a quantity; ``draws.to_pandas()`` has a row a shot.
 
     The spread is that of the inputs. The error of the model itself is not in it and comes on top; ``nominal.expected_error`` names it
     where it is known.
@@ -66,9 +65,7 @@ class Uncertainty(Record):
     bands: list[Record]
     warnings: list[str]
 
-    def __init__(self, native: _percuss.Answer) -> None:
-        super().__init__(json.loads(native.json()))
-        self._native = native
+    _native: _percuss.Answer
 
     @property
     def draws(self) -> Sample:
@@ -86,13 +83,6 @@ class Uncertainty(Record):
         """Value that a part of the shots lies below: 1, 5, 25, 50, 75, 95 or 99 %."""
         return study_plots.percentile(self.quantity(name).statistics, percent)
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A row a quantity; ``draws.to_pandas()`` has a row a shot."""
-        return frame(self._rows())
-
-    def to_arrow(self) -> pyarrow.Table:
-        """A row a quantity; ``draws.to_arrow()`` has a row a shot."""
-        return table(self._rows())
 
     def _rows(self) -> list[dict[str, Any]]:
         rows = []
@@ -142,6 +132,7 @@ def uncertainty(
     velocity: Speed | Sequence[float] | None = None,
     no_indices: bool = False,
     threads: int | None = None,
+    out: Path | None = None,
     progress: Progress | bool | None = None,
 ) -> Uncertainty:
     """Says what the uncertainty of a case's numbers does to its results.
@@ -165,6 +156,8 @@ def uncertainty(
         Whether to leave out the Sobol' indices, which take most of the shots.
     threads : int, optional
         Threads; as many as there are cores when not given. The numbers do not depend on it.
+    out : path, optional
+        Folder for a copy of the case, the numbers and the figures, as ``percuss uncertainty --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
         As of :func:`percuss.run`.
 
@@ -200,6 +193,7 @@ def uncertainty(
         velocity=speeds(velocity),
         no_indices=no_indices,
         threads=threads,
+        out=out,
         progress=progress,
     )
     return Uncertainty(found)

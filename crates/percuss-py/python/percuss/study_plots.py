@@ -160,9 +160,9 @@ def predictions(found: Calibration, ax: Axes | None) -> Axes:
         ax.set_yticks(range(len(given)), [p.id for p in given], fontsize="small")
     else:
         ax.set_yticks([])
-    ax.invert_yaxis()
-    ax.set(xlabel="model − measured [%]", title=f"model {found.model}")
-    ax.legend(fontsize="small")
+    # From the top, with room for the legend below.
+    ax.set(xlabel="model − measured [%]", title=f"model {found.model}", ylim=(1.2 * len(given), -0.6))
+    ax.legend(fontsize="small", loc="lower right", ncols=2)
     return ax
 
 

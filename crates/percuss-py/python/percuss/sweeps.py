@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Mapping, Sequence
-from pathlib import Path
+from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 from . import _percuss, cluster, plots
+from .ask import Path, answer, native_answer, several
 from .case import Case
 from .errors import UsageError
 from .progress import Progress, watching
-from .record import Record, table_html
+from .record import Answered, Record, table_html
 
 if TYPE_CHECKING:
     import pandas
@@ -22,15 +22,18 @@ if TYPE_CHECKING:
 
 
 class SweepResult:
-    """The folder of a sweep: a row a shot, in Parquet files."""
+    """The folder of a sweep: a row a shot, in Parquet files. It stands for its path wherever one is due."""
 
-    def __init__(self, folder: str | os.PathLike[str]) -> None:
-        self.folder = Path(folder)
+    def __init__(self, folder: Path) -> None:
+        self.folder = FilePath(folder)
+
+    def __fspath__(self) -> str:
+        return str(self.folder)
 
     @property
     def status(self) -> Record:
-        """How far the folder has come: ``shots_done``, ``blocks_done``, ``blocks_damaged``, ``running`` and the ``manifest``."""
-        return Record(json.loads(_percuss.sweep_status(self.folder)))
+        """How far the folder has come, as ``percuss sweep status`` says it: ``shots_done``, ``blocks_done``, ``blocks_damaged``, ``running`` and the ``manifest``."""
+        return Record(answer("sweep status", self.folder))
 
     @property
     def manifest(self) -> Record:
@@ -44,7 +47,7 @@ class SweepResult:
         status = self.status
         return bool(status.shots_done == status.manifest.shots)
 
-    def files(self) -> list[Path]:
+    def files(self) -> list[FilePath]:
         """The files of the blocks that are there, in the order of the shots."""
         return [self.folder / f"block-{block:06}.parquet" for block in self.status.blocks_done]
 
@@ -60,12 +63,12 @@ class SweepResult:
         rows: pandas.DataFrame = self.to_arrow().to_pandas()
         return rows
 
-    def merge(self, out: str | os.PathLike[str]) -> int:
-        """Writes all rows into one Parquet file, as ``percuss sweep merge`` does; returns their number."""
-        return merge([self.folder], out)
+    def merge(self, out: Path) -> int:
+        """Writes all rows into one Parquet file, as :func:`percuss.merge` does; returns their number."""
+        return merge(self, out)
 
     def plot(self, x: str, y: str, colour: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draws a column against another one, a dot a shot, coloured by a third."""
+        """Draws a column against another one, a dot a shot, coloured by a third; :func:`percuss.plot` chooses what suits the sweep."""
         return plots.sweep(self, x, y, colour, ax)
 
     def __repr__(self) -> str:
@@ -85,8 +88,8 @@ class SweepResult:
 
 
 def sweep(
-    sweep: str | os.PathLike[str] | Mapping[str, Any],
-    out: str | os.PathLike[str],
+    sweep: Path | Mapping[str, Any],
+    out: Path,
     *,
     resume: bool = False,
     shard: tuple[int, int] = (1, 1),
@@ -147,7 +150,7 @@ def sweep(
     part, parts = shard
     if not 1 <= part <= parts:
         raise UsageError(f"shard {part}/{parts} does not exist: parts are counted from 1 to their number")
-    path = _written(sweep, Path(out)) if isinstance(sweep, Mapping) else Path(sweep)
+    path = _written(sweep, FilePath(out)) if isinstance(sweep, Mapping) else FilePath(sweep)
     native = _percuss.Sweep(path)
     folder = _percuss.SweepFolder(out, native, resume)
     try:
@@ -161,18 +164,76 @@ def sweep(
     return SweepResult(out)
 
 
-def merge(folders: Sequence[str | os.PathLike[str]], out: str | os.PathLike[str]) -> int:
-    """Joins folders that hold all parts of a sweep into one Parquet file.
+def merge(folders: Path | Sequence[Path], out: Path) -> int:
+    """Joins folders that hold all parts of a sweep into one Parquet file, as ``percuss sweep merge`` does.
+
+    Parameters
+    ----------
+    folders : path, SweepResult or sequence of them
+        Folders of results.
+    out : path
+        File to write; it is replaced if it exists.
 
     Returns
     -------
     int
         Number of rows.
     """
-    return _percuss.merge_sweep(list(folders), out)
+    rows: int = answer("sweep merge", *several(folders), out=out)
+    return rows
 
 
-def _written(sweep: Mapping[str, Any], out: Path) -> Path:
+class Drawing(Answered):
+    """A figure that was written: :attr:`files` are its SVG and its PNG. A notebook shows it.
+
+    Attributes
+    ----------
+    title : str
+        What it shows.
+    """
+
+    title: str
+
+    def _repr_svg_(self) -> str:
+        return self.files[0].read_text(encoding="utf-8")
+
+    def _repr_html_(self) -> str:
+        return self._repr_svg_()
+
+
+def plot(
+    folders: Path | Sequence[Path],
+    *,
+    out: Path | None = None,
+    quantity: str | None = None,
+    style: str | None = None,
+    x: str | None = None,
+    y: str | None = None,
+) -> Drawing:
+    """Draws a result of a sweep, as ``percuss sweep plot`` does: what is not said is chosen from what is varied.
+
+    Parameters
+    ----------
+    folders : path, SweepResult or sequence of them
+        Folders of results; several are parts of one sweep. What is not computed yet is counted.
+    out : path, optional
+        Folder for the figure; the first of the folders of results when not given.
+    quantity : str, optional
+        Column of the result to draw.
+    style : str, optional
+        ``curves``, ``map`` or ``parallel`` coordinates.
+    x, y : str, optional
+        Keys of the parameters that run from left to right and upwards; means are taken over the others.
+
+    Raises
+    ------
+    UsageError
+        When the folders hold no rows, or what is asked for does not fit the sweep.
+    """
+    return Drawing(native_answer("sweep plot", *several(folders), out=out, quantity=quantity, style=style, x=x, y=y))
+
+
+def _written(sweep: Mapping[str, Any], out: FilePath) -> FilePath:
     """The sweep file of a mapping, with its case beside it."""
     out.mkdir(parents=True, exist_ok=True)
     tables = dict(sweep)

@@ -23,17 +23,30 @@ struct State {
 /// # Errors
 /// [`ReportError::Write`]; [`ReportError::Table`].
 pub fn write(folder: &Path, calibration: &Calibration) -> Result<Vec<PathBuf>, ReportError> {
-    let (parameters, predictions) = ("parameters.csv", "predictions.csv");
-    let table = column::csv(parameters, &parameter_columns(), &calibration.parameters)?;
-    let mut written = vec![replace_file(folder, parameters, &table)?];
-    let table = column::csv(predictions, &prediction_columns(), &calibration.predictions)?;
-    written.push(replace_file(folder, predictions, &table)?);
+    let tables = tables(calibration)?.into_iter();
+    let mut written = tables
+        .map(|(name, content)| replace_file(folder, name, &content))
+        .collect::<Result<Vec<_>, _>>()?;
     if let Some(states) = states(calibration) {
         let name = "sample.parquet";
         let table = column::parquet(name, &state_columns(calibration), &states)?;
         written.push(replace_file(folder, name, &table)?);
     }
     Ok(written)
+}
+
+/// The tables that [`write`] writes as CSV: name and content of each.
+///
+/// # Errors
+/// [`ReportError::Table`].
+pub fn tables(calibration: &Calibration) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
+    let (parameters, predictions) = ("parameters.csv", "predictions.csv");
+    let of_parameters = column::csv(parameters, &parameter_columns(), &calibration.parameters)?;
+    let of_predictions = column::csv(predictions, &prediction_columns(), &calibration.predictions)?;
+    Ok(vec![
+        (parameters, of_parameters),
+        (predictions, of_predictions),
+    ])
 }
 
 fn parameter_columns() -> Vec<Column<ParameterRecord>> {

@@ -8,19 +8,32 @@ mod trace;
 
 use percuss::calibrate::{Calibration, ParameterRecord};
 
-use crate::Figure;
+use crate::{Chart, Figure};
 
-pub use files::write;
+pub use files::{tables, write};
 
 /// The figures of a calibration: measured values and predictions; of a sample its traces and its projections on pairs as well.
 pub fn figures(calibration: &Calibration) -> Vec<Figure> {
-    let mut figures = vec![predictive::figure(calibration)];
-    if let Some(sample) = &calibration.sample {
-        let columns = columns(calibration);
-        figures.push(trace::figure(sample, &columns));
-        figures.push(corner::figure(sample, &columns));
-    }
+    let mut figures = vec![predictive::chart(calibration).draw()];
+    figures.extend(sample_figures(calibration));
     figures
+}
+
+/// The chart among them: measured values and predictions.
+pub fn chart(calibration: &Calibration) -> Chart {
+    predictive::chart(calibration).into()
+}
+
+/// The figures of the sample, if there is one.
+pub fn sample_figures(calibration: &Calibration) -> Vec<Figure> {
+    let Some(sample) = &calibration.sample else {
+        return Vec::new();
+    };
+    let columns = columns(calibration);
+    vec![
+        trace::figure(sample, &columns),
+        corner::figure(sample, &columns),
+    ]
 }
 
 /// A parameter of the sample, or the scatter.

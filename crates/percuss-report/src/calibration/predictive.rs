@@ -5,10 +5,10 @@ use percuss::{
     outcome::BandQuantity,
 };
 
-use crate::{Axis, Figure, LineChart, Mark, Series, Style, palette};
+use crate::{Axis, LineChart, Mark, Series, Style, palette};
 
-/// Draws the relative errors over the impact speed with their 95 % predictive bands, as `predictive`.
-pub(super) fn figure(calibration: &Calibration) -> Figure {
+/// The relative errors over the impact speed with their 95 % predictive bands, as `predictive`.
+pub(super) fn chart(calibration: &Calibration) -> LineChart {
     let mut chart = LineChart::new(
         "predictive",
         format!(
@@ -48,9 +48,7 @@ pub(super) fn figure(calibration: &Calibration) -> Figure {
         Some((p.impact_velocity_m_s, percent(p, error)))
     });
     let before = Series::new("before the fit", before);
-    chart
-        .series(before.style(Style::Cloud).color("#9a9a9a"))
-        .draw()
+    chart.series(before.style(Style::Cloud).color("#9a9a9a"))
 }
 
 /// A difference in percent of what relative errors are relative to.

@@ -12,11 +12,13 @@ use std::{
 };
 
 use percuss::Error;
+use serde::Serialize;
 
 use crate::{Figure, ReportError, replace_file::replace_file};
 
 /// What became of one statement of the paper.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// The same comes out.
     Reproduced,
@@ -40,7 +42,7 @@ impl fmt::Display for Verdict {
 }
 
 /// A statement of the paper and what was found.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Item {
     /// Where in the paper.
     pub place: &'static str,
@@ -53,7 +55,7 @@ pub struct Item {
 }
 
 /// A table of computed numbers.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Table {
     /// What it holds.
     pub title: String,

@@ -11,11 +11,15 @@ mod parts;
 mod plot;
 mod rows;
 mod seal;
+mod table;
 
 pub use folder::{Block, Status, SweepFolder, status};
 pub use manifest::{ColumnName, Manifest, Varied};
 pub use merge::merge;
-pub use plot::{PlotRequest, PlotStyle, plot};
+pub use plot::{
+    PlotRequest, PlotStyle, SweepChart, SweepNumber, charts, numbers, parallel_figure, plot,
+};
+pub use table::rows_csv;
 
 /// Name of the file of a block.
 fn block_file(block: u64) -> String {

@@ -8,9 +8,15 @@ use parquet::{
     errors::ParquetError,
     file::reader::{FileReader, SerializedFileReader},
 };
-use percuss::outcome::Outcome;
+use percuss::{
+    outcome::Outcome,
+    sweep::{Row, Sweep},
+};
 
-use super::{columns::word, parts::Parts};
+use super::{
+    columns::{columns, word},
+    parts::Parts,
+};
 use crate::ReportError;
 
 /// Some columns of a sweep's rows, and what the rows without a value lack it for.
@@ -51,6 +57,28 @@ impl Rows {
             }
         }
         Ok(rows)
+    }
+
+    /// Takes rows that are in memory.
+    pub(super) fn of(sweep: &Sweep, rows: &[Row], quantity: &str) -> Self {
+        let columns = columns(sweep);
+        let column = columns.iter().find(|column| column.name() == quantity);
+        let value = |row: &Row| column.and_then(|column| column.number(row));
+        let failed = |row: &Row| match &row.record {
+            Ok(record) => record.outcome == Outcome::Failed,
+            Err(_) => true,
+        };
+        Self {
+            inputs: (0..sweep.axes.len())
+                .map(|i| rows.iter().map(|row| row.inputs[i]).collect())
+                .collect(),
+            values: rows
+                .iter()
+                .map(|row| value(row).unwrap_or(f64::NAN))
+                .collect(),
+            failed: rows.iter().map(failed).collect(),
+            missing: 0,
+        }
     }
 
     fn add(&mut self, parts: &Parts<'_>, quantity: &str, path: &Path) -> Result<(), ParquetError> {

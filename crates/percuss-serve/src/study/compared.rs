@@ -8,38 +8,27 @@ use percuss::{
 use percuss_report::{compare_chart, comparison_files};
 use serde_json::{Value, json};
 
-use super::{Study, csv_files, go_on, scenario};
-use crate::{
-    Bounds,
-    problem::Problem,
-    request::CaseRequest,
-    stream::{Tell, pretty},
-    worker::Stop,
-};
+use super::{Job, Study, csv_files};
+use crate::{problem::Problem, stream::pretty};
 
 /// Most speeds of a comparison.
 const SPEEDS: usize = 60;
 
-pub(super) fn compared(
-    asked: &CaseRequest,
-    bounds: &Bounds,
-    stop: &Stop,
-    tell: &Tell,
-) -> Result<Study, Problem> {
-    let scenario = scenario(asked, bounds)?;
-    let speeds = match asked.speeds {
+pub(super) fn compared(job: &Job<'_>) -> Result<Study, Problem> {
+    let scenario = job.scenario()?;
+    let speeds = match job.asked.speeds {
         None => vec![scenario.impact_speed],
         Some((from, to, count)) => speeds(from, to, count)?,
     };
     let mut report = |now: compare::Progress| {
         let words = format!("{} of {} runs", now.finished, now.total);
-        go_on(stop, tell, now.fraction, &words)
+        job.go_on(now.fraction, &words)
     };
     let mut watch = compare::Watch {
         progress: Some(&mut report),
     };
     let comparison = compare::compare(&model::quick(), &scenario, &speeds, &mut watch)
-        .map_err(|error| stop.problem(error))?;
+        .map_err(|error| job.stop.problem(error))?;
     let regimes: Vec<String> = comparison
         .regime
         .iter()

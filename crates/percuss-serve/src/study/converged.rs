@@ -7,27 +7,17 @@ use percuss::{
 use percuss_report::{Chart, convergence_chart};
 use serde_json::json;
 
-use super::{Study, go_on};
-use crate::{
-    Bounds,
-    problem::Problem,
-    request::CaseRequest,
-    stream::{Tell, pretty},
-    worker::Stop,
-};
+use super::{Job, Study};
+use crate::{problem::Problem, stream::pretty};
 
 /// Meshes of a convergence study.
 const LEVELS: u32 = 4;
 
-pub(super) fn converged(
-    asked: &CaseRequest,
-    bounds: &Bounds,
-    stop: &Stop,
-    tell: &Tell,
-) -> Result<Study, Problem> {
-    let scenario = asked.read(asked.edited()?)?.scenario;
-    let model = asked.model(&scenario, bounds)?;
-    bounds.check(model, &scenario.refined(REFINEMENT.pow(LEVELS - 1)))?;
+pub(super) fn converged(job: &Job<'_>) -> Result<Study, Problem> {
+    let scenario = job.read()?.scenario;
+    let model = job.model(&scenario)?;
+    job.bounds
+        .check(model, &scenario.refined(REFINEMENT.pow(LEVELS - 1)))?;
     // The work grows fourfold with each mesh.
     let work = |level: u32| 4_f64.powi(level as i32);
     let total: f64 = (0..LEVELS).map(work).sum();
@@ -38,19 +28,14 @@ pub(super) fn converged(
         }
         before = now.fraction;
         let done: f64 = (0..level).map(work).sum::<f64>() + now.fraction * work(level);
-        go_on(
-            stop,
-            tell,
-            done / total,
-            &format!("mesh {} of {LEVELS}", level + 1),
-        )
+        job.go_on(done / total, &format!("mesh {} of {LEVELS}", level + 1))
     };
     let mut control = Control {
         progress: Some(&mut report),
         ..Control::default()
     };
     let (study, _) = converge::study(model, &scenario, LEVELS, &mut control)
-        .map_err(|error| stop.problem(error))?;
+        .map_err(|error| job.stop.problem(error))?;
     let charts: Vec<Chart> = (0..study.quantities.len())
         .filter_map(|i| convergence_chart(&scenario.name, &study, i))
         .collect();

@@ -7,29 +7,18 @@ use percuss::{
 use percuss_report::{limit_chart, limit_files};
 use serde_json::json;
 
-use super::{Study, csv_files, go_on, scenario};
-use crate::{
-    Bounds,
-    problem::Problem,
-    request::CaseRequest,
-    stream::{Tell, pretty},
-    worker::Stop,
-};
+use super::{Job, Study, csv_files};
+use crate::{problem::Problem, stream::pretty};
 
-pub(super) fn limits(
-    asked: &CaseRequest,
-    bounds: &Bounds,
-    stop: &Stop,
-    tell: &Tell,
-) -> Result<Study, Problem> {
-    let scenario = scenario(asked, bounds)?;
+pub(super) fn limits(job: &Job<'_>) -> Result<Study, Problem> {
+    let scenario = job.scenario()?;
     let mut report =
-        |now: limit::Progress| go_on(stop, tell, now.fraction, &format!("{} runs", now.finished));
+        |now: limit::Progress| job.go_on(now.fraction, &format!("{} runs", now.finished));
     let mut watch = limit::Watch {
         progress: Some(&mut report),
     };
     let limits = limit::limits(&model::quick(), &scenario, &Search::default(), &mut watch)
-        .map_err(|error| stop.problem(error))?;
+        .map_err(|error| job.stop.problem(error))?;
     let chart = limit_chart(&scenario, &limits);
     let outcomes: Vec<&str> = limits
         .results

@@ -1,8 +1,12 @@
-//! Studies of a case: models side by side, convergence with the mesh, ballistic limits, uncertainty, and runs in two dimensions.
+//! Studies of a case: models side by side, convergence with the mesh, ballistic limits, sweeps, uncertainty, calibration, and runs in
+//! two dimensions.
 
 mod compared;
 mod converged;
+mod fitted;
 mod limits;
+mod shots;
+mod swept;
 mod uncertain;
 mod uncertain_example;
 
@@ -17,14 +21,14 @@ use percuss::{
     Scenario,
     model::{self, Model},
 };
-use percuss_report::{Chart, ChartData};
+use percuss_report::{Chart, ChartData, Figure};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::{
     Bounds, answer, http,
     problem::Problem,
-    request::{self, CaseRequest},
+    request::{self, CaseRequest, ReadCase},
     stream::{self, Tell},
     worker::{Stop, Workers},
 };
@@ -35,8 +39,18 @@ struct Study {
     #[serde(flatten)]
     record: Value,
     charts: Vec<ChartData>,
+    /// Figures that are no charts.
+    pictures: Vec<Picture>,
     /// Files to take away, by name: text.
     files: BTreeMap<String, String>,
+}
+
+/// A figure that is no chart, as it is drawn.
+#[derive(Serialize)]
+struct Picture {
+    name: String,
+    title: String,
+    svg: String,
 }
 
 impl Study {
@@ -52,7 +66,20 @@ impl Study {
         Self {
             record,
             charts: charts.iter().map(Chart::data).collect(),
+            pictures: Vec::new(),
             files: drawings.chain(files).collect(),
+        }
+    }
+
+    fn with_pictures(self, figures: impl IntoIterator<Item = Figure>) -> Self {
+        let picture = |figure: Figure| Picture {
+            name: figure.name,
+            title: figure.title,
+            svg: figure.svg,
+        };
+        Self {
+            pictures: figures.into_iter().map(picture).collect(),
+            ..self
         }
     }
 }
@@ -71,6 +98,8 @@ pub(crate) async fn post(
         "compare" => follow(&workers, asked, compared::compared).await,
         "converge" => follow(&workers, asked, converged::converged).await,
         "limit" => follow(&workers, asked, limits::limits).await,
+        "sweep" => follow(&workers, asked, swept::swept).await,
+        "calibrate" => follow(&workers, asked, fitted::fitted).await,
         "uncertainty" => follow(&workers, asked, uncertain::uncertain).await,
         "run" => follow(&workers, asked, slow_run).await,
         _ => Problem::with_status(StatusCode::NOT_FOUND, "there is no such study", "")
@@ -82,11 +111,16 @@ pub(crate) async fn post(
 async fn follow<T: Serialize + 'static>(
     workers: &Workers,
     asked: CaseRequest,
-    study: fn(&CaseRequest, &Bounds, &Stop, &Tell) -> Result<T, Problem>,
+    study: fn(&Job<'_>) -> Result<T, Problem>,
 ) -> Response {
     let bounds = *workers.bounds();
     stream::respond(workers, move |stop, tell| {
-        study(&asked, &bounds, stop, tell)
+        study(&Job {
+            asked: &asked,
+            bounds: &bounds,
+            stop,
+            tell,
+        })
     })
     .await
 }
@@ -110,27 +144,49 @@ pub(crate) async fn uncertainty_example(
     }
 }
 
-/// The case of a request, small enough for every model that answers at once.
-fn scenario(asked: &CaseRequest, bounds: &Bounds) -> Result<Scenario, Problem> {
-    let scenario = asked.read(asked.edited()?)?.scenario;
-    for model in model::quick() {
-        bounds.check(model, &scenario)?;
-    }
-    Ok(scenario)
+/// What a study works with.
+struct Job<'a> {
+    asked: &'a CaseRequest,
+    bounds: &'a Bounds,
+    /// When it has to end.
+    stop: &'a Stop,
+    /// Who hears how far it is.
+    tell: &'a Tell,
 }
 
-/// What a computation is told when it says how far it is.
-fn go_on(stop: &Stop, tell: &Tell, fraction: f64, words: &str) -> ControlFlow<()> {
-    tell.progress(fraction, words);
-    wanted(stop, tell)
-}
-
-/// Whether somebody waits and there is time left.
-fn wanted(stop: &Stop, tell: &Tell) -> ControlFlow<()> {
-    if tell.is_alone() {
-        stop.cancel();
+impl Job<'_> {
+    /// The case with what the form changes.
+    fn read(&self) -> Result<ReadCase, Problem> {
+        self.asked.read(self.asked.edited()?)
     }
-    stop.flow()
+
+    /// The case, small enough for every model that answers at once.
+    fn scenario(&self) -> Result<Scenario, Problem> {
+        let scenario = self.read()?.scenario;
+        for model in model::quick() {
+            self.bounds.check(model, &scenario)?;
+        }
+        Ok(scenario)
+    }
+
+    /// The model that is asked for, within bounds.
+    fn model(&self, scenario: &Scenario) -> Result<&'static dyn Model, Problem> {
+        self.asked.model(scenario, self.bounds)
+    }
+
+    /// What a computation is told when it says how far it is.
+    fn go_on(&self, fraction: f64, words: &str) -> ControlFlow<()> {
+        self.tell.progress(fraction, words);
+        self.wanted()
+    }
+
+    /// Whether somebody waits and there is time left.
+    fn wanted(&self) -> ControlFlow<()> {
+        if self.tell.is_alone() {
+            self.stop.cancel();
+        }
+        self.stop.flow()
+    }
 }
 
 /// Tables as text, those of them that are CSV: the page takes no Parquet.
@@ -145,13 +201,8 @@ fn csv_files(
 }
 
 /// A run of a model that takes a while, as an answer like any other.
-fn slow_run(
-    asked: &CaseRequest,
-    bounds: &Bounds,
-    stop: &Stop,
-    tell: &Tell,
-) -> Result<answer::Answer, Problem> {
-    let read = asked.read(asked.edited()?)?;
-    let model: &'static dyn Model = asked.model(&read.scenario, bounds)?;
-    answer::answer(read, model, None, stop, Some(tell))
+fn slow_run(job: &Job<'_>) -> Result<answer::Answer, Problem> {
+    let read = job.read()?;
+    let model = job.model(&read.scenario)?;
+    answer::answer(read, model, None, job.stop, Some(job.tell))
 }

@@ -1,9 +1,12 @@
 //! An example of what could be uncertain in a case, to be changed by its user.
 
-use percuss::{Scenario, material::Material, scenario::TargetBody, units::significant};
+use percuss::{Scenario, material::Material, units::significant};
 use serde_json::Value;
 
-use crate::form;
+use crate::{
+    constants::{self, quantity},
+    form,
+};
 
 /// Units of stress.
 const STRESSES: [&str; 4] = ["Pa", "kPa", "MPa", "GPa"];
@@ -18,7 +21,7 @@ pub(super) fn with_example(text: &str, scenario: &Scenario) -> String {
     let mut add = |key: &str, distribution: &str| {
         example += &format!("[[uncertainty.parameter]]\nkey = \"{key}\"\n{distribution}\n\n");
     };
-    if let Some((speed, unit)) = said("projectile.velocity").and_then(parts) {
+    if let Some((speed, unit)) = said("projectile.velocity").and_then(quantity) {
         let deviation = significant(0.01 * speed, 3);
         let mean = significant(speed, 6);
         add(
@@ -28,7 +31,7 @@ pub(super) fn with_example(text: &str, scenario: &Scenario) -> String {
             ),
         );
     }
-    if let Some((diameter, unit)) = said("projectile.diameter").and_then(parts) {
+    if let Some((diameter, unit)) = said("projectile.diameter").and_then(quantity) {
         let (from, to) = (
             significant(0.995 * diameter, 4),
             significant(1.005 * diameter, 4),
@@ -40,31 +43,8 @@ pub(super) fn with_example(text: &str, scenario: &Scenario) -> String {
             ),
         );
     }
-    let struck = match &scenario.target {
-        TargetBody::Layers { layers, .. } => layers.first().map(|layer| &*layer.material),
-        _ => None,
-    };
-    let of_target = ["target.material", "target.layers.0.material"]
-        .into_iter()
-        .find_map(said);
-    let bodies = [
-        (
-            said("projectile.material"),
-            Some(&*scenario.projectile.material),
-        ),
-        (of_target, struck),
-    ];
-    let mut seen: Vec<&str> = Vec::new();
-    for (name, material) in bodies {
-        let (Some(name), Some(material)) = (name, material) else {
-            continue;
-        };
-        // A key takes a part of digits alone for a place in a list.
-        let in_a_key = name.contains(|c: char| !c.is_ascii_digit()) && !name.contains('.');
-        if seen.contains(&name) || !in_a_key {
-            continue;
-        }
-        seen.push(name);
+    // The projectile and what it strikes first.
+    for (name, material) in constants::named(&values, scenario).into_iter().take(2) {
         if let Some((key, median)) = strength(material) {
             add(
                 &format!("materials.{name}.strength.{key}"),
@@ -77,22 +57,13 @@ pub(super) fn with_example(text: &str, scenario: &Scenario) -> String {
     format!("{}\n{}\n", text.trim_end(), example.trim_end())
 }
 
-/// Number and unit of a quantity.
-fn parts(quantity: &str) -> Option<(f64, &str)> {
-    let at = quantity.find(|c: char| c.is_whitespace() || c.is_alphabetic() && c != 'e')?;
-    let (number, unit) = quantity.split_at(at);
-    Some((number.trim().parse().ok()?, unit.trim()))
-}
-
-/// The first stress among the numbers of a strength law, by its key within the law, and its value.
+/// The first stress among the numbers of a strength law, by its key within the material's strength, and its value.
 fn strength(material: &Material) -> Option<(String, String)> {
-    let record = serde_json::to_value(&material.strength).ok()?;
-    let (law, numbers) = record.as_object()?.iter().next()?;
-    numbers.as_object()?.iter().find_map(|(key, value)| {
-        let text = value.as_str()?;
-        let (number, unit) = parts(text)?;
+    constants::of(material).into_iter().find_map(|constant| {
+        let key = constant.key.strip_prefix("strength.")?;
+        let (number, unit) = quantity(&constant.value)?;
         let stress = STRESSES.contains(&unit) && number > 0.0;
-        stress.then(|| (format!("{law}.{key}"), text.to_owned()))
+        stress.then(|| (key.to_owned(), constant.value.clone()))
     })
 }
 
@@ -122,12 +93,5 @@ mod tests {
                 assert!(keys[3].starts_with("materials.aluminium-2024-t351"));
             }
         }
-    }
-
-    #[test]
-    fn quantities_fall_into_number_and_unit() {
-        assert_eq!(parts("230 m/s"), Some((230.0, "m/s")));
-        assert_eq!(parts("2e2m/s"), Some((200.0, "m/s")));
-        assert_eq!(parts("semi-infinite"), None);
     }
 }

@@ -2,10 +2,12 @@
 
 mod answers;
 mod bounds;
+mod calibrations;
 mod gate;
 mod requests;
 mod studies;
 mod support;
+mod sweeps;
 
 use serde_json::json;
 use support::PAPER;

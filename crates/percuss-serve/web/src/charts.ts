@@ -8,6 +8,7 @@ import { mapReader } from "./map";
 import { over, under } from "./paint";
 import { rows } from "./rows";
 import { shape } from "./shape";
+import { span, ticks } from "./ticks";
 import type { AreaChart, Chart, LineChart, MapChart } from "./types";
 import { Zoom, type Range, type Side } from "./zoom";
 
@@ -152,17 +153,6 @@ function signature(chart: Chart): string {
   }
 }
 
-// Range of an axis; that of its values, with some room, where the axis is logarithmic and has none of its own.
-function span(chart: Chart, side: Side): Range {
-  const range = chart[side].range;
-  // Names of marks stand above the bars.
-  if (range && chart.kind === "histogram" && side === "y") return [range[0], range[1] * (1 + 0.14 * chart.marks.length)];
-  if (range) return range;
-  const values = chart.kind === "lines" ? chart.series.flatMap((series) => (side === "x" ? (series.x ?? []) : series.y)) : [];
-  const positive = values.filter((value): value is number => value !== null && value > 0);
-  return positive.length ? [Math.min(...positive) / 1.15, Math.max(...positive) * 1.15] : [1, 10];
-}
-
 function data(chart: Chart): uPlot.AlignedData {
   switch (chart.kind) {
     case "lines": return lineData(chart);
@@ -221,7 +211,7 @@ function options(chart: Chart, width: number, current: () => Chart, zoom: Zoom):
       x: { time: false, range: () => zoom.range("x"), distr: chart.x.log ? 3 : 1 },
       y: { range: () => zoom.range("y"), distr: chart.y.log ? 3 : 1 },
     },
-    axes: [{ ...axis(chart.x.label, 2), ...meshes(chart, current) }, axis(chart.y.label, 3)],
+    axes: [{ ...axis(chart.x.label, 2), ...ticks(chart, "x", current) }, { ...axis(chart.y.label, 3), ...ticks(chart, "y", current) }],
     series: [{ label: chart.x.label, value: (_, value) => number(value) }, ...seriesOf(chart, current)],
     hooks: {
       drawAxes: [(plot) => under(plot, current())],
@@ -238,16 +228,6 @@ function select(plot: uPlot, zoom: Zoom): void {
   const ends = (from: number, to: number, side: Side): Range => [plot.posToVal(from, side), plot.posToVal(to, side)];
   plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
   zoom.show(ends(left, left + width, "x"), ends(top + height, top, "y"));
-}
-
-// On a logarithmic axis the places of the points are the numbers that a reader looks for.
-function meshes(chart: Chart, current: () => Chart): uPlot.Axis {
-  if (!chart.x.log) return {};
-  const places = () => {
-    const shown = current();
-    return shown.kind === "lines" ? (shown.series[0]?.x ?? []).filter((x): x is number => x !== null) : [];
-  };
-  return { splits: places, filter: (_, splits) => splits };
 }
 
 function seriesOf(chart: Chart, current: () => Chart): uPlot.Series[] {

@@ -15,7 +15,10 @@ const STEPS = 400;
 
 const quoted = (text: string) => JSON.stringify(text);
 
-function shown(value: Value | undefined): string {
+// What is no number goes to the reader as it is, which says what is due.
+export const written = (text: string) => (TOML_NUMBER.test(text) ? text : quoted(text));
+
+export function shown(value: Value | undefined): string {
   if (value === undefined) return "";
   return typeof value === "object" ? value.number : String(value);
 }
@@ -35,9 +38,7 @@ export class Form {
   // Follows the case; what the user is typing in stays as it is.
   show(values: Values, model: string): void {
     this.values = values;
-    const layers = Object.keys(values)
-      .map((key) => /^target\.layers\.(\d+)\./.exec(key)?.[1])
-      .reduce((most, index) => Math.max(most, index === undefined ? 0 : Number(index) + 1), 0);
+    const layers = layersOf(values);
     const shape = JSON.stringify([model, layers, Object.keys(values).filter((key) => key.startsWith("materials."))]);
     if (shape !== this.built) {
       this.build(model, layers);
@@ -137,8 +138,15 @@ export class Form {
   }
 }
 
+// Layers that a case has in a list.
+export function layersOf(values: Values): number {
+  return Object.keys(values)
+    .map((key) => /^target\.layers\.(\d+)\./.exec(key)?.[1])
+    .reduce((most, index) => Math.max(most, index === undefined ? 0 : Number(index) + 1), 0);
+}
+
 // Fields of the entries of a list in place of the one that stands for them.
-function expand(field: Field, layers: number): Field[] {
+export function expand(field: Field, layers: number): Field[] {
   if (!field.key.includes(".*.")) return [field];
   return Array.from({ length: layers }, (_, index) => ({ ...field, key: field.key.replace("*", String(index)), nested: false }));
 }
@@ -231,8 +239,7 @@ function number(field: Field, id: string, frame: HTMLElement, edit: Change) {
   let limits: [number, number] = [0, 1];
   input.addEventListener("input", () => {
     const text = input.value.trim();
-    // What is no number goes to the reader as it is, which says what is due.
-    edit(text === "" ? null : TOML_NUMBER.test(text) ? text : quoted(text));
+    edit(text === "" ? null : written(text));
   });
   range?.addEventListener("input", () => {
     const value = limits[0] + ((limits[1] - limits[0]) * Number(range.value)) / STEPS;

@@ -8,7 +8,10 @@ import { onThemeChange } from "./colors";
 import { button, download, get, make, pairs } from "./dom";
 import { Form, type Edit } from "./form";
 import { fromFragment, toFragment } from "./link";
-import { SideBySide, studies } from "./studies";
+import { Numbers } from "./parameters";
+import { explained } from "./problem";
+import { SideBySide } from "./side";
+import { studies } from "./studies";
 import type { Answer, Problem, Start } from "./types";
 
 // A slider that stands for so long has come to rest.
@@ -23,6 +26,7 @@ const cases = get<HTMLSelectElement>("cases");
 const views = new Map<string, ChartView>();
 const others: ChartView[] = [];
 const form = new Form(start, (edits, moving) => ask(edits, moving));
+const numbers = new Numbers(start.fields);
 const sideBySide = new SideBySide(get("comparison-body"), others);
 
 let name = start.name;
@@ -59,14 +63,17 @@ async function answerAll(): Promise<void> {
     const control = new AbortController();
     const since = performance.now();
     current = { control, since };
-    const sent = text.value;
+    const [sent, asked] = [text.value, model];
     const busy = window.setTimeout(() => wait(control), PATIENCE_MS);
     try {
       const seen = [...views].filter(([, view]) => view.inView).map(([chart]) => chart);
       const body = { name, case: sent, edits: [...edits.values()], model, ...(moving ? { in_view: seen } : {}) };
       const answer = await post<Answer>("/api/answer", body, control.signal);
       if (text.value === sent) text.value = answer.case;
+      // A model that was chosen meanwhile is computed next.
+      const chosen = model === asked ? null : model;
       show(answer, since, moving);
+      if (chosen) models.value = model = chosen;
       if (moving && !pending) rest = window.setTimeout(() => ask(), REST_MS);
     } catch (error) {
       if (control.signal.aborted) {
@@ -115,6 +122,7 @@ function show(answer: Answer, since: number | null, draft: boolean): void {
   get("status").textContent = took || `computed in ${run}`;
   document.documentElement.dataset["answers"] = String(Number(document.documentElement.dataset["answers"] ?? 0) + 1);
   if (draft) return;
+  numbers.follow(answer);
   sideBySide.follow({ name, case: answer.case });
   downloads(answer);
   clearTimeout(saved);
@@ -141,15 +149,7 @@ function showCharts(answer: Answer): void {
 
 function refuse(problem: Problem): void {
   const box = get("problem");
-  box.replaceChildren(make("strong", {}, problem.message));
-  if (problem.place) {
-    const { line, text: content, column, length } = problem.place;
-    const pointer = `${" ".repeat(column)}${"^".repeat(length)} ${problem.key}`;
-    box.append(make("pre", {}, `line ${line}\n${content}\n${pointer}`));
-  } else if (problem.key) {
-    box.append(make("p", {}, problem.key));
-  }
-  if (problem.help) box.append(make("p", {}, problem.help));
+  box.replaceChildren(...explained(problem));
   box.hidden = false;
   form.mark(problem.key);
   get("answer").classList.add("stale");
@@ -237,7 +237,7 @@ function build(): void {
       ask();
     },
   };
-  get("studies").append(...studies(page, others));
+  get("studies").append(...studies(page, numbers, others));
   onThemeChange(() => [...views.values(), ...others].forEach((view) => view.draw()));
   addEventListener("hashchange", () => void fromFragment(location.hash).then((state) => state && load(state)));
   document.addEventListener("keydown", (event) => {

@@ -2,7 +2,7 @@
 
 import type uPlot from "uplot";
 import { make, significant } from "./dom";
-import type { MapChart } from "./types";
+import type { Axis, MapChart } from "./types";
 
 // Character that stands for the first colour.
 const FIRST = "0".charCodeAt(0);
@@ -39,9 +39,13 @@ export function mapCanvas(chart: MapChart, rowCount: number): HTMLCanvasElement 
 // Value of a cell, to the step of its colour.
 function valueAt(chart: MapChart, x: number, y: number): number | null {
   const rowCount = chart.cells.length / chart.columns;
-  const part = (value: number, range: [number, number] | null) => (value - (range?.[0] ?? 0)) / ((range?.[1] ?? 1) - (range?.[0] ?? 0));
-  const column = Math.min(chart.columns - 1, Math.floor(part(x, chart.x.range) * chart.columns));
-  const row = Math.min(rowCount - 1, Math.floor(part(y, chart.y.range) * rowCount));
+  // Cells are even on the axis as it is drawn.
+  const part = (value: number, { log, range }: Axis) => {
+    const [at, low, high] = [value, ...(range ?? [0, 1])].map((number) => (log ? Math.log(number) : number)) as [number, number, number];
+    return (at - low) / (high - low);
+  };
+  const column = Math.min(chart.columns - 1, Math.floor(part(x, chart.x) * chart.columns));
+  const row = Math.min(rowCount - 1, Math.floor(part(y, chart.y) * rowCount));
   const code = chart.cells.charCodeAt(row * chart.columns + column) - FIRST;
   if (!(code >= 0)) return null;
   const [low, high] = chart.ends;

@@ -16,7 +16,7 @@ export interface Field {
   slider: [number, number] | null;
 }
 
-export interface Axis { label: string; log: boolean; downward: boolean; range: [number, number] | null }
+export interface Axis { label: string; log: boolean; downward: boolean; range: [number, number] | null; names?: string[] }
 
 export interface Series {
   name: string;
@@ -90,6 +90,7 @@ export interface Result {
 export interface Answer {
   case: string;
   values: Values;
+  constants: { key: string; value: string }[];
   model: string;
   results: { case: string; percuss_version: string; results: Result[] };
   rows: [Row[], Row[], Row[]];
@@ -104,7 +105,11 @@ export interface Problem {
   place: { line: number; text: string; column: number; length: number } | null;
 }
 
-export interface Study { charts: Chart[]; files: Record<string, string> }
+export interface Study {
+  charts: Chart[];
+  pictures: { name: string; title: string; svg: string }[];
+  files: Record<string, string>;
+}
 
 export interface Comparison extends Study {
   regimes: string[];
@@ -170,6 +175,61 @@ export interface Spread extends Study {
     }[];
     no_indices: string | null;
     warnings: string[];
+  };
+}
+
+export interface Swept extends Study {
+  model: string;
+  design: string;
+  shots: number;
+  parameters: { key: string; unit: string; words: string[] }[];
+  outcomes: Record<string, number>;
+  reasons: string[];
+  numbers: { quantity: string; label: string; values: (number | null)[] }[];
+  rows: { inputs: number[]; outcome: string; reason: string }[];
+  drawn: { quantity: string; style: string; chart: Chart }[];
+}
+
+export interface Marginal {
+  quantiles: [number, number, number];
+  r_hat: number;
+  bulk_effective_size: number;
+  tail_effective_size: number;
+}
+export interface Quality { count: number; rms_before: number | null; rms: number; bias: number; inside: number | null }
+
+export interface Calibrated extends Study {
+  material: string | null;
+  calibration: {
+    model: string;
+    seed: number;
+    runs: number;
+    parameters: {
+      key: string;
+      unit: string;
+      prior: [number, number, number];
+      best: number;
+      standard_error: number | null;
+      posterior: Marginal | null;
+    }[];
+    scatter: { estimated: boolean; best: number; posterior: Marginal | null };
+    findings: { words: string }[];
+    training: Quality;
+    hold_out: Quality | null;
+    sampling: { ensembles: number; walkers: number; steps: number; burn_in: number } | null;
+    warnings: string[];
+    predictions: {
+      id: string;
+      held_out: boolean;
+      quantity: string;
+      unit: string;
+      impact_velocity_m_s: number;
+      measured: number;
+      before: number | null;
+      best: number | null;
+      predictive_band: [number, number] | null;
+    }[];
+    left_out: { id: string; reason: string }[];
   };
 }
 

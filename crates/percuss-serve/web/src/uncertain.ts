@@ -2,13 +2,33 @@
 
 import { post } from "./api";
 import { button, make, significant, table } from "./dom";
+import { options, type Kind, type Page } from "./panel";
 import type { Spread } from "./types";
 
 const number = (value: number | null | undefined, digits = 4) => (value == null ? "–" : significant(value, digits));
 const percent = (part: number) => significant(Math.round(1000 * part) / 10, 4);
 const list = (items: string[]) => make("ul", {}, ...items.map((words) => make("li", {}, words)));
 
-export function spread(done: Spread): HTMLElement[] {
+export function uncertainty(page: Page): Kind {
+  const samples = make("select", {}, ...options(...["64", "256", "1024", "4096"].map((count): [string, string] => [count, count])));
+  samples.value = "256";
+  const seed = make("input", { type: "number", min: "0", max: "9007199254740991", step: "1", value: "0" });
+  const indices = make("input", { type: "checkbox", checked: "" });
+  return {
+    title: "Uncertainty",
+    about: "what the uncertain numbers of the case do to its results",
+    path: "/api/study/uncertainty",
+    inputs: [make("label", {}, "shots ", samples), make("label", {}, "seed ", seed), make("label", {}, indices, " Sobol' indices")],
+    body: () => ({
+      ...page.request(),
+      uncertainty: { samples: Number(samples.value), seed: Number(seed.value), indices: indices.checked },
+    }),
+    show: (done) => spread(done as Spread),
+    refused: () => (page.hasUncertainty() ? null : offer(() => page.request(), (text) => page.insert(text))),
+  };
+}
+
+function spread(done: Spread): HTMLElement[] {
   const found = done.uncertainty;
   const chance = found.perforation;
   const failed = found.failures.shots;
@@ -65,7 +85,7 @@ function influence(done: Spread, place: number): HTMLElement {
 }
 
 // Offers an example to a case that says nothing of what is uncertain.
-export function offer(asked: () => object, insert: (text: string) => void): HTMLElement {
+function offer(asked: () => object, insert: (text: string) => void): HTMLElement {
   const said = make("p", { class: "note", role: "status" });
   const add = button("Put an example into the case", () => {
     post<{ case: string }>("/api/uncertainty-example", asked()).then(

@@ -79,6 +79,10 @@ for (const colorScheme of ["light", "dark"]) {
     const page = await open("/", { colorScheme });
     await page.locator("#comparison-body table").waitFor();
     assert.deepEqual(await page.evaluate(contrasts), []);
+    // A study that is refused.
+    await page.getByRole("button", { name: "Calibrate" }).click();
+    await page.locator(".study .problem").waitFor();
+    assert.deepEqual(await page.evaluate(contrasts), []);
     await page.locator("#field-projectile-diameter").fill("x");
     await page.locator("#problem").waitFor();
     const problem = (await page.evaluate(contrasts)).filter((text) => !text.includes("stale"));

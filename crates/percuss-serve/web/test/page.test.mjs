@@ -106,6 +106,19 @@ test("an invalid value is answered as on the command line", async () => {
   await page.context().close();
 });
 
+test("a model that is chosen while an answer is computed stays chosen", async () => {
+  const page = await open();
+  await page.route("**/api/answer", async (route) => {
+    await page.waitForTimeout(150);
+    await route.continue();
+  });
+  await page.locator("#field-projectile-velocity").fill("231");
+  await page.locator("#models").selectOption("fdm");
+  await answered(page, 3);
+  assert.equal(await page.locator("#models").inputValue(), "fdm");
+  await page.context().close();
+});
+
 test("files of an answer can be taken away", async () => {
   const page = await open();
   const take = async (name) => {

@@ -1,6 +1,6 @@
 // Pictures of the page, for the documentation and for whoever looks.
 import assert from "node:assert/strict";
-import { mkdirSync, readFileSync } from "node:fs";
+import { mkdirSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { test } from "node:test";
 import { answered, complaints, open, root, scratch, study } from "./support.mjs";
@@ -24,23 +24,48 @@ test("pictures of the page", async () => {
   }
 });
 
-test("a picture of an analysis of uncertainty", async () => {
+// A picture of a study of a case, once it says something.
+async function pictured(name, title, example, prepare, says, height = 900) {
   const folder = process.env.SCREENSHOTS ? resolve(root, process.env.SCREENSHOTS) : scratch;
-  const page = await open("/", { viewport: { width: 1360, height: 900 } });
-  await page.locator("#text").fill(readFileSync(join(root, "cases/paper-table1-uncertainty/scenario.toml"), "utf8"));
+  const page = await open("/", { viewport: { width: 1360, height } });
+  await page.locator("#cases").selectOption(example);
   await answered(page, 2);
-  const of = study(page, "Uncertainty");
-  await of.getByLabel("shots").selectOption("64");
-  await of.getByRole("button", { name: "Uncertainty" }).click();
-  await of.getByText("The spread is that of the inputs").waitFor({ timeout: 120_000 });
+  await page.locator("#comparison-body table").waitFor();
+  const of = study(page, title);
+  await prepare(of, page);
+  await of.getByRole("button", { name: title, exact: true }).click();
+  await of.getByText(says).first().waitFor({ timeout: 120_000 });
   await of.evaluate((element) => scrollTo(0, element.getBoundingClientRect().top + scrollY - 70));
   await page.waitForTimeout(300);
   const wider = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   assert.ok(wider <= 0, `${wider} px wider than the window`);
-  await page.screenshot({ path: join(folder, "serve-uncertainty.png") });
-  if (process.env.WHOLE) await of.screenshot({ path: join(folder, "serve-uncertainty-whole.png") });
+  await page.screenshot({ path: join(folder, `serve-${name}.png`) });
+  if (process.env.WHOLE) await of.screenshot({ path: join(folder, `serve-${name}-whole.png`) });
   await page.context().close();
-});
+}
+
+test("a picture of an analysis of uncertainty", () =>
+  pictured("uncertainty", "Uncertainty", "paper-table1-uncertainty", (of) => of.getByLabel("shots").selectOption("64"), "The spread is that of the inputs"));
+
+test("a picture of a sweep", () =>
+  pictured("sweep", "Sweep", "paper-table1", async (of) => {
+    await of.getByLabel("from", { exact: true }).fill("150 m/s");
+    await of.getByLabel("to", { exact: true }).fill("400 m/s");
+    await of.getByRole("button", { name: "Another number" }).click();
+    const second = of.locator(".range").nth(1);
+    await second.getByLabel("number", { exact: true }).selectOption("materials.aluminium-2024-t351.strength.power_law.coefficient");
+    await second.getByLabel("from", { exact: true }).fill("400 MPa");
+    await second.getByLabel("to", { exact: true }).fill("1000 MPa");
+  }, "44 shots:"));
+
+test("a picture of a calibration", () =>
+  pictured("calibrate", "Calibrate", "taylor-copper-wilkins", async (of, page) => {
+    await page.locator("#models").selectOption("wilkins_guinan");
+    await answered(page, 3);
+    await of.getByLabel("by", { exact: true }).selectOption("sample");
+    // A sample that is worth a picture takes a minute.
+    await of.getByLabel("of steps", { exact: true }).fill(process.env.SCREENSHOTS ? "150" : "8");
+  }, "Measured and fitted values", 1150));
 
 test("the browser had nothing to complain about", () => {
   assert.deepEqual(complaints, []);

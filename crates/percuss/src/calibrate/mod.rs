@@ -19,6 +19,7 @@
 //! # Ok::<(), percuss::Error>(())
 //! ```
 
+mod calibrated;
 mod diagnostics;
 mod fit;
 mod identifiability;
@@ -29,8 +30,11 @@ mod parameter;
 mod posterior;
 mod predictive;
 mod problem;
+#[cfg(test)]
+mod problem_tests;
 mod record;
 mod sampler;
+mod stage;
 #[cfg(test)]
 mod tests;
 
@@ -41,6 +45,7 @@ use std::{
 
 use serde::Serialize;
 
+pub use calibrated::Calibrated;
 pub use diagnostics::{bulk_effective_size, r_hat, tail_effective_size};
 pub use identifiability::{Finding, Weakness};
 pub use noise::Noise;
@@ -51,6 +56,7 @@ pub use predictive::{Prediction, Quality};
 pub use problem::Problem;
 pub use record::{Record, records};
 pub use sampler::{Sample, Sampling};
+pub use stage::Stage;
 
 use crate::Error;
 
@@ -61,17 +67,6 @@ pub struct Settings {
     pub sampling: Option<Sampling>,
     /// What decides over everything drawn at random.
     pub seed: u64,
-}
-
-/// What a calibration is doing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stage {
-    /// Looking for the best values.
-    LeastSquares,
-    /// Sampling the posterior.
-    Sampling,
-    /// Putting the sample through the model.
-    Predicting,
 }
 
 /// Hears the stage, the part of it that is done (0 to 1) and the runs so far, from several threads; [`ControlFlow::Break`] ends the

@@ -1,5 +1,7 @@
 //! How far a measured value may be from what the model gives.
 
+use std::str::FromStr;
+
 use serde::Serialize;
 
 use super::Observation;
@@ -29,6 +31,24 @@ impl Noise {
             Self::Estimated => None,
             Self::Relative(scatter) => Some(scatter),
             Self::Stated => Some(0.0),
+        }
+    }
+}
+
+impl FromStr for Noise {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text.trim() {
+            "estimated" => Ok(Self::Estimated),
+            "stated" => Ok(Self::Stated),
+            part => part
+                .strip_suffix('%')
+                .and_then(|number| number.trim().parse::<f64>().ok())
+                .map(|percent| percent / 100.0)
+                .filter(|part| (1e-6..=1.0).contains(part))
+                .map(Self::Relative)
+                .ok_or("allowed: estimated, stated, or a part such as \"2 %\", up to 100 %"),
         }
     }
 }

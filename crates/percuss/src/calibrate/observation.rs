@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::Fitted;
+use super::{Fitted, problem::refuse};
 use crate::{
     Error, Scenario,
     case::{Document, Template},
@@ -135,8 +135,8 @@ impl Observations {
     /// Keeps what comes from these sources out of the fit.
     ///
     /// # Errors
-    /// The source that nothing comes from.
-    pub fn hold_out(&mut self, sources: &[String]) -> Result<(), String> {
+    /// [`Error::Calibration`] when nothing comes from a source.
+    pub fn hold_out(&mut self, sources: &[String]) -> Result<(), Error> {
         for source in sources {
             let mut found = false;
             for observation in &mut self.used {
@@ -146,10 +146,22 @@ impl Observations {
                 }
             }
             if !found {
-                return Err(source.clone());
+                return Err(self.no_source(source));
             }
         }
         Ok(())
+    }
+
+    /// The error of a source that nothing comes from.
+    pub fn no_source(&self, key: &str) -> Error {
+        let known = self.sources().join(", ");
+        refuse(
+            format!("no measured value comes from `{key}`"),
+            match known.as_str() {
+                "" => "there is no measured value at all".to_owned(),
+                known => format!("sources: {known}"),
+            },
+        )
     }
 
     /// Sources of all values, each once.

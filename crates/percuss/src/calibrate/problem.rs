@@ -2,13 +2,16 @@
 
 use std::{
     ops::ControlFlow,
-    sync::atomic::{AtomicBool, AtomicU64, Ordering},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, AtomicU64, Ordering},
+    },
 };
 
 use rayon::prelude::*;
 
 use super::{
-    Fitted, LeftOut, Noise, Observation, Observations,
+    Fitted, LeftOut, Noise, Observation, Observations, cancelled,
     least_squares::{Bounds, Unable},
     noise::{SCATTER, deviation},
 };
@@ -30,7 +33,7 @@ pub struct Problem {
     pub left_out: Vec<LeftOut>,
     /// How far they may be off.
     pub noise: Noise,
-    pub(super) stop: AtomicBool,
+    pub(super) stop: Arc<AtomicBool>,
     pub(super) runs: AtomicU64,
 }
 
@@ -57,6 +60,21 @@ impl Problem {
         observations: Observations,
         noise: Noise,
     ) -> Result<Self, Error> {
+        Self::stoppable(model, fitted, observations, noise, Arc::default())
+    }
+
+    /// The same for a caller that may change its mind: when `stop` becomes true, what is computed for the problem ends within a
+    /// few steps of a run, here and later.
+    ///
+    /// # Errors
+    /// As [`Problem::new`], and [`Error::Cancelled`].
+    pub fn stoppable(
+        model: &'static dyn Model,
+        fitted: Vec<Fitted>,
+        observations: Observations,
+        noise: Noise,
+        stop: Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
         for (i, parameter) in fitted.iter().enumerate() {
             if fitted[..i]
                 .iter()
@@ -75,7 +93,7 @@ impl Problem {
             observations: observations.used,
             left_out: observations.left_out,
             noise,
-            stop: AtomicBool::new(false),
+            stop,
             runs: AtomicU64::new(0),
         };
         problem.leave_out()?;
@@ -118,6 +136,7 @@ impl Problem {
             let scatter = self.noise.given().unwrap_or(SCATTER.0);
             let reason = match predicted {
                 Err(Silent::Always(reason)) => Some(reason),
+                Err(Silent::Stopped) => return Err(cancelled(self)),
                 Err(Silent::Here(reason)) => {
                     let message = format!(
                         "the model `{}` fails on `{}` with every parameter in the middle of its range: {reason}",

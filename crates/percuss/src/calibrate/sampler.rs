@@ -10,8 +10,12 @@ use rand_pcg::{Pcg64, rand_core::SeedableRng};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::diagnostics::{bulk_effective_size, r_hat, tail_effective_size};
-use crate::sweep;
+use super::{
+    Noise, Problem,
+    diagnostics::{bulk_effective_size, r_hat, tail_effective_size},
+    problem::refuse,
+};
+use crate::{Error, sweep};
 
 /// How a density is sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -24,6 +28,36 @@ pub struct Sampling {
     pub steps: usize,
     /// Steps before them that are not.
     pub burn_in: usize,
+}
+
+impl Sampling {
+    /// As many ensembles and steps as are given, after a third as many steps; where nobody says otherwise four walkers for each
+    /// parameter, and 12 at least.
+    ///
+    /// # Errors
+    /// [`Error::Calibration`] when the walkers are too few for the problem.
+    pub fn of(
+        problem: &Problem,
+        ensembles: usize,
+        walkers: Option<usize>,
+        steps: usize,
+    ) -> Result<Self, Error> {
+        let dimensions = problem.fitted.len() + usize::from(problem.noise == Noise::Estimated);
+        let least = 2 * dimensions;
+        let walkers = walkers.unwrap_or((2 * least).max(12));
+        if walkers < least {
+            return Err(refuse(
+                format!("{walkers} walkers are too few for {dimensions} parameters"),
+                format!("allowed: {least} or more, an even number"),
+            ));
+        }
+        Ok(Self {
+            ensembles,
+            walkers,
+            steps,
+            burn_in: steps / 3,
+        })
+    }
 }
 
 /// States of all walkers.

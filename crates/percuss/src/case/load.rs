@@ -29,19 +29,6 @@ pub fn load_str(name: &str, text: &str) -> Result<Scenario, Error> {
     Document::new(name, text).scenario()
 }
 
-/// The materials that a case file can name: the built-in ones, its own and those of its material files.
-///
-/// # Errors
-/// Those of [`load`], but what the case describes beside its materials need not fit together.
-pub fn load_library(path: impl AsRef<Path>) -> Result<Library, Error> {
-    let document = Document::read(path)?;
-    let case: Case = document.parse()?;
-    let mut findings = Vec::new();
-    case.check_materials(&mut Check::new(&mut findings));
-    document.report(findings)?;
-    library_of(&case, &document)
-}
-
 /// Reads a file of materials.
 ///
 /// # Errors
@@ -71,6 +58,18 @@ pub(super) fn case_name(path: &Path) -> String {
 }
 
 impl Document {
+    /// The materials that a case can name: the built-in ones, its own and those of its material files.
+    ///
+    /// # Errors
+    /// Those of [`load`], but what the case describes beside its materials need not fit together.
+    pub fn library(&self) -> Result<Library, Error> {
+        let case: Case = self.parse()?;
+        let mut findings = Vec::new();
+        case.check_materials(&mut Check::new(&mut findings));
+        self.report(findings)?;
+        library_of(&case, self)
+    }
+
     /// The case that it describes, with everything that it names.
     ///
     /// # Errors

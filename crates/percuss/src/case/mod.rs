@@ -23,7 +23,7 @@ pub use chain_words::*;
 pub use document::Document;
 pub use experiment::{Experiment, SourceKeys, Uncertainty};
 pub(crate) use load::read_text;
-pub use load::{MAX_FILE_BYTES, load, load_library, load_materials, load_str};
+pub use load::{MAX_FILE_BYTES, load, load_materials, load_str};
 pub use model_options::{Case, ModelOptions};
 pub(crate) use number_or_word::NumberOrWord;
 pub use number_or_word::{ConstraintFactor, ErosionStrain};

@@ -24,11 +24,6 @@ pub(crate) struct Template {
 }
 
 impl Template {
-    /// Reads a case file, which has to be valid as it stands.
-    pub(crate) fn read(path: &Path) -> Result<Self, Error> {
-        Self::of(&Document::read(path)?)
-    }
-
     /// Reads a case, which has to be valid as it stands.
     pub(crate) fn of(document: &Document) -> Result<Self, Error> {
         document.scenario()?;
@@ -157,7 +152,7 @@ fn put(table: &mut Table, key: &str, value: Value) -> Result<(), String> {
     let mut at: Option<&mut Value> = None;
     for (depth, part) in way.iter().enumerate() {
         let here = parts[..=depth].join(".");
-        let list_is_due = parts[depth + 1].parse::<usize>().is_ok();
+        let inner = parts[depth + 1];
         let next = match at {
             None => table
                 .entry(*part)
@@ -176,7 +171,11 @@ fn put(table: &mut Table, key: &str, value: Value) -> Result<(), String> {
             }
             Some(_) => return Err(format!("the case has no table above `{here}`")),
         };
-        if list_is_due && !next.is_array() {
+        // Digits are an index, unless a table has them for a key: ids of materials may be nothing but digits.
+        let is_key = next
+            .as_table()
+            .is_some_and(|table| table.contains_key(inner));
+        if inner.parse::<usize>().is_ok() && !next.is_array() && !is_key {
             return Err(format!("the case has no list `{here}`"));
         }
         at = Some(next);

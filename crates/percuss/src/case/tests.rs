@@ -50,3 +50,60 @@ fn an_error_knows_whether_it_is_of_a_material() {
     assert_eq!(error.subject, Subject::Material);
     assert!(error.file.ends_with("mine.toml"), "{}", error.file);
 }
+
+#[test]
+fn digits_are_an_index_in_a_list_and_a_key_in_a_table() {
+    const LAYERS: &str = "[target]\nlayers = [{ material = '7075', thickness = '10 mm' }, { material = 'copper', thickness = '5 mm' }]\n";
+    let with = |text: &str| {
+        let text = format!(
+            "[projectile]\nmaterial = '4340'\nlength = '20 mm'\ndiameter = '5 mm'\nvelocity = '300 m/s'\n{LAYERS}{text}"
+        );
+        Template::of(&Document::new("digits", text))
+    };
+    let material = |id: &str, density: &str| {
+        format!(
+            "[materials.{id}]\nname = '{id}'\ndensity = '{density}'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\n\
+             strength.perfectly_plastic = {{ flow_stress = '1 GPa' }}\n"
+        )
+    };
+    let own = format!(
+        "{}{}",
+        material("4340", "7.85 g/cm3"),
+        material("7075", "2.8 g/cm3")
+    );
+    let template = with(&own).unwrap();
+    let change = |key: &str, value: &str| template.scenario(&[(key, value.into())]);
+    let denser = change("materials.4340.density", "8 g/cm3").unwrap();
+    assert_eq!(denser.projectile.material.density.si(), 8000.0);
+    let constant = "materials.7075.strength.perfectly_plastic.flow_stress";
+    let harder = change(constant, "2 GPa").unwrap();
+    let before = template.scenario(&[]).unwrap();
+    assert_ne!(
+        format!("{:?}", harder.target),
+        format!("{:?}", before.target)
+    );
+    let thicker = change("target.layers.1.thickness", "6 mm").unwrap();
+    assert!((thicker.target_thickness().unwrap() - 16e-3).abs() < 1e-12);
+    let said = |key: &str| {
+        let findings = change(key, "1 mm").unwrap_err();
+        findings[0].message.clone()
+    };
+    for (key, message) in [
+        (
+            "target.layers.2.thickness",
+            "the case has no `target.layers.2`: the list has 2 entries, counted from 0",
+        ),
+        ("projectile.0.length", "the case has no list `projectile`"),
+        (
+            "target.plates.0.thickness",
+            "the case has no list `target.plates`",
+        ),
+        (
+            "projectile.length.0",
+            "the case has no list `projectile.length`",
+        ),
+        ("materials.4130.density", "no material is named `4130`"),
+    ] {
+        assert_eq!(said(key), message, "{key}");
+    }
+}

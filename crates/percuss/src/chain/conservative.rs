@@ -1,7 +1,7 @@
 //! Scheme `conservative`: the run from impact to its end.
 
 use super::{
-    between::Moment,
+    between::{Failure, Moment},
     mesh,
     results::Results,
     solver::StepControl,
@@ -14,6 +14,7 @@ use crate::{
     case::{ErosionClosure, ErosionStrain},
     error::NumericalError,
     history::Recorder,
+    ledger::{EnergyLedger, MomentumLedger},
     model::{Control, Progress},
     outcome::{RunResult, Termination},
     scenario::TargetBody,
@@ -41,25 +42,6 @@ pub struct Conservative<'a> {
     pub(super) watch: Watch,
     pub(super) end_time: f64,
     pub(super) max_steps: u64,
-}
-
-/// Why a run gave no result.
-pub(super) enum Failure {
-    /// The books do not balance: a smaller time step may help.
-    Unbalanced(NumericalError),
-    Other(Error),
-}
-
-impl From<NumericalError> for Failure {
-    fn from(error: NumericalError) -> Self {
-        Self::Other(error.into())
-    }
-}
-
-impl From<Error> for Failure {
-    fn from(error: Error) -> Self {
-        Self::Other(error)
-    }
 }
 
 impl<'a> Conservative<'a> {
@@ -173,8 +155,7 @@ impl<'a> Conservative<'a> {
             return Ok(Some(Termination::StepLimit));
         }
         if self.state.step.is_multiple_of(AUDIT_INTERVAL) {
-            self.audit()?;
-            self.check_time_step()?;
+            self.look(self.state.energy(), self.state.momentum())?;
             control.report(self.progress())?;
         }
         if !self
@@ -191,6 +172,16 @@ impl<'a> Conservative<'a> {
             Some(_) => Termination::Quiescent,
             None => Termination::ProjectileConsumed,
         }))
+    }
+
+    /// Looks at the books between two steps, and at the time step.
+    pub(super) fn look(
+        &mut self,
+        energy: EnergyLedger,
+        momentum: MomentumLedger,
+    ) -> Result<(), Failure> {
+        self.audit_books(energy, momentum)?;
+        Ok(self.check_time_step()?)
     }
 
     /// Looks at the books a last time and sums up.
@@ -210,10 +201,15 @@ impl<'a> Conservative<'a> {
     }
 
     fn audit(&mut self) -> Result<(), Failure> {
-        let residuals = [
-            self.state.energy().residual(),
-            self.state.momentum().residual(),
-        ];
+        self.audit_books(self.state.energy(), self.state.momentum())
+    }
+
+    fn audit_books(
+        &mut self,
+        energy: EnergyLedger,
+        momentum: MomentumLedger,
+    ) -> Result<(), Failure> {
+        let residuals = [energy.residual(), momentum.residual()];
         let moment = self.moment();
         let audited = self
             .watch

@@ -255,6 +255,11 @@ impl State {
                 elastic[role] += self.elastic_energy(e, part);
             }
         }
+        self.energy_ledger(kinetic, elastic)
+    }
+
+    /// The energy book of a state with these energies of projectile and target.
+    pub(super) fn energy_ledger(&self, kinetic: [f64; 2], elastic: [f64; 2]) -> EnergyLedger {
         let books = &self.books;
         let bands = self.hold.as_ref().map(|hold| &hold.bands);
         let plate = self.hold.as_ref().and_then(|hold| hold.plate.as_ref());
@@ -287,6 +292,11 @@ impl State {
                 momentum[role] += self.nodes[i].mass * self.nodes[i].velocity;
             }
         }
+        self.momentum_ledger(momentum)
+    }
+
+    /// The momentum book of a state with these momenta of projectile and target.
+    pub(super) fn momentum_ledger(&self, momentum: [f64; 2]) -> MomentumLedger {
         let books = &self.books;
         let plate = self.hold.as_ref().and_then(|hold| hold.plate.as_ref());
         // A plate that does not move hands the impulse of the bands on; one that does keeps what its support does not take.

@@ -1,6 +1,9 @@
 //! Depths by the axisymmetric reference, stored as data: they take long.
 
-use std::{path::Path, sync::LazyLock};
+use std::{
+    path::Path,
+    sync::{LazyLock, atomic::AtomicBool},
+};
 
 use serde::{Deserialize, Serialize};
 
@@ -142,22 +145,25 @@ impl Job for OnMesh<'_> {
         row.is_of(self.shot) && row.cells_per_radius == self.cells_per_radius
     }
 
-    fn compute(&self) -> Result<Reference, Error> {
-        compute(self.shot, self.cells_per_radius, &mut Control::default())
+    fn compute(&self, control: &mut Control<'_>) -> Result<Reference, Error> {
+        compute(self.shot, self.cells_per_radius, control)
     }
 }
 
 /// Computes all shots that a file does not have yet, several at once, and appends each to the file as it is done: a run that is
 /// broken off goes on where it was.
 ///
-/// `report` hears of every shot that is done: how many, of how many, and the shot or why it failed.
+/// `report` hears of every shot that is done: how many, of how many, and the shot or why it failed. The work ends when `stop` becomes
+/// true.
 ///
 /// # Errors
-/// [`Error::Read`] when the file cannot be read or written. A shot that fails does not stop the others.
+/// [`Error::Read`] when the file cannot be read or written; [`Error::Cancelled`] when it was stopped. A shot that fails does not stop
+/// the others.
 pub fn complete(
     file: &Path,
     shots: &[Shot],
     cells_per_radius: u32,
+    stop: &AtomicBool,
     report: &Report<'_, Reference>,
 ) -> Result<Vec<Reference>, Error> {
     let jobs: Vec<OnMesh<'_>> = shots
@@ -167,11 +173,11 @@ pub fn complete(
             cells_per_radius,
         })
         .collect();
-    resume::complete(file, &jobs, report)
+    resume::complete(file, &jobs, stop, report)
 }
 
 /// Particle-steps that a processor core does in a second, from which times are estimated.
-const PARTICLE_STEPS_PER_SECOND: f64 = 5e6;
+pub(super) const PARTICLE_STEPS_PER_SECOND: f64 = 5e6;
 
 /// Estimate of the time that a shot takes one processor core on a mesh [s], from its other meshes, those that come with the library
 /// among them: particles grow with the square of the cells along a length, and steps with their number. `None` without any.

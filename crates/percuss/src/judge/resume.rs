@@ -3,6 +3,7 @@
 use std::{
     fs::OpenOptions,
     io::Write,
+    ops::ControlFlow,
     path::Path,
     sync::{
         Mutex,
@@ -12,7 +13,10 @@ use std::{
 
 use serde::{Serialize, de::DeserializeOwned};
 
-use crate::Error;
+use crate::{
+    Error,
+    model::{Control, Progress},
+};
 
 /// A row of a file, and how it is computed.
 pub(super) trait Job: Sync {
@@ -26,7 +30,7 @@ pub(super) trait Job: Sync {
     fn is_done_by(&self, row: &Self::Row) -> bool;
 
     /// Computes the row.
-    fn compute(&self) -> Result<Self::Row, Error>;
+    fn compute(&self, control: &mut Control<'_>) -> Result<Self::Row, Error>;
 }
 
 /// Hears of every job that is done: how many are, of how many, and the row or why there is none.
@@ -47,13 +51,15 @@ pub(super) fn rows<Row: DeserializeOwned>(file: &Path) -> Result<Vec<Row>, Error
     }
 }
 
-/// Computes all jobs whose row a file does not have yet and appends each as it is done. A job that fails stops no other.
+/// Computes all jobs whose row a file does not have yet and appends each as it is done, until `stop` becomes true. A job that fails
+/// stops no other.
 ///
 /// # Errors
-/// [`Error::Read`] when the file cannot be read or written.
+/// [`Error::Read`] when the file cannot be read or written; [`Error::Cancelled`] when it was stopped.
 pub(super) fn complete<J: Job>(
     file: &Path,
     jobs: &[J],
+    stop: &AtomicBool,
     report: &Report<'_, J::Row>,
 ) -> Result<Vec<J::Row>, Error> {
     let known: Vec<J::Row> = rows(file)?;
@@ -63,25 +69,29 @@ pub(super) fn complete<J: Job>(
         .collect();
     let next = AtomicUsize::new(0);
     let done = AtomicUsize::new(jobs.len() - left.len());
-    let stop = AtomicBool::new(false);
+    let broken = AtomicBool::new(false);
+    let ending = || stop.load(Ordering::Relaxed) || broken.load(Ordering::Relaxed);
     let state = Mutex::new((known, None));
     let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
     std::thread::scope(|scope| {
         for _ in 0..threads.min(left.len()) {
             scope.spawn(|| {
                 while let Some(job) = left.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    if stop.load(Ordering::Relaxed) {
+                    if ending() {
                         return;
                     }
                     // Jobs side by side use the machine better than the threads of one: each gets a pool of one thread.
                     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
                     let computed = match pool {
-                        Ok(pool) => pool.install(|| job.compute()),
-                        Err(_) => job.compute(),
+                        Ok(pool) => pool.install(|| compute(*job, &ending)),
+                        Err(_) => compute(*job, &ending),
                     };
                     let mut state = state
                         .lock()
                         .unwrap_or_else(|poisoned| poisoned.into_inner());
+                    if matches!(computed, Err(Error::Cancelled { .. })) {
+                        return;
+                    }
                     let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                     match computed {
                         Err(error) => {
@@ -90,7 +100,7 @@ pub(super) fn complete<J: Job>(
                         Ok(row) => {
                             if let Err(error) = append(file, &row) {
                                 state.1 = Some(unreadable(file, &error));
-                                stop.store(true, Ordering::Relaxed);
+                                broken.store(true, Ordering::Relaxed);
                                 return;
                             }
                             report(count, jobs.len(), Ok(&row));
@@ -106,8 +116,24 @@ pub(super) fn complete<J: Job>(
         .unwrap_or_else(|poisoned| poisoned.into_inner())
     {
         (_, Some(error)) => Err(error),
+        _ if stop.load(Ordering::Relaxed) => Err(Error::Cancelled {
+            step: 0,
+            time_us: 0.0,
+        }),
         (rows, None) => Ok(rows),
     }
+}
+
+/// The row of a job, which is broken off when `ending` says so.
+fn compute<J: Job>(job: &J, ending: &dyn Fn() -> bool) -> Result<J::Row, Error> {
+    let mut watch = |_: Progress| match ending() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
+    job.compute(&mut Control {
+        progress: Some(&mut watch),
+        ..Control::default()
+    })
 }
 
 fn append(file: &Path, row: &impl Serialize) -> Result<(), std::io::Error> {
@@ -134,8 +160,6 @@ fn unreadable(file: &Path, error: &dyn std::fmt::Display) -> Error {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::atomic::{AtomicUsize, Ordering};
-
     use super::*;
 
     struct Square<'a>(i64, &'a AtomicUsize);
@@ -151,8 +175,14 @@ mod tests {
             row.0 == self.0
         }
 
-        fn compute(&self) -> Result<Self::Row, Error> {
+        fn compute(&self, control: &mut Control<'_>) -> Result<Self::Row, Error> {
             self.1.fetch_add(1, Ordering::Relaxed);
+            control.report(Progress {
+                step: 0,
+                time: 0.0,
+                fraction: 0.0,
+                depth: 0.0,
+            })?;
             Ok((self.0, self.0 * self.0))
         }
     }
@@ -169,11 +199,28 @@ mod tests {
             assert!(total == 3 && row.is_ok());
         };
         for _ in 0..2 {
-            let mut squares = complete(&file, &jobs, &report).unwrap();
+            let mut squares = complete(&file, &jobs, &AtomicBool::new(false), &report).unwrap();
             squares.sort_unstable();
             assert_eq!(squares, [(1, 1), (2, 4), (3, 9)]);
             assert_eq!(runs.load(Ordering::Relaxed), 2);
         }
         std::fs::remove_file(&file).unwrap();
+    }
+    #[test]
+    fn what_is_stopped_keeps_what_is_done_and_nothing_else() {
+        let name = format!("percuss-stopped-{}.csv", std::process::id());
+        let file = std::env::temp_dir().join(name);
+        std::fs::write(&file, "number,square\n").unwrap();
+        let (runs, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let jobs: Vec<Square<'_>> = (1..=100).map(|number| Square(number, &runs)).collect();
+        let report = |_: usize, _: usize, row: Result<&(i64, i64), String>| {
+            assert!(row.is_ok(), "a job that is stopped has not failed");
+            stop.store(true, Ordering::Relaxed);
+        };
+        let stopped = complete(&file, &jobs, &stop, &report);
+        let kept: Vec<(i64, i64)> = rows(&file).unwrap();
+        std::fs::remove_file(&file).unwrap();
+        assert!(matches!(stopped, Err(Error::Cancelled { .. })));
+        assert!(!kept.is_empty() && kept.len() < 100, "{}", kept.len());
     }
 }

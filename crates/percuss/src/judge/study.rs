@@ -1,11 +1,12 @@
 //! The paper's own case by the reference: on several meshes and in targets of several sizes, stored as data.
 
-use std::path::Path;
+use std::{path::Path, sync::atomic::AtomicBool};
 
 use serde::{Deserialize, Serialize};
 
 use super::{
     estimate::{Estimate, extrapolate},
+    reference::PARTICLE_STEPS_PER_SECOND,
     resume::{self, Job, Report},
 };
 use crate::{
@@ -114,13 +115,13 @@ impl Job for Variant {
             && row.target_radius_mm == self.target_radius_mm
     }
 
-    fn compute(&self) -> Result<Study, Error> {
+    fn compute(&self, control: &mut Control<'_>) -> Result<Study, Error> {
         let options = format!(
             "[axi]\ncells_per_radius = {}\ntarget_radius = \"{} mm\"\n",
             self.cells_per_radius, self.target_radius_mm
         );
         let scenario = scenario(self.speed, &options)?;
-        let result = Axi.run(&scenario, &mut Control::default())?;
+        let result = Axi.run(&scenario, control)?;
         let numerics = result.numerics();
         let mm = |length: Option<f64>| length.unwrap_or(f64::NAN) * 1e3;
         Ok(Study {
@@ -137,19 +138,44 @@ impl Job for Variant {
     }
 }
 
-/// Computes what of the study a file does not have yet, and appends it; `report` hears of it as in
+/// Computes what of the study a file does not have yet, and appends it; `stop` and `report` are those of
 /// [`super::reference::complete`].
 ///
 /// # Errors
-/// [`Error::Read`] when the file cannot be read or written.
-pub fn complete(file: &Path, report: &Report<'_, Study>) -> Result<Vec<Study>, Error> {
-    let mut jobs = Vec::new();
-    for &speed in SPEEDS {
-        jobs.extend(VARIANTS.iter().map(|&(cells_per_radius, radius)| Variant {
-            speed,
-            cells_per_radius,
-            target_radius_mm: radius,
-        }));
+/// [`Error::Read`] when the file cannot be read or written; [`Error::Cancelled`] when it was stopped.
+pub fn complete(
+    file: &Path,
+    stop: &AtomicBool,
+    report: &Report<'_, Study>,
+) -> Result<Vec<Study>, Error> {
+    resume::complete(file, &variants(), stop, report)
+}
+
+/// All variants of the study.
+fn variants() -> Vec<Variant> {
+    let at = |speed: f64| {
+        VARIANTS
+            .iter()
+            .map(move |&(cells_per_radius, radius)| Variant {
+                speed,
+                cells_per_radius,
+                target_radius_mm: radius,
+            })
+    };
+    SPEEDS.iter().flat_map(|&speed| at(speed)).collect()
+}
+
+impl Study {
+    /// Time that it takes a processor core [s], by the work that it is.
+    pub fn seconds(&self) -> f64 {
+        self.particles as f64 * self.steps as f64 / PARTICLE_STEPS_PER_SECOND
     }
-    resume::complete(file, &jobs, report)
+}
+
+/// Estimate of the time that one processor core takes for what rows lack of the study [s], by those that come with the library.
+pub fn seconds_left(known: &[Study]) -> f64 {
+    let done = |job: &Variant| known.iter().any(|row| job.is_done_by(row));
+    let left: Vec<Variant> = variants().into_iter().filter(|job| !done(job)).collect();
+    let same = |row: &&Study| left.iter().any(|job| job.is_done_by(row));
+    built_in().iter().filter(same).map(Study::seconds).sum()
 }

@@ -30,7 +30,7 @@ pub use library::{Library, MaterialEntry};
 pub use references::{Reference, references};
 pub use strength::*;
 pub use tensile::tensile_strength;
-pub(crate) use yield_point::{Trial, YieldPoint, is_last};
+pub(crate) use yield_point::{Trial, YieldPoint, first_return};
 
 /// One parameter set of a material, as a file holds it.
 ///

@@ -8,6 +8,7 @@ use super::{
     copula::Copula,
     correlation::Correlation,
     file::{Design, Parameter},
+    parameter::MAX_VALUES,
 };
 use crate::{case::Template, check::Check};
 
@@ -53,13 +54,21 @@ pub(super) fn resolve(
     check: &mut Check<'_>,
 ) -> (Vec<Axis>, Option<Copula>) {
     let mut axes: Vec<Axis> = Vec::new();
+    let mut listed = 0;
     for (i, parameter) in parameters.iter().enumerate() {
         let mut check = check.within(&format!("parameter.{i}"));
         if axes.iter().any(|axis| axis.key == parameter.key) {
             let message = format!("`{}` is varied twice", parameter.key);
             check.fail("key", message, "remove one of the two");
         }
-        axes.extend(parameter.resolve(&mut check, design));
+        let axis = parameter.resolve(&mut check, design);
+        listed += axis.as_ref().and_then(Axis::count).unwrap_or(0);
+        if listed > MAX_VALUES {
+            let message = format!("all lists together have more than {MAX_VALUES} values");
+            check.fail("", message, "give fewer values, or a distribution");
+            return (Vec::new(), None);
+        }
+        axes.extend(axis);
     }
     let copula = match correlation {
         Some(_) if design == Design::Grid => {

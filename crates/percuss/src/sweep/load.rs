@@ -26,7 +26,19 @@ const BLOCKS: u64 = 64;
 const SIDE_BY_SIDE: u64 = 64;
 
 pub(super) fn load(path: &Path) -> Result<Sweep, Error> {
-    let document = Document::read(path)?;
+    let directory = path.parent().unwrap_or(Path::new(""));
+    let mut sweep = read(&Document::read(path)?, |base| {
+        Document::read(directory.join(base))
+    })?;
+    sweep.base = directory.join(&sweep.base);
+    Ok(sweep)
+}
+
+/// Reads a sweep; `open` gives the case that it names.
+pub(super) fn read(
+    document: &Document,
+    open: impl FnOnce(&Path) -> Result<Document, Error>,
+) -> Result<Sweep, Error> {
     let file: SweepFile = document.parse()?;
     let mut findings = Vec::new();
     let mut check = Check::new(&mut findings);
@@ -40,9 +52,8 @@ pub(super) fn load(path: &Path) -> Result<Sweep, Error> {
     let shots = check_design(&file, &axes, &mut check);
     document.report(findings)?;
 
-    let directory = path.parent().unwrap_or(Path::new(""));
-    let base = directory.join(&file.base);
-    let template = Template::read(&base).map_err(|error| match error {
+    let base = open(&file.base).and_then(|case| Template::of(&case));
+    let template = base.map_err(|error| match error {
         // The sweep names the file, so the place in the sweep is what a user has to look at.
         Error::Read { path, reason, .. } => document
             .place(Finding::at(
@@ -60,7 +71,7 @@ pub(super) fn load(path: &Path) -> Result<Sweep, Error> {
     let canonical: toml::Table = document.parse()?;
     let mut sweep = Sweep {
         title: file.title,
-        base,
+        base: file.base,
         model: model(&file.model)?,
         points: Points::new(file.design, shots, file.seed.unwrap_or(0), axes.len()),
         seed: file.seed.unwrap_or(0),

@@ -9,6 +9,7 @@ mod batch;
 #[cfg(test)]
 mod block_tests;
 mod caught;
+mod compute;
 mod copula;
 mod correlation;
 mod distribution;
@@ -33,6 +34,8 @@ pub use amount::Amount;
 pub use axis::Axis;
 pub(crate) use axis::{Values, values};
 pub use batch::BatchKernel;
+pub use compute::Watch;
+pub(crate) use compute::in_blocks;
 pub(crate) use copula::Copula;
 pub use correlation::Correlation;
 pub(crate) use distribution::{Distribution, score};
@@ -45,7 +48,11 @@ pub(crate) use points::Points;
 pub(crate) use random::{bits, permuted, stream};
 pub(crate) use sobol::MAX_DIMENSIONS;
 
-use crate::{Error, case::Template, model::Model};
+use crate::{
+    Error,
+    case::{Document, Template},
+    model::Model,
+};
 
 /// A sweep that was read and checked.
 pub struct Sweep {
@@ -74,6 +81,14 @@ impl Sweep {
     /// [`Error::Read`] and [`Error::Input`]: every value that the file writes down has to be one that the case can have.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Error> {
         load::load(path.as_ref())
+    }
+
+    /// Reads a sweep from a text, with the case of another text in the place of the file that it names.
+    ///
+    /// # Errors
+    /// [`Error::Input`], as [`Sweep::load`].
+    pub fn of(file: &Document, case: &Document) -> Result<Self, Error> {
+        load::read(file, |_| Ok(case.clone()))
     }
 
     /// Name of the case that is varied.

@@ -9,8 +9,8 @@ use super::{
 };
 use crate::check::Check;
 
-/// Most values of one list.
-const MAX_VALUES: u64 = 1_000_000;
+/// Most values of one list, and of all lists together.
+pub(super) const MAX_VALUES: u64 = 1_000_000;
 /// Part of a distribution that its limits have to leave.
 const LEAST_LEFT: f64 = 1e-6;
 

@@ -9,7 +9,7 @@ use super::{
     perforation::Perforation,
     quantity::{QUANTITIES, Quantity},
     result::{Draw, Failures, Input, Nominal, QuantityResult, Uncertainty},
-    runner::{Runner, Watch},
+    runner::Runner,
     statistics::Statistics,
     study::{Settings, Study},
     tornado::{self, ENDS},
@@ -18,7 +18,7 @@ use crate::{
     Error,
     model::Model,
     outcome::Outcome,
-    sweep::{Axis, Kernel, Shot, Stopped, values},
+    sweep::{Axis, Kernel, Shot, Stopped, Watch, values},
 };
 
 /// Longest key that is not shortened.

@@ -24,6 +24,7 @@ pub use quantity::{QUANTITIES, Quantity, quantity};
 pub use result::{
     Band, Draw, Failures, Input, Nominal, QuantityResult, QuantitySpread, TornadoBar, Uncertainty,
 };
-pub use runner::Watch;
 pub use statistics::{Estimate, PERCENTS, Percentile, Statistics};
 pub use study::{MAX_SAMPLES, MIN_SAMPLES, Settings, Study};
+
+pub use crate::sweep::Watch;

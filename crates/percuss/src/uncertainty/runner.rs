@@ -1,11 +1,9 @@
 //! Computing many shots of a study.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-
-use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{result::Draw, study::Study};
-use crate::sweep::{Kernel, Shot, Stopped};
+use crate::sweep::{Kernel, Shot, Stopped, Watch, in_blocks};
 
 /// Blocks that there are at least, where there are as many shots: they are what threads share.
 const BLOCKS: u64 = 64;
@@ -13,14 +11,6 @@ const BLOCKS: u64 = 64;
 const LARGEST_BLOCK: u64 = 256;
 /// Key of the impact speed.
 pub(super) const SPEED: &str = "projectile.velocity";
-
-/// What a caller wants of an analysis: progress and a way to stop it.
-pub struct Watch<'a> {
-    /// Ends the analysis when it becomes true.
-    pub stop: &'a AtomicBool,
-    /// Called now and then from any thread with the shots that are done and all of them.
-    pub progress: &'a (dyn Fn(u64, u64) + Sync),
-}
 
 /// Computes shots in blocks, in parallel.
 pub(super) struct Runner<'a> {
@@ -44,20 +34,14 @@ impl Runner<'_> {
             .map(|speed| (SPEED, toml::Value::String(format!("{speed:?} m/s"))))
             .into_iter()
             .collect();
-        let blocks: Result<Vec<Vec<Draw>>, Stopped> = (0..count.div_ceil(size))
-            .into_par_iter()
-            .map(|block| {
-                let range = block * size..((block + 1) * size).min(count);
-                let shots = range.map(|i| {
-                    Shot::new(&self.study.template, &self.study.axes, i, inputs(i), &more)
-                });
-                let rows = self.kernel.rows(shots.collect(), self.watch.stop)?;
-                let of_block = rows.len() as u64;
-                let done = self.done.fetch_add(of_block, Ordering::Relaxed) + of_block;
-                (self.watch.progress)(done, self.total);
-                Ok(rows.into_iter().map(Draw::of).collect())
-            })
-            .collect();
-        Ok(blocks?.into_iter().flatten().collect())
+        in_blocks(count, size, |range| {
+            let shots = range
+                .map(|i| Shot::new(&self.study.template, &self.study.axes, i, inputs(i), &more));
+            let rows = self.kernel.rows(shots.collect(), self.watch.stop)?;
+            let of_block = rows.len() as u64;
+            let done = self.done.fetch_add(of_block, Ordering::Relaxed) + of_block;
+            (self.watch.progress)(done, self.total);
+            Ok(rows.into_iter().map(Draw::of).collect())
+        })
     }
 }

@@ -1,5 +1,4 @@
-mod calibrated;
-mod progress;
+mod folder;
 mod table;
 mod values;
 
@@ -12,17 +11,17 @@ use std::{
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Error,
-    calibrate::{self, Fitted, Noise, Observations, Problem, Sampling, Settings, Stage, Watch},
+    calibrate::{
+        Calibrated, Fitted, Noise, Observations, Problem, Sampling, Settings, Stage, Watch,
+    },
     case,
     material::Library,
     model::{MODELS, model},
     shots::Kind,
 };
 
-pub use calibrated::Calibrated;
-
 use crate::{
-    answer::{AtHand, Hear},
+    answer::{Answer, AtHand, Found, Hear},
     failure::Failure,
     progress::Progress,
     run_folder::RunFolder,
@@ -98,7 +97,7 @@ pub struct Calibrate {
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: String,
     /// Scatter about the model: `estimated`, a part such as "2 %", or `stated` for stated uncertainties alone
-    #[arg(long, value_name = "SCATTER", default_value = "estimated", value_parser = values::noise)]
+    #[arg(long, value_name = "SCATTER", default_value = "estimated", value_parser = str::parse::<Noise>)]
     noise: Noise,
     /// Least squares only, without a sample of the posterior
     #[arg(long)]
@@ -135,30 +134,27 @@ impl Calibrate {
     pub fn run(&self) -> Result<(), Failure> {
         let problem = self.problem(&AtHand::default())?;
         let settings = self.settings(&problem)?;
-        let folder = match &self.out {
-            Some(out) => Some(RunFolder::create_for(out, None)?),
-            None => None,
-        };
+        let folder = RunFolder::wanted(self.out.as_deref(), None)?;
         let found = self.watched(&problem, &settings)?;
-        let files = match folder {
-            Some(folder) => found.write(folder)?,
-            None => Vec::new(),
-        };
+        let files = written(folder, &found)?;
         self.print(&found, &files)
     }
 
     /// What the command finds out.
-    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Calibrated, Failure> {
+    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Answer, Failure> {
         let problem = self.problem(at_hand)?;
         let settings = self.settings(&problem)?;
+        let folder = RunFolder::wanted(self.out.as_deref(), None)?;
         let sampled = settings.sampling.is_some();
         let hear = Mutex::new(hear);
-        self.solve(&problem, &settings, &|stage, part, runs| {
+        let found = self.solve(&problem, &settings, &|stage, part, runs| {
             let mut hear = hear.lock().unwrap_or_else(PoisonError::into_inner);
-            hear(
-                progress::whole(stage, part, sampled),
-                &progress::words(stage, runs),
-            )
+            hear(stage.of_whole(part, sampled), &stage.in_words(runs))
+        })?;
+        let files = written(folder, &found)?;
+        Ok(Answer {
+            found: Found::Calibration(Box::new(found)),
+            files,
         })
     }
 
@@ -183,18 +179,15 @@ impl Calibrate {
             let mut keys = self.source.iter().chain(&self.hold_out);
             self.source.is_empty() || keys.any(|key| found.contains(key))
         };
-        let known = observations.sources().join(", ");
         if let Some(key) = self
             .source
             .iter()
             .find(|key| !observations.sources().contains(&key.as_str()))
         {
-            return Err(no_source(key, &known));
+            return Err(observations.no_source(key).into());
         }
         observations.used.retain(|value| wanted(&value.sources));
-        observations
-            .hold_out(&self.hold_out)
-            .map_err(|key| no_source(&key, &known))?;
+        observations.hold_out(&self.hold_out)?;
         Ok(Problem::new(
             model(&self.model)?,
             fitted,
@@ -204,24 +197,18 @@ impl Calibrate {
     }
 
     fn settings(&self, problem: &Problem) -> Result<Settings, Failure> {
-        let dimensions = problem.fitted.len() + usize::from(self.noise == Noise::Estimated);
-        let least = 2 * dimensions;
-        let walkers = self.walkers.unwrap_or((4 * dimensions).max(12));
-        if walkers < least && !self.least_squares {
-            return Err(Failure::Usage {
-                message: format!("{walkers} walkers are too few for {dimensions} parameters"),
-                help: format!("allowed: {least} or more, an even number"),
-            });
-        }
         let steps = self.steps as usize;
-        let sampling = Sampling {
-            ensembles: usize::from(self.ensembles),
-            walkers,
-            steps,
-            burn_in: steps / 3,
+        let sampling = match self.least_squares {
+            true => None,
+            false => Some(Sampling::of(
+                problem,
+                usize::from(self.ensembles),
+                self.walkers,
+                steps,
+            )?),
         };
         Ok(Settings {
-            sampling: (!self.least_squares).then_some(sampling),
+            sampling,
             seed: self.seed,
         })
     }
@@ -232,18 +219,8 @@ impl Calibrate {
         settings: &Settings,
         watch: Watch<'_>,
     ) -> Result<Calibrated, Failure> {
-        let calibration = calibrate::run(problem, settings, watch)?;
-        let records =
-            calibrate::records(problem, &calibration, self.name.as_deref()).map_err(|reason| {
-                Failure::Usage {
-                    message: format!("the best values make no material: {reason}"),
-                    help: "narrow the ranges".to_owned(),
-                }
-            })?;
-        Ok(Calibrated {
-            calibration,
-            records,
-        })
+        let name = self.name.as_deref();
+        Ok(Calibrated::of(problem, settings, name, watch)?)
     }
 
     /// Solves it with a bar for each stage.
@@ -258,7 +235,7 @@ impl Calibrate {
                         std::mem::replace(&mut *board, (stage, Progress::new(!self.quiet)));
                     before.1.finish();
                 }
-                board.1.update(part, &progress::words(stage, runs));
+                board.1.update(part, &stage.in_words(runs));
             }
             match stop.load(Ordering::Relaxed) {
                 true => ControlFlow::Break(()),
@@ -299,12 +276,7 @@ impl Calibrate {
     }
 }
 
-fn no_source(key: &str, known: &str) -> Failure {
-    Failure::Usage {
-        message: format!("no measured value comes from `{key}`"),
-        help: match known {
-            "" => "there is no measured value at all".to_owned(),
-            known => format!("sources: {known}"),
-        },
-    }
+/// The files of a calibration, where a folder is wanted.
+fn written(folder: Option<RunFolder>, found: &Calibrated) -> Result<Vec<PathBuf>, Failure> {
+    folder.map_or_else(|| Ok(Vec::new()), |folder| folder::write(found, folder))
 }

@@ -1,22 +1,5 @@
 //! Values of options.
 
-use percuss::calibrate::Noise;
-
-pub(super) fn noise(text: &str) -> Result<Noise, String> {
-    const ALLOWED: &str = "allowed: estimated, stated, or a part such as \"2 %\", up to 100 %";
-    match text.trim() {
-        "estimated" => Ok(Noise::Estimated),
-        "stated" => Ok(Noise::Stated),
-        part => part
-            .strip_suffix('%')
-            .and_then(|number| number.trim().parse::<f64>().ok())
-            .map(|percent| percent / 100.0)
-            .filter(|part| (1e-6..=1.0).contains(part))
-            .map(Noise::Relative)
-            .ok_or_else(|| ALLOWED.to_owned()),
-    }
-}
-
 pub(super) fn walkers(text: &str) -> Result<usize, String> {
     let number = text.parse::<usize>().ok();
     number

@@ -12,13 +12,13 @@ use std::path::PathBuf;
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
-    Scenario, case,
+    Scenario,
     compare::{self, Comparison, Watch},
     model::{self, MODELS, Model},
 };
 
 use crate::{
-    answer::{AtHand, Hear},
+    answer::{Answer, AtHand, Hear},
     failure::Failure,
     progress::Progress,
     run_folder::RunFolder,
@@ -82,35 +82,47 @@ pub struct Compare {
     quiet: bool,
 }
 
+/// What the command found out and wrote.
+struct Found {
+    scenario: Scenario,
+    comparison: Comparison,
+    files: Vec<PathBuf>,
+}
+
 impl Compare {
     pub fn run(&self) -> Result<(), Failure> {
-        let scenario = case::load(&self.case)?;
-        let speeds = self.speeds(&scenario)?;
-        // Before runs that may take long: a folder that cannot be written should be known at once.
-        let folder = match &self.out {
-            Some(out) => Some(RunFolder::create(out, &self.case)?),
-            None => None,
-        };
         let mut progress = Progress::new(!self.quiet);
-        let comparison = self.compute(&scenario, &speeds, &mut progress.hear());
+        let found = self.find(&AtHand::default(), &mut progress.hear());
         progress.finish();
-        let comparison = comparison?;
-        let files = match folder {
-            Some(folder) => folder.write_comparison(&scenario, &comparison)?,
-            None => Vec::new(),
-        };
-        self.print(&scenario, &comparison, &files)?;
-        match comparison.has_results() {
+        let found = found?;
+        self.print(&found)?;
+        match found.comparison.has_results() {
             true => Ok(()),
-            false => Err(Failure::NoResult(absent::reasons(&comparison))),
+            false => Err(Failure::NoResult(absent::reasons(&found.comparison))),
         }
     }
 
     /// What the command prints with --json; a case without any result is no failure here.
-    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<String, Failure> {
-        let scenario = &at_hand.read(&self.case)?.scenario()?;
-        let speeds = self.speeds(scenario)?;
-        terminal::json(&self.compute(scenario, &speeds, hear)?)
+    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Answer, Failure> {
+        let found = self.find(at_hand, hear)?;
+        Answer::json_of(&found.comparison, found.files)
+    }
+
+    fn find(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Found, Failure> {
+        let document = at_hand.read(&self.case)?;
+        let scenario = document.scenario()?;
+        let speeds = self.speeds(&scenario)?;
+        let folder = RunFolder::wanted(self.out.as_deref(), Some(&document))?;
+        let comparison = self.compute(&scenario, &speeds, hear)?;
+        let files = match folder {
+            Some(folder) => folder.write_comparison(&scenario, &comparison)?,
+            None => Vec::new(),
+        };
+        Ok(Found {
+            scenario,
+            comparison,
+            files,
+        })
     }
 
     fn compute(
@@ -159,12 +171,12 @@ impl Compare {
         format!("{}\n", terminal::wrap(&line, terminal::width(), 0))
     }
 
-    fn print(
-        &self,
-        scenario: &Scenario,
-        comparison: &Comparison,
-        files: &[PathBuf],
-    ) -> Result<(), Failure> {
+    fn print(&self, found: &Found) -> Result<(), Failure> {
+        let Found {
+            scenario,
+            comparison,
+            files,
+        } = found;
         let written = Written::new(files);
         if self.json {
             return written.print_json(comparison, self.quiet);

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
-    Scenario, case,
+    Scenario,
+    case::Document,
     limit::{self, LimitOutcome, Limits, Range, Search, Tolerance, Watch},
     model::{self, MODELS, Model},
     v50::{self, Shot, V50},
@@ -13,7 +14,7 @@ use percuss::{
 use serde::Serialize;
 
 use crate::{
-    answer::{AtHand, Hear},
+    answer::{Answer, AtHand, Hear},
     failure::Failure,
     progress::Progress,
     run_folder::RunFolder,
@@ -101,12 +102,14 @@ struct Record<'a> {
     #[serde(flatten)]
     limits: Option<&'a Limits>,
     v50: Option<&'a V50>,
+    shots: Option<&'a [Shot]>,
 }
 
 /// What the command found out.
 struct Found {
     case: Option<(Scenario, Limits)>,
     shots: Option<(Vec<Shot>, V50)>,
+    files: Vec<PathBuf>,
 }
 
 impl Found {
@@ -114,28 +117,18 @@ impl Found {
         Record {
             limits: self.case.as_ref().map(|(_, limits)| limits),
             v50: self.shots.as_ref().map(|(_, v50)| v50),
+            shots: self.shots.as_ref().map(|(shots, _)| &**shots),
         }
     }
 }
 
 impl Limit {
     pub fn run(&self) -> Result<(), Failure> {
-        let scenario = self.case.as_ref().map(case::load).transpose()?;
-        let shots = self.shots.as_ref().map(v50::read).transpose()?;
-        // Before runs that may take long: a folder that cannot be written should be known at once.
-        let folder = match &self.out {
-            Some(out) => Some(RunFolder::create_for(out, self.case.as_deref())?),
-            None => None,
-        };
         let mut progress = Progress::new(!self.quiet);
-        let found = self.find(scenario, shots, &mut progress.hear());
+        let found = self.find(&AtHand::default(), &mut progress.hear());
         progress.finish();
         let found = found?;
-        let files = match folder {
-            Some(folder) => self.write(folder, &found)?,
-            None => Vec::new(),
-        };
-        self.print(&found, &files)?;
+        self.print(&found)?;
         match &found.case {
             Some((_, limits)) if found.shots.is_none() && no_model_applies(limits) => {
                 Err(Failure::NoResult(table::reasons(limits)))
@@ -145,21 +138,17 @@ impl Limit {
     }
 
     /// What the command prints with --json; a case to which no model applies is no failure here.
-    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<String, Failure> {
-        let scenario = match &self.case {
-            Some(path) => Some(at_hand.read(path)?.scenario()?),
-            None => None,
-        };
-        let shots = self.shots.as_ref().map(v50::read).transpose()?;
-        terminal::json(&self.find(scenario, shots, hear)?.record())
+    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Answer, Failure> {
+        let found = self.find(at_hand, hear)?;
+        Answer::json_of(&found.record(), found.files.clone())
     }
 
-    fn find(
-        &self,
-        scenario: Option<Scenario>,
-        shots: Option<Vec<Shot>>,
-        hear: Hear<'_>,
-    ) -> Result<Found, Failure> {
+    fn find(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Found, Failure> {
+        let document = self.case.as_ref().map(|path| at_hand.read(path));
+        let document = document.transpose()?;
+        let scenario = document.as_ref().map(Document::scenario).transpose()?;
+        let shots = self.shots.as_ref().map(v50::read).transpose()?;
+        let folder = RunFolder::wanted(self.out.as_deref(), document.as_ref())?;
         let shots = shots.map(|shots| {
             let v50 = v50::estimate(&shots, self.span.unwrap_or(v50::SPAN));
             (shots, v50)
@@ -171,7 +160,15 @@ impl Limit {
             }
             None => None,
         };
-        Ok(Found { case, shots })
+        let mut found = Found {
+            case,
+            shots,
+            files: Vec::new(),
+        };
+        if let Some(folder) = folder {
+            found.files = self.write(folder, &found)?;
+        }
+        Ok(found)
     }
 
     fn search(&self, scenario: &Scenario, hear: Hear<'_>) -> Result<Limits, Failure> {
@@ -213,8 +210,8 @@ impl Limit {
         Ok(folder.written())
     }
 
-    fn print(&self, found: &Found, files: &[PathBuf]) -> Result<(), Failure> {
-        let written = Written::new(files);
+    fn print(&self, found: &Found) -> Result<(), Failure> {
+        let written = Written::new(&found.files);
         if self.json {
             return written.print_json(&found.record(), self.quiet);
         }

@@ -10,7 +10,10 @@ use percuss::{
 };
 use serde::Serialize;
 
-use crate::{failure::Failure, terminal};
+use crate::{
+    answer::{Answer, AtHand},
+    failure::Failure,
+};
 
 const LONG_ABOUT: &str = "\
 List the materials that a case can name, by their id or by their family. Rival
@@ -54,7 +57,7 @@ enum Action {
 
 impl Materials {
     pub fn run(&self) -> Result<(), Failure> {
-        let library = self.library()?;
+        let library = self.library(&AtHand::default())?;
         match &self.action {
             None => list::list(&library, self.json),
             Some(Action::Show(show)) => show.run(&library, self.json),
@@ -62,17 +65,17 @@ impl Materials {
     }
 
     /// What the command prints with --json.
-    pub fn answer(&self) -> Result<String, Failure> {
-        let library = self.library()?;
+    pub fn answer(&self, at_hand: &AtHand) -> Result<Answer, Failure> {
+        let library = self.library(at_hand)?;
         match &self.action {
-            None => terminal::json(&list::records(&library)),
+            None => Answer::json_of(&list::records(&library), Vec::new()),
             Some(Action::Show(show)) => show.answer(&library),
         }
     }
 
-    fn library(&self) -> Result<Library, Failure> {
+    fn library(&self, at_hand: &AtHand) -> Result<Library, Failure> {
         if let Some(case) = &self.case {
-            return Ok(case::load_library(case)?);
+            return Ok(at_hand.read(case)?.library()?);
         }
         let mut library = Library::built_in().clone();
         if let Some(file) = &self.file {

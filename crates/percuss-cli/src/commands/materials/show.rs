@@ -3,7 +3,7 @@ use percuss::material::{Library, MaterialEntry, Reference, references};
 use serde::Serialize;
 
 use super::MaterialRecord;
-use crate::{failure::Failure, material_card, terminal};
+use crate::{answer::Answer, failure::Failure, material_card, terminal};
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -52,8 +52,8 @@ impl Show {
     }
 
     /// What the command prints with --json.
-    pub fn answer(&self, library: &Library) -> Result<String, Failure> {
-        terminal::json(&card(self.find(library)?, library))
+    pub fn answer(&self, library: &Library) -> Result<Answer, Failure> {
+        Answer::json_of(&card(self.find(library)?, library), Vec::new())
     }
 
     fn find<'a>(&self, library: &'a Library) -> Result<&'a MaterialEntry, Failure> {

@@ -12,7 +12,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use self::options::ModelOption;
-use crate::{failure::Failure, terminal};
+use crate::{answer::Answer, failure::Failure, terminal};
 
 const LONG_ABOUT: &str = "\
 List the models: what each of them is, and which projectiles and targets it is
@@ -70,17 +70,18 @@ impl ModelRecord {
 impl Models {
     pub fn run(&self) -> Result<(), Failure> {
         match (&self.name, self.json) {
-            (_, true) => terminal::print(&self.answer()?),
+            (Some(name), true) => terminal::print_json(&one(name)?),
+            (None, true) => terminal::print_json(&all()),
             (Some(name), false) => terminal::print(&card::text(&one(name)?)),
             (None, false) => terminal::print(&table::text(&all())),
         }
     }
 
     /// What the command prints with --json.
-    pub fn answer(&self) -> Result<String, Failure> {
+    pub fn answer(&self) -> Result<Answer, Failure> {
         match &self.name {
-            Some(name) => terminal::json(&one(name)?),
-            None => terminal::json(&all()),
+            Some(name) => Answer::json_of(&one(name)?, Vec::new()),
+            None => Answer::json_of(&all(), Vec::new()),
         }
     }
 }

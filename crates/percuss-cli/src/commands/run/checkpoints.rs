@@ -5,11 +5,7 @@ use std::{
     io::{self, Write},
     ops::ControlFlow,
     path::{Path, PathBuf},
-    process,
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::atomic::{AtomicBool, Ordering},
     time::{Duration, Instant},
 };
 
@@ -45,45 +41,37 @@ pub fn remove(folder: &Path) {
     let _ = fs::remove_file(file(folder));
 }
 
-/// Writes checkpoints to a folder.
-pub struct Keeper {
+/// Writes checkpoints to a folder, now and then and when the run is to stop.
+pub struct Keeper<'a> {
     path: PathBuf,
     interval: Duration,
     last: Instant,
-    interrupted: Arc<AtomicBool>,
+    stop: &'a AtomicBool,
     /// Why the last checkpoint could not be written.
     pub failure: Option<Failure>,
 }
 
-impl Keeper {
-    /// From now on the first Ctrl-C, or request of the system to end, leaves a checkpoint; the second one ends the program at once.
-    pub fn new(folder: &Path, interval: Duration) -> Self {
-        let interrupted = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&interrupted);
-        // Without a handler Ctrl-C just ends the program, as it does everywhere else.
-        let _ = ctrlc::set_handler(move || {
-            if flag.swap(true, Ordering::Relaxed) {
-                process::exit(130);
-            }
-        });
+impl<'a> Keeper<'a> {
+    /// The run stops, and leaves a checkpoint, when `stop` becomes true.
+    pub fn new(folder: &Path, interval: Duration, stop: &'a AtomicBool) -> Self {
         Self {
             path: file(folder),
             interval,
             last: Instant::now(),
-            interrupted,
+            stop,
             failure: None,
         }
     }
 
-    /// Whether the user has stopped the run.
-    pub fn interrupted(&self) -> bool {
-        self.interrupted.load(Ordering::Relaxed)
+    /// Whether the run is to stop.
+    pub fn stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
     }
 }
 
-impl Checkpoints for Keeper {
+impl Checkpoints for Keeper<'_> {
     fn is_due(&mut self) -> bool {
-        self.interrupted() || self.last.elapsed() >= self.interval
+        self.stopped() || self.last.elapsed() >= self.interval
     }
 
     fn keep(&mut self, bytes: &[u8]) -> ControlFlow<()> {
@@ -92,7 +80,7 @@ impl Checkpoints for Keeper {
             self.failure = Some(Failure::write(&self.path)(error));
             return ControlFlow::Break(());
         }
-        if self.interrupted() {
+        if self.stopped() {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
@@ -147,19 +135,14 @@ mod tests {
     #[test]
     fn a_checkpoint_replaces_the_one_before() {
         let folder = tempfile::tempdir().unwrap();
-        let mut keeper = Keeper {
-            path: file(folder.path()),
-            interval: Duration::ZERO,
-            last: Instant::now(),
-            interrupted: Arc::new(AtomicBool::new(false)),
-            failure: None,
-        };
+        let stop = AtomicBool::new(false);
+        let mut keeper = Keeper::new(folder.path(), Duration::ZERO, &stop);
         assert!(load(folder.path()).unwrap().is_none());
         assert!(keeper.is_due());
         assert!(keeper.keep(b"one").is_continue());
         assert!(keeper.keep(b"two").is_continue());
         assert_eq!(load(folder.path()).unwrap().unwrap(), b"two");
-        keeper.interrupted.store(true, Ordering::Relaxed);
+        stop.store(true, Ordering::Relaxed);
         assert!(keeper.keep(b"three").is_break());
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
         remove(folder.path());

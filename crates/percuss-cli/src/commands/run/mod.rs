@@ -1,28 +1,25 @@
 mod checkpoints;
 mod others;
+mod task;
 
-use std::{ops::ControlFlow, path::PathBuf, time::Duration};
+use std::{path::PathBuf, sync::Arc, sync::atomic::AtomicBool, time::Duration};
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
-    Scenario, case,
-    checkpoint::Header,
-    frames::Frame,
-    model::{self, Control, MODELS},
+    model::MODELS,
     outcome::{RunResult, Termination},
-    summary::{CaseResults, ResultRecord},
+    summary::ResultRecord,
 };
+use percuss_report::FieldQuantity;
 
-use percuss_report::{FieldQuantity, FieldSeries};
-
-use self::checkpoints::Keeper;
+pub use self::task::Ran;
+use self::task::Task;
 use crate::{
+    answer::{Answer, AtHand, Found, Hear},
     diagnostic,
     failure::Failure,
     progress::Progress,
-    result_table,
-    run_folder::{self, RunFolder},
-    terminal,
+    result_table, run_folder, terminal, workers,
     written::Written,
 };
 
@@ -98,61 +95,67 @@ pub struct Run {
 
 /// Model of a run that names none.
 const DEFAULT_MODEL: &str = "chain";
-/// Time between two checkpoints, unless another one is asked for.
-const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(60);
-
-/// What a run in two dimensions leaves in its folder besides its result.
-struct Fields {
-    series: FieldSeries,
-    keeper: Keeper,
-    /// Checkpoint to go on from.
-    resume: Option<Vec<u8>>,
-}
+/// Part of the work that is done when the run has come to its end; the rest is writing.
+const COMPUTED: f64 = 0.9;
 
 impl Run {
     pub fn run(&self) -> Result<(), Failure> {
-        let scenario = case::load(&self.case)?;
-        let model = model::model(self.model.as_deref().unwrap_or(DEFAULT_MODEL))?;
-        self.check_use(model)?;
-        let start = self.start(model, &scenario)?;
-        // Before a run that may take long: a folder that cannot be written should be known at once.
-        let folder = match (&self.out, model::applicability(model, &scenario)) {
-            (Some(out), Ok(_)) => Some(RunFolder::create(out, &self.case)?),
-            _ => None,
-        };
-        let mut fields = match (&self.out, &folder) {
-            (Some(out), Some(_)) if model.has_fields() => Some(Fields {
-                series: match &start {
-                    Some((header, _)) => FieldSeries::resume(out, header.time)?,
-                    None => FieldSeries::create(out)?,
-                },
-                keeper: Keeper::new(out, self.checkpoint.unwrap_or(CHECKPOINT_INTERVAL)),
-                resume: start.map(|(_, bytes)| bytes),
-            }),
-            _ => None,
-        };
-        let result = self.compute(model, &scenario, fields.as_mut())?;
-        let results = CaseResults::new(&scenario, std::slice::from_ref(&result));
-        let files = match folder {
-            Some(folder) => {
-                let mut progress = Progress::new(!self.quiet);
-                let written = folder.write(&scenario, &result, &results, &mut progress);
-                let written = written.and_then(|mut files| {
-                    if let (Some(out), Some(fields)) = (&self.out, &fields) {
-                        files.push(fields.series.collection());
-                        files.extend(self.draw(out, &scenario, fields, &mut progress)?);
-                        checkpoints::remove(out);
-                    }
-                    Ok(files)
-                });
-                progress.finish();
-                written?
+        let say = |words: &str| {
+            if !self.quiet {
+                diagnostic::print(&format!("note: {words}\n"));
             }
-            None => Vec::new(),
         };
-        let mut written = Written::new(&files);
-        if !run_folder::has_history(&result) {
-            let why = without_history(&result);
+        // A run that leaves no checkpoint just ends with the program.
+        let stop = match self.leaves_checkpoints() {
+            true => workers::stop_on_request(),
+            false => Arc::default(),
+        };
+        let mut task = Task::new(self, &AtHand::default(), &stop, &say)?;
+        let mut progress = Progress::new(!self.quiet);
+        let ran = task.compute(&mut progress.hear());
+        progress.finish();
+        let ran = ran?;
+        let mut progress = Progress::new(!self.quiet);
+        let files = task.write(&ran, &mut |part, words| progress.update(part, words));
+        progress.finish();
+        self.print(&ran, &files?)
+    }
+
+    /// What the command finds out, with histories where it writes them.
+    pub fn answer(
+        &self,
+        at_hand: &AtHand,
+        stop: &AtomicBool,
+        hear: Hear<'_>,
+    ) -> Result<Answer, Failure> {
+        let mut task = Task::new(self, at_hand, stop, &|_| ())?;
+        let ran = task.compute(&mut |part, words| hear(COMPUTED * part, words))?;
+        let files = task.write(&ran, &mut |part, words| {
+            // What is left takes seconds.
+            let _ = hear(COMPUTED + (1.0 - COMPUTED) * part, words);
+        })?;
+        Ok(Answer {
+            found: Found::Run(Box::new(ran)),
+            files,
+        })
+    }
+
+    /// Name of the model.
+    fn model(&self) -> &str {
+        self.model.as_deref().unwrap_or(DEFAULT_MODEL)
+    }
+
+    /// Whether the model, if there is such a one, leaves checkpoints in the folder.
+    fn leaves_checkpoints(&self) -> bool {
+        let chosen = MODELS.iter().find(|model| model.name() == self.model());
+        self.out.is_some() && chosen.is_some_and(|model| model.has_fields())
+    }
+
+    fn print(&self, ran: &Ran, files: &[PathBuf]) -> Result<(), Failure> {
+        let results = ran.results();
+        let mut written = Written::new(files);
+        if !run_folder::has_history(&ran.result) {
+            let why = without_history(&ran.result);
             written = written.with_note(&format!("no time history: this model {why}"));
         }
         if self.json {
@@ -166,136 +169,14 @@ impl Run {
             Some(_) => None,
             None => {
                 let mut progress = Progress::new(true);
-                let others = others::rows(&scenario, model.name(), &mut progress);
+                let others = others::rows(&ran.scenario, self.model(), &mut progress);
                 progress.finish();
                 Some(others?)
             }
         };
         let record = &results.results[0];
-        written.print_under(result_table::text(&scenario, &result, record, others))
-    }
-
-    /// Refuses options that would have no effect.
-    fn check_use(&self, model: &dyn model::Model) -> Result<(), Failure> {
-        let given = [
-            ("--field", self.field.is_some()),
-            ("--checkpoint", self.checkpoint.is_some()),
-            ("--resume", self.resume),
-        ];
-        match given.iter().find(|(_, given)| *given) {
-            Some((option, _)) if !model.has_fields() => Err(Failure::Usage {
-                message: format!(
-                    "`{option}` has no effect with model `{}`, which has no fields",
-                    model.name()
-                ),
-                help: format!("remove `{option}` or give `--model axi`"),
-            }),
-            _ => Ok(()),
-        }
-    }
-
-    /// The checkpoint to go on from, if there is one and it is wanted.
-    fn start(
-        &self,
-        model: &dyn model::Model,
-        scenario: &Scenario,
-    ) -> Result<Option<(Header, Vec<u8>)>, Failure> {
-        let Some(out) = self.out.as_ref().filter(|_| model.has_fields()) else {
-            return Ok(None);
-        };
-        let loaded = checkpoints::load(out)?;
-        let say = |words: String| {
-            if !self.quiet {
-                diagnostic::print(&format!("note: {words}\n"));
-            }
-        };
-        let Some(bytes) = loaded else {
-            if self.resume {
-                say(format!(
-                    "`{}` holds no checkpoint; the run starts at the beginning",
-                    out.display()
-                ));
-            }
-            return Ok(None);
-        };
-        let header = Header::read(&bytes, model.name(), scenario);
-        if !self.resume {
-            if let Ok(header) = header {
-                say(format!(
-                    "`{}` holds a checkpoint of this case at {:.1} us; the run starts anew, `--resume` would go on",
-                    out.display(),
-                    header.time * 1e6
-                ));
-            }
-            return Ok(None);
-        }
-        let header = header?;
-        say(format!("going on from {:.1} us", header.time * 1e6));
-        Ok(Some((header, bytes)))
-    }
-
-    fn draw(
-        &self,
-        out: &std::path::Path,
-        scenario: &Scenario,
-        fields: &Fields,
-        progress: &mut Progress,
-    ) -> Result<Vec<PathBuf>, Failure> {
-        let field = self.field.as_deref().and_then(FieldQuantity::named);
-        let mut report = |part: f64| progress.update(part, "drawing the field");
-        Ok(percuss_report::draw_fields(
-            out,
-            scenario,
-            &fields.series,
-            field.unwrap_or_default(),
-            &mut report,
-        )?)
-    }
-
-    fn compute(
-        &self,
-        model: &dyn model::Model,
-        scenario: &Scenario,
-        fields: Option<&mut Fields>,
-    ) -> Result<RunResult, Failure> {
-        let mut progress = Progress::new(!self.quiet);
-        let mut report = |now: model::Progress| {
-            let words = format!("{:.1} us, depth {:.3} mm", now.time * 1e6, now.depth * 1e3);
-            progress.update(now.fraction, &words);
-            ControlFlow::Continue(())
-        };
-        let mut control = Control {
-            record: self.out.is_some(),
-            progress: Some(&mut report),
-            ..Control::default()
-        };
-        let Some(fields) = fields else {
-            let result = model::run(model, scenario, &mut control);
-            progress.finish();
-            return Ok(result?);
-        };
-        let mut failure = None;
-        let mut add = |frame: &Frame<'_>| match fields.series.add(frame) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(error) => {
-                failure = Some(Failure::from(error));
-                ControlFlow::Break(())
-            }
-        };
-        control.frames = Some(&mut add);
-        control.checkpoints = Some(&mut fields.keeper);
-        control.resume = fields.resume.as_deref();
-        let result = model::run(model, scenario, &mut control);
-        progress.finish();
-        match (failure.or(fields.keeper.failure.take()), result) {
-            (Some(failure), _) => Err(failure),
-            (None, Err(percuss::Error::Cancelled { time_us, .. }))
-                if fields.keeper.interrupted() =>
-            {
-                Err(Failure::Stopped { time_us })
-            }
-            (None, result) => Ok(result?),
-        }
+        let text = result_table::text(&ran.scenario, &ran.result, record, others);
+        written.print_under(text)
     }
 }
 

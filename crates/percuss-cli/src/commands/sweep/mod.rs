@@ -12,9 +12,11 @@ use percuss::{
     outcome::Outcome,
     sweep::{self, BatchKernel, Row},
 };
-use percuss_report::sweep::{SweepFolder, merge, status};
+use percuss_report::sweep::{Manifest, Status, SweepFolder, merge, status};
+use serde::Serialize;
 
 use crate::{
+    answer::Answer,
     failure::Failure,
     progress::Progress,
     terminal::{self, bold},
@@ -81,6 +83,9 @@ enum What {
         /// Folder of results
         #[arg(value_name = "DIR")]
         folder: PathBuf,
+        /// Print one JSON object and nothing else on standard output
+        #[arg(long)]
+        json: bool,
     },
     /// Join folders that hold all parts of a sweep into one Parquet file
     Merge {
@@ -97,7 +102,10 @@ enum What {
 impl Sweep {
     pub fn run(&self) -> Result<(), Failure> {
         match (&self.what, &self.file, &self.out) {
-            (Some(What::Status { folder }), ..) => print_status(folder),
+            (Some(What::Status { folder, json }), ..) => match *json {
+                true => terminal::print_json(&StatusRecord::from(status(folder)?)),
+                false => print_status(folder),
+            },
             (Some(What::Merge { folders, out }), ..) => {
                 let rows = merge(folders, out)?;
                 let rows = terminal::counted(rows as usize, "row");
@@ -109,6 +117,20 @@ impl Sweep {
                 message: "a sweep file and --out DIR are due".to_owned(),
                 help: "percuss sweep SWEEP.toml --out DIR".to_owned(),
             }),
+        }
+    }
+
+    /// What its subcommands find out and write; a sweep itself is a folder of rows.
+    pub fn answer(&self) -> Result<Answer, Failure> {
+        match &self.what {
+            Some(What::Status { folder, .. }) => {
+                Answer::json_of(&StatusRecord::from(status(folder)?), Vec::new())
+            }
+            Some(What::Merge { folders, out }) => {
+                Answer::json_of(&merge(folders, out)?, vec![out.clone()])
+            }
+            Some(What::Plot(plot)) => plot.answer(),
+            None => Err(Failure::no_answer()),
         }
     }
 
@@ -179,6 +201,28 @@ impl Sweep {
             text += &format!("  {count:>9} {outcome}\n");
         }
         terminal::print(&text)
+    }
+}
+
+/// What `percuss sweep status --json` prints. The names are stable.
+#[derive(Serialize)]
+struct StatusRecord {
+    manifest: Manifest,
+    blocks_done: Vec<u64>,
+    blocks_damaged: Vec<u64>,
+    shots_done: u64,
+    running: bool,
+}
+
+impl From<Status> for StatusRecord {
+    fn from(status: Status) -> Self {
+        Self {
+            shots_done: status.shots_done(),
+            manifest: status.manifest,
+            blocks_done: status.done,
+            blocks_damaged: status.damaged,
+            running: status.running,
+        }
     }
 }
 

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use percuss_report::sweep::{PlotRequest, PlotStyle, plot};
+use serde::Serialize;
 
-use crate::{failure::Failure, terminal};
+use crate::{answer::Answer, failure::Failure, terminal};
 
 const LONG_ABOUT: &str = "\
 Draw a result of a sweep, as SVG and PNG: curves of one parameter, or of two
@@ -57,8 +58,26 @@ enum Style {
     Parallel,
 }
 
+/// What the figure shows.
+#[derive(Serialize)]
+struct Drawn {
+    title: String,
+}
+
 impl Plot {
     pub fn run(&self) -> Result<(), Failure> {
+        let (title, files) = self.draw()?;
+        let [svg, png] = files.map(|file| file.display().to_string());
+        terminal::print(&format!("{title}\nwrote {svg} and {png}\n"))
+    }
+
+    /// Its title, and the files.
+    pub fn answer(&self) -> Result<Answer, Failure> {
+        let (title, files) = self.draw()?;
+        Answer::json_of(&Drawn { title }, files.into())
+    }
+
+    fn draw(&self) -> Result<(String, [PathBuf; 2]), Failure> {
         let request = PlotRequest {
             quantity: self.quantity.clone(),
             style: self.style.map(|style| match style {
@@ -71,7 +90,6 @@ impl Plot {
         };
         let figure = plot(&self.folders, &request)?;
         let files = figure.write(self.out.as_ref().unwrap_or(&self.folders[0]))?;
-        let [svg, png] = files.map(|file| file.display().to_string());
-        terminal::print(&format!("{}\nwrote {svg} and {png}\n", figure.title))
+        Ok((figure.title, files))
     }
 }

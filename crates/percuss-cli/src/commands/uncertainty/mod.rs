@@ -11,6 +11,7 @@ use std::{
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Error,
+    case::Document,
     model::{self, MODELS, Model},
     sweep::BatchKernel,
     uncertainty::{
@@ -20,7 +21,7 @@ use percuss::{
 };
 
 use crate::{
-    answer::{AtHand, Hear},
+    answer::{self, Answer, AtHand, Hear},
     failure::Failure,
     progress::Progress,
     run_folder::RunFolder,
@@ -111,6 +112,7 @@ pub struct Uncertainty {
 
 /// What is to be computed.
 struct Task {
+    document: Document,
     study: Study,
     model: &'static dyn Model,
     settings: Settings,
@@ -129,23 +131,14 @@ fn speeds(text: &str) -> Result<Speeds, SpeedsError> {
 impl Uncertainty {
     pub fn run(&self) -> Result<(), Failure> {
         let task = self.task(&AtHand::default())?;
-        // Before runs that may take long: a folder that cannot be written should be known at once.
-        let folder = match &self.out {
-            Some(out) => Some(RunFolder::create(out, &self.case)?),
-            None => None,
-        };
         let mut progress = Progress::new(!self.quiet);
-        let found = self.compute(&task, &workers::stop_on_request(), &mut progress.hear());
+        let found = self.find(&task, &workers::stop_on_request(), &mut progress.hear());
         progress.finish();
-        let found = match found {
+        let (found, files) = match found {
             Err(Failure::Library(Error::Cancelled { .. })) => {
                 return Err(Failure::Interrupted("the analysis"));
             }
             other => other?,
-        };
-        let files = match folder {
-            Some(folder) => write(folder, &task.study, &found)?,
-            None => Vec::new(),
         };
         self.print(&task.study, &found, &files)
     }
@@ -156,12 +149,32 @@ impl Uncertainty {
         at_hand: &AtHand,
         stop: &AtomicBool,
         hear: Hear<'_>,
-    ) -> Result<Found, Failure> {
-        self.compute(&self.task(at_hand)?, stop, hear)
+    ) -> Result<Answer, Failure> {
+        let (found, files) = self.find(&self.task(at_hand)?, stop, hear)?;
+        Ok(Answer {
+            found: answer::Found::Uncertainty(Box::new(found)),
+            files,
+        })
+    }
+
+    fn find(
+        &self,
+        task: &Task,
+        stop: &AtomicBool,
+        hear: Hear<'_>,
+    ) -> Result<(Found, Vec<PathBuf>), Failure> {
+        let folder = RunFolder::wanted(self.out.as_deref(), Some(&task.document))?;
+        let found = self.compute(task, stop, hear)?;
+        let files = match folder {
+            Some(folder) => write(folder, &task.study, &found)?,
+            None => Vec::new(),
+        };
+        Ok((found, files))
     }
 
     fn task(&self, at_hand: &AtHand) -> Result<Task, Failure> {
-        let study = Study::of(&at_hand.read(&self.case)?)?;
+        let document = at_hand.read(&self.case)?;
+        let study = Study::of(&document)?;
         let model = model::model(&self.model)?;
         let speeds = match &self.velocity {
             Some(speeds) => speeds.of(&study.scenario)?,
@@ -178,6 +191,7 @@ impl Uncertainty {
             speeds,
         };
         Ok(Task {
+            document,
             study,
             model,
             settings,
@@ -201,6 +215,7 @@ impl Uncertainty {
             study,
             model,
             settings,
+            ..
         } = task;
         let kernel = BatchKernel::new(*model);
         let found =

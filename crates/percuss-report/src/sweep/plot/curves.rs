@@ -5,7 +5,7 @@ use super::{
     data::{Data, Group},
     label,
 };
-use crate::{Figure, LineChart, Series, Style, palette};
+use crate::{LineChart, Series, Style, palette};
 
 /// Most points that are shown one by one.
 const POINTS: usize = 4000;
@@ -22,8 +22,8 @@ type CountOf = fn(&Group) -> u32;
 const CROSS: usize = 4;
 const PLUS: usize = 6;
 
-/// Draws the number over parameter `x`, for each value of parameter `family` by itself.
-pub(super) fn draw(data: &Data<'_>, x: usize, family: Option<usize>) -> Figure {
+/// The number over parameter `x`, for each value of parameter `family` by itself.
+pub(super) fn chart(data: &Data<'_>, x: usize, family: Option<usize>) -> LineChart {
     let families = family.map_or_else(Vec::new, |family| data.values(family));
     // Values of a distribution, or very many of a list, are too many for a curve each.
     let apart = family.filter(|family| data.is_list(*family) && families.len() <= MOST);
@@ -109,7 +109,7 @@ pub(super) fn draw(data: &Data<'_>, x: usize, family: Option<usize>) -> Figure {
             chart = chart.series(series.style(Style::Markers).symbol(symbol).color(color));
         }
     }
-    chart.draw()
+    chart
 }
 
 /// Where along the axis of a parameter shots stand.

@@ -5,7 +5,7 @@ use super::{
     data::{Data, names},
     label, quantity,
 };
-use crate::{Axis, Figure, HeatMap};
+use crate::{Axis, HeatMap};
 
 /// Most cells along an axis of a map of shots that lie anywhere.
 const MOST_CELLS: f64 = 60.0;
@@ -14,8 +14,8 @@ const SHOTS: f64 = 8.0;
 /// Relative difference of steps that count as even.
 const EVEN: f64 = 1e-6;
 
-/// Draws the number over parameters `x` and `y`.
-pub(super) fn draw(data: &Data<'_>, x: usize, y: usize) -> Figure {
+/// The number over parameters `x` and `y`.
+pub(super) fn chart(data: &Data<'_>, x: usize, y: usize) -> HeatMap {
     let sides = [Side::of(data, x), Side::of(data, y)];
     let inputs = &data.rows.inputs;
     let cell = |row| (sides[1].cell(inputs[y][row]), sides[0].cell(inputs[x][row]));
@@ -57,7 +57,6 @@ pub(super) fn draw(data: &Data<'_>, x: usize, y: usize) -> Figure {
         }
         _ => map.between(0.0, 1.0),
     }
-    .draw()
 }
 
 /// One direction of the map: its cells and its axis.

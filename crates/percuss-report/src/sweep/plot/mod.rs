@@ -2,6 +2,7 @@
 
 mod curves;
 mod data;
+mod held;
 mod map;
 mod parallel;
 mod quantity;
@@ -9,6 +10,7 @@ mod quantity;
 use std::path::PathBuf;
 
 use data::Data;
+pub use held::{SweepChart, SweepNumber, charts, numbers, parallel_figure};
 
 use super::{manifest::Varied, parts::Parts, rows::Rows};
 use crate::{Figure, ReportError};
@@ -99,8 +101,8 @@ pub fn plot(folders: &[PathBuf], request: &PlotRequest) -> Result<Figure, Report
         ));
     }
     Ok(match choice.style {
-        PlotStyle::Curves => curves::draw(&data, choice.x, choice.y),
-        PlotStyle::Map => map::draw(&data, choice.x, choice.y.unwrap_or(choice.x)),
+        PlotStyle::Curves => curves::chart(&data, choice.x, choice.y).draw(),
+        PlotStyle::Map => map::chart(&data, choice.x, choice.y.unwrap_or(choice.x)).draw(),
         PlotStyle::Parallel => parallel::draw(&data),
     })
 }

@@ -1,6 +1,6 @@
 //! Which number of the rows is drawn, and what it is called.
 
-use super::super::{parts::Parts, rows::has_numbers};
+use super::super::{manifest::Manifest, parts::Parts, rows::has_numbers};
 use crate::ReportError;
 
 /// Columns that say what was shot, or how it was computed: what comes of it is drawn unless they are asked for.
@@ -28,10 +28,9 @@ const UNITS: [(&str, &str); 8] = [
 /// The column that was asked for, or the first result that the sweep has.
 pub(super) fn choose(parts: &Parts<'_>, wanted: Option<&str>) -> Result<String, ReportError> {
     let manifest = &parts.manifest;
-    let is_input = |name: &str| manifest.parameters.iter().any(|p| p.column == name);
     let all = || {
         let columns = manifest.columns.iter().enumerate();
-        columns.filter(|(_, column)| column.kind != "text" && !is_input(&column.name))
+        columns.filter(|(_, column)| column.kind != "text" && !is_input(manifest, &column.name))
     };
     let fail = |reason: String| {
         let names: Vec<&str> = all().map(|(_, column)| column.name.as_str()).collect();
@@ -48,7 +47,7 @@ pub(super) fn choose(parts: &Parts<'_>, wanted: Option<&str>) -> Result<String, 
     }
     let mut first = None;
     for file in parts.files().flatten() {
-        let mut results = all().filter(|(_, column)| !SECOND.contains(&column.name.as_str()));
+        let mut results = all().filter(|(_, column)| is_result(manifest, &column.name));
         let found = results.find(|(place, _)| has_numbers(&file, *place));
         first = found.map(|(_, column)| column.name.clone());
         if first.is_some() {
@@ -58,6 +57,15 @@ pub(super) fn choose(parts: &Parts<'_>, wanted: Option<&str>) -> Result<String, 
     first.ok_or_else(|| {
         fail("no shot that was computed has a result; look at the column `error`".to_owned())
     })
+}
+
+fn is_input(manifest: &Manifest, column: &str) -> bool {
+    manifest.parameters.iter().any(|p| p.column == column)
+}
+
+/// Whether a column says what comes of a shot.
+pub(super) fn is_result(manifest: &Manifest, column: &str) -> bool {
+    !is_input(manifest, column) && !SECOND.contains(&column)
 }
 
 /// A column's name in words, with its unit in brackets.

@@ -2,7 +2,11 @@
 
 use std::ops::Range;
 
-use super::lanes::{LANES, Lanes};
+use super::{
+    joints::Joint,
+    lanes::{LANES, Lanes},
+    whole::Whole,
+};
 use crate::{
     case::BackFace,
     scenario::{Scenario, TargetBody},
@@ -39,6 +43,11 @@ impl Mesh {
             elements: [chain.projectile_elements(), chain.target_elements()],
             back,
         }
+    }
+
+    /// Whether a node is one of the projectile (0) or the target (1).
+    pub(super) fn holds(&self, body: usize, node: usize) -> bool {
+        (node > self.elements[0]) == (body == 1)
     }
 
     /// Elements of the projectile (0) or the target (1).
@@ -91,6 +100,8 @@ pub(super) struct Mark {
     pub(super) settled: bool,
     /// Whether it flowed in the last step in any lane.
     pub(super) flowed: bool,
+    /// Lanes in which it has eroded.
+    pub(super) gone: u8,
 }
 
 /// What is the same for all of a projectile or target.
@@ -142,40 +153,6 @@ impl Body {
     }
 }
 
-/// What there is one of in every shot.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Whole {
-    pub(super) courant: Lanes,
-    pub(super) time: Lanes,
-    pub(super) step: Lanes,
-    pub(super) time_step: Lanes,
-    pub(super) stable_step: Lanes,
-    /// 1 where projectile and target touch, 0 where they do not.
-    pub(super) closed: Lanes,
-    pub(super) meetings: Lanes,
-    pub(super) contact_force: Lanes,
-    pub(super) impedance: Lanes,
-    pub(super) plastic_work: [Lanes; 2],
-    pub(super) friction_work: Lanes,
-    pub(super) friction_impulse: Lanes,
-    pub(super) contact_loss: Lanes,
-    pub(super) support_impulse: Lanes,
-    pub(super) boundary_work: Lanes,
-    pub(super) largest_depth: Lanes,
-    pub(super) peak_force: Lanes,
-    pub(super) smallest_time_step: Lanes,
-    pub(super) contact_time: Lanes,
-    /// 1 where they have touched since the window began.
-    pub(super) touched: Lanes,
-    pub(super) back_position: Lanes,
-    /// Depth and step at which a shot is over, time at which it is looked at.
-    pub(super) perforated: Lanes,
-    pub(super) most_steps: Lanes,
-    pub(super) next_look: Lanes,
-    /// Speed of the tail below which the projectile may be at rest; −∞ once it has been.
-    pub(super) slow_tail: Lanes,
-}
-
 /// Eight shots.
 #[derive(Debug)]
 pub(super) struct Bundle {
@@ -186,6 +163,20 @@ pub(super) struct Bundle {
     pub(super) flows: Vec<Flow>,
     /// Whether a node moves in any lane.
     pub(super) moves: Vec<bool>,
+    /// Masses of the nodes, and largest friction on them.
+    pub(super) masses: Vec<Lanes>,
+    pub(super) frictions: Vec<Lanes>,
+    /// Lanes in which a joint kicks and moves a node.
+    pub(super) tied: Vec<u8>,
+    /// Nodes between the ends of a body that are not like the others, in their order.
+    pub(super) odd: Vec<usize>,
+    /// What is between the pieces of eroded bodies, from tail to back.
+    pub(super) joints: Vec<Joint>,
+    /// Lanes in which projectile and target meet at other nodes than those of whole bodies.
+    pub(super) displaced: u8,
+    /// Tail of the projectile and face of the target in every lane.
+    pub(super) tails: [usize; LANES],
+    pub(super) faces: [usize; LANES],
     /// What is known of the elements.
     pub(super) marks: Vec<Mark>,
     /// Largest stable time step of every element, and of none up to a multiple of [`LIMITS_AT_ONCE`].
@@ -209,6 +200,14 @@ impl Bundle {
             springs: vec![Spring::default(); elements],
             flows: vec![Flow::default(); elements],
             moves: vec![false; elements + 2],
+            masses: vec![Lanes::default(); elements + 2],
+            frictions: vec![Lanes::default(); elements + 2],
+            tied: vec![0; elements + 2],
+            odd: Vec::new(),
+            joints: Vec::new(),
+            displaced: 0,
+            tails: [0; LANES],
+            faces: [mesh.elements[0] + 1; LANES],
             marks: vec![Mark::default(); elements],
             limits: vec![Lanes::all(f64::INFINITY); elements.next_multiple_of(LIMITS_AT_ONCE)],
             working: vec![0; elements],

@@ -1,4 +1,4 @@
-//! Contact of tip and face: `State::kick_contact` and `State::close_gaps` in every lane.
+//! Contact of two ends: `State::kick_contact` and `State::close_gaps`, of tip and face in every lane at once.
 
 use super::{
     bundle::Bundle,
@@ -7,8 +7,132 @@ use super::{
 };
 use crate::chain::friction::rub;
 
+/// Two ends at the start of a kick.
+#[derive(Clone, Copy)]
+pub(super) struct Pair {
+    pub(super) mass: [f64; 2],
+    pub(super) velocity: [f64; 2],
+    pub(super) force: [f64; 2],
+    /// Largest friction on them.
+    pub(super) friction: [f64; 2],
+    pub(super) closed: bool,
+}
+
+/// What contact changes in the books.
+#[derive(Clone, Copy)]
+pub(super) struct Account {
+    pub(super) loss: f64,
+    pub(super) work: f64,
+    pub(super) impulse: f64,
+}
+
+/// Two ends after a kick.
+pub(super) struct Kicked {
+    pub(super) velocity: [f64; 2],
+    pub(super) closed: bool,
+    /// Force with which they push each other.
+    pub(super) push: f64,
+    pub(super) account: Account,
+}
+
+impl Pair {
+    /// Kicks two ends, together where they touch and stay so; `drift` is the length of the step before. Whether friction acts on
+    /// the first of them, too, is known beforehand.
+    #[inline(always)]
+    pub(super) fn kick<const BOTH_RUB: bool>(
+        &self,
+        kick: f64,
+        drift: f64,
+        account: Account,
+    ) -> Kicked {
+        let ([mass_a, mass_b], [before_a, before_b]) = (self.mass, self.velocity);
+        let ([force_a, force_b], [friction_a, friction_b]) = (self.force, self.friction);
+        // As one, from their common velocity.
+        let mass = mass_a + mass_b;
+        let common = (mass_a * before_a + mass_b * before_b) / mass;
+        let lost = account.loss - jump_loss(mass_a, before_a, common, -drift, force_a);
+        let lost = lost - jump_loss(mass_b, before_b, common, -drift, force_b);
+        let change = (force_a + force_b) * kick / mass;
+        let friction = if BOTH_RUB {
+            friction_a + friction_b
+        } else {
+            friction_b
+        };
+        let together = rub(common, change, friction * kick / mass);
+        let mut on_a = force_a;
+        if BOTH_RUB && friction != 0.0 {
+            on_a += mass * (together - common - change) / kick * friction_a / friction;
+        }
+        let push = on_a - mass_a * (together - common) / kick;
+        let stays = self.closed & (push >= 0.0);
+        // Each by itself.
+        let start_a = if self.closed { common } else { before_a };
+        let start_b = if self.closed { common } else { before_b };
+        let (mut alone_a, mut rubbed_a) = (start_a + force_a * (kick / mass_a), 0.0);
+        if BOTH_RUB {
+            let (ratio, free) = (kick / mass_a, alone_a);
+            alone_a = rub(start_a, force_a * ratio, friction_a * ratio);
+            rubbed_a = mass_a * (free - alone_a);
+        }
+        let ratio = kick / mass_b;
+        let change_b = force_b * ratio;
+        let alone_b = rub(start_b, change_b, friction_b * ratio);
+        let (mut work, mut impulse) = (account.work, account.impulse);
+        if BOTH_RUB && !stays {
+            impulse += rubbed_a;
+            work += rubbed_a * 0.5 * (start_a + alone_a);
+        }
+        let rubbed = if stays {
+            mass * (common + change - together)
+        } else {
+            mass_b * (start_b + change_b - alone_b)
+        };
+        let mean = if stays {
+            0.5 * (common + together)
+        } else {
+            0.5 * (start_b + alone_b)
+        };
+        Kicked {
+            velocity: [
+                if stays { together } else { alone_a },
+                if stays { together } else { alone_b },
+            ],
+            closed: stays,
+            push: if stays { push } else { 0.0 },
+            account: Account {
+                loss: if self.closed { lost } else { account.loss },
+                work: work + rubbed * mean,
+                impulse: impulse + rubbed,
+            },
+        }
+    }
+
+    /// Lets two ends across a gap meet in a step of some length: their velocities, and what is lost so far.
+    pub(super) fn meet(&self, gap: f64, time_step: f64, loss: f64) -> ([f64; 2], f64) {
+        let [mass_a, mass_b] = self.mass;
+        let approach = self.velocity[0] - self.velocity[1];
+        let change = approach - larger(gap, 0.0) / time_step;
+        let mass = mass_a + mass_b;
+        let jumps = [-(mass_b / mass) * change, mass_a / mass * change];
+        let (mut velocity, mut lost) = (self.velocity, loss);
+        for i in 0..2 {
+            let after = velocity[i] + jumps[i];
+            let of = (self.mass[i], velocity[i], after);
+            lost -= booked(of.0, of.1, of.2, time_step, self.force[i], jumps[i]);
+            velocity[i] = after;
+        }
+        (velocity, lost)
+    }
+}
+
+/// Whether two ends would overlap at the end of a step.
+#[inline(always)]
+pub(super) fn overlap(gap: f64, approach: f64, time_step: f64) -> bool {
+    gap - approach * time_step <= 0.0
+}
+
 impl Bundle {
-    /// Kicks tip and face, together where they touch and stay so, and lets them meet where they would overlap.
+    /// Kicks tip and face, together where they touch and stay so.
     #[inline(always)]
     pub(super) fn kick_contact(&mut self, force_behind: Lanes, step: &Step) {
         let [projectile, _] = self.mesh.elements;
@@ -18,10 +142,11 @@ impl Bundle {
         let (mass_a, mass_b) = (self.bodies[0].end_mass.0, self.bodies[1].end_mass.0);
         let friction = self.bodies[1].first_friction.0;
         let (before_a, before_b) = (self.nodes[a].velocity.0, self.nodes[b].velocity.0);
-        let closed = self.whole.closed.0;
-        let loss = self.whole.contact_loss.0;
-        let work = self.whole.friction_work.0;
-        let impulse = self.whole.friction_impulse.0;
+        let whole = &mut self.whole;
+        let closed = whole.closed.0;
+        let loss = whole.contact_loss.0;
+        let work = whole.friction_work.0;
+        let impulse = whole.friction_impulse.0;
         let (kick, drift) = (step.kick.0, step.before.0);
         let mut velocity_a = [0.0; LANES];
         let mut velocity_b = [0.0; LANES];
@@ -31,86 +156,104 @@ impl Bundle {
         let mut next_impulse = [0.0; LANES];
         let mut contact_force = [0.0; LANES];
         for l in 0..LANES {
-            let force_b = 0.0 - ahead[l];
-            let touches = closed[l] > 0.0;
-            // As one, from their common velocity.
-            let mass = mass_a[l] + mass_b[l];
-            let common = (mass_a[l] * before_a[l] + mass_b[l] * before_b[l]) / mass;
-            let jumps = jump_loss(mass_a[l], before_a[l], common, -drift[l], force_a[l]);
-            let lost = loss[l] - jumps;
-            let lost = lost - jump_loss(mass_b[l], before_b[l], common, -drift[l], force_b);
-            let change = (force_a[l] + force_b) * kick[l] / mass;
-            let together = rub(common, change, friction[l] * kick[l] / mass);
-            let push = force_a[l] - mass_a[l] * (together - common) / kick[l];
-            let stays = touches & (push >= 0.0);
-            // Each by itself.
-            let start_a = if touches { common } else { before_a[l] };
-            let start_b = if touches { common } else { before_b[l] };
-            let alone_a = start_a + force_a[l] * (kick[l] / mass_a[l]);
-            let ratio = kick[l] / mass_b[l];
-            let change_b = force_b * ratio;
-            let alone_b = rub(start_b, change_b, friction[l] * ratio);
-            let rubbed = if stays {
-                mass * (common + change - together)
-            } else {
-                mass_b[l] * (start_b + change_b - alone_b)
+            let pair = Pair {
+                mass: [mass_a[l], mass_b[l]],
+                velocity: [before_a[l], before_b[l]],
+                force: [force_a[l], 0.0 - ahead[l]],
+                friction: [0.0, friction[l]],
+                closed: closed[l] > 0.0,
             };
-            let mean = if stays {
-                0.5 * (common + together)
-            } else {
-                0.5 * (start_b + alone_b)
+            let account = Account {
+                loss: loss[l],
+                work: work[l],
+                impulse: impulse[l],
             };
-            velocity_a[l] = if stays { together } else { alone_a };
-            velocity_b[l] = if stays { together } else { alone_b };
-            next_closed[l] = if stays { 1.0 } else { 0.0 };
-            next_loss[l] = if touches { lost } else { loss[l] };
-            next_impulse[l] = impulse[l] + rubbed;
-            next_work[l] = work[l] + rubbed * mean;
-            contact_force[l] = if stays { push } else { 0.0 };
+            let kicked = pair.kick::<false>(kick[l], drift[l], account);
+            velocity_a[l] = kicked.velocity[0];
+            velocity_b[l] = kicked.velocity[1];
+            next_closed[l] = if kicked.closed { 1.0 } else { 0.0 };
+            next_loss[l] = kicked.account.loss;
+            next_work[l] = kicked.account.work;
+            next_impulse[l] = kicked.account.impulse;
+            contact_force[l] = kicked.push;
         }
-        // What would overlap at the end of the step meets.
-        let (position_a, position_b) = (self.nodes[a].position.0, self.nodes[b].position.0);
-        let mut meets = [0.0; LANES];
-        let mut any_meets = false;
-        for l in 0..LANES {
-            let gap = position_b[l] - position_a[l];
-            let approach = velocity_a[l] - velocity_b[l];
-            let overlaps = gap - approach * step.length.0[l] <= 0.0;
-            let meets_here = overlaps & (next_closed[l] == 0.0);
-            meets[l] = if meets_here { 1.0 } else { 0.0 };
-            any_meets |= meets_here;
+        // Where other nodes than these meet, they do so by themselves.
+        for l in (0..LANES).filter(|l| self.displaced >> l & 1 == 1) {
+            velocity_a[l] = before_a[l];
+            velocity_b[l] = before_b[l];
+            next_closed[l] = closed[l];
+            next_loss[l] = loss[l];
+            next_work[l] = work[l];
+            next_impulse[l] = impulse[l];
+            contact_force[l] = 0.0;
         }
-        if any_meets {
-            for l in 0..LANES {
-                if meets[l] == 0.0 {
-                    continue;
-                }
-                let time_step = step.length.0[l];
-                let gap = position_b[l] - position_a[l];
-                let approach = velocity_a[l] - velocity_b[l];
-                let change = approach - larger(gap, 0.0) / time_step;
-                let mass = mass_a[l] + mass_b[l];
-                let jump_a = -(mass_b[l] / mass) * change;
-                let jump_b = mass_a[l] / mass * change;
-                for (mass, velocity, jump, force) in [
-                    (mass_a[l], &mut velocity_a[l], jump_a, force_a[l]),
-                    (mass_b[l], &mut velocity_b[l], jump_b, 0.0 - ahead[l]),
-                ] {
-                    let after = *velocity + jump;
-                    next_loss[l] -= booked(mass, *velocity, after, time_step, force, jump);
-                    *velocity = after;
-                }
-                next_closed[l] = 1.0;
-                self.whole.meetings.0[l] += 1.0;
-            }
-        }
+        whole.closed = Lanes(next_closed);
+        whole.contact_loss = Lanes(next_loss);
+        whole.friction_work = Lanes(next_work);
+        whole.friction_impulse = Lanes(next_impulse);
+        whole.contact_force = Lanes(contact_force);
         self.nodes[a].velocity = Lanes(velocity_a);
         self.nodes[b].velocity = Lanes(velocity_b);
-        self.whole.closed = Lanes(next_closed);
-        self.whole.contact_loss = Lanes(next_loss);
-        self.whole.friction_work = Lanes(next_work);
-        self.whole.friction_impulse = Lanes(next_impulse);
-        self.whole.contact_force = Lanes(contact_force);
+    }
+
+    /// Lets tip and face meet where they would overlap at the end of the step.
+    #[inline(always)]
+    pub(super) fn close_contact(&mut self, step: &Step) {
+        let projectile = self.mesh.elements[0];
+        let [a, b] = [projectile, projectile + 1].map(|node| self.nodes[node]);
+        let closed = self.whole.closed.0;
+        let mut meets = 0;
+        for l in 0..LANES {
+            let gap = b.position.0[l] - a.position.0[l];
+            let approach = a.velocity.0[l] - b.velocity.0[l];
+            let overlaps = overlap(gap, approach, step.length.0[l]);
+            meets |= u8::from(overlaps & (closed[l] == 0.0)) << l;
+        }
+        meets &= !self.displaced;
+        if meets != 0 {
+            self.meet(meets, step);
+        }
+    }
+
+    /// Lets tip and face of some lanes meet.
+    #[cold]
+    #[inline(never)]
+    fn meet(&mut self, lanes: u8, step: &Step) {
+        let projectile = self.mesh.elements[0];
+        for l in (0..LANES).filter(|l| lanes >> l & 1 == 1) {
+            let nodes = [projectile, projectile + 1];
+            let [a, b] = nodes.map(|node| self.nodes[node].position.0[l]);
+            let pair = self.pair(nodes, l, false);
+            let lost = self.whole.contact_loss.0[l];
+            let (velocity, lost) = pair.meet(b - a, step.length.0[l], lost);
+            for (node, velocity) in nodes.into_iter().zip(velocity) {
+                self.nodes[node].velocity.0[l] = velocity;
+            }
+            self.whole.contact_loss.0[l] = lost;
+            self.whole.closed.0[l] = 1.0;
+            self.whole.meetings.0[l] += 1.0;
+        }
+    }
+
+    /// Two ends of a lane.
+    #[inline(always)]
+    pub(super) fn pair(&self, [a, b]: [usize; 2], lane: usize, closed: bool) -> Pair {
+        let behind = &self.springs[a - 1 - self.body_of(a)];
+        let ahead = &self.springs[b - self.body_of(b)];
+        let of = |numbers: &[Lanes]| [numbers[a].0[lane], numbers[b].0[lane]];
+        Pair {
+            mass: of(&self.masses),
+            velocity: [a, b].map(|node| self.nodes[node].velocity.0[lane]),
+            force: [behind.force.0[lane], 0.0 - ahead.force.0[lane]],
+            friction: of(&self.frictions),
+            closed,
+        }
+    }
+
+    /// Body of a node: the projectile (0) or the target (1).
+    #[inline(always)]
+    fn body_of(&self, node: usize) -> usize {
+        usize::from(node > self.mesh.elements[0])
     }
 }
 

@@ -10,11 +10,14 @@ use crate::chain::solver::LARGEST_STRAIN_STEP;
 impl Bundle {
     /// Ends the step and finds the lanes that the single run has to look at.
     #[inline(always)]
-    pub(super) fn end(&mut self, step: &Step, found: &Found, is_last: bool) -> [bool; LANES] {
+    pub(super) fn end(&mut self, step: &Step, found: &Found) -> [bool; LANES] {
         let [projectile, target] = self.mesh.elements;
-        let face = self.nodes[projectile + 1].position.0;
         let back = self.nodes[projectile + 1 + target].position.0;
-        let tail = self.nodes[0].velocity.0;
+        let (mut face, mut tail) = ([0.0; LANES], [0.0; LANES]);
+        for l in 0..LANES {
+            face[l] = self.nodes[self.faces[l]].position.0[l];
+            tail[l] = self.nodes[self.tails[l]].velocity.0[l];
+        }
         let is_open = self.mesh.back == Back::Open;
         let mut depth = [0.0; LANES];
         let mut calls = [false; LANES];
@@ -32,8 +35,7 @@ impl Bundle {
             whole.stable_step.0[l] = smaller(of_approach, found.stable_step.0[l]);
             let drift = back[l] - whole.back_position.0[l];
             depth[l] = if is_open { face[l] - drift } else { face[l] };
-            calls[l] = is_last
-                | erodes[l]
+            calls[l] = erodes[l]
                 | (depth[l] >= whole.perforated.0[l])
                 | (whole.time.0[l] >= whole.next_look.0[l])
                 | (whole.step.0[l] >= whole.most_steps.0[l]);
@@ -72,7 +74,9 @@ impl Bundle {
                 let [back, front] = [e + b, e + b + 1].map(|node| self.nodes[node].position.0);
                 for l in 0..LANES {
                     let length = front[l] - back[l];
-                    erodes[l] |= (length <= body.shortest.0[l]) | (length >= body.longest.0[l]);
+                    let limits = body.shortest.0[l]..body.longest.0[l];
+                    let is_here = self.marks[e].gone >> l & 1 == 0;
+                    erodes[l] |= is_here & ((length <= limits.start) | (length >= limits.end));
                 }
             }
         }
@@ -83,17 +87,10 @@ impl Bundle {
     #[inline(always)]
     fn projectile_momentum(&self) -> Lanes {
         let count = self.mesh.elements[0];
-        let body = &self.bodies[0];
         let mut sum = Lanes::all(0.0);
-        for (i, node) in self.nodes[..=count].iter().enumerate() {
-            let mass = if i == 0 || i == count {
-                body.end_mass
-            } else {
-                body.mass
-            };
-            let velocity = node.velocity;
+        for (node, mass) in self.nodes[..=count].iter().zip(&self.masses) {
             for l in 0..LANES {
-                sum.0[l] += mass.0[l] * velocity.0[l];
+                sum.0[l] += mass.0[l] * node.velocity.0[l];
             }
         }
         sum

@@ -1,12 +1,8 @@
 //! How a shot gets into a lane and out of it again.
 
-use super::bundle::{Body, Bundle, Flow, Spring, Whole};
+use super::bundle::{Body, Bundle, Flow, Spring};
 use crate::{
-    chain::{
-        conservative::Conservative,
-        part::Part,
-        state::{Element, End},
-    },
+    chain::{conservative::Conservative, part::Part, state::Element},
     material::{Hardening, YieldPoint},
     power::log_ratio,
 };
@@ -18,9 +14,11 @@ impl Bundle {
     /// Puts a shot at the moment of impact into a lane.
     pub(super) fn take_in(&mut self, lane: usize, run: &Conservative<'_>) {
         let state = &run.state;
-        for (node, from) in self.nodes.iter_mut().zip(&state.nodes) {
-            node.position.0[lane] = from.position;
-            node.velocity.0[lane] = from.velocity;
+        for (i, from) in state.nodes.iter().enumerate() {
+            self.nodes[i].position.0[lane] = from.position;
+            self.nodes[i].velocity.0[lane] = from.velocity;
+            self.masses[i].0[lane] = from.mass;
+            self.frictions[i].0[lane] = from.friction;
         }
         let elements = self.springs.iter_mut().zip(&mut self.flows);
         for ((spring, flow), from) in elements.zip(&state.elements) {
@@ -55,7 +53,7 @@ impl Bundle {
     }
 
     /// Has every element updated in the next step.
-    fn unsettle(&mut self) {
+    pub(super) fn unsettle(&mut self) {
         for mark in &mut self.marks {
             mark.settled = false;
         }
@@ -69,12 +67,12 @@ impl Bundle {
     /// Puts a lane into the state of its shot; false when an element has no length any more.
     pub(super) fn let_out(&self, lane: usize, run: &mut Conservative<'_>) -> bool {
         let state = &mut run.state;
-        for (node, to) in self.nodes.iter().zip(&mut state.nodes) {
-            to.position = node.position.0[lane];
-            to.velocity = node.velocity.0[lane];
-        }
         let mut is_sound = true;
         for segment in &state.segments {
+            for i in segment.first_node..=segment.last_node {
+                state.nodes[i].position = self.nodes[i].position.0[lane];
+                state.nodes[i].velocity = self.nodes[i].velocity.0[lane];
+            }
             for e in segment.elements() {
                 let node = e + segment.shift;
                 let to = &mut state.elements[e];
@@ -83,6 +81,12 @@ impl Bundle {
                 self.springs[e].let_out(lane, to, self.now);
                 self.flows[e].let_out(lane, to, self.springs[e].yield_stress.0[lane]);
             }
+        }
+        if let Some(tip) = state.tip_segment() {
+            state.joints[tip].closed = self.whole.closed.0[lane] > 0.0;
+        }
+        for joint in self.joints.iter().filter(|joint| joint.lane == lane) {
+            state.joints[joint.place].closed = joint.closed;
         }
         self.whole.let_out(lane, run);
         is_sound
@@ -95,6 +99,8 @@ impl Bundle {
             // Tip and face stand in one place.
             node.position.0[lane] = (i - usize::from(i > projectile)) as f64;
             node.velocity.0[lane] = 0.0;
+            self.masses[i].0[lane] = 1.0;
+            self.frictions[i].0[lane] = 0.0;
         }
         for (spring, flow) in self.springs.iter_mut().zip(&mut self.flows) {
             let steps = [&mut flow.plastic_step, &mut flow.step_before];
@@ -137,6 +143,7 @@ impl Bundle {
             body.longest.0[lane] = f64::INFINITY;
         }
         self.whole.park(lane);
+        self.mend(lane);
         self.unsettle();
     }
 }
@@ -192,102 +199,5 @@ impl Body {
         self.coefficient.0[lane] = law.coefficient;
         self.exponent.0[lane] = law.exponent;
         self.first_strain.0[lane] = law.first_strain;
-    }
-}
-
-impl Whole {
-    fn take_in(&mut self, lane: usize, run: &Conservative<'_>) {
-        self.park(lane);
-        let state = &run.state;
-        self.courant.0[lane] = run.control.courant;
-        self.stable_step.0[lane] = state.stable_step;
-        self.closed.0[lane] = f64::from(state.joints[0].closed);
-        if let End::Open { impedance, .. } = state.end {
-            self.impedance.0[lane] = impedance;
-        }
-        self.back_position.0[lane] = state.back_position;
-        self.most_steps.0[lane] = run.max_steps as f64;
-        if run.scenario.target_thickness().is_some() {
-            self.perforated.0[lane] = state.back_position;
-        }
-        // The single run looks at the first step.
-        self.next_look.0[lane] = 0.0;
-    }
-
-    fn let_out(&self, lane: usize, run: &mut Conservative<'_>) {
-        let state = &mut run.state;
-        state.time = self.time.0[lane];
-        state.step = self.step.0[lane] as u64;
-        state.time_step = self.time_step.0[lane];
-        state.stable_step = self.stable_step.0[lane];
-        state.contact_force = self.contact_force.0[lane];
-        state.joints[0].closed = self.closed.0[lane] > 0.0;
-        state.meetings = self.meetings.0[lane] as u64;
-        let books = &mut state.books;
-        books.plastic = self.plastic_work.map(|work| work.0[lane]);
-        books.friction_work = self.friction_work.0[lane];
-        books.friction_impulse = self.friction_impulse.0[lane];
-        books.contact_loss = self.contact_loss.0[lane];
-        books.support_impulse = self.support_impulse.0[lane];
-        books.boundary_work = self.boundary_work.0[lane];
-        let watch = &mut run.watch;
-        watch.largest_depth = self.largest_depth.0[lane];
-        watch.peak_force = self.peak_force.0[lane];
-        watch.smallest_time_step = self.smallest_time_step.0[lane];
-        watch.contact_time = self.contact_time.0[lane];
-        watch.touched = self.touched.0[lane] > 0.0;
-    }
-
-    fn follow(&mut self, lane: usize, run: &Conservative<'_>) {
-        let watch = &run.watch;
-        self.largest_depth.0[lane] = watch.largest_depth;
-        self.peak_force.0[lane] = watch.peak_force;
-        self.smallest_time_step.0[lane] = watch.smallest_time_step;
-        self.contact_time.0[lane] = watch.contact_time;
-        self.touched.0[lane] = f64::from(watch.touched);
-        self.next_look.0[lane] = watch.next_look(run.scenario).min(run.end_time);
-        self.slow_tail.0[lane] = match watch.at_rest {
-            None => 0.5 * run.scenario.impact_speed,
-            Some(_) => f64::NEG_INFINITY,
-        };
-    }
-
-    fn park(&mut self, lane: usize) {
-        for of in [
-            &mut self.time,
-            &mut self.step,
-            &mut self.time_step,
-            &mut self.closed,
-            &mut self.meetings,
-            &mut self.contact_force,
-            &mut self.impedance,
-            &mut self.friction_work,
-            &mut self.friction_impulse,
-            &mut self.contact_loss,
-            &mut self.support_impulse,
-            &mut self.boundary_work,
-            &mut self.largest_depth,
-            &mut self.peak_force,
-            &mut self.smallest_time_step,
-            &mut self.contact_time,
-            &mut self.touched,
-            &mut self.back_position,
-        ]
-        .into_iter()
-        .chain(&mut self.plastic_work)
-        {
-            of.0[lane] = 0.0;
-        }
-        for of in [&mut self.courant, &mut self.stable_step, &mut self.closed] {
-            of.0[lane] = 1.0;
-        }
-        for of in [
-            &mut self.perforated,
-            &mut self.most_steps,
-            &mut self.next_look,
-        ] {
-            of.0[lane] = f64::INFINITY;
-        }
-        self.slow_tail.0[lane] = f64::NEG_INFINITY;
     }
 }

@@ -5,7 +5,7 @@ use super::{
     lanes::{LANES, Lanes, larger},
 };
 use crate::{
-    material::{self, FlowState, Hardening, Trial, YieldPoint},
+    material::{FlowState, Hardening, Trial, YieldPoint, first_return},
     power::{exponential, log_ratio, small_exponential},
 };
 
@@ -177,20 +177,13 @@ impl Start {
         for p in 0..LANES {
             let modulus = self.modulus[p];
             let size = trial[p].abs();
-            let first = (size - self.yield_stress[p]) / (modulus + self.slope[p]);
-            let reached = self.strain[p] + first;
-            let (stress, strain_slope) = self.law(p).at_here(reached);
-            let excess = size - modulus * first - stress;
-            let step = excess / (modulus + strain_slope);
-            let newton = first + step;
-            let is_last =
-                material::is_last(size, excess, step, strain_slope * first, reached * first)
-                    & (newton > 0.0)
-                    & (size <= modulus * LARGE);
+            let before = [self.yield_stress[p], self.slope[p]];
+            let returned = first_return(self.law(p), before, self.strain[p], size, modulus);
+            let is_last = returned.is_last & (size <= modulus * LARGE);
             left_over |= u8::from(!is_last) << p;
-            increment[p] = newton;
-            yield_stress[p] = size - modulus * newton;
-            slope[p] = strain_slope;
+            increment[p] = returned.increment;
+            yield_stress[p] = size - modulus * returned.increment;
+            slope[p] = returned.strain_slope;
         }
         left_over &= places;
         if left_over != 0 {

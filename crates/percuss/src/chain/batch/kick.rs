@@ -1,5 +1,7 @@
 //! New velocities of projectile and target, and the way that their nodes go in a step.
 
+use std::ops::Range;
+
 use super::{
     bundle::{Back, Bundle, Node},
     lanes::{LANES, Lanes},
@@ -11,15 +13,37 @@ impl Bundle {
     /// Kicks and moves all of the projectile but its tip; returns the force on the tip.
     #[inline(always)]
     pub(super) fn kick_projectile(&mut self, step: &Step) -> Lanes {
+        let tip = self.mesh.elements[0];
+        let mut from = 0;
+        while from < tip {
+            let odd = self.next_odd(from, tip);
+            self.kick_rod(from..odd, step);
+            if odd < tip {
+                self.kick_odd(odd, step);
+            }
+            from = odd + 1;
+        }
+        self.springs[tip - 1].force
+    }
+
+    /// Kicks and moves nodes of the projectile that are like each other.
+    #[inline(always)]
+    fn kick_rod(&mut self, nodes: Range<usize>, step: &Step) {
+        if nodes.is_empty() {
+            return;
+        }
         let body = self.bodies[0];
         let (mut ratio, mut end_ratio) = ([0.0; LANES], [0.0; LANES]);
         for l in 0..LANES {
             ratio[l] = step.kick.0[l] / body.mass.0[l];
             end_ratio[l] = step.kick.0[l] / body.end_mass.0[l];
         }
-        let mut force_behind = Lanes::all(0.0);
+        let mut force_behind = match nodes.start {
+            0 => Lanes::all(0.0),
+            first => self.springs[first - 1].force,
+        };
         // Told that no index is out of range, the compiler would take several nodes at once, lane by lane.
-        for i in 0..self.mesh.elements[0] {
+        for i in nodes {
             let ratio = if i == 0 { end_ratio } else { ratio };
             let force_ahead = self.springs[i].force;
             let node = &mut self.nodes[i];
@@ -36,17 +60,32 @@ impl Bundle {
             self.moves[i] = !is_still(node);
             force_behind = force_ahead;
         }
-        force_behind
     }
 
-    /// Kicks and moves the target behind its face, which has been kicked.
+    /// Kicks the target behind its face, which has been kicked, and moves what is between its ends.
     #[inline(always)]
     pub(super) fn kick_target(&mut self, step: &Step) {
+        let [projectile, count] = self.mesh.elements;
+        let back = projectile + 1 + count;
+        let mut from = projectile + 2;
+        while from < back {
+            let odd = self.next_odd(from, back);
+            self.kick_column(from..odd, step);
+            if odd < back {
+                self.kick_odd(odd, step);
+            }
+            from = odd + 1;
+        }
+        self.kick_back(back, self.springs[back - 2].force, step);
+    }
+
+    /// Kicks and moves nodes of the target that are like each other.
+    #[inline(always)]
+    fn kick_column(&mut self, inner: Range<usize>, step: &Step) {
+        if inner.is_empty() {
+            return;
+        }
         let body = self.bodies[1];
-        let count = self.mesh.elements[1];
-        let first = self.mesh.elements[0];
-        let face = first + 1;
-        self.drift(face, step);
         let mut work = self.whole.friction_work;
         let mut impulse = self.whole.friction_impulse;
         let mut ratio = Lanes::all(0.0);
@@ -55,11 +94,11 @@ impl Bundle {
             ratio.0[l] = step.kick.0[l] / body.mass.0[l];
             limit.0[l] = body.friction.0[l] * ratio.0[l];
         }
-        let mut force_behind = self.springs[first].force;
-        let inner = face + 1..face + count;
+        let mut force_behind = self.springs[inner.start - 2].force;
+        let springs = &self.springs[inner.start - 1..];
         let nodes = self.nodes[inner.clone()].iter_mut();
         let nodes = nodes.zip(&mut self.moves[inner]);
-        for ((node, is_moving), spring) in nodes.zip(&self.springs[first + 1..]) {
+        for ((node, is_moving), spring) in nodes.zip(springs) {
             let force_ahead = spring.force;
             let mut change = [0.0; LANES];
             let mut is_held = true;
@@ -104,8 +143,48 @@ impl Bundle {
         }
         self.whole.friction_work = work;
         self.whole.friction_impulse = impulse;
-        self.kick_back(face + count, force_behind, step);
-        self.drift(face + count, step);
+    }
+
+    /// The next node from one on that is not like the others of its body in every lane, or else the end.
+    #[inline(always)]
+    fn next_odd(&self, from: usize, end: usize) -> usize {
+        let odd = self.odd.iter().copied().find(|&node| node >= from);
+        odd.map_or(end, |node| node.min(end))
+    }
+
+    /// Kicks and moves a node that is not like the others of its body, and the joints behind it.
+    #[inline(always)]
+    fn kick_odd(&mut self, i: usize, step: &Step) {
+        let body = usize::from(i > self.mesh.elements[0]);
+        let (mass, friction) = (self.masses[i].0, self.frictions[i].0);
+        let behind = match i {
+            0 => Lanes::all(0.0),
+            _ => self.springs[i - 1 - body].force,
+        };
+        let ahead = self.springs[i - body].force;
+        let tied = self.tied[i];
+        let whole = &mut self.whole;
+        let node = &mut self.nodes[i];
+        let (velocity, position) = (node.velocity.0, node.position.0);
+        let mut after = velocity;
+        let mut next_position = position;
+        for l in 0..LANES {
+            let ratio = step.kick.0[l] / mass[l];
+            let change = (behind.0[l] - ahead.0[l]) * ratio;
+            let next = rub(velocity[l], change, friction[l] * ratio);
+            let rubbed = mass[l] * (velocity[l] + change - next);
+            let is_free = tied >> l & 1 == 0;
+            let rubbed = if is_free { rubbed } else { 0.0 };
+            whole.friction_impulse.0[l] += rubbed;
+            whole.friction_work.0[l] += rubbed * 0.5 * (velocity[l] + next);
+            let moved = position[l] + next * step.length.0[l];
+            after[l] = if is_free { next } else { velocity[l] };
+            next_position[l] = if is_free { moved } else { position[l] };
+        }
+        node.velocity = Lanes(after);
+        node.position = Lanes(next_position);
+        self.moves[i] = !is_still(node);
+        self.kick_joints(i, step);
     }
 
     /// Kicks the back of the target.

@@ -1,18 +1,21 @@
 //! Many independent shots at once: eight of them side by side, each in a lane of the processor's vector unit.
 //!
 //! [`Bundle`] advances the state of eight shots by the equations of the single run, in the same order, lane by lane: no lane knows
-//! of another one, so that a shot ends with the same bits in whatever company it was computed. Whatever is rare (the books, the end
-//! of a shot, erosion) is left to the single run: the lane's state is put into its [`Conservative`] and goes on there.
+//! of another one, so that a shot ends with the same bits in whatever company it was computed. Whatever is rare (the end of a shot,
+//! erosion) is left to the single run: the lane's state is put into its [`Conservative`], and what that makes of it is put back.
 
 // Loops over the lanes run along many arrays at once.
 #![allow(clippy::needless_range_loop)]
 
 mod accepts;
+mod books;
 mod bundle;
 mod contact;
 mod end;
+mod erosion;
 mod exchange;
 mod flow;
+mod joints;
 mod kick;
 mod lanes;
 mod spring;
@@ -20,6 +23,7 @@ mod step;
 #[cfg(test)]
 mod tests;
 mod update;
+mod whole;
 
 use std::{
     collections::BTreeMap,
@@ -30,6 +34,7 @@ use std::{
 use pulp::{Arch, NullaryFnOnce};
 
 pub(crate) use accepts::accepts;
+use books::Sums;
 use bundle::{Bundle, Mesh};
 pub(in crate::chain) use flow::Start;
 pub(in crate::chain) use lanes::LANES;
@@ -136,9 +141,12 @@ impl Ride<'_, '_> {
                     bundle,
                     left: &mut left,
                 });
+                let sums = (left == 0).then(|| arch.dispatch(Sum(&self.bundle)));
                 for (lane, calls) in calls.into_iter().enumerate() {
-                    if calls || left == 0 {
-                        self.attend(lane)?;
+                    match &sums {
+                        _ if calls => self.attend(lane)?,
+                        Some(sums) => self.audit(lane, sums)?,
+                        None => {}
                     }
                 }
             }
@@ -161,48 +169,85 @@ impl Ride<'_, '_> {
         }
     }
 
+    /// Lets the single run look at the books of a lane.
+    fn audit(&mut self, lane: usize, sums: &Sums) -> Result<(), Stopped> {
+        let Some(passenger) = &mut self.lanes[lane] else {
+            return Ok(());
+        };
+        match self.bundle.audit(lane, sums, &mut passenger.run) {
+            Ok(()) => Ok(()),
+            Err(_) => self.leave(lane, None),
+        }
+    }
+
     /// Lets the single run look at a lane after a step.
     fn attend(&mut self, lane: usize) -> Result<(), Stopped> {
         let Some(passenger) = &mut self.lanes[lane] else {
             return Ok(());
         };
         let run = &mut passenger.run;
-        let stop = self.stop;
-        let mut watch = |_: Progress| match stop.load(Ordering::Relaxed) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        };
+        let scenario = self.scenarios[passenger.shot];
+        let mut watch = listen(self.stop);
         let mut control = Control {
             progress: Some(&mut watch),
             ..Control::default()
         };
-        let shot = passenger.shot;
-        let result = if self.bundle.let_out(lane, run) {
-            run.state.erode(run.control.erosion_strain);
-            run.watch.follow(&run.state, self.scenarios[shot]);
-            match run.ended(&mut control) {
-                Ok(None) if !run.state.elements.iter().any(|e| e.eroded) => {
-                    self.bundle.follow(lane, run);
-                    return Ok(());
-                }
-                // The single run goes on from here.
-                Ok(None) => Some(run.run_on(&mut control)),
-                Ok(Some(termination)) => run.finish(termination, None).ok().map(Ok),
-                Err(_) => None,
-            }
-        } else {
-            None
+        if !self.bundle.let_out(lane, run) {
+            return self.leave(lane, None);
+        }
+        let left = |run: &Conservative<'_>| -> usize {
+            let segments = run.state.segments.iter();
+            segments.map(|segment| segment.elements().len()).sum()
         };
-        // What fails does so in the single run too, which knows what comes next.
-        let result =
-            result.unwrap_or_else(|| Conservative::new(self.scenarios[shot]).run_on(&mut control));
+        let before = left(run);
+        run.state.erode(run.control.erosion_strain);
+        let erodes = left(run) < before;
+        run.watch.follow(&run.state, scenario);
+        let result = match run.ended(&mut control) {
+            Ok(None) if !erodes || self.bundle.erode(lane, run) => {
+                self.bundle.follow(lane, run);
+                return Ok(());
+            }
+            // The single run goes on from here.
+            Ok(None) => Some(run.run_on(&mut control)),
+            Ok(Some(termination)) => run.finish(termination, None).ok().map(Ok),
+            Err(_) => None,
+        };
+        self.leave(lane, result)
+    }
+
+    /// Empties a lane. What fails there does so in the single run too, which knows what comes next.
+    fn leave(
+        &mut self,
+        lane: usize,
+        result: Option<Result<RunResult, Error>>,
+    ) -> Result<(), Stopped> {
+        let Some(Passenger { shot, .. }) = self.lanes[lane].take() else {
+            return Ok(());
+        };
+        self.bundle.park(lane);
+        let alone = || {
+            let mut watch = listen(self.stop);
+            let mut control = Control {
+                progress: Some(&mut watch),
+                ..Control::default()
+            };
+            Conservative::new(self.scenarios[shot]).run_on(&mut control)
+        };
+        let result = result.unwrap_or_else(alone);
         if let Err(Error::Cancelled { .. }) = result {
             return Err(Stopped);
         }
         self.results[shot] = Some(result);
-        self.lanes[lane] = None;
-        self.bundle.park(lane);
         Ok(())
+    }
+}
+
+/// Ends a run when the batch is to stop.
+fn listen(stop: &AtomicBool) -> impl FnMut(Progress) -> ControlFlow<()> {
+    |_| match stop.load(Ordering::Relaxed) {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
     }
 }
 
@@ -218,5 +263,17 @@ impl NullaryFnOnce for Advance<'_> {
     #[inline(always)]
     fn call(self) -> [bool; LANES] {
         self.bundle.advance(self.left)
+    }
+}
+
+/// Sums up energy and momentum.
+struct Sum<'b>(&'b Bundle);
+
+impl NullaryFnOnce for Sum<'_> {
+    type Output = Sums;
+
+    #[inline(always)]
+    fn call(self) -> Sums {
+        self.0.sums()
     }
 }

@@ -21,9 +21,15 @@ pub(super) struct Response {
 }
 
 impl Spring {
-    /// Brings the element to the length that its ends give it, as if nothing flowed.
+    /// Brings the element to the length that its ends give it, as if nothing flowed; it may have eroded in some lanes.
     #[inline(always)]
-    pub(super) fn respond(&mut self, ends: [&Node; 2], body: &Elastic, now: usize) -> Response {
+    pub(super) fn respond<const ERODED: bool>(
+        &mut self,
+        ends: [&Node; 2],
+        body: &Elastic,
+        now: usize,
+        gone: u8,
+    ) -> Response {
         let [back, front] = ends.map(|node| node.position.0);
         let [back_velocity, front_velocity] = ends.map(|node| node.velocity.0);
         let unloaded = self.unloaded_length.0;
@@ -38,16 +44,23 @@ impl Spring {
         let mut approach = [0.0; LANES];
         let (mut flows, mut changes, mut erodes) = (false, false, false);
         for l in 0..LANES {
+            let is_here = !ERODED || gone >> l & 1 == 0;
             let length = front[l] - back[l];
             let (elastic, is_exact) = small_log_ratio(unloaded[l], length);
             stress[l] = modulus[l] * elastic;
-            flows |= (stress[l].abs() > yield_stress[l]) | !is_exact;
-            changes |= stress[l] != stress_before[l];
-            erodes |= (length <= shortest[l]) | (length >= longest[l]);
+            flows |= is_here & ((stress[l].abs() > yield_stress[l]) | !is_exact);
+            changes |= is_here & (stress[l] != stress_before[l]);
+            erodes |= is_here & ((length <= shortest[l]) | (length >= longest[l]));
             let inverse = 1.0 / length;
             force[l] = stress[l] * volume[l] * inverse;
             limit[l] = stable(length, stress[l], compliance[l], slowness[l]);
             approach[l] = (back_velocity[l] - front_velocity[l]).abs() * inverse;
+            if !is_here {
+                stress[l] = 0.0;
+                force[l] = 0.0;
+                limit[l] = f64::INFINITY;
+                approach[l] = 0.0;
+            }
         }
         self.stress[1 - (now & 1)] = Lanes(stress);
         self.force = Lanes(force);
@@ -72,6 +85,17 @@ impl Spring {
             flows |= u8::from((stress[l].abs() > yield_stress[l]) | !is_exact) << l;
         }
         flows
+    }
+
+    /// Takes the force of an element away in lanes where it has eroded.
+    #[inline(always)]
+    pub(super) fn part(&mut self, limit: &mut Lanes, gone: u8) {
+        for l in 0..LANES {
+            if gone >> l & 1 == 1 {
+                self.force.0[l] = 0.0;
+                limit.0[l] = f64::INFINITY;
+            }
+        }
     }
 
     /// What follows from the stress once what flows has flowed; returns the largest stable time step.

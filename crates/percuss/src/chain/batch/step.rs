@@ -32,7 +32,7 @@ impl Bundle {
     pub(super) fn advance(&mut self, left: &mut u64) -> [bool; LANES] {
         while *left > 0 {
             *left -= 1;
-            let calls = self.step(*left == 0);
+            let calls = self.step();
             if calls.iter().any(|&calls| calls) {
                 return calls;
             }
@@ -41,15 +41,21 @@ impl Bundle {
     }
 
     #[inline(always)]
-    fn step(&mut self, is_last: bool) -> [bool; LANES] {
+    fn step(&mut self) -> [bool; LANES] {
         let step = self.begin();
         let force_behind = self.kick_projectile(&step);
+        let [projectile, target] = self.mesh.elements;
+        let [tip, face] = [projectile, projectile + 1];
         self.kick_contact(force_behind, &step);
-        self.drift(self.mesh.elements[0], &step);
+        self.kick_joints(face, &step);
         self.kick_target(&step);
+        self.close_joints(&step);
+        for end in [tip, face, face + target] {
+            self.drift(end, &step);
+        }
         let found = self.update(&step);
         self.now = 1 - self.now;
-        self.end(&step, &found, is_last)
+        self.end(&step, &found)
     }
 
     /// Chooses the time steps.

@@ -57,6 +57,37 @@ fn shots() -> Vec<Scenario> {
         ("elastic", PLATE, 250.0, ""),
         ("perfect", perfect, 250.0, "adiabatic_heating = false"),
         ("perfect", PLATE, 180.0, "erosion_strain = 0.3"),
+        // Erosion of the rod, of the target and of both, at their ends and inside, in company and in pieces that meet again.
+        ("copper", PLATE, 450.0, ""),
+        ("copper", PLATE, 500.0, "erosion_strain = 1.0"),
+        ("copper", PLATE, 700.0, "courant = 0.4"),
+        ("copper", PLATE, 700.0, "border_shear = 0.0"),
+        ("copper", PLATE, 1300.0, "courant = 0.2"),
+        ("copper", endless, 700.0, "erosion_strain = 0.8"),
+        ("copper", free, 700.0, "erosion_strain = 0.6"),
+        ("elastic", PLATE, 700.0, "erosion_strain = 0.4"),
+        ("elastic", PLATE, 1500.0, ""),
+        ("elastic", endless, 900.0, "erosion_strain = 0.5"),
+        (
+            "elastic",
+            free,
+            600.0,
+            "constraint_factor = 1.0\nerosion_strain = 0.5",
+        ),
+        ("perfect", perfect, 400.0, "erosion_strain = 0.2"),
+        ("perfect", perfect, 800.0, "erosion_strain = 0.2"),
+        (
+            "perfect",
+            perfect,
+            600.0,
+            "constraint_factor = 1.0\nerosion_strain = 0.3",
+        ),
+        (
+            "perfect",
+            PLATE,
+            900.0,
+            "erosion_strain = 0.6\nborder_shear = 0.0",
+        ),
     ] {
         shots.push(shot(rod, target, velocity, &format!("{coarse}\n{more}")));
     }
@@ -92,7 +123,24 @@ fn shots_side_by_side_end_with_the_bits_of_single_runs() {
     for outcome in ["Rebounded", "Perforated", "StepLimit", "EndTime"] {
         assert!(said(outcome) > 0, "none is {outcome}");
     }
-    assert!(said("eroded_elements: (0, 0)") < results.len());
+    let eroded = |words: &&String| {
+        words.contains("eroded_elements") && !words.contains("eroded_elements: (0, 0)")
+    };
+    let eroded: Vec<&str> = results
+        .iter()
+        .filter(eroded)
+        .filter_map(|words| words.split_once("eroded_elements: ")?.1.split_once(')'))
+        .map(|(counts, _)| counts)
+        .collect();
+    let of_rod = eroded
+        .iter()
+        .filter(|counts| !counts.starts_with("(0,"))
+        .count();
+    let of_target = eroded
+        .iter()
+        .filter(|counts| !counts.ends_with(" 0"))
+        .count();
+    assert!(of_rod >= 8 && of_target >= 4, "{eroded:?}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::{
     bundle::{Bundle, LIMITS_AT_ONCE},
     flow::{flow_gathered, flow_in_place},
+    joints::Joint,
     lanes::{LANES, Lanes, SET_LANES, larger, smaller},
     step::{Found, Step},
 };
@@ -52,7 +53,11 @@ impl Bundle {
             if !(moves.0 | moves.1) & mark.settled {
                 continue;
             }
-            let response = spring.respond([ends.0, ends.1], &body, now);
+            let ends = [ends.0, ends.1];
+            let response = match mark.gone {
+                0 => spring.respond::<false>(ends, &body, now, 0),
+                gone => spring.respond::<true>(ends, &body, now, gone),
+            };
             *limit = response.limit;
             for l in 0..LANES {
                 fastest.0[l] = larger(response.approach.0[l], fastest.0[l]);
@@ -87,7 +92,7 @@ impl Bundle {
             }
             let ends = [&self.nodes[e + b], &self.nodes[e + b + 1]];
             let spring = &mut self.springs[e];
-            let lanes = spring.flowing(ends, now);
+            let lanes = spring.flowing(ends, now) & !self.marks[e].gone;
             if lanes.count_ones() >= MANY {
                 flow_in_place(lanes, (spring, flow), ends, body, &step.rate, now);
             } else {
@@ -100,12 +105,25 @@ impl Bundle {
         flow_gathered(&mut self.gathered, gathered, chain, body, &step.rate, now);
         let elastic = body.elastic();
         let mut work = Lanes::all(0.0);
+        let total = &mut self.whole.plastic_work[b];
+        let of_body = |joint: &&Joint| self.mesh.holds(b, joint.ahead);
+        let mut joints = self.joints.iter().filter(of_body).peekable();
         for &e in &self.working[..working] {
+            // The work of every piece is a sum of its own.
+            while let Some(joint) = joints.next_if(|joint| joint.ahead <= e + b) {
+                let l = joint.lane;
+                total.0[l] += work.0[l];
+                work.0[l] = 0.0;
+            }
             let ends = [&self.nodes[e + b], &self.nodes[e + b + 1]];
             let flow = &self.flows[e];
-            self.limits[e] = self.springs[e].settle(flow, ends, &elastic, now, &mut work);
+            let spring = &mut self.springs[e];
+            let mut limit = spring.settle(flow, ends, &elastic, now, &mut work);
+            if self.marks[e].gone != 0 {
+                spring.part(&mut limit, self.marks[e].gone);
+            }
+            self.limits[e] = limit;
         }
-        let total = &mut self.whole.plastic_work[b];
         for l in 0..LANES {
             total.0[l] += work.0[l];
         }

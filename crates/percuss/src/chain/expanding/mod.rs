@@ -3,6 +3,7 @@
 //!
 //! It has a solver of its own: no part of the column is left in it.
 
+mod block;
 mod floor;
 mod ground;
 mod node;

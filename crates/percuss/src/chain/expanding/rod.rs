@@ -2,7 +2,10 @@
 
 use std::f64::consts::PI;
 
+use pulp::Arch;
+
 use super::{
+    block::Respond,
     node::Node,
     slice::{Metal, Shear, Slice},
 };
@@ -15,8 +18,30 @@ pub(super) struct Rod {
     pub(super) slices: Vec<Slice>,
     /// `shears[i]` is between the slices `i` and `i + 1`.
     shears: Vec<Shear>,
+    arch: Arch,
+    /// What limits the next step, where it is known from the last one.
+    fastest: Option<Fastest>,
     /// What eroded: largest plastic strain, plastic strain rate and temperature of its slices.
     lost: [f64; 3],
+}
+
+/// What limits a time step: the largest of all slices.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Fastest {
+    /// Square of a frequency times the density [Pa/m2].
+    pub(super) stiffness: f64,
+    /// Rate of strain [1/s].
+    pub(super) rate: f64,
+}
+
+impl Fastest {
+    /// Looks at a slice and its two nodes.
+    pub(super) fn follow(&mut self, slice: &Slice, nodes: &[Node], metal: &Metal) {
+        let approach = (nodes[0].velocity - nodes[1].velocity).abs() / slice.length;
+        let widening = slice.radial_velocity.abs() / slice.radius;
+        self.rate = self.rate.max(approach).max(widening);
+        self.stiffness = self.stiffness.max(slice.stiffness(metal));
+    }
 }
 
 /// What left with a slice.
@@ -57,6 +82,8 @@ impl Rod {
             nodes[i + 1].mass += 0.5 * slice.mass;
         }
         Self {
+            arch: Arch::new(),
+            fastest: None,
             shears: vec![Shear::default(); count.saturating_sub(1)],
             metal,
             nodes,
@@ -100,14 +127,31 @@ impl Rod {
         for node in &mut self.nodes {
             node.position += node.velocity * time_step;
         }
-        let mut plastic = 0.0;
-        for (i, slice) in self.slices.iter_mut().enumerate() {
-            let length = self.nodes[i + 1].position - self.nodes[i].position;
-            if length <= 0.0 || slice.radius + slice.radial_velocity * time_step <= 0.0 {
+        for (i, (pair, slice)) in self.nodes.windows(2).zip(&mut self.slices).enumerate() {
+            slice.length = pair[1].position - pair[0].position;
+            slice.radius += slice.radial_velocity * time_step;
+            if slice.length <= 0.0 || slice.radius <= 0.0 {
                 return Err(i);
             }
-            plastic += slice.deform(&self.metal, length, time_step);
         }
+        let metal = &self.metal;
+        let mut plastic = match metal.strength.hardening() {
+            Some(law) => {
+                let (work, fastest) = self.arch.dispatch(Respond {
+                    nodes: &self.nodes,
+                    slices: &mut self.slices,
+                    metal,
+                    law,
+                    time_step,
+                });
+                self.fastest = Some(fastest);
+                work
+            }
+            None => {
+                let slices = self.slices.iter_mut();
+                slices.fold(0.0, |work, slice| work + slice.deform(metal, time_step))
+            }
+        };
         for (pair, shear) in self.slices.windows(2).zip(&mut self.shears) {
             plastic += shear.deform(&self.metal, &pair[0], &pair[1], time_step);
         }
@@ -116,15 +160,15 @@ impl Rod {
 
     /// Largest stable step [s], in which no slice changes its size by more than a part either.
     pub(super) fn stable_step(&self, largest_strain: f64) -> f64 {
-        let mut step = f64::INFINITY;
-        for (pair, slice) in self.nodes.windows(2).zip(&self.slices) {
-            let approach = (pair[0].velocity - pair[1].velocity).abs() / slice.length;
-            let rate = approach.max(slice.radial_velocity.abs() / slice.radius);
-            step = step
-                .min(2.0 / slice.stiffness_per_mass(&self.metal).sqrt())
-                .min(largest_strain / rate);
-        }
-        step
+        let fastest = self.fastest.unwrap_or_else(|| {
+            let mut fastest = Fastest::default();
+            for (pair, slice) in self.nodes.windows(2).zip(&self.slices) {
+                fastest.follow(slice, pair, &self.metal);
+            }
+            fastest
+        });
+        let frequency = (fastest.stiffness / self.metal.density).sqrt();
+        (2.0 / frequency).min(largest_strain / fastest.rate)
     }
 
     /// Takes the foremost slice out, with what leaves with it.
@@ -133,6 +177,7 @@ impl Rod {
             return Loss::default();
         };
         let shear = self.shears.pop();
+        self.fastest = None;
         let half = 0.5 * slice.mass;
         let mut loss = Loss {
             energy: slice.elastic_energy(&self.metal)

@@ -36,6 +36,15 @@ impl Metal {
             rate_effects,
         }
     }
+
+    /// Square of the highest frequency that a slice under an axial stress has by itself, times the density [Pa/m2].
+    #[inline(always)]
+    pub(super) fn stiffness(&self, axial_stress: f64, length: f64, radius: f64) -> f64 {
+        let shear = self.shear_modulus;
+        let axial = self.bulk_modulus + shear / 0.75 + axial_stress.abs();
+        let radial = self.bulk_modulus + shear / 3.0 + axial_stress.abs();
+        4.0 * (axial + shear) / (length * length) + 8.0 * radial / (radius * radius)
+    }
 }
 
 /// A slice between two nodes of the projectile. Stresses are those per area at rest in each direction (Kirchhoff), compression
@@ -51,16 +60,16 @@ pub(super) struct Slice {
     /// Force that drives it outwards [N].
     pub(super) radial_force: f64,
     pub(super) axial_force: f64,
-    /// Pressure and axial less radial stress, now and a step before.
-    pressure: [f64; 2],
-    difference: [f64; 2],
+    /// Pressure and axial less radial stress, a step before and now.
+    pub(super) pressure: [f64; 2],
+    pub(super) difference: [f64; 2],
     /// Axial plastic strain, compression positive, and its part in the last step.
-    plastic_axial: f64,
-    plastic_step: f64,
+    pub(super) plastic_axial: f64,
+    pub(super) plastic_step: f64,
     pub(super) plastic_strain: f64,
     pub(super) largest_rate: f64,
     pub(super) temperature: f64,
-    yield_point: YieldPoint,
+    pub(super) yield_point: YieldPoint,
     pub(super) initial_position: f64,
 }
 
@@ -99,7 +108,7 @@ impl Slice {
         }
     }
 
-    fn rest_volume(&self) -> f64 {
+    pub(super) fn rest_volume(&self) -> f64 {
         PI * self.rest_radius * self.rest_radius * self.rest_length
     }
 
@@ -115,6 +124,11 @@ impl Slice {
     /// Logarithmic axial strain, compression positive.
     pub(super) fn strain(&self) -> f64 {
         (self.rest_length / self.length).ln()
+    }
+
+    /// Logarithmic radial strain, compression positive.
+    pub(super) fn radial_strain(&self) -> f64 {
+        (self.rest_radius / self.radius).ln()
     }
 
     /// Axial stress [Pa].
@@ -151,13 +165,11 @@ impl Slice {
         0.5 * self.radial_mass() * self.radial_velocity * self.radial_velocity
     }
 
-    /// Brings it to a length and to the radius that a step leads to; gives the plastic work between the half steps around the
-    /// current time [J].
-    pub(super) fn deform(&mut self, metal: &Metal, length: f64, time_step: f64) -> f64 {
-        self.length = length;
-        self.radius += self.radial_velocity * time_step;
+    /// Goes on to the stresses that belong to its length and radius after a step; gives the plastic work between the half steps
+    /// around the current time [J].
+    pub(super) fn deform(&mut self, metal: &Metal, time_step: f64) -> f64 {
         let axial = self.strain();
-        let radial = (self.rest_radius / self.radius).ln();
+        let radial = self.radial_strain();
         let pressure = metal.bulk_modulus * (axial + 2.0 * radial);
         let elastic = axial - radial - 1.5 * self.plastic_axial;
         let trial = 2.0 * metal.shear_modulus * elastic;
@@ -179,7 +191,7 @@ impl Slice {
     }
 
     /// Returns a trial stress difference to the yield surface.
-    fn flow(&mut self, metal: &Metal, trial: f64, time_step: f64) -> f64 {
+    pub(super) fn flow(&mut self, metal: &Metal, trial: f64, time_step: f64) -> f64 {
         let modulus = 3.0 * metal.shear_modulus;
         let increment = self.yield_point.plastic_increment(
             &*metal.strength,
@@ -206,14 +218,9 @@ impl Slice {
         difference
     }
 
-    /// Square of the highest frequency that it has by itself [1/s2].
-    pub(super) fn stiffness_per_mass(&self, metal: &Metal) -> f64 {
-        let axial = metal.bulk_modulus + metal.shear_modulus / 0.75 + self.axial_stress().abs();
-        let shear = metal.shear_modulus;
-        let radial = metal.bulk_modulus + metal.shear_modulus / 3.0 + self.axial_stress().abs();
-        let length = self.length * self.length;
-        (4.0 * (axial + shear) / length + 8.0 * radial / (self.radius * self.radius))
-            / metal.density
+    /// Square of the highest frequency that it has by itself, times the density [Pa/m2].
+    pub(super) fn stiffness(&self, metal: &Metal) -> f64 {
+        metal.stiffness(self.axial_stress(), self.length, self.radius)
     }
 }
 

@@ -1,16 +1,25 @@
-use std::{path::PathBuf, sync::Mutex};
+mod compute;
+
+use std::{path::PathBuf, sync::atomic::AtomicBool};
 
 use clap::{Args, ValueEnum};
-use percuss::judge::{
-    self, Group, Grouping, Reference, Shot, Verdict, ablation::Line, reference, study,
-};
+use percuss::judge::{self, Group, Grouping, Reference, Verdict, ablation::Line, reference, study};
 use percuss_report::judgement::{self, Judgement, Origin};
 use serde::Serialize;
 
 use crate::{
-    diagnostic, failure::Failure, judgement_table, progress::Progress, run_folder::make_folder,
-    terminal, written::Written,
+    answer::{Answer, Hear},
+    diagnostic,
+    failure::Failure,
+    judgement_table,
+    progress::Progress,
+    run_folder::make_folder,
+    terminal,
+    written::Written,
 };
+
+/// Part of the work that is done when the reference is there, where it has to be computed: the rest takes seconds.
+const COMPUTED: f64 = 0.98;
 
 const LONG_ABOUT: &str = "\
 Judge every model that gives depths by the axisymmetric reference, model `axi`:
@@ -97,22 +106,76 @@ impl From<By> for Grouping {
 struct Record<'a> {
     percuss_version: &'static str,
     reference: &'a str,
+    failures: &'a [String],
     findings: Vec<String>,
     statistics: Vec<Group>,
     ablation: &'a [Line],
     verdicts: &'a [Verdict],
 }
 
+/// What the command found out and wrote.
+struct Found {
+    judgement: Judgement,
+    origin: Origin,
+    /// Shots whose reference was to be computed and failed, and why.
+    failures: Vec<String>,
+    files: Vec<PathBuf>,
+}
+
 impl Judge {
     pub fn run(&self) -> Result<(), Failure> {
+        let say = |words: &str| {
+            if !self.quiet {
+                diagnostic::print(&format!("{words}\n"));
+            }
+        };
+        // What is done is kept row by row, so that Ctrl-C may just end the program.
+        let mut progress = Progress::new(!self.quiet);
+        let found = self.find(&AtomicBool::new(false), &mut progress.hear(), &say);
+        progress.finish();
+        let found = found?;
+        for failure in &found.failures {
+            diagnostic::print(&format!("warning: no reference: {failure}\n"));
+        }
+        let written = Written::new(&found.files);
+        if self.json {
+            return written.print_json(&record(&found), self.quiet);
+        }
+        if self.quiet {
+            let lines: String = judge::statistics(&found.judgement.verdicts, Grouping::All)
+                .iter()
+                .map(judgement_table::one_line)
+                .collect();
+            return terminal::print(&lines);
+        }
+        let by: Vec<Grouping> = self.by.iter().copied().map(Grouping::from).collect();
+        written.print_under(judgement_table::text(&found.judgement, &found.origin, &by))
+    }
+
+    /// What the command prints with --json.
+    pub fn answer(&self, stop: &AtomicBool, hear: Hear<'_>) -> Result<Answer, Failure> {
+        let found = self.find(stop, hear, &|_| ())?;
+        Answer::json_of(&record(&found), found.files.clone())
+    }
+
+    fn find(
+        &self,
+        stop: &AtomicBool,
+        hear: Hear<'_>,
+        say: &dyn Fn(&str),
+    ) -> Result<Found, Failure> {
         let shots = judge::shots();
         if let Some(out) = &self.out {
             make_folder(out)?;
         }
-        if self.compute {
-            self.compute(&shots)?;
-        }
-        let (references, origin) = self.references()?;
+        let failures = match self.compute {
+            true => {
+                let mut part = |part: f64, words: &str| hear(COMPUTED * part, words);
+                compute::complete(self, &shots, stop, &mut part, say)?
+            }
+            false => Vec::new(),
+        };
+        let (references, reference) = self.references()?;
         let study = match &self.study {
             Some(file) => study::read_file(file)?,
             None => study::built_in(),
@@ -122,37 +185,28 @@ impl Judge {
             .any(|row| shots.iter().any(|shot| row.is_of(shot)))
         {
             return Err(Failure::Usage {
-                message: format!("there is no reference to judge by in {origin}"),
+                message: format!("there is no reference to judge by in {reference}"),
                 help: "give a file that has one: --reference FILE; --compute computes it"
                     .to_owned(),
             });
         }
-        let mut progress = Progress::new(!self.quiet);
-        progress.update(0.1, "running all models on all shots");
+        let _ = hear(COMPUTED, "running all models on all shots");
         let judgement = Judgement::new(&shots, references, study)?;
         let origin = Origin {
-            reference: origin,
+            reference,
             command: self.command(),
         };
-        let mut paths = Vec::new();
+        let mut files = Vec::new();
         if let Some(out) = &self.out {
-            progress.update(0.7, "drawing figures");
-            paths = judgement::write(out, &judgement, &origin)?;
+            let _ = hear(1.0, "drawing figures");
+            files = judgement::write(out, &judgement, &origin)?;
         }
-        progress.finish();
-        let written = Written::new(&paths);
-        if self.json {
-            return written.print_json(&record(&judgement, &origin), self.quiet);
-        }
-        if self.quiet {
-            let lines: String = judge::statistics(&judgement.verdicts, Grouping::All)
-                .iter()
-                .map(judgement_table::one_line)
-                .collect();
-            return terminal::print(&lines);
-        }
-        let by: Vec<Grouping> = self.by.iter().copied().map(Grouping::from).collect();
-        written.print_under(judgement_table::text(&judgement, &origin, &by))
+        Ok(Found {
+            judgement,
+            origin,
+            failures,
+            files,
+        })
     }
 
     /// The reference and what it comes from.
@@ -177,74 +231,6 @@ impl Judge {
         Ok((references, name))
     }
 
-    /// Computes what the files lack.
-    fn compute(&self, shots: &[Shot]) -> Result<(), Failure> {
-        if self.reference.is_none() && self.study.is_none() {
-            return Err(Failure::Usage {
-                message: "--compute needs a file to write to".to_owned(),
-                help: "add --reference FILE, --study FILE or both; a file that exists is completed"
-                    .to_owned(),
-            });
-        }
-        if let Some(file) = &self.study {
-            self.announce(&format!(
-                "{}: computing the paper's case, {} runs, minutes to half an hour",
-                file.display(),
-                study::SPEEDS.len() * study::VARIANTS.len()
-            ));
-            let watch = Watch::new(!self.quiet, 0.0);
-            study::complete(file, &|done, of, row| {
-                watch.hear(done, of, 0.0, row.err());
-            })?;
-            watch.finish();
-        }
-        if let Some(file) = &self.reference {
-            let known = reference::read_file(file)?;
-            let cost = |shot: &Shot| reference::seconds(shot, self.cells, &known);
-            let missing: Vec<&Shot> = shots
-                .iter()
-                .filter(|shot| {
-                    let done = |row: &&Reference| row.cells_per_radius == self.cells;
-                    !known.iter().filter(done).any(|row| row.is_of(shot))
-                })
-                .collect();
-            let total: Option<f64> = missing.iter().map(|shot| cost(shot)).sum();
-            let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
-            self.announce(&format!(
-                "{}: computing {} of {} shots on {} cells per radius, {}",
-                file.display(),
-                missing.len(),
-                shots.len(),
-                self.cells,
-                match total {
-                    Some(seconds) => format!(
-                        "about {} on {}",
-                        in_words(seconds / cores as f64),
-                        terminal::counted(cores, "core")
-                    ),
-                    None => "which may take hours: 8 times as long for twice the cells".to_owned(),
-                }
-            ));
-            let watch = Watch::new(!self.quiet, total.unwrap_or(0.0));
-            reference::complete(file, shots, self.cells, &|done, of, row| {
-                let seconds = row
-                    .as_ref()
-                    .ok()
-                    .and_then(|row| shots.iter().find(|shot| row.is_of(shot)))
-                    .and_then(cost);
-                watch.hear(done, of, seconds.unwrap_or(0.0), row.err());
-            })?;
-            watch.finish();
-        }
-        Ok(())
-    }
-
-    fn announce(&self, words: &str) {
-        if !self.quiet {
-            diagnostic::print(&format!("{words}\n"));
-        }
-    }
-
     /// The command as a user would type it.
     fn command(&self) -> String {
         let mut words = vec!["percuss judge".to_owned()];
@@ -256,53 +242,14 @@ impl Judge {
     }
 }
 
-/// Progress of shots that take long, by the work that they are expected to be.
-struct Watch {
-    state: Mutex<(Progress, f64)>,
-    /// All the work that was left at the start; 0 when nobody knows.
-    total: f64,
-}
-
-impl Watch {
-    fn new(wanted: bool, total: f64) -> Self {
-        Self {
-            state: Mutex::new((Progress::new(wanted), 0.0)),
-            total,
-        }
-    }
-
-    fn hear(&self, done: usize, of: usize, work: f64, failure: Option<String>) {
-        if let Some(reason) = failure {
-            diagnostic::print(&format!("warning: no reference: {reason}\n"));
-        }
-        if let Ok(mut state) = self.state.lock() {
-            state.1 += work;
-            let fraction = match self.total > 0.0 {
-                true => state.1 / self.total,
-                false => done as f64 / of as f64,
-            };
-            state.0.update(fraction, &format!("{done} of {of} shots"));
-        }
-    }
-
-    fn finish(self) {
-        if let Ok((progress, _)) = self.state.into_inner() {
-            progress.finish();
-        }
-    }
-}
-
-fn in_words(seconds: f64) -> String {
-    match seconds {
-        ..5400.0 => format!("{:.0} min", (seconds / 60.0).ceil()),
-        _ => format!("{:.1} h", seconds / 3600.0),
-    }
-}
-
-fn record<'a>(judgement: &'a Judgement, origin: &'a Origin) -> Record<'a> {
+fn record(found: &Found) -> Record<'_> {
+    let Found {
+        judgement, origin, ..
+    } = found;
     Record {
         percuss_version: env!("CARGO_PKG_VERSION"),
         reference: &origin.reference,
+        failures: &found.failures,
         findings: judge::findings(&judgement.verdicts),
         statistics: Grouping::ALL
             .iter()

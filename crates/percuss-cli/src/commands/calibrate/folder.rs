@@ -1,0 +1,23 @@
+//! The folder of a calibration.
+
+use std::path::PathBuf;
+
+use percuss::calibrate::Calibrated;
+
+use crate::{failure::Failure, run_folder::RunFolder, terminal};
+
+/// Writes numbers, materials and figures.
+pub(super) fn write(found: &Calibrated, mut folder: RunFolder) -> Result<Vec<PathBuf>, Failure> {
+    folder.put("calibration.json", terminal::json(found)?.as_bytes())?;
+    folder.add(percuss_report::calibration::write(
+        folder.path(),
+        &found.calibration,
+    )?);
+    if let Some(text) = found.toml() {
+        folder.put("material.toml", text.as_bytes())?;
+    }
+    for figure in percuss_report::calibration::figures(&found.calibration) {
+        folder.add(figure.write(folder.path())?);
+    }
+    Ok(folder.written())
+}

@@ -1,0 +1,241 @@
+//! A run and what it leaves in its folder.
+
+use std::{
+    ops::ControlFlow,
+    path::{Path, PathBuf},
+    slice,
+    sync::{Arc, atomic::AtomicBool},
+    time::Duration,
+};
+
+use percuss::{
+    Error, Scenario,
+    checkpoint::Header,
+    frames::Frame,
+    model::{self, Control, Model},
+    outcome::RunResult,
+    summary::CaseResults,
+};
+use percuss_report::{FieldQuantity, FieldSeries};
+
+use super::{
+    Run,
+    checkpoints::{self, Keeper},
+};
+use crate::{
+    answer::{AtHand, Hear},
+    failure::Failure,
+    run_folder::RunFolder,
+};
+
+/// Time between two checkpoints, unless another one is asked for.
+const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(60);
+
+/// A case and what came of it.
+#[derive(Debug)]
+pub struct Ran {
+    /// The case.
+    pub scenario: Arc<Scenario>,
+    /// What came of it.
+    pub result: Arc<RunResult>,
+}
+
+impl Ran {
+    /// What `percuss run --json` prints.
+    pub fn results(&self) -> CaseResults {
+        CaseResults::new(&self.scenario, slice::from_ref(&self.result))
+    }
+}
+
+/// A run that is due.
+pub(super) struct Task<'a> {
+    options: &'a Run,
+    scenario: Arc<Scenario>,
+    model: &'static dyn Model,
+    folder: Option<RunFolder>,
+    fields: Option<Fields<'a>>,
+}
+
+/// What a run in two dimensions leaves in its folder besides its result.
+struct Fields<'a> {
+    series: FieldSeries,
+    keeper: Keeper<'a>,
+    /// Checkpoint to go on from.
+    resume: Option<Vec<u8>>,
+}
+
+impl<'a> Task<'a> {
+    /// Reads the case and makes the folder; `say` is told of checkpoints.
+    pub fn new(
+        options: &'a Run,
+        at_hand: &AtHand,
+        stop: &'a AtomicBool,
+        say: &dyn Fn(&str),
+    ) -> Result<Self, Failure> {
+        let document = at_hand.read(&options.case)?;
+        let scenario = document.scenario()?;
+        let model = model::model(options.model())?;
+        check_use(options, model)?;
+        let start = start(options, model, &scenario, say)?;
+        // A model that does not apply leaves no folder.
+        let out = options.out.as_deref();
+        let out = out.filter(|_| model::applicability(model, &scenario).is_ok());
+        let folder = RunFolder::wanted(out, Some(&document))?;
+        let fields = match out.filter(|_| model.has_fields()) {
+            Some(out) => Some(Fields {
+                series: match &start {
+                    Some((header, _)) => FieldSeries::resume(out, header.time)?,
+                    None => FieldSeries::create(out)?,
+                },
+                keeper: Keeper::new(out, options.checkpoint.unwrap_or(CHECKPOINT_INTERVAL), stop),
+                resume: start.map(|(_, bytes)| bytes),
+            }),
+            None => None,
+        };
+        Ok(Self {
+            options,
+            scenario: Arc::new(scenario),
+            model,
+            folder,
+            fields,
+        })
+    }
+
+    /// Computes it. One that leaves checkpoints stops by them alone.
+    pub fn compute(&mut self, hear: Hear<'_>) -> Result<Ran, Failure> {
+        let by_checkpoint = self.fields.is_some();
+        let mut report = |now: model::Progress| {
+            let words = format!("{:.1} us, depth {:.3} mm", now.time * 1e6, now.depth * 1e3);
+            match hear(now.fraction, &words) {
+                ControlFlow::Break(()) if !by_checkpoint => ControlFlow::Break(()),
+                _ => ControlFlow::Continue(()),
+            }
+        };
+        let result = match &mut self.fields {
+            Some(fields) => fields.run(self.model, &self.scenario, &mut report)?,
+            None => {
+                let mut control = Control {
+                    record: self.folder.is_some(),
+                    progress: Some(&mut report),
+                    ..Control::default()
+                };
+                model::run(self.model, &self.scenario, &mut control)?
+            }
+        };
+        Ok(Ran {
+            scenario: Arc::clone(&self.scenario),
+            result: Arc::new(result),
+        })
+    }
+
+    /// Writes what came of it, if it has a folder; returns the files.
+    pub fn write(
+        &mut self,
+        ran: &Ran,
+        report: &mut (dyn FnMut(f64, &str) + Send),
+    ) -> Result<Vec<PathBuf>, Failure> {
+        let (Some(folder), Some(out)) = (self.folder.take(), &self.options.out) else {
+            return Ok(Vec::new());
+        };
+        let mut files = folder.write(&ran.scenario, &ran.result, &ran.results(), report)?;
+        if let Some(fields) = &self.fields {
+            let field = self.options.field.as_deref().and_then(FieldQuantity::named);
+            files.push(fields.series.collection());
+            files.extend(percuss_report::draw_fields(
+                out,
+                &ran.scenario,
+                &fields.series,
+                field.unwrap_or_default(),
+                &mut |part| report(part, "drawing the field"),
+            )?);
+            checkpoints::remove(out);
+        }
+        Ok(files)
+    }
+}
+
+impl Fields<'_> {
+    fn run(
+        &mut self,
+        model: &dyn Model,
+        scenario: &Scenario,
+        report: &mut dyn FnMut(model::Progress) -> ControlFlow<()>,
+    ) -> Result<RunResult, Failure> {
+        let mut failure = None;
+        let mut add = |frame: &Frame<'_>| match self.series.add(frame) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                failure = Some(Failure::from(error));
+                ControlFlow::Break(())
+            }
+        };
+        let mut control = Control {
+            frames: Some(&mut add),
+            checkpoints: Some(&mut self.keeper),
+            resume: self.resume.as_deref(),
+            record: true,
+            progress: Some(report),
+        };
+        let result = model::run(model, scenario, &mut control);
+        match (failure.or(self.keeper.failure.take()), result) {
+            (Some(failure), _) => Err(failure),
+            (None, Err(Error::Cancelled { time_us, .. })) if self.keeper.stopped() => {
+                Err(Failure::Stopped { time_us })
+            }
+            (None, result) => Ok(result?),
+        }
+    }
+}
+
+/// Refuses options that would have no effect.
+fn check_use(options: &Run, model: &dyn Model) -> Result<(), Failure> {
+    let given = [
+        ("--field", options.field.is_some()),
+        ("--checkpoint", options.checkpoint.is_some()),
+        ("--resume", options.resume),
+    ];
+    match given.iter().find(|(_, given)| *given) {
+        Some((option, _)) if !model.has_fields() => Err(Failure::Usage {
+            message: format!(
+                "`{option}` has no effect with model `{}`, which has no fields",
+                model.name()
+            ),
+            help: format!("remove `{option}` or give `--model axi`"),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// The checkpoint to go on from, if there is one and it is wanted.
+fn start(
+    options: &Run,
+    model: &dyn Model,
+    scenario: &Scenario,
+    say: &dyn Fn(&str),
+) -> Result<Option<(Header, Vec<u8>)>, Failure> {
+    let Some(out) = options.out.as_deref().filter(|_| model.has_fields()) else {
+        return Ok(None);
+    };
+    let shown = Path::display(out);
+    let Some(bytes) = checkpoints::load(out)? else {
+        if options.resume {
+            say(&format!(
+                "`{shown}` holds no checkpoint; the run starts at the beginning"
+            ));
+        }
+        return Ok(None);
+    };
+    let header = Header::read(&bytes, model.name(), scenario);
+    if !options.resume {
+        if let Ok(header) = header {
+            say(&format!(
+                "`{shown}` holds a checkpoint of this case at {:.1} us; the run starts anew, `--resume` would go on",
+                header.time * 1e6
+            ));
+        }
+        return Ok(None);
+    }
+    let header = header?;
+    say(&format!("going on from {:.1} us", header.time * 1e6));
+    Ok(Some((header, bytes)))
+}

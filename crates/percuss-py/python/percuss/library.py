@@ -1,0 +1,186 @@
+"""What the program knows: models, materials, the keys of a case, and a case to start from."""
+
+from __future__ import annotations
+
+from pathlib import Path as FilePath
+from typing import Any
+
+from .ask import CaseLike, Path, answer, native_answer
+from .record import Record, Records
+
+
+class Material(Record):
+    """What is known of a material: the values of ``percuss materials --json``.
+
+    Attributes
+    ----------
+    id, name, family, state, trust, note : str
+        Its names, how far its numbers are established, and what to know of them.
+    sources : list of str
+        Keys of the bibliography.
+    strength : Record
+        The strength law and its constants, as a case file has them.
+    bar_wave_speed_m_s, bar_impedance_kg_m2_s : float
+        Speed of elastic waves in a bar [m/s] and its impedance per area [kg/(m2 s)].
+    """
+
+    id: str
+    name: str
+    density: str
+    strength: Record
+    trust: str
+    sources: list[str]
+    bar_wave_speed_m_s: float
+    bar_impedance_kg_m2_s: float
+
+    def _shown(self) -> list[tuple[str, str]]:
+        (law, constants), *_ = self._data["strength"].items()
+        rows = [*super()._shown(), ("strength", law.replace("_", " "))]
+        rows += [(f"strength.{name}", str(value)) for name, value in constants.items()]
+        return [*rows, ("sources", ", ".join(self.sources))]
+
+
+class Model(Record):
+    """What a model is made for: the values of ``percuss models --json``.
+
+    Attributes
+    ----------
+    name, summary : str
+        Its name and what it is.
+    guard : Record
+        What it is made for: ``projectile``, ``targets``, ``noses``, ``projectile_materials``, ``target_materials``, ``ranges``, ``notes``.
+    options : list of str
+        Keys of its table in a case.
+    page : str
+        Where its equations, sources and checks are, in the folder of the project.
+    """
+
+    name: str
+    summary: str
+    guard: Record
+    options: list[str]
+    page: str
+
+    def _shown(self) -> list[tuple[str, str]]:
+        guard = self._data["guard"]
+        names = ["projectile", "targets", "noses", "projectile_materials", "target_materials", "predicts"]
+        rows = [(name.replace("_", " "), ", ".join(guard[name]).replace("_", " ")) for name in names]
+        rows += [("note", note) for note in guard["notes"]]
+        return [*super()._shown(), *rows, ("options", ", ".join(self.options))]
+
+
+def materials(*, case: CaseLike | None = None, file: Path | None = None) -> Records[Material]:
+    """The materials that a case can name.
+
+    Parameters
+    ----------
+    case : Case or path, optional
+        Case whose materials are included, and those of the files that it names.
+    file : path, optional
+        File whose materials are included; each is checked.
+
+    Examples
+    --------
+    >>> "copper-woodward" in [material.id for material in percuss.materials()]
+    True
+    """
+    records = answer("materials", case=case, file=file)
+    return Records(map(Material, records), "id", "family", "name", "state", "density", "trust", "sources")
+
+
+def material(name: str, *, case: CaseLike | None = None, file: Path | None = None) -> Material:
+    """Everything that is known of one material, by its id or its family.
+
+    Parameters
+    ----------
+    name : str
+        Id or family.
+    case, file : optional
+        As of :func:`materials`.
+
+    Raises
+    ------
+    MaterialError
+        When none has the name.
+
+    Examples
+    --------
+    >>> percuss.material("copper").id
+    'copper-woodward'
+    """
+    return Material(answer("materials show", name, case=case, file=file))
+
+
+def models() -> Records[Model]:
+    """The models, with what each of them is made for.
+
+    Examples
+    --------
+    >>> [model.name for model in percuss.models()][:3]
+    ['chain', 'fdm', 'axi']
+    """
+    return Records(map(Model, answer("models")), "name", "summary", "page")
+
+
+def model(name: str) -> Model:
+    """Everything that a model is made for, and its options in a case.
+
+    Parameters
+    ----------
+    name : str
+        Name of the model.
+
+    Raises
+    ------
+    UsageError
+        When none has the name.
+
+    Examples
+    --------
+    >>> percuss.model("taylor").guard.predicts
+    ['projectile_final_length_mm']
+    """
+    return Model(answer("models", name))
+
+
+def schema() -> dict[str, Any]:
+    """The JSON Schema (draft 2020-12) of case files: every key with what it means, and the units and values allowed.
+
+    Examples
+    --------
+    >>> percuss.schema()["properties"]["projectile"]["description"]
+    'What strikes.'
+    """
+    found: dict[str, Any] = answer("schema")
+    return found
+
+
+def new(name: Path, *, force: bool = False) -> FilePath:
+    """Writes a starter case: it runs as it is, with every option of a case file explained and commented out.
+
+    Parameters
+    ----------
+    name : path
+        Folder of the case, made if it does not exist; its name is the case's.
+    force : bool
+        Whether to overwrite a case that exists.
+
+    Returns
+    -------
+    path
+        The case file.
+
+    Raises
+    ------
+    WriteError
+        When the case exists already, or cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> file = percuss.new(tempfile.mkdtemp() + "/my-shot")
+    >>> percuss.load(file).name
+    'my-shot'
+    """
+    (file,) = native_answer("new", name, force=force).files()
+    return FilePath(file)

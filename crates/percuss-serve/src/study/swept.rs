@@ -1,0 +1,130 @@
+//! A case with some of its numbers varied, as a sweep file says.
+
+use std::collections::BTreeMap;
+
+use percuss::{
+    case::Document,
+    outcome::Outcome,
+    sweep::{Axis, Row, Sweep},
+};
+use percuss_report::sweep::{PlotStyle, charts, numbers, parallel_figure, rows_csv};
+use serde_json::{Value, json};
+
+use super::{
+    Job, Study, csv_files,
+    shots::{Bounded, followed},
+};
+use crate::problem::Problem;
+
+/// Most shots of a sweep.
+const MOST_SHOTS: u64 = 4096;
+/// Most rows that the page shows by themselves; the file has all.
+const SHOWN: usize = 200;
+/// Most reasons of failed shots.
+const REASONS: usize = 3;
+/// Name that the sweep file has for the case.
+const BASE: &str = "scenario.toml";
+
+pub(super) fn swept(job: &Job<'_>) -> Result<Study, Problem> {
+    let asked = job.asked;
+    let case = job.read()?;
+    let file = Document::new("sweep.toml", asked.sweep.as_str());
+    let sweep = Sweep::of(&file, &Document::new(asked.name(), case.text.as_str()))?;
+    if sweep.shots() > MOST_SHOTS {
+        return Err(Problem::refused(
+            format!("the sweep has {} shots", sweep.shots()),
+            format!("a page computes {MOST_SHOTS} at most; `percuss sweep` more"),
+        ));
+    }
+    job.bounds.check(sweep.model, &case.scenario)?;
+    let kernel = Bounded::new(sweep.model, job.bounds);
+    let rows = followed(job, |watch| sweep.rows(&kernel, watch));
+    let rows = rows.map_err(|_| job.stop.ended())?;
+
+    let drawn = charts(&sweep, &rows);
+    let figures = drawn.iter().map(|one| {
+        let figure = one.chart.draw();
+        (format!("{}.svg", figure.name), figure.svg)
+    });
+    let texts = [
+        ("sweep.toml".to_owned(), asked.sweep.clone()),
+        (BASE.to_owned(), case.text.clone()),
+    ];
+    let files: Vec<_> = csv_files([("rows.csv", rows_csv(&sweep, &rows)?)])
+        .chain(figures)
+        .chain(texts)
+        .collect();
+    let drawn: Vec<Value> = drawn
+        .iter()
+        .map(|one| {
+            let style = match one.style {
+                PlotStyle::Curves => "curves",
+                PlotStyle::Map => "map",
+                PlotStyle::Parallel => "parallel coordinates",
+            };
+            json!({ "quantity": one.quantity, "style": style, "chart": one.chart.data() })
+        })
+        .collect();
+    let record = json!({
+        "model": sweep.model.name(),
+        "design": sweep.design().name(),
+        "shots": sweep.shots(),
+        "parameters": sweep.axes.iter().map(parameter).collect::<Vec<_>>(),
+        "outcomes": outcomes(&rows),
+        "reasons": reasons(&rows),
+        "numbers": table(&sweep, &rows),
+        "rows": rows.iter().take(SHOWN).map(row).collect::<Vec<_>>(),
+        "drawn": drawn,
+    });
+    let picture = parallel_figure(&sweep, &rows);
+    Ok(Study::new(record, &[], files).with_pictures(picture))
+}
+
+fn parameter(axis: &Axis) -> Value {
+    json!({ "key": axis.key, "unit": axis.unit, "words": axis.words().unwrap_or_default() })
+}
+
+/// The numbers that come of the shots, with the values of the rows that are shown.
+fn table(sweep: &Sweep, rows: &[Row]) -> Vec<Value> {
+    let number = |number: percuss_report::sweep::SweepNumber| {
+        let shown = number.values.iter().take(SHOWN).collect::<Vec<_>>();
+        json!({ "quantity": number.quantity, "label": number.label, "values": shown })
+    };
+    numbers(sweep, rows).into_iter().map(number).collect()
+}
+
+fn row(row: &Row) -> Value {
+    let (outcome, reason) = match &row.record {
+        Ok(record) => (record.outcome, record.reason.clone().unwrap_or_default()),
+        Err(reason) => (Outcome::Failed, reason.clone()),
+    };
+    json!({ "inputs": row.inputs, "outcome": outcome.in_words(), "reason": reason })
+}
+
+/// How often each outcome is there.
+fn outcomes(rows: &[Row]) -> BTreeMap<&'static str, u64> {
+    let mut outcomes = BTreeMap::new();
+    for row in rows {
+        let outcome = row.record.as_ref().map_or(Outcome::Failed, |r| r.outcome);
+        *outcomes.entry(outcome.in_words()).or_default() += 1;
+    }
+    outcomes
+}
+
+/// Why shots have no result: each reason once, and no more than a few.
+fn reasons(rows: &[Row]) -> Vec<&str> {
+    let mut reasons: Vec<&str> = Vec::new();
+    for row in rows {
+        let reason = match &row.record {
+            Ok(record) => record.reason.as_deref(),
+            Err(reason) => Some(reason.as_str()),
+        };
+        if let Some(reason) = reason
+            && reasons.len() < REASONS
+            && !reasons.contains(&reason)
+        {
+            reasons.push(reason);
+        }
+    }
+    reasons
+}

@@ -1,0 +1,107 @@
+// Numbers of a case fitted to what was measured on it.
+
+import { make, significant, table } from "./dom";
+import { labelled, options, type Kind, type Page } from "./panel";
+import { Parameters, type Numbers } from "./parameters";
+import type { Calibrated, Marginal, Quality } from "./types";
+
+const number = (value: number | null | undefined, digits = 4) => (value == null ? "–" : significant(value, digits));
+const percent = (part: number | null | undefined) => (part == null ? "–" : significant(100 * part, 3));
+const list = (items: string[]) => make("ul", {}, ...items.map((words) => make("li", {}, words)));
+
+export function calibration(page: Page, numbers: Numbers): Kind {
+  const parameters = new Parameters({
+    title: "calibration",
+    steps: false,
+    most: 4,
+    first: /\.strength\./,
+    around: [0.5, 2],
+    head: () => "",
+  }, numbers);
+  const method = make("select", {}, ...options(["", "least squares"], ["sample", "least squares and a sample"]));
+  const steps = make("input", { type: "number", min: "4", max: "2400", step: "1", value: "100" });
+  const stepsLabel = labelled("of steps", steps);
+  stepsLabel.hidden = true;
+  method.addEventListener("input", () => (stepsLabel.hidden = method.value === ""));
+  const noise = make("input", { type: "text", size: "9", value: "estimated", autocomplete: "off" });
+  const heldOut = make("input", { type: "text", size: "12", placeholder: "sources", autocomplete: "off" });
+  const seed = make("input", { type: "number", min: "0", max: "9007199254740991", step: "1", value: "0" });
+  return {
+    title: "Calibrate",
+    about: "numbers of the case fitted to its measured values",
+    path: "/api/study/calibrate",
+    inputs: [labelled("by", method), stepsLabel, labelled("scatter", noise), labelled("hold out", heldOut), labelled("seed", seed)],
+    below: parameters.element,
+    body: () => ({
+      ...page.request(),
+      fit: {
+        file: parameters.toml(),
+        noise: noise.value,
+        steps: method.value ? Number(steps.value) : null,
+        seed: Number(seed.value),
+        hold_out: heldOut.value.split(/[\s,]+/).filter((source) => source),
+      },
+    }),
+    show: (done) => show(done as Calibrated),
+  };
+}
+
+function show(done: Calibrated): HTMLElement[] {
+  const found = done.calibration;
+  const sampled = found.sampling;
+  const said: HTMLElement[] = [make("p", {}, `Model ${found.model}, ${found.runs} runs, seed ${found.seed}${sampled ? `; ${sampled.ensembles} ensembles of ${sampled.walkers} walkers, ${sampled.steps} steps after ${sampled.burn_in}` : ""}.`)];
+  if (found.findings.length) {
+    said.push(make("p", {}, make("b", {}, "Not determined:")), list(found.findings.map((finding) => finding.words)));
+  }
+  const left = found.left_out;
+  const rest = left.length
+    ? [make("details", {}, make("summary", {}, `${left.length} measured values left out`), list(left.map((one) => `${one.id}: ${one.reason}`)))]
+    : [];
+  const material = done.material
+    ? [make("details", {}, make("summary", {}, "The calibrated material, as the table materials of a case takes it"), make("pre", { tabindex: "0" }, done.material))]
+    : [];
+  const warnings = found.warnings.length ? [list(found.warnings)] : [];
+  return [...said, parameterTable(done), qualityTable(done), predictions(done), ...warnings, ...rest, ...material];
+}
+
+const marginal = (of: Marginal | null, factor = 1) =>
+  of ? [`${number(factor * of.quantiles[0])} … ${number(factor * of.quantiles[2])}`, of.r_hat.toFixed(3), of.bulk_effective_size.toFixed(0), of.tail_effective_size.toFixed(0)] : ["–", "–", "–", "–"];
+
+function parameterTable({ calibration: found }: Calibrated): HTMLElement {
+  const sampled = found.sampling !== null;
+  const head = ["fitted", "95 % beforehand", "best", "± error", ...(sampled ? ["95 % of the sample", "R-hat", "size, bulk", "size, tails"] : [])];
+  const lines = found.parameters.map((p) => [
+    p.unit ? `${p.key} [${p.unit}]` : p.key,
+    `${number(p.prior[0])} … ${number(p.prior[2])}`,
+    number(p.best, 5),
+    number(p.standard_error, 2),
+    ...(sampled ? marginal(p.posterior) : []),
+  ]);
+  const { scatter } = found;
+  lines.push(["scatter about the model [%]", scatter.estimated ? "" : "given", percent(scatter.best), "", ...(sampled ? marginal(scatter.posterior, 100) : [])]);
+  return table(head, lines);
+}
+
+function qualityTable({ calibration: found }: Calibrated): HTMLElement {
+  const sampled = found.sampling !== null;
+  const line = (name: string, q: Quality) =>
+    [name, String(q.count), percent(q.rms_before), percent(q.rms), percent(q.bias), ...(sampled ? [String(q.inside ?? "–")] : [])];
+  const lines = [line("fitted to", found.training), ...(found.hold_out ? [line("held out", found.hold_out)] : [])];
+  return table(["measured values", "count", "RMS before [%]", "RMS [%]", "bias [%]", ...(sampled ? ["in the 95 % band"] : [])], lines);
+}
+
+// Every measured value and what the model says of it.
+function predictions({ calibration: found }: Calibrated): HTMLElement {
+  const sampled = found.sampling !== null;
+  const lines = found.predictions.map((p) => [
+    `${p.id}${p.held_out ? " (held out)" : ""}`,
+    `${p.quantity.replace(/_(mm|m_s)$/, "").replaceAll("_", " ")} [${p.unit}]`,
+    number(p.impact_velocity_m_s),
+    number(p.measured),
+    number(p.before),
+    number(p.best),
+    ...(sampled ? [p.predictive_band ? `${number(p.predictive_band[0])} … ${number(p.predictive_band[1])}` : "–"] : []),
+  ]);
+  const head = ["value", "quantity", "impact speed [m/s]", "measured", "before", "fitted", ...(sampled ? ["95 % band"] : [])];
+  return make("details", { open: "" }, make("summary", {}, "Measured and fitted values"), table(head, lines, [1]));
+}

@@ -1,0 +1,117 @@
+// A study: started by a button, with progress, ended by another, and what it came to.
+
+import { Refused, follow } from "./api";
+import { ChartView } from "./charts";
+import { button, download, make } from "./dom";
+import { explained } from "./problem";
+import type { Chart, Problem, Study } from "./types";
+
+// What studies ask of the page.
+export interface Page {
+  request(): { name: string; case: string; model: string };
+  hasUncertainty(): boolean;
+  insert(text: string): void;
+}
+
+export interface Kind {
+  title: string;
+  about: string;
+  path: string;
+  // What stands beside the button, and below it.
+  inputs?: HTMLElement[];
+  below?: HTMLElement;
+  body(): object;
+  // The view of a chart takes part in what happens to all charts.
+  show(done: unknown, view: (chart: Chart, files: Study["files"]) => ChartView): HTMLElement[];
+  // What else to say to a refusal.
+  refused?(): HTMLElement | null;
+}
+
+export type Views = ChartView[];
+
+export const options = (...choices: [string, string][]) => choices.map(([value, words]) => make("option", { value }, words));
+
+// A control with its name beside it. The name is given again: the choices of a list would count as part of it.
+export function labelled<T extends HTMLElement>(words: string, input: T): HTMLElement {
+  input.setAttribute("aria-label", words);
+  return make("label", {}, `${words} `, input);
+}
+
+const unexpected = (error: unknown): Problem => ({ message: String(error), help: "", key: "", place: null });
+
+export function panel(kind: Kind, views: Views, page: Page): HTMLElement {
+  const bar = make("progress", { max: "1", value: "0", "aria-label": `Progress: ${kind.title}` });
+  const words = make("span", { class: "soft" });
+  const result = make("div", { class: "result" });
+  let control: AbortController | null = null;
+  const start = button(kind.title, () => void run());
+  const cancel = button("Cancel", () => control?.abort());
+  const running = make("span", { class: "running", role: "status" }, bar, words, cancel);
+  running.hidden = true;
+
+  async function run(): Promise<void> {
+    control?.abort();
+    const own = (control = new AbortController());
+    running.hidden = false;
+    start.disabled = true;
+    bar.value = 0;
+    words.textContent = "";
+    result.replaceChildren();
+    try {
+      const done = await follow<Study>(kind.path, kind.body(), own.signal, (fraction, said) => {
+        bar.value = fraction;
+        words.textContent = said;
+      });
+      result.replaceChildren(...kind.show(done, view), ...outcome(done));
+    } catch (error) {
+      if (own.signal.aborted) {
+        result.replaceChildren(make("p", { class: "note" }, "cancelled"));
+        return;
+      }
+      const problem = error instanceof Refused ? error.problem : unexpected(error);
+      result.replaceChildren(make("div", { class: "problem", role: "alert" }, ...explained(problem)), kind.refused?.() ?? "");
+    } finally {
+      running.hidden = true;
+      start.disabled = false;
+    }
+  }
+
+  // Files that name each other keep their names; others are told apart by the case.
+  const save = (name: string, text: string) => download(name.endsWith(".toml") ? name : `${page.request().name || "case"}-${name}`, text, "text/plain");
+
+  function figureButton(chart: { name: string; title: string }, files: Study["files"]): HTMLElement[] {
+    const name = `${chart.name}.svg`;
+    const text = files[name];
+    if (text === undefined) return [];
+    const action = button("SVG", () => save(name, text));
+    action.setAttribute("aria-label", `Download the figure: ${chart.title}`);
+    return [action];
+  }
+
+  function view(chart: Chart, files: Study["files"]): ChartView {
+    const made = new ChartView(figureButton(chart, files));
+    views.push(made);
+    queueMicrotask(() => made.show(chart));
+    return made;
+  }
+
+  // Charts, pictures and files that every study has.
+  function outcome(study: Study): HTMLElement[] {
+    const files = study.files ?? {};
+    const charts = study.charts.map((chart) => view(chart, files).element);
+    const pictures = (study.pictures ?? []).map(({ name, title, svg }) => {
+      const actions = make("span", { class: "actions" }, ...figureButton({ name, title }, { [`${name}.svg`]: svg }));
+      const image = make("img", { src: `data:image/svg+xml,${encodeURIComponent(svg)}`, alt: title });
+      // The picture has its title in it.
+      return make("figure", { "data-chart": name }, make("div", { class: "head" }, make("span"), actions), image);
+    });
+    const buttons = Object.entries(files).filter(([name]) => !name.endsWith(".svg")).map(([name, text]) => button(name, () => save(name, text)));
+    return [
+      make("div", { class: "charts" }, ...charts, ...pictures),
+      ...(buttons.length ? [make("p", { class: "files" }, "Download: ", ...buttons)] : []),
+    ];
+  }
+
+  const head = make("div", { class: "bar" }, start, make("span", { class: "soft" }, kind.about), ...(kind.inputs ?? []), running);
+  return make("div", { class: "study" }, head, kind.below ?? null, result);
+}

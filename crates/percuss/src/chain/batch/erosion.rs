@@ -1,0 +1,113 @@
+//! Lanes in which elements have eroded: what is left of their bodies, and what is between the pieces.
+
+use super::{bundle::Bundle, joints::Joint, lanes::LANES};
+use crate::chain::{conservative::Conservative, state::State};
+
+impl Bundle {
+    /// Takes the elements out of a lane that have eroded in the single run, which has just been let out; false when too little is
+    /// left to go on here.
+    pub(super) fn erode(&mut self, lane: usize, run: &Conservative<'_>) -> bool {
+        let state = &run.state;
+        let (Some(tip), Some(face)) = (state.tip_segment(), state.face_segment()) else {
+            return false;
+        };
+        let back = self.nodes.len() - 1;
+        if state.segments[state.segments.len() - 1].last_node != back {
+            return false;
+        }
+        self.tails[lane] = state.segments[0].first_node;
+        self.faces[lane] = state.segments[face].first_node;
+        let bit = 1 << lane;
+        for (e, element) in state.elements.iter().enumerate() {
+            if element.eroded {
+                self.marks[e].gone |= bit;
+                let (spring, flow) = (&mut self.springs[e], &mut self.flows[e]);
+                let steps = [&mut flow.plastic_step, &mut flow.step_before];
+                for of in spring.stress.iter_mut().chain(steps) {
+                    of.0[lane] = 0.0;
+                }
+                spring.force.0[lane] = 0.0;
+            }
+        }
+        let mut is_left = vec![false; self.nodes.len()];
+        for segment in &state.segments {
+            is_left[segment.first_node..=segment.last_node].fill(true);
+        }
+        for (i, is_left) in is_left.into_iter().enumerate() {
+            if is_left {
+                self.masses[i].0[lane] = state.nodes[i].mass;
+                self.frictions[i].0[lane] = state.nodes[i].friction;
+            } else {
+                // No force acts on it any more.
+                self.nodes[i].velocity.0[lane] = 0.0;
+            }
+        }
+        self.set_joints(lane, state, tip);
+        self.find_odd_nodes();
+        self.unsettle();
+        true
+    }
+
+    fn set_joints(&mut self, lane: usize, state: &State, tip: usize) {
+        self.remove_joints(lane);
+        let projectile = self.mesh.elements[0];
+        for (place, joint) in state.joints.iter().enumerate() {
+            let behind = state.segments[place].last_node;
+            let ahead = state.segments[place + 1].first_node;
+            let is_contact = place == tip;
+            if is_contact && [behind, ahead] == [projectile, projectile + 1] {
+                continue;
+            }
+            self.displaced |= u8::from(is_contact) << lane;
+            for node in [behind, ahead] {
+                self.tied[node] |= 1 << lane;
+            }
+            self.joints.push(Joint {
+                ahead,
+                behind,
+                lane,
+                place,
+                is_contact,
+                closed: joint.closed,
+            });
+        }
+        self.joints.sort_unstable();
+    }
+
+    fn remove_joints(&mut self, lane: usize) {
+        let bit = 1 << lane;
+        self.displaced &= !bit;
+        for tied in &mut self.tied {
+            *tied &= !bit;
+        }
+        self.joints.retain(|joint| joint.lane != lane);
+    }
+
+    /// Makes the bodies of a lane whole again.
+    pub(super) fn mend(&mut self, lane: usize) {
+        self.tails[lane] = 0;
+        self.faces[lane] = self.mesh.elements[0] + 1;
+        for mark in &mut self.marks {
+            mark.gone &= !(1 << lane);
+        }
+        self.remove_joints(lane);
+        self.find_odd_nodes();
+    }
+
+    /// Finds the nodes between the ends of a body that are not like the others in every lane.
+    fn find_odd_nodes(&mut self) {
+        self.odd.clear();
+        let [projectile, target] = self.mesh.elements;
+        let back = projectile + 1 + target;
+        for i in (0..projectile).chain(projectile + 2..back) {
+            let body = &self.bodies[usize::from(i > projectile)];
+            let mass = if i == 0 { body.end_mass } else { body.mass };
+            let (masses, frictions) = (self.masses[i], self.frictions[i]);
+            let is_odd =
+                |l: usize| masses.0[l] != mass.0[l] || frictions.0[l] != body.friction.0[l];
+            if self.tied[i] != 0 || (0..LANES).any(is_odd) {
+                self.odd.push(i);
+            }
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! Computing many shots in blocks, in parallel, for callers that keep what comes of them in memory.
+
+use std::{
+    ops::Range,
+    sync::atomic::{AtomicBool, AtomicU64, Ordering},
+};
+
+use rayon::prelude::*;
+
+use super::{Kernel, Row, Stopped, Sweep};
+
+/// What a caller wants of many shots: progress and a way to stop them.
+pub struct Watch<'a> {
+    /// Ends them when it becomes true.
+    pub stop: &'a AtomicBool,
+    /// Called now and then from any thread with the shots that are done and all of them.
+    pub progress: &'a (dyn Fn(u64, u64) + Sync),
+}
+
+/// What comes of `count` shots in blocks of `size`, in the order of the shots.
+pub(crate) fn in_blocks<T: Send>(
+    count: u64,
+    size: u64,
+    work: impl Fn(Range<u64>) -> Result<Vec<T>, Stopped> + Sync,
+) -> Result<Vec<T>, Stopped> {
+    let blocks: Result<Vec<Vec<T>>, Stopped> = (0..count.div_ceil(size))
+        .into_par_iter()
+        .map(|block| work(block * size..((block + 1) * size).min(count)))
+        .collect();
+    Ok(blocks?.into_iter().flatten().collect())
+}
+
+impl Sweep {
+    /// All rows, in the order of the shots. They take memory: a folder of `percuss-report` takes sweeps of any size.
+    ///
+    /// # Errors
+    /// [`Stopped`].
+    pub fn rows(&self, kernel: &dyn Kernel, watch: &Watch<'_>) -> Result<Vec<Row>, Stopped> {
+        let (done, total) = (AtomicU64::new(0), self.shots());
+        in_blocks(total, self.block_size, |block| {
+            let shots = block.map(|shot| self.shot(shot)).collect();
+            let rows = kernel.rows(shots, watch.stop)?;
+            let of_block = rows.len() as u64;
+            let done = done.fetch_add(of_block, Ordering::Relaxed) + of_block;
+            (watch.progress)(done, total);
+            Ok(rows)
+        })
+    }
+}
