@@ -319,3 +319,34 @@ fn local_damping_of_a_mass_on_a_spring() {
         assert_near("peak force", peak(damping), exact, 1e-4);
     }
 }
+
+/// What is locally damped is stiffer when it slows down, so that steps have to be shorter by `sqrt(1 + α)`: a bar at nearly the longest
+/// stable step keeps below its energy at the start.
+#[test]
+fn a_locally_damped_bar_is_stable_at_its_longest_step() {
+    for damping in [0.2, 0.5, 0.8] {
+        let result = run_recorded(&format!(
+            r#"
+            projectile = {{ material = "steel", length = "1 mm", diameter = "0.5 mm", velocity = "0.001 m/s" }}
+            target = {{ material = "steel", thickness = "0.5 mm" }}
+            [chain]
+            projectile_elements = 9
+            target_elements = 4
+            kinematics = "small-strain"
+            courant = 0.99
+            local_damping = {damping}
+            end_time = "20 us"
+            [materials.steel]
+            name = "steel"
+            density = "8000 kg/m3"
+            youngs_modulus = "200 GPa"
+            poissons_ratio = 0.3
+            strength.elastic = {{}}
+            "#
+        ));
+        let speeds = result.history.as_ref().unwrap().samples.iter();
+        let fastest = speeds.map(|s| s.tip_velocity.abs()).fold(0.0, f64::max);
+        println!("damping {damping}: fastest {fastest} m/s");
+        assert!(fastest < 1.1e-3, "{damping}: {fastest}");
+    }
+}

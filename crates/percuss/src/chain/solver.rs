@@ -36,6 +36,11 @@ impl StepControl {
         self.viscosity != ArtificialViscosity::default() || self.damping_ratio > 0.0
     }
 
+    /// Stable step of a chain with local damping: where force and motion oppose each other, damping adds its part to the stiffness.
+    fn damped(&self, stable_step: f64) -> f64 {
+        stable_step / (1.0 + self.local_damping).sqrt()
+    }
+
     /// Factor on the stable step of the undamped chain at the moment of impact.
     pub(super) fn first_step_factor(&self, state: &State, impact_speed: f64) -> f64 {
         let slowness = state
@@ -95,7 +100,7 @@ impl State {
         let previous = self.time_step;
         let time_step = choose_time_step(
             previous,
-            (control.courant * self.stable_step).min(control.longest_step),
+            (control.courant * control.damped(self.stable_step)).min(control.longest_step),
         );
         self.collect_forces();
         self.collect_band_forces();
