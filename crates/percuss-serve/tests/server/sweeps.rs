@@ -189,11 +189,15 @@ fn a_sweep_has_bounds() {
     );
     // Lists take memory before anybody counts the shots.
     let long = GRID
-        .replace("count = 7", "count = 600000")
-        .replace("count = 3", "count = 600000");
+        .replace("count = 7", "count = 1000000")
+        .replace("count = 3", "count = 1000000");
+    let more = [("length", "mm"), ("diameter", "mm"), ("temperature", "K")].map(|(key, unit)| {
+        format!("[[parameter]]\nkey = 'projectile.{key}'\nlinear = {{ from = '300 {unit}', to = '400 {unit}', count = 1000000 }}\n")
+    });
+    let long = long + "\n" + &more.concat();
     let said = problem(&long);
     assert!(
-        said.contains("all lists together have more than 1000000 values"),
+        said.contains("all lists together have more than 4000000 values"),
         "{said}"
     );
     assert!(problem("").contains("base"), "{said}");

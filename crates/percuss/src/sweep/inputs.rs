@@ -8,7 +8,7 @@ use super::{
     copula::Copula,
     correlation::Correlation,
     file::{Design, Parameter},
-    parameter::MAX_VALUES,
+    parameter::MAX_TOGETHER,
 };
 use crate::{case::Template, check::Check};
 
@@ -63,8 +63,8 @@ pub(super) fn resolve(
         }
         let axis = parameter.resolve(&mut check, design);
         listed += axis.as_ref().and_then(Axis::count).unwrap_or(0);
-        if listed > MAX_VALUES {
-            let message = format!("all lists together have more than {MAX_VALUES} values");
+        if listed > MAX_TOGETHER {
+            let message = format!("all lists together have more than {MAX_TOGETHER} values");
             check.fail("", message, "give fewer values, or a distribution");
             return (Vec::new(), None);
         }

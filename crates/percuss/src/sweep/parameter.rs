@@ -9,8 +9,10 @@ use super::{
 };
 use crate::check::Check;
 
-/// Most values of one list, and of all lists together.
+/// Most values of one list.
 pub(super) const MAX_VALUES: u64 = 1_000_000;
+/// Most values of all lists together: a long one leaves room for others.
+pub(super) const MAX_TOGETHER: u64 = 4 * MAX_VALUES;
 /// Part of a distribution that its limits have to leave.
 const LEAST_LEFT: f64 = 1e-6;
 

@@ -81,6 +81,22 @@ fn a_grid_has_every_combination_and_its_last_parameter_varies_fastest() {
 }
 
 #[test]
+fn the_longest_list_leaves_room_for_others() {
+    let million = "
+[[parameter]]
+key = 'projectile.velocity'
+linear = { from = '150 m/s', to = '400 m/s', count = 1000000 }
+[[parameter]]
+key = 'chain.constraint_factor'
+values = [2.7]
+";
+    assert_eq!(
+        sweep("million", "design = 'grid'", million).shots(),
+        1_000_000
+    );
+}
+
+#[test]
 fn a_latin_hypercube_has_one_shot_in_every_interval_of_every_margin() {
     for samples in [1_u64, 2, 37, 1000] {
         let head = format!("design = 'latin-hypercube'\nsamples = {samples}\nseed = 4");
