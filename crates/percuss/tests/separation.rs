@@ -284,6 +284,15 @@ fn a_fracture_energy_leaves_one_plane_and_no_crumbs() {
     }
 }
 
+const ELASTIC_STEEL: &str = r#"
+    [materials.steel]
+    name = "steel"
+    density = "8000 kg/m3"
+    youngs_modulus = "200 GPa"
+    poissons_ratio = 0.3
+    strength.elastic = {}
+"#;
+
 /// One element on a wall is a mass on a spring: the damping adds its fraction to the spring when it loads and takes it off when it
 /// unloads, so that the peak force falls by `sqrt(1 + α)`.
 #[test]
@@ -299,12 +308,7 @@ fn local_damping_of_a_mass_on_a_spring() {
             courant = 0.002
             local_damping = {damping}
             end_time = "20 us"
-            [materials.steel]
-            name = "steel"
-            density = "8000 kg/m3"
-            youngs_modulus = "200 GPa"
-            poissons_ratio = 0.3
-            strength.elastic = {{}}
+            {ELASTIC_STEEL}
             "#
         ));
         assert!(
@@ -336,12 +340,7 @@ fn a_locally_damped_bar_is_stable_at_its_longest_step() {
             courant = 0.99
             local_damping = {damping}
             end_time = "20 us"
-            [materials.steel]
-            name = "steel"
-            density = "8000 kg/m3"
-            youngs_modulus = "200 GPa"
-            poissons_ratio = 0.3
-            strength.elastic = {{}}
+            {ELASTIC_STEEL}
             "#
         ));
         let speeds = result.history.as_ref().unwrap().samples.iter();
