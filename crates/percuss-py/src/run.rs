@@ -80,7 +80,7 @@ pub fn run(
             ..Control::default()
         };
         let start = Instant::now();
-        let result = model::run(model, &scenario, &mut control).map_err(Failure::from);
+        let result = model::run_explained(model, &scenario, &mut control).map_err(Failure::from);
         solver_time = start.elapsed();
         result
     });

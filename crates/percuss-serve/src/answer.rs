@@ -81,7 +81,7 @@ pub(crate) fn run(
         progress: Some(&mut report),
         ..Control::recording()
     };
-    model::run(model, scenario, &mut control).map_err(|error| stop.problem(error))
+    model::run_explained(model, scenario, &mut control).map_err(|error| stop.problem(error))
 }
 
 /// Charts of a result; a model without a time history has none.

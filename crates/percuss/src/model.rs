@@ -50,6 +50,19 @@ pub trait Model: Sync {
     /// # Errors
     /// [`Error::Numerical`] when the solution fails or its books do not balance; [`Error::Cancelled`].
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error>;
+
+    /// Adds to a result what its own choices are worth, for people; a model without choices has nothing to add.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    fn explain(
+        &self,
+        _scenario: &Scenario,
+        _result: &mut RunResult,
+        _control: &mut Control<'_>,
+    ) -> Result<(), Error> {
+        Ok(())
+    }
 }
 
 /// All models. Adding one is one file and one line here.
@@ -110,6 +123,21 @@ pub fn run(
     control: &mut Control<'_>,
 ) -> Result<RunResult, Error> {
     run_in(model, scenario, &Regime::of(scenario), control)
+}
+
+/// Computes a case by a model, with what its own choices are worth: which target resistance model is in force if it is not the usual one,
+/// and the range of the result over its numerical constants. It may take a few runs of a quick model.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_explained(
+    model: &dyn Model,
+    scenario: &Scenario,
+    control: &mut Control<'_>,
+) -> Result<RunResult, Error> {
+    let mut result = run(model, scenario, control)?;
+    model.explain(scenario, &mut result, control)?;
+    Ok(result)
 }
 
 /// Computes a case whose regime is known already.

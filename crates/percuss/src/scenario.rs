@@ -34,6 +34,9 @@ pub struct Scenario {
     pub target: TargetBody,
     /// What the target opposes to penetration, where the caller brings a law along; no file can name one.
     pub resistance: Option<OwnResistance>,
+    /// Why the default target resistance model of the chain is not the expanding cavity; `None` where it is, and where the case names
+    /// one.
+    pub resistance_reason: Option<String>,
     /// Options of the models.
     pub options: ModelOptions,
     /// What was measured, for comparison; no model sees it.
@@ -210,6 +213,7 @@ impl Scenario {
             obliquity: case.projectile.obliquity(),
             target: target?,
             resistance: None,
+            resistance_reason: None,
             options,
             experiments: case
                 .experiments
@@ -222,9 +226,9 @@ impl Scenario {
             scenario.options.chain.target_elements = scenario.thin_target_elements();
         }
         if scenario.options.chain.target_closure.is_none() {
-            let column_diameter = case.target.column_diameter.is_some();
-            let closure = chain::default_closure(&scenario, column_diameter);
+            let (closure, reason) = chain::default_closure(&scenario);
             scenario.options.chain.target_closure = Some(closure);
+            scenario.resistance_reason = reason;
         }
         Some(scenario)
     }

@@ -34,36 +34,53 @@ impl ChainOptions {
         self.target_closure.unwrap_or_default()
     }
 
-    /// Keys that only a column has, and whether they are given.
+    /// Keys that only a column has, and whether their values differ from the default: writing down a default changes nothing.
     pub(super) fn column_keys(&self) -> [(&'static str, bool); 3] {
+        let default = Self::default();
         [
-            ("constraint_factor", self.constraint_factor.is_some()),
-            ("border_shear", self.border_shear.is_some()),
+            (
+                "constraint_factor",
+                self.constraint_factor() != default.constraint_factor(),
+            ),
+            (
+                "border_shear",
+                self.border_shear() != default.border_shear(),
+            ),
             (
                 "erosion_closure",
-                self.erosion_closure() == ErosionClosure::Tate,
+                self.erosion_closure() != default.erosion_closure(),
             ),
         ]
     }
 
-    /// Keys of a chain of springs through the target that an expanding cavity has no use for, and whether they are given.
-    pub(super) fn spring_keys(&self) -> [(&'static str, bool); 6] {
-        [
-            ("kinematics", self.kinematics.is_some()),
-            ("artificial_viscosity", self.artificial_viscosity.is_some()),
-            ("damping_ratio", self.damping_ratio.is_some()),
-            ("local_damping", self.local_damping.is_some()),
-            ("failure", self.failure.is_some()),
-            ("fracture_energy", self.fracture_energy.is_some()),
-        ]
+    /// Keys that an expanding cavity does not have, and whether their values differ from the default.
+    pub(super) fn cavity_lacks(&self) -> impl Iterator<Item = (&'static str, bool)> {
+        let default = Self::default();
+        let others = [
+            ("kinematics", self.kinematics() != default.kinematics()),
+            (
+                "border_shear_law",
+                self.border_shear_law() != default.border_shear_law(),
+            ),
+            ("dishing", self.dishing() != default.dishing()),
+        ];
+        self.column_keys().into_iter().chain(others)
     }
 
-    /// Whether an option is given that an expanding cavity does not have.
-    pub(crate) fn asks_for_a_column(&self) -> bool {
-        let perforates =
-            self.border_shear_law.is_some() || self.shear_band.is_some() || self.dishing.is_some();
-        let given = |(_, given): &(&str, bool)| *given;
-        perforates || self.column_keys().iter().any(given) || self.spring_keys().iter().any(given)
+    /// The first key whose value an expanding cavity does not have, if there is one.
+    pub(crate) fn asks_for_a_column(&self) -> Option<&'static str> {
+        let mut keys = self.cavity_lacks();
+        keys.find_map(|(key, differs)| differs.then_some(key))
+    }
+
+    /// Whether a dotted key of a case is an option that an expanding cavity does not have.
+    pub(crate) fn is_of_a_column(key: &str) -> bool {
+        let default = Self::default();
+        let mut keys = default.cavity_lacks();
+        key == "target.column_diameter"
+            || key
+                .strip_prefix("chain.")
+                .is_some_and(|key| keys.any(|(own, _)| key.split('.').next() == Some(own)))
     }
 
     /// How what erodes leaves the tip.

@@ -27,10 +27,10 @@ pub struct ChainOptions {
     /// Elements through the target, shared among its layers by thickness; 80 when not given, and fewer in a target thinner than
     /// half the projectile's length, a fourth as long as the projectile's but at least 24; always 80 in scheme `published`.
     pub target_elements: Option<u32>,
-    /// What stands for the target; scheme `conservative` only. When not given, `expanding-cavity` for a flat-ended projectile on one
-    /// plate that yields, semi-infinite or at least 5 projectile diameters thick, unless `constraint_factor`, `border_shear`,
-    /// `border_shear_law`, `shear_band`, `dishing`, `kinematics`, `artificial_viscosity`, `damping_ratio`, `local_damping`, `failure`,
-    /// `fracture_energy`, `erosion_closure = "tate"` or `target.column_diameter` is given, which it does not have; `column` otherwise.
+    /// Target resistance model; scheme `conservative` only. When not given, `expanding-cavity` for a flat-ended projectile on one
+    /// layer that yields, semi-infinite or at least 0.866 projectile diameters thick, unless `constraint_factor`, `border_shear`,
+    /// `border_shear_law`, `dishing`, `kinematics`, `erosion_closure` or `target.column_diameter` differs from its default: the
+    /// expanding cavity has none of these. `column` otherwise.
     pub target_closure: Option<TargetClosure>,
     /// Factor on the target's flow stress for the lateral constraint; 2.7 \[woodward1982\] when not given.
     pub constraint_factor: Option<ConstraintFactor>,
@@ -195,17 +195,19 @@ impl ChainOptions {
         if closure == TargetClosure::Column {
             return;
         }
-        for (key, given) in self.column_keys() {
-            if given {
-                check.fail(
-                    key,
-                    format!(
-                        "`{key}` belongs to a column: the target closure `{}` has none",
-                        closure.name()
-                    ),
-                    "remove the key, or use target_closure = \"column\"",
-                );
-            }
+        let lacks: Vec<_> = match closure {
+            TargetClosure::ExpandingCavity => self.cavity_lacks().collect(),
+            _ => self.column_keys().to_vec(),
+        };
+        for (key, _) in lacks.iter().filter(|(_, differs)| *differs) {
+            check.fail(
+                key,
+                format!(
+                    "`{key}` belongs to a column: the target closure `{}` has none",
+                    closure.name()
+                ),
+                "remove the key, or use target_closure = \"column\"",
+            );
         }
         if target.column_diameter.is_some() {
             check.fail(
@@ -230,17 +232,6 @@ impl ChainOptions {
                 ),
                 "use target_closure = \"diverging\" or \"column\"",
             );
-        }
-        if closure == TargetClosure::ExpandingCavity {
-            for (key, given) in self.spring_keys() {
-                if given {
-                    check.fail(
-                        key,
-                        format!("the target closure `{}` has no `{key}`", closure.name()),
-                        "remove the key, or use another target closure",
-                    );
-                }
-            }
         }
     }
 

@@ -1,30 +1,48 @@
-//! What stands for the target of a case that does not say.
+//! Default target resistance model of a case.
 
 use super::expanding;
 use crate::{
     case::{Nose, Scheme, TargetClosure},
-    regime::TargetKind,
+    regime::{THIN, TargetKind},
     scenario::{Scenario, TargetBody},
 };
 
-/// The closure of a case that names none: an expanding cavity in a thick target of one metal, where it errs least against the
-/// axisymmetric reference, unless the case gives an option that only a column has; a column everywhere else.
-///
-/// `column_diameter` says whether the case gives one.
-pub(crate) fn default_closure(scenario: &Scenario, column_diameter: bool) -> TargetClosure {
+/// Target resistance of a case that names none, and why it is not the expanding cavity, which is the default of a flat-ended rod on one
+/// layer: against the axisymmetric reference it errs least.
+pub(crate) fn default_closure(scenario: &Scenario) -> (TargetClosure, Option<String>) {
     let options = &scenario.options.chain;
-    let judged = options.scheme == Scheme::Conservative
-        && scenario.projectile.nose == Nose::Flat
-        && matches!(
-            TargetKind::of(scenario),
-            TargetKind::SemiInfinite | TargetKind::ThickPlate
-        )
-        && expanding::not_applicable(scenario).is_none();
-    if judged && !column_diameter && !options.asks_for_a_column() {
-        TargetClosure::ExpandingCavity
-    } else {
-        TargetClosure::Column
+    let solid = matches!(scenario.target, TargetBody::Layers { .. });
+    if !solid || options.scheme != Scheme::Conservative || scenario.projectile.nose != Nose::Flat {
+        return (TargetClosure::Column, None);
     }
+    match why_a_column(scenario) {
+        None => (TargetClosure::ExpandingCavity, None),
+        reason => (TargetClosure::Column, reason),
+    }
+}
+
+fn why_a_column(scenario: &Scenario) -> Option<String> {
+    if let Some(reason) = expanding::not_applicable(scenario) {
+        return Some(reason);
+    }
+    if let Some(key) = scenario.options.chain.asks_for_a_column() {
+        return Some(format!(
+            "`chain.{key}` differs from its default, and only a column has it"
+        ));
+    }
+    let diameter = scenario.projectile.diameter;
+    if let TargetBody::Layers {
+        column_diameter, ..
+    } = scenario.target
+        && column_diameter != diameter
+    {
+        return Some("`target.column_diameter` is not the projectile's diameter".to_owned());
+    }
+    (TargetKind::of(scenario) == TargetKind::ThinPlate).then(|| {
+        format!(
+            "below {THIN} projectile diameters of thickness plugging is favoured [woodward1984]"
+        )
+    })
 }
 
 /// The closure that a run has; `None` where the scheme or the target has no choice of one.
@@ -53,14 +71,19 @@ mod tests {
     }
 
     #[test]
-    fn a_thick_target_is_a_cavity_unless_the_case_asks_for_a_column() {
+    fn a_target_of_one_layer_is_a_cavity_unless_the_case_asks_for_a_column() {
         let (column, cavity) = (TargetClosure::Column, TargetClosure::ExpandingCavity);
         let semi_infinite = "material = 'copper', thickness = 'semi-infinite'";
         for (target, options, expected) in [
             (THICK, "", Some(cavity)),
             (semi_infinite, "", Some(cavity)),
             (
-                "material = 'copper', thickness = '24.9 mm'",
+                "material = 'copper', thickness = '4.4 mm'",
+                "",
+                Some(cavity),
+            ),
+            (
+                "material = 'copper', thickness = '4.3 mm'",
                 "",
                 Some(column),
             ),
@@ -74,6 +97,11 @@ mod tests {
                 "",
                 Some(column),
             ),
+            (
+                "material = 'copper', thickness = '25 mm', column_diameter = '5 mm'",
+                "",
+                Some(cavity),
+            ),
             ("rigid_wall = true", "", None),
             ("constant_pressure = '1 GPa'", "", None),
             (THICK, "chain.target_closure = 'column'", Some(column)),
@@ -82,17 +110,10 @@ mod tests {
                 "chain.target_closure = 'diverging'",
                 Some(TargetClosure::Diverging),
             ),
-            (THICK, "chain.constraint_factor = 2.7", Some(column)),
-            (THICK, "chain.border_shear = 0.577", Some(column)),
-            (THICK, "chain.kinematics = 'logarithmic'", Some(column)),
-            (THICK, "chain.damping_ratio = 0.0", Some(column)),
-            (
-                THICK,
-                "chain.artificial_viscosity.linear = 0.1",
-                Some(column),
-            ),
+            (THICK, "chain.constraint_factor = 2.6", Some(column)),
+            (THICK, "chain.border_shear = 0.5", Some(column)),
+            (THICK, "chain.kinematics = 'small-strain'", Some(column)),
             (THICK, "chain.erosion_closure = 'tate'", Some(column)),
-            (THICK, "chain.erosion_closure = 'strain'", Some(cavity)),
             (THICK, "chain.erosion_strain = 1.5", Some(cavity)),
             (THICK, "chain.projectile_elements = 80", Some(cavity)),
             (THICK, "fdm.border_shear = 0.0", Some(cavity)),
@@ -100,6 +121,13 @@ mod tests {
         ] {
             let scenario = load(target, options);
             assert_eq!(closure_in_use(&scenario), expected, "{target} {options}");
+            let by_default = !options.contains("target_closure");
+            let reason = scenario.resistance_reason.is_some();
+            assert_eq!(
+                reason,
+                by_default && expected == Some(column),
+                "{target} {options}"
+            );
         }
     }
 

@@ -26,8 +26,13 @@ impl Cone {
     }
 
     /// Radius over that of the mouth.
-    fn stretch(self, z: f64) -> f64 {
+    pub(super) fn stretch(self, z: f64) -> f64 {
         1.0 + z / self.apex
+    }
+
+    /// Distance of a depth from the apex [m].
+    pub(super) fn from_apex(self, z: f64) -> f64 {
+        self.apex + z
     }
 
     /// Area at a depth [m2].

@@ -4,6 +4,7 @@ use super::{
     between::{Failure, Moment},
     mesh,
     results::Results,
+    retry::CourantRetry,
     solver::StepControl,
     state::State,
     tate,
@@ -66,15 +67,7 @@ impl<'a> Conservative<'a> {
             (ErosionClosure::Strain, Some(ErosionStrain::Never)) => f64::INFINITY,
             (ErosionClosure::Strain, None) => DEFAULT_EROSION_STRAIN,
         };
-        let control = StepControl {
-            courant,
-            viscosity: options.artificial_viscosity.unwrap_or_default(),
-            damping_ratio: options.damping_ratio.unwrap_or(0.0),
-            local_damping: options.local_damping.unwrap_or(0.0),
-            erosion_strain,
-            fails: options.failure.is_some(),
-            longest_step,
-        };
+        let control = StepControl::new(options, courant, erosion_strain, longest_step);
         state.stable_step *= control.first_step_factor(&state, scenario.impact_speed);
         Self {
             scenario,
@@ -97,26 +90,18 @@ impl<'a> Conservative<'a> {
 
     /// Runs to the end, and leaves the last state behind.
     pub(super) fn run_on(&mut self, control: &mut Control<'_>) -> Result<RunResult, Error> {
+        let given = self.scenario.options.chain.courant;
+        let mut courant = CourantRetry::new(given, DEFAULT_COURANT, SMALLEST_COURANT);
         loop {
-            let courant = self.control.courant;
             match self.attempt(control) {
                 Ok(mut result) => {
-                    if self.scenario.options.chain.courant.is_none() && courant < DEFAULT_COURANT {
-                        result.warnings.push(format!(
-                            "the energy book balances at Courant number {courant} only: it was lowered from {DEFAULT_COURANT}"
-                        ));
-                    }
+                    result.warnings.extend(courant.warning());
                     return Ok(result);
                 }
-                Err(Failure::Unbalanced(_))
-                    if self.scenario.options.chain.courant.is_none()
-                        && 0.5 * courant >= SMALLEST_COURANT =>
-                {
-                    *self = Self::with_courant(self.scenario, 0.5 * courant);
-                }
-                Err(Failure::Unbalanced(error)) => return Err(error.into()),
+                Err(Failure::Unbalanced(error)) => courant.halve(error)?,
                 Err(Failure::Other(error)) => return Err(error),
             }
+            *self = Self::with_courant(self.scenario, courant.number());
         }
     }
 

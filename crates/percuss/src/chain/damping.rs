@@ -53,8 +53,8 @@ impl State {
     }
 }
 
-/// Force of damping on a node [N].
-fn against(fraction: f64, force: f64, velocity: f64) -> f64 {
+/// Force of local damping on a node [N]: a fraction of the force that accelerates it, against its motion.
+pub(super) fn against(fraction: f64, force: f64, velocity: f64) -> f64 {
     if velocity == 0.0 {
         0.0
     } else {

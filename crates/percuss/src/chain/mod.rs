@@ -16,6 +16,7 @@ mod drift;
 mod element;
 mod erosion;
 mod expanding;
+mod explain;
 mod fracture;
 mod fragments;
 mod friction;
@@ -27,6 +28,7 @@ mod plate_section;
 mod plug;
 mod published;
 mod results;
+mod retry;
 #[cfg(test)]
 mod separation_tests;
 mod shear_band;
@@ -98,8 +100,8 @@ impl Model for Chain {
                 }],
                 notes: &[
                     "normal impact of a flat-ended rod",
-                    "a thick target of one metal is an expanding cavity under the rod, unless the case says otherwise: the depth is only \
-                     as good as the theory of cavities",
+                    "a target of one metal, semi-infinite or at least 0.866 diameters thick, is an expanding cavity under the rod, \
+                     unless the case chooses otherwise: the depth is only as good as the theory of cavities",
                     "every other target is the column in line with the rod: the depth is only as good as the constraint factor and \
                      the border shear that close it",
                     "a plate is perforated by a plug with `border_shear_law = \"shear-band\"`; without it a column can neither let go a \
@@ -134,6 +136,15 @@ impl Model for Chain {
             Scheme::Published => Published::new(scenario)?.run(control)?,
         };
         Ok(with_warning_of_thin_plate(scenario, result))
+    }
+
+    fn explain(
+        &self,
+        scenario: &Scenario,
+        result: &mut RunResult,
+        control: &mut Control<'_>,
+    ) -> Result<(), Error> {
+        explain::explain(scenario, result, control)
     }
 }
 

@@ -7,7 +7,10 @@ use super::{
     part::Part,
     state::{Element, End, Node, Segment, State},
 };
-use crate::{case::ArtificialViscosity, error::NumericalError};
+use crate::{
+    case::{ArtificialViscosity, ChainOptions},
+    error::NumericalError,
+};
 
 /// Largest change of strain that one element may make in one step.
 pub(super) const LARGEST_STRAIN_STEP: f64 = 0.03;
@@ -32,6 +35,29 @@ pub(super) struct StepControl {
 }
 
 impl StepControl {
+    /// Of a case, with a Courant number, an erosion strain and a longest step [s].
+    pub(super) fn new(
+        options: &ChainOptions,
+        courant: f64,
+        erosion_strain: f64,
+        longest_step: f64,
+    ) -> Self {
+        Self {
+            courant,
+            viscosity: options.artificial_viscosity.unwrap_or_default(),
+            damping_ratio: options.damping_ratio.unwrap_or(0.0),
+            local_damping: options.local_damping.unwrap_or(0.0),
+            erosion_strain,
+            fails: options.failure.is_some(),
+            longest_step,
+        }
+    }
+
+    /// Whether anything damps the motion.
+    pub(super) fn is_damped(&self) -> bool {
+        self.is_viscous() || self.local_damping > 0.0
+    }
+
     pub(super) fn is_viscous(&self) -> bool {
         self.viscosity != ArtificialViscosity::default() || self.damping_ratio > 0.0
     }
@@ -43,23 +69,28 @@ impl StepControl {
 
     /// Factor on the stable step of the undamped chain at the moment of impact.
     pub(super) fn first_step_factor(&self, state: &State, impact_speed: f64) -> f64 {
-        let slowness = state
-            .parts
-            .iter()
-            .map(|part| part.slowness)
-            .fold(0.0, f64::max);
-        let ratio = self.damping_ratio
-            + self.viscosity.linear
-            + self.viscosity.quadratic * impact_speed * slowness;
-        damped_limit(ratio)
+        let slowness = state.parts.iter().map(|part| part.slowness);
+        damped_limit(self.viscous_ratio(impact_speed, slowness.fold(0.0, f64::max)))
+    }
+
+    /// Factor on the stable step of anything undamped, as long as nothing approaches faster than the impact [m/s], for the largest of some
+    /// slownesses [s/m].
+    pub(super) fn step_factor(&self, impact_speed: f64, slowness: f64) -> f64 {
+        self.damped(damped_limit(self.viscous_ratio(impact_speed, slowness)))
+    }
+
+    /// Damping ratio of a spring whose ends approach at a speed [m/s], with the inverse of its wave speed [s/m].
+    pub(super) fn viscous_ratio(&self, approach: f64, slowness: f64) -> f64 {
+        let mut ratio = self.damping_ratio;
+        if approach > 0.0 {
+            ratio += self.viscosity.linear + self.viscosity.quadratic * approach * slowness;
+        }
+        ratio
     }
 
     /// Sets the viscous force of an element whose ends approach at a speed; returns the factor on its stable step.
     pub(super) fn damp(&self, element: &mut Element, part: &Part, approach: f64) -> f64 {
-        let mut ratio = self.damping_ratio;
-        if approach > 0.0 {
-            ratio += self.viscosity.linear + self.viscosity.quadratic * approach * part.slowness;
-        }
+        let ratio = self.viscous_ratio(approach, part.slowness);
         element.viscous_force =
             ratio * part.density * part.wave_speed * element.area(part) * approach;
         damped_limit(ratio)

@@ -14,8 +14,10 @@ use crate::{
 
 const OUT_OF_TIME: &str =
     "the run was ended before the shot was over: raise `chain.end_time` or `chain.max_steps`";
-/// Part of the thickness of a plate that a crater may take before its back face has a say in an expanding cavity.
+/// Part of the thickness of a plate that a crater may take before a support behind it matters.
 const FREE_OF_BACK_FACE: f64 = 0.5;
+/// Thickness in projectile diameters from which on dishing adds less than a tenth to the depth in the axisymmetric reference.
+const FREE_OF_DISHING: f64 = 3.0;
 
 /// Warnings of a run, the weightiest first.
 pub(super) fn warnings(
@@ -81,23 +83,42 @@ pub(super) fn warnings_of_cavity(
         warnings.push("the depth rests on a resistance law of the caller's own".to_owned());
     } else if depth > 0.0 {
         warnings.push(
-            "the depth rests on the target closure `expanding-cavity`: nothing of it was fitted, but its forms were chosen on the shots \
-             that its expected error is of"
+            "the depth rests on the target resistance model `expanding-cavity`: no constant of it is fitted, but its form was selected \
+             on the benchmark cases that its model error is estimated from"
                 .to_owned(),
         );
     }
-    if let Some(thickness) = scenario.target_thickness()
-        && depth > FREE_OF_BACK_FACE * thickness
-    {
-        warnings.push(
-            "the crater is more than half as deep as the plate: the resistance is that of a target without a back face".to_owned(),
-        );
-    }
+    warnings.extend(warning_of_rear_face(scenario, depth));
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
     let heated = scenario.options.chain.adiabatic_heating.unwrap_or(true);
     let material = &scenario.projectile.material;
     warn_of_material("projectile", material, reached, heated, &mut warnings);
     warnings
+}
+
+/// What an expanding cavity leaves out of a rear face that is near.
+fn warning_of_rear_face(scenario: &Scenario, depth: f64) -> Option<String> {
+    let thickness = scenario.target_thickness()?;
+    let TargetBody::Layers { back_face, .. } = scenario.target else {
+        return None;
+    };
+    match back_face {
+        BackFace::Free if thickness < FREE_OF_DISHING * scenario.projectile.diameter => Some(
+            "the depth is that of the crater alone: a plate below 3 projectile diameters with a free rear face also dishes and bulges, \
+             which is not included"
+                .to_owned(),
+        ),
+        BackFace::Fixed if depth >= thickness => Some(
+            "perforation is not a result: the rear face is fixed (default) and the crater has reached it; set \
+             `target.back_face = \"free\"`"
+                .to_owned(),
+        ),
+        BackFace::Fixed | BackFace::NonReflecting if depth > FREE_OF_BACK_FACE * thickness => Some(
+            "the crater is more than half as deep as the plate: the support behind it is not included in the resistance"
+                .to_owned(),
+        ),
+        _ => None,
+    }
 }
 
 /// What a held back face does to a plate that is not thick.

@@ -119,7 +119,7 @@ impl<'a> Task<'a> {
                     progress: Some(&mut report),
                     ..Control::default()
                 };
-                model::run(self.model, &self.scenario, &mut control)?
+                model::run_explained(self.model, &self.scenario, &mut control)?
             }
         };
         Ok(Ran {

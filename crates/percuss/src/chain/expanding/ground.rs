@@ -1,23 +1,27 @@
 //! The target away from the crater: an elastic cone that is as stiff as a half-space under the projectile.
 
-use super::node::Node;
+use super::node::{Dashpot, Node};
 use crate::chain::{
     cone::{Cone, Grading},
-    state::End,
+    solver::StepControl,
 };
 
-/// From the crater floor to the back; positions are displacements.
+/// From the crater floor to the rear face; positions are displacements in waves that leave the crater. What is behind takes those waves
+/// up as the cone beyond would: [`RearFace`](super::rear_face::RearFace) sends them back.
 #[derive(Debug)]
 pub(super) struct Ground {
     pub(super) nodes: Vec<Node>,
     springs: Vec<Spring>,
-    pub(super) end: End,
+    /// Of the cone beyond the last node: impedance [kg/s] and static stiffness [N/m].
+    beyond: [f64; 2],
+    /// Inverse of its wave speed [s/m].
+    pub(super) slowness: f64,
     /// It stays elastic, so it stays as cold as it is [K].
     pub(super) temperature: f64,
-    /// Force on what holds it [N], and its impulse [N s] and work [J].
-    pub(super) back_force: f64,
-    pub(super) support_impulse: f64,
-    pub(super) boundary_work: f64,
+    /// What has left through the last node: force [N], impulse [N s] and work [J].
+    pub(super) passing_force: f64,
+    pub(super) passed_impulse: f64,
+    pub(super) passed_work: f64,
 }
 
 #[derive(Debug)]
@@ -42,6 +46,16 @@ pub(super) struct Strained {
     pub(super) strain: f64,
     pub(super) stress: f64,
     pub(super) area: f64,
+    modulus: f64,
+}
+
+impl Strained {
+    /// Adds the displacement [m] and the strain of other waves.
+    pub(super) fn superpose(&mut self, [displacement, strain]: [f64; 2]) {
+        self.displacement += displacement;
+        self.strain += strain;
+        self.stress += self.modulus * strain;
+    }
 }
 
 impl Ground {
@@ -51,7 +65,7 @@ impl Ground {
         thickness: f64,
         count: usize,
         [density, modulus, temperature]: [f64; 3],
-        end: End,
+        beyond: [f64; 2],
     ) -> Self {
         let depths = grading.nodes(0.0, thickness, count);
         let mut nodes = vec![Node::default(); count + 1];
@@ -72,17 +86,19 @@ impl Ground {
         Self {
             nodes,
             springs,
-            end,
+            beyond,
+            slowness: (density / modulus).sqrt(),
             temperature,
-            back_force: 0.0,
-            support_impulse: 0.0,
-            boundary_work: 0.0,
+            passing_force: 0.0,
+            passed_impulse: 0.0,
+            passed_work: 0.0,
         }
     }
 
     pub(super) fn collect(&mut self) {
         for node in &mut self.nodes {
             node.force = 0.0;
+            node.damping = 0.0;
         }
         for (i, spring) in self.springs.iter().enumerate() {
             self.nodes[i].force -= spring.force[1];
@@ -90,34 +106,42 @@ impl Ground {
         }
     }
 
+    /// Adds damping; `pushed` is the force from outside on the first node [N].
+    pub(super) fn damp(&mut self, control: &StepControl, pushed: f64) {
+        for (spring, i) in self.springs.iter().zip(0..) {
+            let dashpot = Dashpot {
+                slowness: self.slowness,
+                impedance: spring.stiffness * spring.length * self.slowness,
+            };
+            let (behind, ahead) = self.nodes.split_at_mut(i + 1);
+            if let (Some(behind), Some(ahead)) = (behind.last_mut(), ahead.first_mut()) {
+                dashpot.damp(control, behind, ahead);
+            }
+        }
+        for (i, node) in self.nodes.iter_mut().enumerate() {
+            let outside = if i == 0 { pushed } else { 0.0 };
+            let accelerating = node.whole_force() + outside;
+            node.damp_locally(control.local_damping, accelerating);
+        }
+    }
+
     /// New velocities of all but the first node.
     pub(super) fn kick(&mut self, kick: f64) {
         let last = self.nodes.len() - 1;
         for node in &mut self.nodes[1..last] {
-            node.kick(node.force * kick);
+            node.kick(node.whole_force() * kick);
         }
         let node = &mut self.nodes[last];
-        match self.end {
-            End::Free => node.kick(node.force * kick),
-            End::Fixed => {
-                self.back_force = node.force;
-                self.support_impulse += node.force * kick;
-            }
-            End::Open {
-                impedance,
-                stiffness,
-            } => {
-                let inertia = node.mass / kick;
-                let before = node.velocity;
-                let spring = stiffness * node.position;
-                node.velocity = ((inertia - 0.5 * impedance) * before + node.force - spring)
-                    / (inertia + 0.5 * impedance);
-                let mean = 0.5 * (before + node.velocity);
-                self.back_force = impedance * mean + spring;
-                self.support_impulse += self.back_force * kick;
-                self.boundary_work += self.back_force * mean * kick;
-            }
-        }
+        let [impedance, stiffness] = self.beyond;
+        let inertia = node.mass / kick;
+        let before = node.velocity;
+        let spring = stiffness * node.position;
+        node.velocity = ((inertia - 0.5 * impedance) * before + node.whole_force() - spring)
+            / (inertia + 0.5 * impedance);
+        let mean = 0.5 * (before + node.velocity);
+        self.passing_force = impedance * mean + spring;
+        self.passed_impulse += self.passing_force * kick;
+        self.passed_work += self.passing_force * mean * kick;
     }
 
     pub(super) fn drift(&mut self, time_step: f64) {
@@ -158,6 +182,7 @@ impl Ground {
                 strain: (pair[0].position - pair[1].position) / spring.length,
                 stress: spring.force[1] / spring.area,
                 area: spring.area,
+                modulus: spring.stiffness * spring.length / spring.area,
             })
     }
 }

@@ -4,9 +4,11 @@
 //! It has a solver of its own: no part of the column is left in it.
 
 mod block;
+mod delay_line;
 mod floor;
 mod ground;
 mod node;
+mod rear_face;
 mod resistance;
 mod results;
 mod rod;
@@ -18,6 +20,7 @@ mod tests;
 use self::{
     floor::{Contact, Floor, Opposition},
     ground::Ground,
+    rear_face::RearFace,
     resistance::Resistance,
     results::Watch,
     rod::Rod,
@@ -28,7 +31,8 @@ use super::{
     between::Moment,
     cone::{Cone, Grading},
     mesh::modelled_thickness,
-    state::End,
+    retry,
+    solver::StepControl,
 };
 use crate::{
     Error, Scenario,
@@ -40,7 +44,8 @@ use crate::{
 };
 
 const DEFAULT_COURANT: f64 = 0.5;
-const SMALLEST_COURANT: f64 = 0.03;
+/// A run that fails numerically at the default Courant number is repeated with half of it, down to this one.
+const SMALLEST_COURANT: f64 = 0.05;
 const DEFAULT_EROSION_STRAIN: f64 = 2.0;
 const DEFAULT_MAX_STEPS: u64 = 20_000_000;
 /// Steps between two looks at the books.
@@ -77,8 +82,7 @@ fn struck(scenario: &Scenario) -> Option<&Plate> {
 pub(super) struct Expanding<'a> {
     scenario: &'a Scenario,
     plate: &'a Plate,
-    courant: f64,
-    erosion_strain: f64,
+    control: StepControl,
     state: State,
     watch: Watch,
 }
@@ -93,17 +97,20 @@ impl<'a> Expanding<'a> {
         scenario: &'a Scenario,
         control: &mut Control<'_>,
     ) -> Result<RunResult, Error> {
-        let given = scenario.options.chain.courant;
-        let mut courant = given.unwrap_or(DEFAULT_COURANT);
+        let mut courant = retry::CourantRetry::new(
+            scenario.options.chain.courant,
+            DEFAULT_COURANT,
+            SMALLEST_COURANT,
+        );
         loop {
-            let mut run = Self::new(scenario, courant)?;
+            let mut run = Self::new(scenario, courant.number())?;
             match run.attempt(control) {
-                Err(Error::Numerical(_))
-                    if given.is_none() && 0.5 * courant >= SMALLEST_COURANT =>
-                {
-                    courant *= 0.5;
+                Err(Error::Numerical(error)) => courant.halve(*error)?,
+                Ok(mut result) => {
+                    result.warnings.extend(courant.warning());
+                    return Ok(result);
                 }
-                result => return result,
+                Err(error) => return Err(error),
             }
         }
     }
@@ -137,18 +144,23 @@ impl<'a> Expanding<'a> {
         } else {
             0.0
         };
+        let free_rear_face = plate
+            .thickness
+            .filter(|_| rear_face(scenario) == BackFace::Free);
         let opposition = match &scenario.resistance {
             Some(own) => Opposition::Own(own.clone()),
             None => Opposition::Cavity(
-                Resistance::new(&plate.material, radius, rate, heat).ok_or_else(refuse)?,
+                Resistance::new(&plate.material, radius, rate, heat, free_rear_face)
+                    .ok_or_else(refuse)?,
             ),
         };
         let floor = Floor::new(opposition, area, plate.material.density.si());
-        let (ground, ground_step) = ground(scenario, plate, area, count);
+        let (ground, rear_face, ground_step) = ground(scenario, plate, area, count);
         let mut state = State {
             rod,
             floor,
             ground,
+            rear_face,
             books: Books::default(),
             time: 0.0,
             step: 0,
@@ -157,17 +169,20 @@ impl<'a> Expanding<'a> {
             contact_force: 0.0,
             eroded: 0,
         };
+        let erosion_strain = match options.erosion_strain {
+            Some(ErosionStrain::At(strain)) => strain,
+            Some(ErosionStrain::Never) => f64::INFINITY,
+            None => DEFAULT_EROSION_STRAIN,
+        };
+        let mut control = StepControl::new(options, courant, erosion_strain, f64::INFINITY);
+        let slowness = state.rod.metal.slowness.max(state.ground.slowness);
+        control.courant *= control.step_factor(speed, slowness);
         state.books.initial_energy = state.energy().kinetic_projectile;
         state.books.initial_momentum = state.momentum().projectile;
         Ok(Self {
             scenario,
             plate,
-            courant,
-            erosion_strain: match options.erosion_strain {
-                Some(ErosionStrain::At(strain)) => strain,
-                Some(ErosionStrain::Never) => f64::INFINITY,
-                None => DEFAULT_EROSION_STRAIN,
-            },
+            control,
             state,
             watch: Watch::default(),
         })
@@ -183,7 +198,7 @@ impl<'a> Expanding<'a> {
             if self.scenario.impact_speed == 0.0 {
                 break Termination::NothingMoves;
             }
-            self.state.advance(self.courant, self.erosion_strain)?;
+            self.state.advance(&self.control)?;
             self.watch.follow(&self.state);
             self.record(&mut recorder);
             if self.state.step.is_multiple_of(AUDIT_INTERVAL) {
@@ -193,7 +208,7 @@ impl<'a> Expanding<'a> {
             if self
                 .plate
                 .thickness
-                .is_some_and(|h| self.state.position() >= h)
+                .is_some_and(|h| self.state.floor.depth >= h)
             {
                 break Termination::PassedBackFace;
             }
@@ -214,7 +229,7 @@ impl<'a> Expanding<'a> {
             &self.watch,
             termination,
             recorder,
-            self.erosion_strain,
+            self.control.erosion_strain,
         ))
     }
 
@@ -227,7 +242,7 @@ impl<'a> Expanding<'a> {
         Ok(self
             .watch
             .residuals
-            .audit(residuals, moment, self.courant)?)
+            .audit(residuals, moment, self.control.courant)?)
     }
 
     fn moment(&self) -> Moment {
@@ -254,37 +269,43 @@ impl<'a> Expanding<'a> {
     }
 }
 
-/// The ground with its largest stable step.
-fn ground(scenario: &Scenario, plate: &Plate, area: f64, rod_elements: usize) -> (Ground, f64) {
+/// The ground, its rear face, and their largest stable step [s].
+fn ground(
+    scenario: &Scenario,
+    plate: &Plate,
+    area: f64,
+    rod_elements: usize,
+) -> (Ground, Option<RearFace>, f64) {
     let material = &plate.material;
     let thickness = modelled_thickness(plate, scenario);
     let cone = Cone::under_disc(area, material.poissons_ratio);
     let first = scenario.projectile.length / rod_elements as f64;
     let count = scenario.options.chain.target_elements();
     let grading = Grading::new(first, thickness, count);
-    let back_face = match &scenario.target {
-        TargetBody::Layers { back_face, .. } => *back_face,
-        _ => BackFace::Free,
-    };
     let modulus = material.youngs_modulus.si();
-    let end = match back_face {
-        BackFace::Fixed => End::Fixed,
-        BackFace::Free => End::Free,
-        BackFace::NonReflecting => End::Open {
-            impedance: material.bar_impedance() * cone.area_at(thickness),
-            stiffness: modulus * cone.stiffness_beyond(thickness),
-        },
-    };
-    let constants = [
-        material.density.si(),
-        modulus,
-        material.room_temperature.si(),
+    let beyond = [
+        material.bar_impedance() * cone.area_at(thickness),
+        modulus * cone.stiffness_beyond(thickness),
     ];
-    let ground = Ground::new(cone, grading, thickness, count, constants, end);
+    let density = material.density.si();
+    let constants = [density, modulus, material.room_temperature.si()];
+    let ground = Ground::new(cone, grading, thickness, count, constants, beyond);
+    let plane_modulus = material.bulk_modulus() + material.shear_modulus() / 0.75;
+    let speeds = [material.bar_wave_speed(), (plane_modulus / density).sqrt()];
+    let rear_face = RearFace::new(rear_face(scenario), cone, thickness, speeds);
     let smallest = grading.nodes(0.0, thickness, count);
     let smallest = smallest.windows(2).map(|pair| pair[1] - pair[0]);
     let step = smallest.fold(f64::INFINITY, f64::min) / material.bar_wave_speed();
-    (ground, step)
+    let longest = rear_face.as_ref().map_or(step, RearFace::longest_step);
+    (ground, rear_face, step.min(longest))
+}
+
+/// What holds the rear face of the target.
+fn rear_face(scenario: &Scenario) -> BackFace {
+    match &scenario.target {
+        TargetBody::Layers { back_face, .. } => *back_face,
+        _ => BackFace::NonReflecting,
+    }
 }
 
 /// Whether the tip has left the floor, or is gone.

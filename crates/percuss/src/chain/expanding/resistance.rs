@@ -7,6 +7,11 @@
 //! `p = ∫₀^{ε_a} σ(ε)/(e^{3ε/2} − 1) dε`: `⅔Y` at first yield, `⅔Y [1 + ln(Eδ/(Ya))]` for small advances in a body of constant flow
 //! stress, and for large ones the pressure of steady penetration. Elastic deflection `pa/2G` is taken off, with the shear modulus E/3
 //! of an incompressible body: the ground around the crater has its own.
+//!
+//! A free rear face at a distance h from the crater floor ends the integral. In a sphere of the outer radius c it runs from the strain
+//! at c, where the material has moved by the same volume: `p = P(x) − P(x a³/c³)`, with P for the endless body at the advance `x = δ/a`
+//! (for a constant flow stress `2Y ln(c/a)`, as for a thick shell \[hill1950\]). In the direction θ from the line of flight the
+//! face is at `c = h/cos θ`; the pressure is the mean over all directions ahead, each taken by itself.
 
 use crate::material::{FlowState, Material};
 
@@ -18,18 +23,31 @@ const POINTS: usize = 400;
 #[derive(Debug)]
 pub(super) struct Resistance {
     radius: f64,
-    /// Advance over the radius, rising, and pressure [Pa].
+    /// Permanent advance over the radius, rising, and pressure [Pa].
     curve: Vec<(f64, f64)>,
+    /// What a free rear face takes away, where there is one.
+    relief: Option<Relief>,
+    /// Elastic advance over the radius, per pressure [1/Pa].
+    compliance: f64,
+}
+
+/// Relief of the pressure by a free rear face.
+#[derive(Debug)]
+struct Relief {
+    thickness: f64,
+    /// Whole advance over the radius, rising, and the mean `∫₀¹ P(x μ³) dμ` over all directions ahead [Pa].
+    means: Vec<(f64, f64)>,
 }
 
 impl Resistance {
-    /// Of a target under a projectile of a radius [m], at a strain rate [1/s] and with a part of the plastic work as heat; `None`
-    /// for a material that never yields.
+    /// Of a target under a projectile of a radius [m], at a strain rate [1/s], with a part of the plastic work as heat, and with a free rear
+    /// face at a depth [m], if it has one; `None` for a material that never yields.
     pub(super) fn new(
         material: &Material,
         radius: f64,
         strain_rate: f64,
         heat_fraction: f64,
+        free_rear_face: Option<f64>,
     ) -> Option<Self> {
         let law = material.strength.law();
         law.initial_yield_stress(material)?;
@@ -49,6 +67,7 @@ impl Resistance {
         let twice_shear = 2.0 / 3.0 * modulus;
         let mut pressure = yield_stress / 1.5;
         let mut curve = vec![(0.0, pressure)];
+        let mut whole = vec![((1.5 * yield_strain).exp_m1() / 1.5, pressure)];
         let growth = (LARGEST_STRAIN / yield_strain).powf(1.0 / POINTS as f64);
         let mut strain = yield_strain;
         for _ in 0..POINTS {
@@ -60,29 +79,72 @@ impl Resistance {
             state.temperature += heating * stress * width;
             strain *= growth;
             let total = (1.5 * strain).exp_m1() / 1.5;
+            whole.push((total, pressure));
             let permanent = total - pressure / twice_shear;
             if permanent > curve.last().map_or(0.0, |point| point.0) {
                 curve.push((permanent, pressure));
             }
         }
-        Some(Self { radius, curve })
+        Some(Self {
+            radius,
+            curve,
+            relief: free_rear_face.map(|thickness| Relief {
+                thickness,
+                means: means_over_directions(&whole),
+            }),
+            compliance: 1.0 / twice_shear,
+        })
     }
 
     /// Pressure [Pa] on the floor of a crater of a permanent depth [m].
     pub(super) fn at(&self, depth: f64) -> f64 {
         let advance = depth / self.radius;
-        let next = self.curve.partition_point(|point| point.0 <= advance);
-        let Some(&(to, upper)) = self.curve.get(next) else {
-            return self.steady();
+        let pressure = interpolate(&self.curve, advance);
+        let Some(relief) = &self.relief else {
+            return pressure;
         };
-        let (from, lower) = self.curve[next.saturating_sub(1)];
-        lower + (upper - lower) * ((advance - from) / (to - from)).clamp(0.0, 1.0)
+        let whole = advance + self.compliance * pressure;
+        let distance = ((relief.thickness - depth) / self.radius).max(0.0);
+        // Nearer than the radius of the cavity, it is open in all directions within h/a of the line of flight.
+        let cube = distance.max(1.0).powi(3);
+        distance.min(1.0) * (pressure - interpolate(&relief.means, whole / cube))
     }
 
     /// Pressure of steady penetration [Pa].
     pub(super) fn steady(&self) -> f64 {
         self.curve.last().map_or(0.0, |point| point.1)
     }
+}
+
+/// `∫₀¹ P(x μ³) dμ = ⅓ x^{-1/3} ∫₀ˣ P(s) s^{-2/3} ds` at the points of P(x), which is straight from the origin to the first of them.
+fn means_over_directions(pressures: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut means = Vec::with_capacity(pressures.len() + 1);
+    let mut before = (0.0, 0.0);
+    let mut sum = 0.0;
+    means.push(before);
+    for &(x, pressure) in pressures {
+        // Exact for a straight piece: P = b + k s.
+        let slope = (pressure - before.1) / (x - before.0);
+        let base = pressure - slope * x;
+        let [from, to] = [before.0, x].map(f64::cbrt);
+        sum += base * (to - from) + 0.25 * slope * (to.powi(4) - from.powi(4));
+        before = (x, pressure);
+        means.push((x, sum / to));
+    }
+    means
+}
+
+/// Value of a curve of rising places, constant beyond its ends.
+fn interpolate(curve: &[(f64, f64)], place: f64) -> f64 {
+    let next = curve.partition_point(|point| point.0 <= place);
+    let Some(&(to, upper)) = curve.get(next) else {
+        return curve.last().map_or(0.0, |point| point.1);
+    };
+    let (from, lower) = curve[next.saturating_sub(1)];
+    if to == from {
+        return lower;
+    }
+    lower + (upper - lower) * ((place - from) / (to - from)).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]
@@ -100,7 +162,7 @@ mod tests {
 
     #[test]
     fn it_begins_at_first_yield_and_ends_at_steady_penetration() {
-        let resistance = Resistance::new(&metal(), 2.5e-3, 1.0, 0.0).unwrap();
+        let resistance = Resistance::new(&metal(), 2.5e-3, 1.0, 0.0, None).unwrap();
         assert!((resistance.at(0.0) / (350e6 / 1.5) - 1.0).abs() < 1e-12);
         let steady = cavity_expansion_pressure(&metal()).unwrap();
         assert!((resistance.steady() / steady - 1.0).abs() < 2e-3);
@@ -110,7 +172,7 @@ mod tests {
     fn a_small_advance_has_its_closed_form() {
         // With constant flow stress the integral is closed: p = (2Y/3)[1 + ln((1 - e^(-3ε_a/2))/(1 - e^(-3ε_y/2)))] with
         // e^(3ε_a/2) = 1 + 3d/2a for a total advance d; the elastic part of it is p a/2G.
-        let resistance = Resistance::new(&metal(), 2.5e-3, 1.0, 0.0).unwrap();
+        let resistance = Resistance::new(&metal(), 2.5e-3, 1.0, 0.0, None).unwrap();
         let total: f64 = 0.04;
         let wall = 1.0 - 1.0 / (1.0 + 1.5 * total);
         let first = -(-1.5 * 350e6 / 70e9_f64).exp_m1();
@@ -119,5 +181,61 @@ mod tests {
         let found = resistance.at(permanent * 2.5e-3);
         // The rest is the midpoint rule on strips that grow by 2 % each.
         assert!((found / pressure - 1.0).abs() < 5e-3, "{found} {pressure}");
+    }
+
+    #[test]
+    fn a_free_rear_face_takes_the_strength_of_a_thick_shell_away() {
+        // In one direction: the closed form of a thick shell that flows all through, 2Y ln(c/a).
+        let resistance = Resistance::new(&metal(), 2.5e-3, 1.0, 0.0, Some(1.0)).unwrap();
+        let yield_stress = 350e6;
+        let strain = |x: f64| (1.5 * x).ln_1p() / 1.5;
+        let endless = |x: f64| {
+            let first = -(-1.5_f64 * yield_stress / 70e9).exp_m1();
+            2.0 / 3.0 * yield_stress * (1.0 + (-(-1.5 * strain(x)).exp_m1() / first).ln())
+        };
+        let shell: f64 = 2.0;
+        let x = 0.06;
+        let exact = 2.0 * yield_stress * shell.ln();
+        let found = endless(x) - endless(x / shell.powi(3));
+        assert!((found / exact - 1.0).abs() < 0.04, "{found} {exact}");
+        // The mean over all directions, against a sum.
+        let relief = resistance.relief.as_ref().unwrap();
+        let elastic = |x: f64| x / (yield_stress / 70e9) * yield_stress / 1.5;
+        let count = 20_000;
+        let sum: f64 = (0..count)
+            .map(|i| x * ((f64::from(i) + 0.5) / f64::from(count)).powi(3))
+            .map(|x| {
+                if x < yield_stress / 70e9 {
+                    elastic(x)
+                } else {
+                    endless(x)
+                }
+            })
+            .sum();
+        let mean = interpolate(&relief.means, x);
+        let expected = sum / f64::from(count);
+        assert!((mean / expected - 1.0).abs() < 5e-3, "{mean} {expected}");
+    }
+
+    #[test]
+    fn a_rear_face_far_away_takes_nothing_away_and_a_near_one_everything() {
+        let endless = Resistance::new(&metal(), 2.5e-3, 1.0, 0.0, None).unwrap();
+        let mut before = 0.0;
+        for thickness in [3e-3, 5e-3, 10e-3, 50e-3, 500e-3] {
+            let plate = Resistance::new(&metal(), 2.5e-3, 1.0, 0.0, Some(thickness)).unwrap();
+            let pressure = plate.at(1e-3);
+            assert!(pressure > before, "{thickness}");
+            before = pressure;
+            let nearly_through = plate.at(thickness - 1e-5);
+            assert!(nearly_through < 0.01 * endless.steady(), "{thickness}");
+            assert_eq!(plate.at(thickness), 0.0);
+            // It has no jump, not even where the cavity opens.
+            for i in 1..100 {
+                let depth = 1e-2 * thickness * f64::from(i);
+                let jump = plate.at(depth + 1e-8) - plate.at(depth - 1e-8);
+                assert!(jump.abs() < 1e-3 * endless.steady(), "{thickness} {depth}");
+            }
+        }
+        assert!((before / endless.at(1e-3) - 1.0).abs() < 1e-4);
     }
 }

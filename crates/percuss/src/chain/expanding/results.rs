@@ -94,7 +94,7 @@ impl Watch {
         match termination {
             Termination::PassedBackFace => {
                 let words = format!(
-                    "the crater floor passed the original back face at {} us",
+                    "the crater reached the rear face at {} us",
                     significant(state.time * 1e6, 4)
                 );
                 return (Outcome::Perforated, words);
@@ -188,8 +188,11 @@ pub(super) fn sample(state: &State) -> Sample {
         step: state.step,
         tip_velocity: velocity(tip),
         tail_velocity: velocity(tail),
-        interface_velocity: state.ground.nodes[0].velocity + state.floor.speed,
-        back_velocity: velocity(state.ground.nodes.last()),
+        interface_velocity: state.ground_velocity() + state.floor.speed,
+        back_velocity: match &state.rear_face {
+            Some(face) => face.velocity_of_face(state.time),
+            None => velocity(state.ground.nodes.last()),
+        },
         mean_velocity: momentum / mass,
         tip_position: place(tip) + state.floor.lost_length,
         depth: state.position(),
@@ -199,7 +202,7 @@ pub(super) fn sample(state: &State) -> Sample {
             0.0
         },
         contact_force: state.contact_force,
-        back_force: state.ground.back_force,
+        back_force: state.support_force(),
         energy: state.energy(),
         momentum: state.momentum(),
     }
@@ -220,16 +223,21 @@ pub(super) fn profile(state: &State) -> Profile {
             temperature: slice.temperature,
         }
     });
-    let ground = state.ground.strained().map(|spring| ElementState {
-        part: 1,
-        initial_position: spring.middle,
-        position: spring.middle + spring.displacement + state.floor.depth,
-        length: spring.length,
-        stress: spring.stress,
-        strain: spring.strain,
-        plastic_strain: 0.0,
-        diameter: 2.0 * (spring.area / std::f64::consts::PI).sqrt(),
-        temperature: state.ground.temperature,
+    let ground = state.ground.strained().map(|mut spring| {
+        if let Some(face) = &state.rear_face {
+            spring.superpose(face.reflected(spring.middle, state.time));
+        }
+        ElementState {
+            part: 1,
+            initial_position: spring.middle,
+            position: spring.middle + spring.displacement + state.floor.depth,
+            length: spring.length,
+            stress: spring.stress,
+            strain: spring.strain,
+            plastic_strain: 0.0,
+            diameter: 2.0 * (spring.area / std::f64::consts::PI).sqrt(),
+            temperature: state.ground.temperature,
+        }
     });
     Profile {
         time: state.time,

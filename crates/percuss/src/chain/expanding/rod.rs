@@ -4,9 +4,11 @@ use std::f64::consts::PI;
 
 use pulp::Arch;
 
+use crate::chain::solver::StepControl;
+
 use super::{
     block::Respond,
-    node::Node,
+    node::{Dashpot, Node},
     slice::{Metal, Shear, Slice},
 };
 
@@ -100,6 +102,7 @@ impl Rod {
     pub(super) fn collect(&mut self) {
         for node in &mut self.nodes {
             node.force = 0.0;
+            node.damping = 0.0;
         }
         for (i, slice) in self.slices.iter().enumerate() {
             self.nodes[i].force -= slice.axial_force;
@@ -107,11 +110,32 @@ impl Rod {
         }
     }
 
+    /// Adds damping of the axial motion; `pushed` is the force from outside on the tip [N].
+    pub(super) fn damp(&mut self, control: &StepControl, pushed: f64) {
+        let slowness = self.metal.slowness;
+        for (i, slice) in self.slices.iter().enumerate() {
+            let dashpot = Dashpot {
+                slowness,
+                impedance: self.metal.density / slowness * slice.area(),
+            };
+            let (behind, ahead) = self.nodes.split_at_mut(i + 1);
+            if let (Some(behind), Some(ahead)) = (behind.last_mut(), ahead.first_mut()) {
+                dashpot.damp(control, behind, ahead);
+            }
+        }
+        let tip = self.nodes.len().saturating_sub(1);
+        for (i, node) in self.nodes.iter_mut().enumerate() {
+            let outside = if i == tip { pushed } else { 0.0 };
+            let accelerating = node.whole_force() + outside;
+            node.damp_locally(control.local_damping, accelerating);
+        }
+    }
+
     /// New velocities of all but the tip.
     pub(super) fn kick(&mut self, kick: f64) {
         let count = self.nodes.len().saturating_sub(1);
         for node in &mut self.nodes[..count] {
-            node.kick(node.force * kick);
+            node.kick(node.whole_force() * kick);
         }
         for (i, shear) in self.shears.iter().enumerate() {
             self.slices[i].radial_force += shear.force;

@@ -13,6 +13,8 @@ use crate::material::{FlowState, Material, PreparedStrength, Trial, YieldPoint};
 #[derive(Debug)]
 pub(super) struct Metal {
     pub(super) density: f64,
+    /// Inverse of the speed of waves in a bar [s/m].
+    pub(super) slowness: f64,
     pub(super) bulk_modulus: f64,
     pub(super) shear_modulus: f64,
     pub(super) strength: Box<dyn PreparedStrength>,
@@ -27,6 +29,7 @@ impl Metal {
         let density = material.density.si();
         Self {
             density,
+            slowness: 1.0 / material.bar_wave_speed(),
             bulk_modulus: material.bulk_modulus(),
             shear_modulus: material.shear_modulus(),
             strength: material.strength.law().prepare(material, 1.0),

@@ -3,10 +3,14 @@
 use super::{
     floor::{Contact, Floor, Tip},
     ground::Ground,
+    rear_face::RearFace,
     rod::Rod,
 };
 use crate::{
-    chain::{part::Role, solver::choose_time_step},
+    chain::{
+        part::Role,
+        solver::{StepControl, choose_time_step},
+    },
     error::NumericalError,
     ledger::{EnergyLedger, MomentumLedger},
 };
@@ -21,6 +25,12 @@ pub(super) struct Books {
     pub(super) initial_momentum: f64,
     pub(super) plastic: [f64; 2],
     pub(super) contact_loss: f64,
+    /// Work of the contact force on the displacement of the mouth by reflected waves [J].
+    pub(super) reflected_work: f64,
+    pub(super) damping_impulse: f64,
+    pub(super) damping_work: f64,
+    /// Impulse of the contact force [N s].
+    pub(super) contact_impulse: f64,
     pub(super) eroded_energy: f64,
     pub(super) eroded_momentum: f64,
 }
@@ -31,6 +41,8 @@ pub(super) struct State {
     pub(super) rod: Rod,
     pub(super) floor: Floor,
     pub(super) ground: Ground,
+    /// A rear face that sends waves back.
+    pub(super) rear_face: Option<RearFace>,
     pub(super) books: Books,
     pub(super) time: f64,
     pub(super) step: u64,
@@ -43,24 +55,35 @@ pub(super) struct State {
 
 impl State {
     /// Advances by one step.
-    pub(super) fn advance(
-        &mut self,
-        courant: f64,
-        erosion_strain: f64,
-    ) -> Result<(), NumericalError> {
+    pub(super) fn advance(&mut self, control: &StepControl) -> Result<(), NumericalError> {
         let previous = self.time_step;
         let stable = self
             .rod
             .stable_step(LARGEST_STRAIN_STEP)
             .min(self.ground_step);
-        let time_step = choose_time_step(previous, courant * stable);
+        let time_step = choose_time_step(
+            previous,
+            (control.courant * stable).min(control.longest_step),
+        );
         let kick = 0.5 * (previous + time_step);
         self.rod.collect();
         self.ground.collect();
         self.meet(0.0, -previous);
+        if control.is_damped() {
+            let force = self.contact_force;
+            self.rod.damp(control, -force);
+            self.ground.damp(control, force);
+        }
         self.rod.kick(kick);
         self.ground.kick(kick);
-        self.kick_floor(kick);
+        let gain = self
+            .rear_face
+            .as_mut()
+            .map_or(0.0, |face| face.begin_step(self.time, time_step));
+        self.kick_floor(kick, gain);
+        if control.is_damped() {
+            self.account_for_damping(kick);
+        }
         self.close(time_step);
         let drifted = self.rod.drift(time_step);
         self.ground.drift(time_step);
@@ -68,12 +91,24 @@ impl State {
         self.time += time_step;
         self.time_step = time_step;
         self.step += 1;
+        if let Some(face) = &mut self.rear_face {
+            let outgoing = self.ground.nodes[0].position;
+            face.end_step(self.time, time_step, outgoing, self.books.contact_impulse);
+        }
         match drifted {
             Ok(work) => self.books.plastic[Role::Projectile as usize] += work,
             Err(slice) => return Err(self.crushed(slice)),
         }
-        self.erode(erosion_strain);
+        self.erode(control.erosion_strain);
         Ok(())
+    }
+
+    fn account_for_damping(&mut self, kick: f64) {
+        for node in self.rod.nodes.iter().chain(&self.ground.nodes) {
+            let [impulse, work] = node.taken_by_damping(kick);
+            self.books.damping_impulse += impulse;
+            self.books.damping_work += work;
+        }
     }
 
     /// What the tip brings to the floor.
@@ -92,7 +127,17 @@ impl State {
     /// Speed at which the tip comes closer to the floor [m/s].
     fn approach(&self) -> f64 {
         let tip = self.rod.tip().map_or(0.0, |node| node.velocity);
-        tip - self.ground.nodes[0].velocity - self.floor.speed
+        tip - self.ground_velocity() - self.floor.speed
+    }
+
+    /// Velocity of the ground under the floor [m/s].
+    pub(super) fn ground_velocity(&self) -> f64 {
+        self.ground.nodes[0].velocity + self.echo_velocity()
+    }
+
+    /// Part of it that reflected waves bring along [m/s].
+    fn echo_velocity(&self) -> f64 {
+        self.rear_face.as_ref().map_or(0.0, |face| face.velocity)
     }
 
     /// Takes the speed at which a tip that touches the floor approaches it down to an allowed one, as a plastic impact.
@@ -111,25 +156,35 @@ impl State {
         let mut loss = tip.jump(-impulse / tip.mass, drift);
         loss += ground.jump(impulse / ground.mass, drift);
         self.floor.speed = (self.floor.speed + impulse * mobility).max(0.0);
-        self.books.contact_loss += loss + before - self.floor.kinetic_energy();
+        let reflected = impulse * self.echo_velocity();
+        self.books.contact_impulse += impulse;
+        self.books.reflected_work += reflected;
+        self.books.contact_loss += loss + before - self.floor.kinetic_energy() - reflected;
     }
 
-    /// New velocities of the tip, the floor and the ground under it.
-    fn kick_floor(&mut self, kick: f64) {
+    /// New velocities of the tip, the floor and the ground under it, whose velocity gains something by reflected waves [m/s].
+    fn kick_floor(&mut self, kick: f64, echo_gain: f64) {
+        let echo = self.echo_velocity();
+        let echo_mean = echo - 0.5 * echo_gain;
+        let echo_pull = echo_gain / kick;
         let resisting = self.floor.resistance(self.tip());
-        let (tip_force, tip_mass) = self.rod.tip().map_or((0.0, 0.0), |n| (n.force, n.mass));
+        let tip = self.rod.tip();
+        let (tip_force, tip_mass) = tip.map_or((0.0, 0.0), |n| (n.whole_force(), n.mass));
         let ground = self.ground.nodes[0];
+        let ground_force = ground.whole_force();
         let force = match self.floor.contact {
             Contact::Open => None,
             Contact::Closed => {
-                let together = (tip_force + ground.force) / (tip_mass + ground.mass);
+                let together =
+                    (tip_force + ground_force + ground.mass * echo_pull) / (tip_mass + ground.mass);
                 let held = tip_force - tip_mass * together;
                 if self.floor.speed == 0.0 && held <= resisting {
                     Some((held, 0.0))
                 } else {
                     let added = self.floor.added_mass();
                     let pull = (tip_force - resisting) / tip_mass
-                        - (resisting + ground.force) / ground.mass;
+                        - (resisting + ground_force) / ground.mass
+                        - echo_pull;
                     let gain = pull / (1.0 + added * (1.0 / tip_mass + 1.0 / ground.mass));
                     Some((resisting + added * gain, gain))
                 }
@@ -142,7 +197,7 @@ impl State {
             if let Some(tip) = self.rod.nodes.last_mut() {
                 tip.kick(tip_force * kick);
             }
-            self.ground.nodes[0].kick(ground.force * kick);
+            self.ground.nodes[0].kick(ground_force * kick);
             return;
         };
         self.contact_force = force;
@@ -153,8 +208,10 @@ impl State {
         };
         if after >= 0.0 {
             tip.kick((tip_force - force) * kick);
-            ground.kick((ground.force + force) * kick);
+            ground.kick((ground_force + force) * kick);
             self.floor.speed = after;
+            self.books.contact_impulse += force * kick;
+            self.books.reflected_work += force * kick * echo_mean;
             let work = resisting * 0.5 * (before + after) * kick;
             self.books.plastic[Role::Target as usize] += if gain == 0.0 { 0.0 } else { work };
             return;
@@ -163,16 +220,20 @@ impl State {
         let kinetic = tip.kinetic_energy() + ground.kinetic_energy() + self.floor.kinetic_energy();
         let momentum = tip.mass * tip.velocity
             + ground.mass * ground.velocity
-            + (tip_force + ground.force) * kick;
-        let common = momentum / (tip.mass + ground.mass);
+            + (tip_force + ground_force) * kick;
+        let common = (momentum + ground.mass * echo) / (tip.mass + ground.mass);
+        let below = common - echo;
         let work = kick
             * 0.5
-            * (tip_force * (tip.velocity + common) + ground.force * (ground.velocity + common));
+            * (tip_force * (tip.velocity + common) + ground_force * (ground.velocity + below));
+        let impulse = ground.mass * (below - ground.velocity) - ground_force * kick;
         tip.velocity = common;
-        ground.velocity = common;
+        ground.velocity = below;
         self.floor.speed = 0.0;
         let left = tip.kinetic_energy() + ground.kinetic_energy();
-        self.books.plastic[Role::Target as usize] += kinetic + work - left;
+        self.books.contact_impulse += impulse;
+        self.books.reflected_work += impulse * echo_mean;
+        self.books.plastic[Role::Target as usize] += kinetic + work - left - impulse * echo_mean;
     }
 
     /// Brings a tip that would pass the floor within the step to touch it at the end of the step.
@@ -209,7 +270,19 @@ impl State {
 
     /// Position of the crater floor below the original face [m].
     pub(super) fn position(&self) -> f64 {
-        self.ground.nodes[0].position + self.floor.depth
+        let echo = self
+            .rear_face
+            .as_ref()
+            .map_or(0.0, |face| face.displacement);
+        self.ground.nodes[0].position + echo + self.floor.depth
+    }
+
+    /// Force on what holds the rear face [N].
+    pub(super) fn support_force(&self) -> f64 {
+        match &self.rear_face {
+            Some(face) => face.support_force,
+            None => self.ground.passing_force,
+        }
     }
 
     pub(super) fn energy(&self) -> EnergyLedger {
@@ -224,21 +297,28 @@ impl State {
             plastic_projectile: self.books.plastic[Role::Projectile as usize],
             plastic_target: self.books.plastic[Role::Target as usize],
             border_shear: 0.0,
-            viscous: 0.0,
+            viscous: self.books.damping_work,
             contact: self.books.contact_loss,
-            boundary: self.ground.boundary_work,
+            boundary: self.ground.passed_work + self.books.reflected_work,
             eroded: self.books.eroded_energy,
             ..EnergyLedger::default()
         }
     }
 
     pub(super) fn momentum(&self) -> MomentumLedger {
+        // Waves that left through the last node are in the plate still, but for what its support has taken.
+        let passed = self.ground.passed_impulse;
+        let support = match &self.rear_face {
+            Some(face) => face.support_impulse,
+            None => passed,
+        };
         MomentumLedger {
             initial: self.books.initial_momentum,
             projectile: self.rod.motion().1,
-            target: self.ground.momentum(),
-            support: self.ground.support_impulse,
+            target: self.ground.momentum() + (passed - support),
+            support,
             border_shear: 0.0,
+            damping: self.books.damping_impulse,
             eroded: self.books.eroded_momentum,
             ..MomentumLedger::default()
         }

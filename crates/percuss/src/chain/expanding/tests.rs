@@ -160,7 +160,7 @@ fn a_rigid_rod_is_stopped_by_the_resistance_alone() {
     let scenario = case::load_str("shot", text).unwrap();
     let result = run(&scenario);
     let struck = &super::struck(&scenario).unwrap().material;
-    let resistance = Resistance::new(struck, RADIUS, 0.0, 0.0).unwrap();
+    let resistance = Resistance::new(struck, RADIUS, 0.0, 0.0, None).unwrap();
     let area = PI * RADIUS * RADIUS;
     let mass = 7850.0 * area * length + 4.0 / 3.0 * 2700.0 * RADIUS.powi(3);
     // The added mass is set in motion by the rod when they meet.
@@ -239,7 +239,7 @@ fn a_law_of_the_callers_own_takes_the_place_of_the_cavity() {
     let cavity = run(&shot).depth_of_penetration.unwrap();
     let struck = super::struck(&shot).unwrap().material.clone();
     let own = Same {
-        cavity: Resistance::new(&struck, RADIUS, 400.0 / (2.0 * RADIUS), 0.9).unwrap(),
+        cavity: Resistance::new(&struck, RADIUS, 400.0 / (2.0 * RADIUS), 0.9, None).unwrap(),
         density: struck.density.si(),
     };
     shot.resistance = Some(OwnResistance(Arc::new(own)));
