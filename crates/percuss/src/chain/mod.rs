@@ -114,7 +114,9 @@ impl Model for Chain {
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
         match scenario.options.chain.scheme {
-            Scheme::Conservative if is_expanding(scenario) => expanding::not_applicable(scenario),
+            Scheme::Conservative if is_expanding(scenario) => {
+                expanding::not_applicable(scenario).or_else(|| fracture::not_applicable(scenario))
+            }
             _ if scenario.resistance.is_some() => Some(
                 "a resistance law takes the place of the target's in the closure `expanding-cavity` alone; set \
                  chain.target_closure = \"expanding-cavity\""

@@ -111,13 +111,10 @@ impl Results<'_> {
 
     /// What a run with pieces that fly has to say beyond the common numbers.
     fn details(&self, fragments: &[Fragment]) -> Vec<Detail> {
-        let mut details = Vec::new();
+        let partings = &self.state.partings;
+        let first = partings.first().map(|first| (first.position, first.time));
+        let mut details = of_cracks(partings.len(), first);
         let mut add = |name, unit, value| details.push(Detail { name, unit, value });
-        if let Some(first) = self.state.partings.first() {
-            add("cracks", "", self.state.partings.len() as f64);
-            add("first crack, initial position", "mm", first.position * 1e3);
-            add("first crack, time", "us", first.time * 1e6);
-        }
         if fragments.len() > 1 {
             let energy = self.state.energy();
             let moving = energy.kinetic_projectile + energy.kinetic_target;
@@ -177,4 +174,17 @@ impl Results<'_> {
         }
         remains
     }
+}
+
+/// Number of cracks, and initial position [m] and time [s] of the first one.
+pub(super) fn of_cracks(count: usize, first: Option<(f64, f64)>) -> Vec<Detail> {
+    let Some((position, time)) = first else {
+        return Vec::new();
+    };
+    let of = |name, unit, value| Detail { name, unit, value };
+    vec![
+        of("cracks", "", count as f64),
+        of("first crack, initial position", "mm", position * 1e3),
+        of("first crack, time", "us", time * 1e6),
+    ]
 }

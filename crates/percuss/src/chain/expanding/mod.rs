@@ -8,6 +8,9 @@ mod delay_line;
 mod floor;
 mod ground;
 mod node;
+#[cfg(test)]
+mod plate_tests;
+mod projectile;
 mod rear_face;
 mod resistance;
 mod results;
@@ -20,12 +23,13 @@ mod tests;
 use self::{
     floor::{Contact, Floor, Opposition},
     ground::Ground,
+    projectile::{Failure, Projectile},
     rear_face::RearFace,
     resistance::Resistance,
     results::Watch,
     rod::Rod,
     slice::Metal,
-    state::{Books, State},
+    state::{Books, State, TargetFailure},
 };
 use super::{
     between::Moment,
@@ -156,8 +160,23 @@ impl<'a> Expanding<'a> {
         };
         let floor = Floor::new(opposition, area, plate.material.density.si());
         let (ground, rear_face, ground_step) = ground(scenario, plate, area, count);
+        let of_case = options.failure.as_ref();
+        let failure = of_case.and_then(|failure| failure.law().prepare(&projectile.material));
+        let target_failure = of_case.and_then(|failure| failure.law().prepare(&plate.material));
         let mut state = State {
-            rod,
+            rod: Projectile::new(
+                rod,
+                failure.map(|law| Failure {
+                    law,
+                    energy: options.fracture_energy.map_or(0.0, |energy| energy.si()),
+                }),
+            ),
+            cracks: Vec::new(),
+            target_failure: target_failure.map(|law| TargetFailure {
+                law,
+                damage: vec![0.0; options.target_elements()],
+                first: None,
+            }),
             floor,
             ground,
             rear_face,
@@ -175,7 +194,7 @@ impl<'a> Expanding<'a> {
             None => DEFAULT_EROSION_STRAIN,
         };
         let mut control = StepControl::new(options, courant, erosion_strain, f64::INFINITY);
-        let slowness = state.rod.metal.slowness.max(state.ground.slowness);
+        let slowness = state.rod.front.metal.slowness.max(state.ground.slowness);
         control.courant *= control.step_factor(speed, slowness);
         state.books.initial_energy = state.energy().kinetic_projectile;
         state.books.initial_momentum = state.momentum().projectile;

@@ -12,11 +12,12 @@ pub(super) struct Node {
     pub(super) force: f64,
     /// Force of damping on it [N], and its velocity before the kick that this belongs to [m/s].
     pub(super) damping: f64,
-    pub(super) velocity_before: f64,
+    velocity_before: f64,
 }
 
 impl Node {
     pub(super) fn kick(&mut self, impulse: f64) {
+        self.velocity_before = self.velocity;
         self.velocity += impulse / self.mass;
     }
 
@@ -25,10 +26,14 @@ impl Node {
         self.force + self.damping
     }
 
+    /// Mean velocity over a kick [m/s].
+    pub(super) fn mean_velocity(&self) -> f64 {
+        0.5 * (self.velocity_before + self.velocity)
+    }
+
     /// Adds local damping: a fraction of the force that accelerates it [N].
     pub(super) fn damp_locally(&mut self, fraction: f64, accelerating: f64) {
         self.damping += against(fraction, accelerating, self.velocity);
-        self.velocity_before = self.velocity;
     }
 
     /// Impulse [N s] and work [J] that damping took in a kick.
@@ -52,6 +57,17 @@ impl Node {
         let before = self.kinetic_energy();
         self.velocity += change;
         before - self.kinetic_energy() + 0.5 * drift * self.force * change
+    }
+}
+
+impl Node {
+    /// At a position [m], with a velocity [m/s].
+    pub(super) fn at(position: f64, velocity: f64) -> Self {
+        Self {
+            position,
+            velocity,
+            ..Self::default()
+        }
     }
 }
 

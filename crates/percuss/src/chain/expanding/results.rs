@@ -3,6 +3,7 @@
 use super::{
     super::{
         between::Residuals,
+        results::of_cracks,
         warnings::{Reached, warnings_of_cavity},
     },
     parted,
@@ -76,6 +77,9 @@ impl Watch {
             return Some(Termination::ProjectileConsumed);
         }
         self.at_rest?;
+        if state.rod.pieces_approach() {
+            return None;
+        }
         if !touched && momentum <= 0.0 {
             return Some(Termination::Parted);
         }
@@ -138,7 +142,7 @@ pub(super) fn sum_up(
     let mut result = RunResult::new("chain", "conservative", outcome, termination);
     result.criterion = criterion;
     let (mass, momentum) = state.rod.motion();
-    let unloaded = state.rod.slices.iter().map(|slice| slice.unloaded());
+    let unloaded = state.rod.slices().map(|(slice, _)| slice.unloaded());
     let (length, radius) = unloaded.fold((0.0, 0.0), |(length, widest), (own, radius)| {
         (length + own, f64::max(widest, radius))
     });
@@ -174,13 +178,26 @@ pub(super) fn sum_up(
         momentum_residual: watch.residuals.momentum,
     });
     result.history = recorder.map(|recorder| recorder.finish(sample(state), profile(state)));
+    result.fragments = state.rod.fragments();
+    result.details = of_cracks(state.cracks.len(), state.cracks.first().copied());
     result.warnings = warnings_of_cavity(scenario, &result, &reached, erosion_strain);
+    result.warnings.extend(warning_of_target_failure(state));
     result
+}
+
+fn warning_of_target_failure(state: &State) -> Option<String> {
+    let (depth, time) = state.target_failure.as_ref()?.first?;
+    Some(format!(
+        "the target would fail in tension {} mm below its face after {} us, which the model `expanding-cavity` does not include; compare \
+         with `chain.target_closure = \"column\"`",
+        significant(depth * 1e3, 3),
+        significant(time * 1e6, 3)
+    ))
 }
 
 pub(super) fn sample(state: &State) -> Sample {
     let (mass, momentum) = state.rod.motion();
-    let (tail, tip) = (state.rod.nodes.first(), state.rod.nodes.last());
+    let (tail, tip) = (state.rod.tail(), state.rod.front.tip());
     let velocity = |node: Option<&super::node::Node>| node.map_or(f64::NAN, |n| n.velocity);
     let place = |node: Option<&super::node::Node>| node.map_or(f64::NAN, |n| n.position);
     Sample {
@@ -209,19 +226,16 @@ pub(super) fn sample(state: &State) -> Sample {
 }
 
 pub(super) fn profile(state: &State) -> Profile {
-    let rod = state.rod.slices.iter().enumerate().map(|(i, slice)| {
-        let nodes = &state.rod.nodes;
-        ElementState {
-            part: 0,
-            initial_position: slice.initial_position,
-            position: 0.5 * (nodes[i].position + nodes[i + 1].position) + state.floor.lost_length,
-            length: slice.length,
-            stress: slice.axial_stress(),
-            strain: slice.strain(),
-            plastic_strain: slice.plastic_strain,
-            diameter: 2.0 * slice.radius,
-            temperature: slice.temperature,
-        }
+    let rod = state.rod.slices().map(|(slice, nodes)| ElementState {
+        part: 0,
+        initial_position: slice.initial_position,
+        position: 0.5 * (nodes[0].position + nodes[1].position) + state.floor.lost_length,
+        length: slice.length,
+        stress: slice.axial_stress(),
+        strain: slice.strain(),
+        plastic_strain: slice.plastic_strain,
+        diameter: 2.0 * slice.radius,
+        temperature: slice.temperature,
     });
     let ground = state.ground.strained().map(|mut spring| {
         if let Some(face) = &state.rear_face {

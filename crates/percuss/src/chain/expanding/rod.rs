@@ -1,21 +1,22 @@
 //! The projectile: nodes on the axis, slices between them, and the shear between neighbouring slices.
 
-use std::f64::consts::PI;
+use std::{f64::consts::PI, sync::Arc};
 
 use pulp::Arch;
 
-use crate::chain::solver::StepControl;
+use crate::{chain::solver::StepControl, material::PreparedFailure};
 
 use super::{
     block::Respond,
     node::{Dashpot, Node},
+    projectile::failure_state,
     slice::{Metal, Shear, Slice},
 };
 
 /// From its tail to its tip; what erodes leaves from the tip.
 #[derive(Debug)]
 pub(super) struct Rod {
-    pub(super) metal: Metal,
+    pub(super) metal: Arc<Metal>,
     pub(super) nodes: Vec<Node>,
     pub(super) slices: Vec<Slice>,
     /// `shears[i]` is between the slices `i` and `i + 1`.
@@ -73,11 +74,7 @@ impl Rod {
             })
             .collect();
         let mut nodes: Vec<Node> = (0..=count)
-            .map(|i| Node {
-                position: -size * (count - i) as f64,
-                velocity: speed,
-                ..Node::default()
-            })
+            .map(|i| Node::at(-size * (count - i) as f64, speed))
             .collect();
         for (i, slice) in slices.iter().enumerate() {
             nodes[i].mass += 0.5 * slice.mass;
@@ -87,7 +84,7 @@ impl Rod {
             arch: Arch::new(),
             fastest: None,
             shears: vec![Shear::default(); count.saturating_sub(1)],
-            metal,
+            metal: Arc::new(metal),
             nodes,
             slices,
             lost: [0.0; 3],
@@ -158,7 +155,7 @@ impl Rod {
                 return Err(i);
             }
         }
-        let metal = &self.metal;
+        let metal = &*self.metal;
         let mut plastic = match metal.strength.hardening() {
             Some(law) => {
                 let (work, fastest) = self.arch.dispatch(Respond {
@@ -221,10 +218,76 @@ impl Rod {
         if self.slices.is_empty() {
             self.nodes.clear();
         }
-        for (most, value) in self.lost.iter_mut().zip(reached(&slice)) {
+        self.remember(reached(&slice));
+        loss
+    }
+
+    /// Brings the damage of its slices up to the end of a step [s].
+    pub(super) fn damage(&mut self, law: &dyn PreparedFailure, time_step: f64) {
+        for slice in &mut self.slices {
+            slice.damage = law.damage(slice.damage, &failure_state(slice), time_step);
+        }
+    }
+
+    /// The node at which it parts, if it does: one of the two slices has failed and something pulls.
+    pub(super) fn weakest_node(&self) -> Option<usize> {
+        let damage = |i: usize| self.slices[i - 1].damage + self.slices[i].damage;
+        let fails = |i: &usize| {
+            let pair = &self.slices[i - 1..=*i];
+            self.pull_at(*i).0 > 0.0
+                && pair
+                    .iter()
+                    .any(|slice| slice.damage >= 1.0 && !slice.parted)
+        };
+        (1..self.slices.len())
+            .filter(fails)
+            .max_by(|&a, &b| damage(a).total_cmp(&damage(b)))
+    }
+
+    /// Tension at a node between two slices [N] and the smaller area at rest [m2].
+    pub(super) fn pull_at(&self, node: usize) -> (f64, f64) {
+        let (behind, ahead) = (&self.slices[node - 1], &self.slices[node]);
+        let area = |slice: &Slice| slice.rest_volume() / slice.rest_length;
+        (
+            -0.5 * (behind.axial_force + ahead.axial_force),
+            area(behind).min(area(ahead)),
+        )
+    }
+
+    /// Parts at a node between two slices, keeps what is ahead and gives what is behind, with the elastic energy of the shear between the
+    /// two [J].
+    pub(super) fn split(&mut self, node: usize) -> (Self, f64) {
+        for slice in &mut self.slices[node - 1..=node] {
+            slice.parted |= slice.damage >= 1.0;
+        }
+        let ahead = self.slices.split_off(node);
+        let mut nodes = self.nodes.split_off(node);
+        let own = 0.5 * ahead[0].mass;
+        let mut end = nodes[0];
+        end.mass -= own;
+        nodes[0].mass = own;
+        let shears = self.shears.split_off(node);
+        let lost = self.shears.pop();
+        let behind = Self {
+            metal: Arc::clone(&self.metal),
+            nodes: self.nodes.drain(..).chain([end]).collect(),
+            slices: std::mem::replace(&mut self.slices, ahead),
+            shears: std::mem::replace(&mut self.shears, shears),
+            arch: self.arch,
+            fastest: None,
+            lost: self.lost,
+        };
+        self.nodes = nodes;
+        self.fastest = None;
+        let energy = lost.map_or(0.0, |shear| shear.elastic_energy(&self.metal));
+        (behind, energy)
+    }
+
+    /// Keeps the extremes of slices that are gone.
+    pub(super) fn remember(&mut self, reached: [f64; 3]) {
+        for (most, value) in self.lost.iter_mut().zip(reached) {
             *most = most.max(value);
         }
-        loss
     }
 
     /// Mass [kg] and momentum [N s].

@@ -74,6 +74,9 @@ pub(super) struct Slice {
     pub(super) temperature: f64,
     pub(super) yield_point: YieldPoint,
     pub(super) initial_position: f64,
+    /// By the failure law, failed at 1; and whether it has parted from a neighbour.
+    pub(super) damage: f64,
+    pub(super) parted: bool,
 }
 
 impl Slice {
@@ -108,6 +111,8 @@ impl Slice {
             temperature,
             yield_point: YieldPoint::slow(&*metal.strength, &at_rest),
             initial_position: position,
+            damage: 0.0,
+            parted: false,
         }
     }
 

@@ -3,8 +3,8 @@
 use super::{
     floor::{Contact, Floor, Tip},
     ground::Ground,
+    projectile::Projectile,
     rear_face::RearFace,
-    rod::Rod,
 };
 use crate::{
     chain::{
@@ -13,6 +13,7 @@ use crate::{
     },
     error::NumericalError,
     ledger::{EnergyLedger, MomentumLedger},
+    material::{FailureState, PreparedFailure},
 };
 
 /// Largest change of strain that a slice may make in one step.
@@ -38,7 +39,7 @@ pub(super) struct Books {
 /// Everything that moves.
 #[derive(Debug)]
 pub(super) struct State {
-    pub(super) rod: Rod,
+    pub(super) rod: Projectile,
     pub(super) floor: Floor,
     pub(super) ground: Ground,
     /// A rear face that sends waves back.
@@ -51,6 +52,19 @@ pub(super) struct State {
     pub(super) ground_step: f64,
     pub(super) contact_force: f64,
     pub(super) eroded: usize,
+    /// Initial position [m] and time [s] of every crack.
+    pub(super) cracks: Vec<(f64, f64)>,
+    pub(super) target_failure: Option<TargetFailure>,
+}
+
+/// Watches whether the target would fail in tension, which its elastic ground cannot do.
+#[derive(Debug)]
+pub(super) struct TargetFailure {
+    pub(super) law: Box<dyn PreparedFailure>,
+    /// Of each spring of the ground.
+    pub(super) damage: Vec<f64>,
+    /// Depth [m] and time [s] at which it first would.
+    pub(super) first: Option<(f64, f64)>,
 }
 
 impl State {
@@ -81,8 +95,9 @@ impl State {
             .as_mut()
             .map_or(0.0, |face| face.begin_step(self.time, time_step));
         self.kick_floor(kick, gain);
-        if control.is_damped() {
+        if control.is_damped() || control.fails {
             self.account_for_damping(kick);
+            self.rod.meet(kick, time_step);
         }
         self.close(time_step);
         let drifted = self.rod.drift(time_step);
@@ -100,11 +115,40 @@ impl State {
             Err(slice) => return Err(self.crushed(slice)),
         }
         self.erode(control.erosion_strain);
+        if control.fails {
+            let cracks = self.rod.part_where_failed(time_step);
+            let time = self.time;
+            self.cracks
+                .extend(cracks.into_iter().map(|place| (place, time)));
+            self.watch_target(time_step);
+        }
         Ok(())
     }
 
+    fn watch_target(&mut self, time_step: f64) {
+        let Some(failure) = self.target_failure.as_mut().filter(|f| f.first.is_none()) else {
+            return;
+        };
+        for (damage, mut spring) in failure.damage.iter_mut().zip(self.ground.strained()) {
+            if let Some(face) = &self.rear_face {
+                spring.superpose(face.reflected(spring.middle, self.time));
+            }
+            let state = FailureState {
+                tension: -spring.stress,
+                triaxiality: (-spring.stress).signum() / 3.0,
+                plastic_strain_increment: 0.0,
+                temperature: self.ground.temperature,
+            };
+            *damage = failure.law.damage(*damage, &state, time_step);
+            if *damage >= 1.0 {
+                failure.first = Some((spring.middle, self.time));
+                return;
+            }
+        }
+    }
+
     fn account_for_damping(&mut self, kick: f64) {
-        for node in self.rod.nodes.iter().chain(&self.ground.nodes) {
+        for node in self.rod.nodes().chain(&self.ground.nodes) {
             let [impulse, work] = node.taken_by_damping(kick);
             self.books.damping_impulse += impulse;
             self.books.damping_work += work;
@@ -113,20 +157,20 @@ impl State {
 
     /// What the tip brings to the floor.
     fn tip(&self) -> Tip {
-        let (Some(node), Some(slice)) = (self.rod.tip(), self.rod.slices.last()) else {
+        let (Some(node), Some(slice)) = (self.rod.front.tip(), self.rod.front.slices.last()) else {
             return Tip::default();
         };
         Tip {
             area: slice.area(),
             flow_stress: slice.flow_stress(),
-            density: self.rod.metal.density,
-            closing: (self.rod.nodes[0].velocity - node.velocity).max(0.0),
+            density: self.rod.front.metal.density,
+            closing: (self.rod.front.nodes[0].velocity - node.velocity).max(0.0),
         }
     }
 
     /// Speed at which the tip comes closer to the floor [m/s].
     fn approach(&self) -> f64 {
-        let tip = self.rod.tip().map_or(0.0, |node| node.velocity);
+        let tip = self.rod.front.tip().map_or(0.0, |node| node.velocity);
         tip - self.ground_velocity() - self.floor.speed
     }
 
@@ -148,7 +192,7 @@ impl State {
         let change = self.approach() - allowed;
         let mobility = self.floor.mobility();
         let before = self.floor.kinetic_energy();
-        let Some(tip) = self.rod.nodes.last_mut() else {
+        let Some(tip) = self.rod.front.nodes.last_mut() else {
             return;
         };
         let ground = &mut self.ground.nodes[0];
@@ -168,7 +212,7 @@ impl State {
         let echo_mean = echo - 0.5 * echo_gain;
         let echo_pull = echo_gain / kick;
         let resisting = self.floor.resistance(self.tip());
-        let tip = self.rod.tip();
+        let tip = self.rod.front.tip();
         let (tip_force, tip_mass) = tip.map_or((0.0, 0.0), |n| (n.whole_force(), n.mass));
         let ground = self.ground.nodes[0];
         let ground_force = ground.whole_force();
@@ -194,7 +238,7 @@ impl State {
             self.floor.contact = Contact::Open;
             self.contact_force = 0.0;
             self.books.plastic[Role::Target as usize] += self.floor.coast(kick);
-            if let Some(tip) = self.rod.nodes.last_mut() {
+            if let Some(tip) = self.rod.front.nodes.last_mut() {
                 tip.kick(tip_force * kick);
             }
             self.ground.nodes[0].kick(ground_force * kick);
@@ -203,7 +247,8 @@ impl State {
         self.contact_force = force;
         let before = self.floor.speed;
         let after = before + gain * kick;
-        let (Some(tip), ground) = (self.rod.nodes.last_mut(), &mut self.ground.nodes[0]) else {
+        let (Some(tip), ground) = (self.rod.front.nodes.last_mut(), &mut self.ground.nodes[0])
+        else {
             return;
         };
         if after >= 0.0 {
@@ -241,7 +286,9 @@ impl State {
         if self.floor.contact == Contact::Closed {
             return;
         }
-        let Some(tip) = self.rod.tip() else { return };
+        let Some(tip) = self.rod.front.tip() else {
+            return;
+        };
         let gap = self.position() - (tip.position + self.floor.lost_length);
         if gap > self.approach() * time_step {
             return;
@@ -253,6 +300,7 @@ impl State {
     fn erode(&mut self, limit: f64) {
         while self
             .rod
+            .front
             .slices
             .last()
             .is_some_and(|slice| slice.strain() >= limit)
@@ -263,7 +311,7 @@ impl State {
             self.floor.lost_length += loss.length;
             self.eroded += 1;
         }
-        if self.rod.slices.is_empty() {
+        if self.rod.front.slices.is_empty() {
             self.floor.contact = Contact::Open;
         }
     }
@@ -297,8 +345,9 @@ impl State {
             plastic_projectile: self.books.plastic[Role::Projectile as usize],
             plastic_target: self.books.plastic[Role::Target as usize],
             border_shear: 0.0,
-            viscous: self.books.damping_work,
-            contact: self.books.contact_loss,
+            viscous: self.books.damping_work - self.rod.fracture_work,
+            fracture: self.rod.fracture_work,
+            contact: self.books.contact_loss + self.rod.contact_loss,
             boundary: self.ground.passed_work + self.books.reflected_work,
             eroded: self.books.eroded_energy,
             ..EnergyLedger::default()

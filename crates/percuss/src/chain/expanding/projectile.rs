@@ -1,0 +1,292 @@
+//! The projectile as one rod, or as the pieces that it has parted into.
+
+use super::{
+    node::Node,
+    rod::{Loss, Rod},
+    slice::Slice,
+};
+use crate::{
+    chain::{
+        joint::{Bond, Joint},
+        solver::StepControl,
+    },
+    fragments::Fragment,
+    material::{FailureState, PreparedFailure},
+};
+
+/// Rods one behind the other.
+#[derive(Debug)]
+pub(super) struct Projectile {
+    /// From the tail on, without the foremost.
+    behind: Vec<Piece>,
+    /// What strikes the target.
+    pub(super) front: Rod,
+    failure: Option<Failure>,
+    /// Energy that went into cracks and collisions of pieces [J].
+    pub(super) fracture_work: f64,
+    pub(super) contact_loss: f64,
+}
+
+/// A rod with what stands between its tip and the next one ahead.
+#[derive(Debug)]
+struct Piece {
+    rod: Rod,
+    joint: Joint,
+}
+
+/// When the projectile parts, and the energy per area that a crack takes [J/m2].
+#[derive(Debug)]
+pub(super) struct Failure {
+    pub(super) law: Box<dyn PreparedFailure>,
+    pub(super) energy: f64,
+}
+
+impl Projectile {
+    pub(super) fn new(rod: Rod, failure: Option<Failure>) -> Self {
+        Self {
+            behind: Vec::new(),
+            front: rod,
+            failure,
+            fracture_work: 0.0,
+            contact_loss: 0.0,
+        }
+    }
+
+    /// Its rods from the tail to the tip.
+    fn rods(&self) -> impl Iterator<Item = &Rod> {
+        let behind = self.behind.iter().map(|piece| &piece.rod);
+        behind.chain(std::iter::once(&self.front))
+    }
+
+    fn rods_mut(&mut self) -> impl Iterator<Item = &mut Rod> {
+        let behind = self.behind.iter_mut().map(|piece| &mut piece.rod);
+        behind.chain(std::iter::once(&mut self.front))
+    }
+
+    pub(super) fn tail(&self) -> Option<&Node> {
+        self.rods().next().and_then(|rod| rod.nodes.first())
+    }
+
+    pub(super) fn nodes(&self) -> impl Iterator<Item = &Node> {
+        self.rods().flat_map(|rod| &rod.nodes)
+    }
+
+    /// Slices, each with its two nodes.
+    pub(super) fn slices(&self) -> impl Iterator<Item = (&Slice, &[Node])> {
+        self.rods()
+            .flat_map(|rod| rod.slices.iter().zip(rod.nodes.windows(2)))
+    }
+
+    /// Forces of the slices on the nodes.
+    pub(super) fn collect(&mut self) {
+        for rod in self.rods_mut() {
+            rod.collect();
+        }
+        for i in 0..self.behind.len() {
+            let gap = self.gap(i);
+            let pull = self.behind[i].joint.pull_at(gap);
+            if let Some((behind, ahead)) = self.ends(i) {
+                behind.damping += pull;
+                ahead.damping -= pull;
+            }
+        }
+    }
+
+    /// Adds damping; `pushed` is the force of the target on the tip [N].
+    pub(super) fn damp(&mut self, control: &StepControl, pushed: f64) {
+        for piece in &mut self.behind {
+            piece.rod.damp(control, 0.0);
+        }
+        self.front.damp(control, pushed);
+    }
+
+    /// New velocities of all nodes but the tip.
+    pub(super) fn kick(&mut self, kick: f64) {
+        self.front.kick(kick);
+        for piece in &mut self.behind {
+            piece.rod.kick(kick);
+            if let Some(tip) = piece.rod.nodes.last_mut() {
+                tip.kick(tip.whole_force() * kick);
+            }
+        }
+    }
+
+    /// Brings pieces that would pass each other within the step to touch, as a plastic impact; others part.
+    pub(super) fn meet(&mut self, kick: f64, time_step: f64) {
+        for i in 0..self.behind.len() {
+            let gap = self.gap(i).max(0.0);
+            let pull = self.behind[i].joint.pull;
+            let Some((behind, ahead)) = self.ends(i) else {
+                continue;
+            };
+            let opening = ahead.mean_velocity() - behind.mean_velocity();
+            let change = behind.velocity - ahead.velocity - gap / time_step;
+            let mut loss = 0.0;
+            if change >= 0.0 {
+                let impulse = change / (1.0 / behind.mass + 1.0 / ahead.mass);
+                loss += behind.jump(-impulse / behind.mass, time_step);
+                loss += ahead.jump(impulse / ahead.mass, time_step);
+            }
+            self.contact_loss += loss;
+            self.fracture_work += pull * opening * kick;
+            self.behind[i].joint.closed = change >= 0.0;
+        }
+    }
+
+    /// Distance between a piece and the one ahead of it [m].
+    fn gap(&self, i: usize) -> f64 {
+        let rods: Vec<&Rod> = self.rods().skip(i).take(2).collect();
+        match rods[..] {
+            [behind, ahead] => {
+                let tip = behind.tip().map_or(0.0, |node| node.position);
+                ahead.nodes.first().map_or(0.0, |node| node.position) - tip
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// The two nodes at the joint ahead of a piece.
+    fn ends(&mut self, i: usize) -> Option<(&mut Node, &mut Node)> {
+        let mut rods = self.rods_mut().skip(i);
+        let (behind, ahead) = (rods.next()?, rods.next()?);
+        Some((behind.nodes.last_mut()?, ahead.nodes.first_mut()?))
+    }
+
+    /// Moves on and gives the plastic work [J]; an error names a slice that was crushed.
+    pub(super) fn drift(&mut self, time_step: f64) -> Result<f64, usize> {
+        let mut work = 0.0;
+        let mut first = 0;
+        for rod in self.rods_mut() {
+            work += rod.drift(time_step).map_err(|slice| first + slice)?;
+            first += rod.slices.len();
+        }
+        Ok(work)
+    }
+
+    /// Brings damage up to the end of a step and parts rods where slices have failed and something pulls: one place a rod and step, where
+    /// the two slices are damaged most, as the new ends unload their neighbours. Gives the initial positions [m] of the new cracks.
+    pub(super) fn part_where_failed(&mut self, time_step: f64) -> Vec<f64> {
+        let Some(failure) = &self.failure else {
+            return Vec::new();
+        };
+        let mut cracks = Vec::new();
+        let mut i = 0;
+        while i <= self.behind.len() {
+            let rod = match self.behind.get_mut(i) {
+                Some(piece) => &mut piece.rod,
+                None => &mut self.front,
+            };
+            rod.damage(&*failure.law, time_step);
+            if let Some(node) = rod.weakest_node() {
+                let ahead = &rod.slices[node];
+                cracks.push(ahead.initial_position - 0.5 * ahead.rest_length);
+                let (strength, area) = rod.pull_at(node);
+                let (rod, energy) = rod.split(node);
+                self.contact_loss += energy;
+                let joint = Joint::new(true, Bond::crack(strength, failure.energy * area));
+                self.behind.insert(i, Piece { rod, joint });
+                i += 1;
+            }
+            i += 1;
+        }
+        cracks
+    }
+
+    /// Largest stable step [s], in which no slice changes its size by more than a part either.
+    pub(super) fn stable_step(&self, largest_strain: f64) -> f64 {
+        let steps = self.rods().map(|rod| rod.stable_step(largest_strain));
+        steps.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Takes the foremost slice out, with what leaves with it; the next piece follows when the foremost is used up.
+    pub(super) fn erode_tip(&mut self) -> Loss {
+        let loss = self.front.erode_tip();
+        if self.front.slices.is_empty()
+            && let Some(next) = self.behind.pop()
+        {
+            let reached = self.front.reached();
+            self.front = next.rod;
+            self.front.remember(reached);
+        }
+        loss
+    }
+
+    /// Mass [kg] and momentum [N s].
+    pub(super) fn motion(&self) -> (f64, f64) {
+        let motions = self.rods().map(Rod::motion);
+        motions.fold((0.0, 0.0), |sum, (mass, momentum)| {
+            (sum.0 + mass, sum.1 + momentum)
+        })
+    }
+
+    /// Kinetic and elastic energy [J].
+    pub(super) fn energies(&self) -> [f64; 2] {
+        let energies = self.rods().map(Rod::energies);
+        energies.fold([0.0; 2], |sum, own| [sum[0] + own[0], sum[1] + own[1]])
+    }
+
+    /// Largest plastic strain, plastic strain rate [1/s] and temperature [K] so far.
+    pub(super) fn reached(&self) -> [f64; 3] {
+        let reached = self.rods().map(Rod::reached);
+        reached.fold([0.0; 3], |most, own| {
+            std::array::from_fn(|k| f64::max(most[k], own[k]))
+        })
+    }
+
+    /// Whether pieces are still to collide.
+    pub(super) fn pieces_approach(&self) -> bool {
+        let motions: Vec<(f64, f64)> = self.rods().map(Rod::motion).collect();
+        let speeds = motions.windows(2).map(|pair| {
+            let [behind, ahead] = [pair[0], pair[1]].map(|(mass, momentum)| momentum / mass);
+            behind - ahead
+        });
+        speeds.fold(0.0, f64::max) > 0.0
+    }
+
+    /// The pieces from the tail on, where there is more than one.
+    pub(super) fn fragments(&self) -> Vec<Fragment> {
+        if self.behind.is_empty() {
+            return Vec::new();
+        }
+        self.rods().map(fragment).collect()
+    }
+}
+
+fn fragment(rod: &Rod) -> Fragment {
+    let (mass, momentum) = rod.motion();
+    let moment: f64 = rod.nodes.iter().map(|node| node.mass * node.position).sum();
+    let (mut length, mut radius) = (0.0, 0.0_f64);
+    let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
+    for slice in &rod.slices {
+        let (own, widest) = slice.unloaded();
+        length += own;
+        radius = radius.max(widest);
+        from = from.min(slice.initial_position - 0.5 * slice.rest_length);
+        to = to.max(slice.initial_position + 0.5 * slice.rest_length);
+    }
+    Fragment {
+        origin: "projectile".to_owned(),
+        initial_from: from,
+        initial_to: to,
+        mass,
+        velocity: momentum / mass,
+        length,
+        diameter: 2.0 * radius,
+        position: moment / mass,
+    }
+}
+
+/// State that damage of a slice grows by over a step.
+pub(super) fn failure_state(slice: &Slice) -> FailureState {
+    let equivalent = slice.difference[1].abs();
+    FailureState {
+        tension: -slice.axial_stress(),
+        triaxiality: if equivalent > 0.0 {
+            -slice.pressure[1] / equivalent
+        } else {
+            0.0
+        },
+        plastic_strain_increment: slice.plastic_step.abs(),
+        temperature: slice.temperature,
+    }
+}
