@@ -4,6 +4,7 @@
 
 mod case_reference;
 mod commands;
+mod formulae;
 mod stage;
 
 use std::{

@@ -2,6 +2,8 @@
 
 use std::{fs, io, path::Path};
 
+use crate::formulae::with_mathml;
+
 /// What readers of the guide are sent to, besides `docs/`.
 const BESIDE: [&str; 8] = [
     "benches/peers",
@@ -50,7 +52,9 @@ fn copy(from: &Path, to: &Path) -> io::Result<()> {
         if from.extension().is_none_or(|end| end != "md") {
             return fs::copy(from, to).map(|_| ());
         }
-        let page = with_index_pages(&fs::read_to_string(from)?);
+        let page = with_mathml(&fs::read_to_string(from)?)
+            .map_err(|error| io::Error::other(format!("{}, {error}", from.display())))?;
+        let page = with_index_pages(&page);
         let is_first = from.file_name().is_some_and(|name| name == "README.md");
         return match is_first {
             true => fs::write(to.with_file_name("index.md"), page),

@@ -47,6 +47,46 @@ fn the_book_builds_and_every_link_leads_somewhere() {
     assert!(broken.is_empty(), "{}", broken.join("\n"));
 }
 
+/// Formulae are drawn by the browser itself: a page needs no script and no network for them.
+#[test]
+fn every_formula_of_the_book_is_mathml() {
+    let out = tempfile::tempdir().unwrap();
+    build(&repository(), out.path()).unwrap();
+    let docs = repository().join("docs");
+    let mut count = 0;
+    for page in files(&docs, "md") {
+        let formulae = fs::read_to_string(&page).unwrap().matches("$$").count() / 2;
+        let name = page.strip_prefix(&docs).unwrap().with_extension("html");
+        if formulae == 0 {
+            continue;
+        }
+        let built = out.path().join("html/docs").join(&name);
+        let html = fs::read_to_string(&built).unwrap();
+        let content = html.split("<main>").nth(1).unwrap();
+        let content = content.split("</main>").next().unwrap();
+        assert!(!content.contains("$$"), "{}", name.display());
+        assert_eq!(
+            content.matches("<math ").count(),
+            formulae,
+            "{}",
+            name.display()
+        );
+        assert_eq!(
+            content.matches("</math>").count(),
+            formulae,
+            "{}",
+            name.display()
+        );
+        assert!(
+            !html.to_lowercase().contains("mathjax"),
+            "{}",
+            name.display()
+        );
+        count += formulae;
+    }
+    assert!(count >= 10, "{count} formulae");
+}
+
 #[test]
 fn every_page_of_the_guide_is_in_the_contents() {
     let docs = repository().join("docs");

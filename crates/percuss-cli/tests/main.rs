@@ -5,6 +5,7 @@ mod bad_input;
 mod calibrate;
 mod compare;
 mod docs;
+mod figures;
 mod help;
 mod judge;
 mod layout;

@@ -1,118 +1,184 @@
 //! Every folder of `cases/` gives what its `expected.toml` says.
+//!
+//! After an intended change of results, `RETAKE_GOLDEN=1 cargo test -p percuss --test all cases::` writes the golden numbers and the
+//! known errors of the files again; exact, published and measured values stay as they are. The difference is for a person to read.
 
-use std::{fs, path::PathBuf};
+use std::{
+    env, fs,
+    path::{Path, PathBuf},
+};
 
 use percuss::{
-    case,
+    Scenario, case,
     model::{self, Control},
+    outcome::{Outcome, RunResult},
     summary::ResultRecord,
-    units::{Time, Velocity},
 };
-use serde::Deserialize;
+use toml_edit::{DocumentMut, Item, value};
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    expected: Vec<Expected>,
-}
+use crate::common::expected::{Expected, File, Kind};
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Expected {
-    /// Model that gives the number.
-    #[serde(default = "chain")]
-    model: String,
-    quantity: String,
-    /// Impact speed in place of the scenario's.
-    velocity: Option<Velocity>,
-    /// Span of time over which a sampled quantity is averaged.
-    mean_from: Option<Time>,
-    mean_to: Option<Time>,
-    value: f64,
-    tolerance: f64,
-    /// The tolerance is a difference, not a fraction of the value.
-    #[serde(default)]
-    absolute: bool,
-    kind: Kind,
-    source: String,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Kind {
-    Analytic,
-    Paper,
-    Experiment,
-    Golden,
-}
-
-fn chain() -> String {
-    "chain".to_owned()
-}
-
-fn check(folder: &str) {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("../../cases")
-        .join(folder);
-    let text = fs::read_to_string(root.join("expected.toml")).unwrap();
-    let file: File = toml::from_str(&text).unwrap_or_else(|error| panic!("{error}"));
-    for expected in file.expected {
-        let mut scenario =
-            case::load(root.join("scenario.toml")).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(scenario.name, folder);
-        if let Some(velocity) = expected.velocity {
-            scenario.impact_speed = velocity.si();
-        }
-        let result = model::run(
-            model::model(&expected.model).unwrap(),
-            &scenario,
-            &mut Control::recording(),
-        )
+fn run(folder: &Path, expected: &Expected, velocity: Option<f64>) -> (Scenario, RunResult) {
+    let mut scenario =
+        case::load(folder.join("scenario.toml")).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(scenario.name, folder.file_name().unwrap().to_string_lossy());
+    if let Some(velocity) = velocity {
+        scenario.impact_speed = velocity;
+    }
+    let model = model::model(&expected.model).unwrap();
+    let result = model::run(model, &scenario, &mut Control::recording())
         .unwrap_or_else(|error| panic!("{error}"));
-        let value = match (
-            expected.mean_from,
-            expected.mean_to,
-            expected.quantity.as_str(),
-        ) {
-            (Some(from), Some(to), "interface_velocity_m_s") => {
-                crate::common::mean(&result, from.si(), to.si(), |s| s.interface_velocity)
-            }
-            (Some(from), Some(to), "back_velocity_m_s") => {
-                crate::common::mean(&result, from.si(), to.si(), |s| s.back_velocity)
-            }
-            (Some(from), Some(to), "contact_force_kn") => {
-                crate::common::mean(&result, from.si(), to.si(), |s| s.contact_force * 1e-3)
-            }
-            (None, None, "projectile_mass_g") => scenario.projectile.mass * 1e3,
-            (None, None, quantity) => {
-                let record = serde_json::to_value(ResultRecord::new(&scenario, &result)).unwrap();
-                // A name, or a path such as `/fragments/2/velocity_m_s`.
-                let number = record.pointer(quantity).or_else(|| record.get(quantity));
-                number
-                    .and_then(serde_json::Value::as_f64)
-                    .unwrap_or_else(|| panic!("{folder}: no number is named {quantity}"))
-            }
-            other => panic!("{folder}: {other:?} is not understood"),
-        };
-        let allowed = if expected.absolute {
-            expected.tolerance
-        } else {
-            expected.tolerance * expected.value.abs()
-        };
-        let off = (value - expected.value).abs();
-        println!(
-            "{folder}: {} = {value:.6}, {:?} {}",
-            expected.quantity, expected.kind, expected.value
-        );
-        assert!(
-            off <= allowed + 1e-12 * expected.value.abs(),
-            "{folder}: {} = {value} is {off:.3e} off {} ({:?}, {}); allowed {allowed:.3e}",
-            expected.quantity,
-            expected.value,
-            expected.kind,
-            expected.source
+    (scenario, result)
+}
+
+/// The number of an entry as the program computes it.
+fn compute(folder: &Path, expected: &Expected) -> f64 {
+    if let Some(bracket) = &expected.bracket {
+        return limit(
+            folder,
+            expected,
+            bracket.each_ref().map(|velocity| velocity.si()),
         );
     }
+    let velocity = expected.velocity.as_ref().map(|velocity| velocity.si());
+    let (scenario, result) = run(folder, expected, velocity);
+    let span = expected.mean_from.as_ref().zip(expected.mean_to.as_ref());
+    let span = span.map(|(from, to)| (from.si(), to.si()));
+    match (span, expected.quantity.as_str()) {
+        (Some((from, to)), "interface_velocity_m_s") => {
+            crate::common::mean(&result, from, to, |s| s.interface_velocity)
+        }
+        (Some((from, to)), "back_velocity_m_s") => {
+            crate::common::mean(&result, from, to, |s| s.back_velocity)
+        }
+        (Some((from, to)), "contact_force_kn") => {
+            crate::common::mean(&result, from, to, |s| s.contact_force * 1e-3)
+        }
+        (None, "projectile_mass_g") => scenario.projectile.mass * 1e3,
+        (None, "perforates") => f64::from(result.outcome == Outcome::Perforated),
+        (None, quantity) => {
+            let record = serde_json::to_value(ResultRecord::new(&scenario, &result)).unwrap();
+            // A name, or a path such as `/fragments/2/velocity_m_s`.
+            let number = record.pointer(quantity).or_else(|| record.get(quantity));
+            number
+                .and_then(serde_json::Value::as_f64)
+                .unwrap_or_else(|| panic!("{}: no number is named {quantity}", folder.display()))
+        }
+        other => panic!("{}: {other:?} is not understood", folder.display()),
+    }
+}
+
+/// Middle of a bracket of impact velocities, of which only the upper one perforates.
+fn limit(folder: &Path, expected: &Expected, bracket: [f64; 2]) -> f64 {
+    assert_eq!(expected.quantity, "ballistic_limit_m_s");
+    let perforates = bracket
+        .map(|velocity| run(folder, expected, Some(velocity)).1.outcome == Outcome::Perforated);
+    assert_eq!(
+        perforates,
+        [false, true],
+        "{}: the limit is not between {bracket:?} m/s; find it with `percuss limit` and write the new bracket",
+        folder.display()
+    );
+    0.5 * (bracket[0] + bracket[1])
+}
+
+/// The independent value of an entry, and the error against it.
+fn beside(expected: &Expected, computed: f64) -> String {
+    let Some(independent) = &expected.independent else {
+        return String::new();
+    };
+    let uncertainty = independent
+        .uncertainty
+        .map_or(String::new(), |u| format!(" ± {u}"));
+    format!(
+        ", independent {}{uncertainty}: error {:+.4}",
+        independent.value,
+        expected.error_of(computed, independent.value)
+    )
+}
+
+/// What of an entry a computed number contradicts.
+fn contradiction(expected: &Expected, computed: f64) -> Option<String> {
+    let Expected {
+        quantity,
+        model,
+        kind,
+        value,
+        source,
+        ..
+    } = expected;
+    if !expected.holds(computed) {
+        let error = expected.error_of(computed, *value);
+        return Some(format!(
+            "{model}, {quantity}: {computed} against {kind:?} {value} ({source}): error {error:+.5}, stated {:+}, tolerance {}",
+            expected.error.unwrap_or(0.0),
+            expected.tolerance
+        ));
+    }
+    let independent = expected.independent.as_ref()?;
+    let error = expected.error_of(computed, independent.value);
+    let allowed = match expected.absolute {
+        true => expected.tolerance,
+        false => 0.005,
+    };
+    ((error - independent.error).abs() > allowed).then(|| {
+        format!(
+            "{model}, {quantity}: {computed} against {} ({}): error {error:+.4}, stated {:+}",
+            independent.value, independent.source, independent.error
+        )
+    })
+}
+
+/// Writes a computed number into the entry that it belongs to, where the entry is this program's own or states an error.
+fn retake(entry: &mut Item, expected: &Expected, computed: f64) {
+    let rounded = |number: f64, digits: usize| format!("{number:.digits$}").parse::<f64>().unwrap();
+    let significant = |number: f64| format!("{number:.5e}").parse::<f64>().unwrap();
+    if expected.kind == Kind::Golden && !expected.holds(computed) {
+        entry["value"] = value(significant(computed));
+    }
+    if let Some(independent) = &expected.independent {
+        entry["independent"]["error"] =
+            value(rounded(expected.error_of(computed, independent.value), 4));
+    }
+    if expected.error.is_some() {
+        entry["error"] = value(rounded(expected.error_of(computed, expected.value), 4));
+    }
+}
+
+fn check(name: &str) {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("../../cases")
+        .join(name);
+    let path = folder.join("expected.toml");
+    let text = fs::read_to_string(&path).unwrap();
+    let file = File::read(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let mut document: DocumentMut = text.parse().unwrap();
+    let entries = document["expected"].as_array_of_tables_mut().unwrap();
+    let mut contradictions = Vec::new();
+    for (expected, table) in file.expected.iter().zip(entries.iter_mut()) {
+        let computed = compute(&folder, expected);
+        println!(
+            "{name}: {} = {computed:.6}{}",
+            expected.quantity,
+            beside(expected, computed)
+        );
+        if let Some(found) = contradiction(expected, computed) {
+            contradictions.push(found);
+            let mut entry = Item::Table(table.clone());
+            retake(&mut entry, expected, computed);
+            *table = entry.into_table().unwrap();
+        }
+    }
+    if env::var_os("RETAKE_GOLDEN").is_some() && !contradictions.is_empty() {
+        fs::write(&path, document.to_string()).unwrap();
+        println!("{name}: written again\n{}", contradictions.join("\n"));
+        return;
+    }
+    assert!(
+        contradictions.is_empty(),
+        "{name}:\n{}\nRETAKE_GOLDEN=1 writes golden numbers and known errors again",
+        contradictions.join("\n")
+    );
 }
 
 /// One test a folder, so that a failure names it; the list is checked against what is there.

@@ -1,5 +1,6 @@
 //! Cases that several tests build on.
 
+pub mod expected;
 pub mod plates;
 pub mod rods;
 
