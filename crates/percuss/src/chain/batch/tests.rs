@@ -170,7 +170,6 @@ fn shots_that_need_more_are_left_to_the_single_run() {
         "artificial_viscosity.linear = 0.1",
         "erosion_closure = 'tate'",
         "failure.spall = { strength = '1 GPa' }",
-        "border_shear_law = 'shear-band'",
     ] {
         assert!(!accepts(&shot("copper", PLATE, 200.0, more)), "{more}");
     }
