@@ -158,12 +158,12 @@ pub fn check_references(shots: &[Shot], references: &[Reference]) -> Vec<Checked
                 && *speed == entry.shot.speed
                 && *length_to_diameter < entry.shot.length_to_diameter
         });
-        let deeper = shorter.filter_map(|other| {
+        let mut deeper = shorter.filter_map(|other| {
             let depth = other.estimate.ok()?;
             let gap = depth.depth_mm - own.depth_mm - depth.uncertainty_mm - own.uncertainty_mm;
             (gap > 0.0).then_some((other.shot.length_to_diameter, depth.depth_mm))
         });
-        if let Some((length_to_diameter, depth_mm)) = deeper.last() {
+        if let Some((length_to_diameter, depth_mm)) = deeper.next_back() {
             entry.estimate = Err(Refusal::ShorterRodDeeper {
                 length_to_diameter,
                 depth_mm,
