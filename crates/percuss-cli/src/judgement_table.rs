@@ -20,6 +20,14 @@ pub fn text(judgement: &Judgement, origin: &Origin, by: &[Grouping]) -> String {
     for sentence in judge::findings(verdicts) {
         text += &format!("{}\n", wrap(&format!("- {sentence}"), width(), 2));
     }
+    let refused = judgement.references.iter().filter(|r| r.estimate.is_err());
+    let refused = refused.count();
+    if refused > 0 {
+        let sentence = format!(
+            "- {refused} more shots are left out of all numbers: their reference fails the check. `--out DIR` and `--json` list the reasons."
+        );
+        text += &format!("{}\n", wrap(&sentence, width(), 2));
+    }
     text += &format!(
         "\n{}\n{}",
         bold("all shots, errors in %"),

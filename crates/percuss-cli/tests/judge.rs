@@ -7,12 +7,16 @@ use tempfile::TempDir;
 
 use crate::support::{json, percuss};
 
-/// Two shots on two meshes, made up, and one of no shot of the design.
+/// Made up: a shot on three meshes and one on two, one that is refused, and one of no shot of the design.
 const REFERENCE: &str = "\
 projectile,target,length_to_diameter,impact_velocity_m_s,cells_per_radius,depth_of_penetration_mm,largest_depth_mm,projectile_final_length_mm,projectile_final_diameter_mm,outcome,energy_residual,transfer_loss,steps,particles
 copper-woodward,aluminium-2024-t351-woodward,1.0,600.0,4,1.8,1.9,3.0,8.0,rebounded,0.002,0.05,1000,6000
 copper-woodward,aluminium-2024-t351-woodward,1.0,600.0,8,1.9,1.9,3.0,8.0,rebounded,0.002,0.05,2000,24000
+copper-woodward,aluminium-2024-t351-woodward,1.0,600.0,16,1.95,1.96,3.0,8.0,rebounded,0.002,0.05,4000,96000
+4340-johnson-cook,6061-t6-lesuer,1.0,300.0,4,1.1,1.3,,,rebounded,0.002,0.05,1000,6000
 4340-johnson-cook,6061-t6-lesuer,1.0,300.0,8,1.2,1.3,,,rebounded,0.002,0.05,2000,24000
+6061-t6-lesuer,4340-johnson-cook,1.0,300.0,4,1.0,1.3,,,rebounded,0.002,0.05,1000,6000
+6061-t6-lesuer,4340-johnson-cook,1.0,300.0,8,1.4,1.4,,,rebounded,0.002,0.05,2000,24000
 copper-woodward,aluminium-2024-t351-woodward,1.0,601.0,8,1.9,1.9,3.0,8.0,rebounded,0.002,0.05,2000,24000
 ";
 
@@ -36,8 +40,9 @@ fn models_are_judged_by_a_reference() {
     let folder = folder();
     let text = ok(folder.path(), &[]);
     for part in [
-        "reference: own.csv (4 rows)\n",
-        "- 2 shots; on 1 of them the reference itself is known within 10 %.",
+        "reference: own.csv (8 rows)\n",
+        "- 2 shots have a reference that passes its convergence check: 1 rest on two",
+        "- 1 more shots are left out of all numbers",
         "all shots, errors in %\n",
         "chain: diverging-penetrable",
         "median error in % by L/D\n",
@@ -71,10 +76,21 @@ fn json_holds_statistics_and_verdicts_of_the_extrapolated_reference() {
             |v: &&Value| v["impact_velocity_m_s"] == speed && v["contender"] == "chain: column";
         verdicts.iter().find(own).unwrap()
     };
-    assert!((of(600.0)["reference_depth_mm"].as_f64().unwrap() - 2.0).abs() < 1e-12);
-    assert!((of(600.0)["reference_uncertainty_mm"].as_f64().unwrap() - 0.1).abs() < 1e-12);
-    assert_eq!(of(300.0)["reference_depth_mm"], 1.2);
-    assert!(of(300.0)["reference_uncertainty_mm"].is_null());
+    assert!((of(600.0)["reference_depth_mm"].as_f64().unwrap() - 2.0).abs() < 1e-9);
+    assert!((of(600.0)["reference_uncertainty_mm"].as_f64().unwrap() - 0.05).abs() < 1e-9);
+    assert_eq!(of(600.0)["reference_meshes"], 3);
+    assert!((of(300.0)["reference_depth_mm"].as_f64().unwrap() - 1.3).abs() < 1e-12);
+    assert!((of(300.0)["reference_uncertainty_mm"].as_f64().unwrap() - 0.2).abs() < 1e-12);
+    assert_eq!(of(300.0)["reference_meshes"], 2);
+    let refused = json["refused"].as_array().unwrap();
+    assert_eq!(refused.len(), 1);
+    assert_eq!(refused[0]["projectile"], "6061-t6-lesuer");
+    let reason = refused[0]["reason"].as_str().unwrap();
+    assert!(
+        reason.contains("changes the depth by +29 %, more than 15 %"),
+        "{reason}"
+    );
+    assert!(verdicts.iter().all(|v| v["projectile"] != "6061-t6-lesuer"));
     let all = &json["statistics"][0];
     assert_eq!(
         (&all["contender"], &all["grouping"], &all["count"]),
@@ -95,8 +111,10 @@ fn the_report_is_written_whole() {
         "<!doctype html>",
         "<h2>In plain words</h2>",
         "<h2>Every shot</h2>",
-        "4: 1.8, 8: 1.9",
-        "2 ± 0.1",
+        "4: 1.8, 8: 1.9, 16: 1.95",
+        "2 ± 0.05",
+        "refused: the extrapolation changes the depth by +29 %",
+        "1 shots left out: their reference fails its check",
         "percuss judge --reference own.csv --out report",
     ] {
         assert!(html.contains(part), "{part}");
@@ -118,6 +136,8 @@ fn the_report_is_written_whole() {
         header.starts_with("contender,projectile,target,"),
         "{header}"
     );
+    let references = read("references.csv");
+    assert!(references.contains("more than 15 %"), "{references}");
     for name in ["verdicts.parquet", "statistics.parquet", "ablation.parquet"] {
         let bytes = fs::read(folder.path().join("report").join(name)).unwrap();
         assert!(bytes.starts_with(b"PAR1"), "{name}");
@@ -128,6 +148,8 @@ fn refused(arguments: &[&str], code: i32) -> String {
     let folder = folder();
     let only_header = REFERENCE.lines().next().unwrap().to_owned() + "\n";
     fs::write(folder.path().join("empty.csv"), only_header).unwrap();
+    let coarse: Vec<&str> = REFERENCE.lines().take(2).collect();
+    fs::write(folder.path().join("coarse.csv"), coarse.join("\n") + "\n").unwrap();
     let wrong = REFERENCE.replace("600.0,8,1.9", "600.0,8,deep");
     fs::write(folder.path().join("wrong.csv"), wrong).unwrap();
     let said = percuss(folder.path(), [&["judge"], arguments].concat());
@@ -146,6 +168,13 @@ fn wrong_arguments_and_files_are_refused() {
     assert!(
         empty.contains("no reference to judge by in empty.csv") && empty.contains("--compute"),
         "{empty}"
+    );
+    let coarse = refused(&["--reference", "coarse.csv"], 2);
+    assert!(
+        coarse.contains("no reference in coarse.csv (1 rows) passes the convergence check")
+            && coarse.contains("fewer than two meshes")
+            && coarse.contains("--cells 4, 8 and 12"),
+        "{coarse}"
     );
     let none = refused(&["--reference", "none.csv"], 4);
     assert!(

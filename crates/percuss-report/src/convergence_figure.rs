@@ -34,6 +34,5 @@ pub fn convergence_chart(case: &str, study: &Study, quantity: usize) -> Option<C
             richardson,
         ));
     }
-    let fine = quantity.values.last().copied().unwrap_or(f64::NAN);
-    Some(chart.caption(quantity.verdict.in_words(fine)).into())
+    Some(chart.caption(quantity.verdict.in_words()).into())
 }

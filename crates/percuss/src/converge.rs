@@ -6,6 +6,7 @@ use crate::{
     Error, Scenario,
     model::{Control, Model, run},
     outcome::RunResult,
+    richardson::{CREDIBLE_ORDERS, OnMesh, Trend, extrapolate, trend},
 };
 
 /// Factor between the numbers of elements of two meshes.
@@ -14,10 +15,10 @@ pub const REFINEMENT: u32 = 2;
 const SAFETY: f64 = 1.25;
 /// Spread of the finest meshes, as a part of the value, below which nobody asks for an order.
 const AGREEMENT: f64 = 1e-3;
-/// The schemes are of second order at best.
-const LARGEST_CREDIBLE_ORDER: f64 = 2.2;
-/// Differences between meshes below this part of the value are rounding, not convergence.
-const NEGLIGIBLE: f64 = 1e-9;
+/// Part of the finest value below which an extrapolated one is no result but the mesh.
+const VANISHING: f64 = 0.1;
+/// Largest difference of the orders of two successive triples of meshes in the asymptotic range.
+const SAME_ORDER: f64 = 0.5;
 
 /// A case on successively finer meshes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -48,15 +49,15 @@ pub struct Quantity {
     pub unit: &'static str,
     /// Value on each mesh.
     pub values: Vec<f64>,
-    /// What the three finest meshes say.
+    /// Convergence over the meshes.
     pub verdict: Verdict,
 }
 
-/// What the three finest meshes say of a quantity.
+/// Convergence of a quantity over the meshes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum Verdict {
-    /// The differences between meshes shrink with one sign.
+    /// Two successive triples of meshes show the same credible order: the asymptotic range is confirmed.
     Converging {
         /// Observed order of convergence in the element length.
         order: f64,
@@ -64,6 +65,24 @@ pub enum Verdict {
         richardson: f64,
         /// Grid-convergence index of the finest mesh, as a fraction of its value.
         index: f64,
+    },
+    /// The differences shrink with one sign, but nothing confirms that they follow a power law: no uncertainty is claimed.
+    Unconfirmed {
+        /// Observed order of the three finest meshes.
+        order: f64,
+        /// Observed order of the three meshes before; none with three meshes, or where they have none.
+        earlier_order: Option<f64>,
+        /// Number of meshes.
+        meshes: usize,
+        /// Largest difference among the three finest meshes, as a fraction of the finest value.
+        spread: f64,
+    },
+    /// The differences shrink towards a limit that is next to nothing of the value: it measures the mesh.
+    Vanishing {
+        /// Observed order of the three finest meshes.
+        order: f64,
+        /// The limit as a fraction of the finest value.
+        limit: f64,
     },
     /// The finest meshes agree to rounding.
     Exact,
@@ -82,47 +101,77 @@ pub enum Verdict {
 impl Verdict {
     /// The verdict on values of three or more meshes, coarse to fine, each [`REFINEMENT`] times finer than the last.
     pub fn of(values: &[f64]) -> Option<Self> {
-        let [.., coarse, medium, fine] = *values else {
+        let meshes: Vec<OnMesh> = values
+            .iter()
+            .zip(0..)
+            .map(|(&value, level)| OnMesh {
+                cells: f64::from(REFINEMENT).powi(level),
+                value,
+            })
+            .collect();
+        let [before @ .., coarse, medium, fine] = meshes.as_slice() else {
             return None;
         };
-        let (first, second) = (coarse - medium, medium - fine);
-        let scale = fine.abs().max(coarse.abs());
-        if second.abs() <= NEGLIGIBLE * scale {
-            return Some(Self::Exact);
+        let differences = [
+            coarse.value - medium.value,
+            medium.value - fine.value,
+            coarse.value - fine.value,
+        ];
+        let largest = differences.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        let spread = largest / fine.value.abs().max(coarse.value.abs());
+        let order = match trend([*coarse, *medium, *fine]) {
+            Trend::Exact => return Some(Self::Exact),
+            Trend::Diverging => return Some(Self::Diverging { spread }),
+            Trend::Oscillating => return Some(Self::Oscillating { spread }),
+            Trend::Monotone { order } => order,
+        };
+        let richardson = extrapolate(*medium, *fine, order);
+        let limit = richardson / fine.value;
+        if limit.abs() < VANISHING {
+            return Some(Self::Vanishing { order, limit });
         }
-        let spread = first.abs().max(second.abs()).max((coarse - fine).abs()) / scale;
-        let ratio = first / second;
-        if ratio.abs() <= 1.0 {
-            return Some(Self::Diverging { spread });
+        let earlier_order =
+            before
+                .last()
+                .and_then(|coarser| match trend([*coarser, *coarse, *medium]) {
+                    Trend::Monotone { order } => Some(order),
+                    _ => None,
+                });
+        let credible = |order: f64| CREDIBLE_ORDERS.contains(&order);
+        let confirmed = earlier_order
+            .is_some_and(|earlier| credible(earlier) && (order - earlier).abs() <= SAME_ORDER);
+        if !confirmed || !credible(order) {
+            return Some(Self::Unconfirmed {
+                order,
+                earlier_order,
+                meshes: meshes.len(),
+                spread,
+            });
         }
-        if ratio < 0.0 {
-            return Some(Self::Oscillating { spread });
-        }
-        let order = ratio.ln() / f64::from(REFINEMENT).ln();
-        let richardson = fine - second / (ratio - 1.0);
-        let index = SAFETY * (second / fine).abs() / (ratio - 1.0);
         Some(Self::Converging {
             order,
             richardson,
-            index,
+            index: SAFETY * (1.0 - limit).abs(),
         })
     }
 
+    /// Observed order of the three finest meshes, where they have one.
+    pub fn order(&self) -> Option<f64> {
+        match *self {
+            Self::Converging { order, .. }
+            | Self::Unconfirmed { order, .. }
+            | Self::Vanishing { order, .. } => Some(order),
+            Self::Exact | Self::Oscillating { .. } | Self::Diverging { .. } => None,
+        }
+    }
+
     /// The verdict in words.
-    pub fn in_words(&self, fine: f64) -> String {
+    pub fn in_words(&self) -> String {
         match *self {
             Self::Exact => "the finest meshes agree to rounding".to_owned(),
-            Self::Converging { richardson, .. } if richardson.abs() < 0.1 * fine.abs() => format!(
+            Self::Vanishing { limit, .. } => format!(
                 "does not converge to a result: its limit is {:.1} % of the finest value, so it measures the mesh",
-                100.0 * richardson / fine
-            ),
-            Self::Converging { order, .. } if order < 0.5 => {
-                "converges too slowly to trust an extrapolation: refine further".to_owned()
-            }
-            Self::Converging { order, index, .. } if order > LARGEST_CREDIBLE_ORDER => format!(
-                "converges, faster than the scheme can: its differences do not follow a power law yet; the index of ±{:.2} % \
-                 is too small",
-                100.0 * index
+                100.0 * limit
             ),
             Self::Converging { index, .. } => {
                 format!(
@@ -130,9 +179,23 @@ impl Verdict {
                     100.0 * index
                 )
             }
-            Self::Oscillating { spread } | Self::Diverging { spread } if spread < AGREEMENT => {
+            Self::Unconfirmed { spread, .. }
+            | Self::Oscillating { spread }
+            | Self::Diverging { spread }
+                if spread < AGREEMENT =>
+            {
                 format!("the finest meshes agree within {:.3} %", 100.0 * spread)
             }
+            Self::Unconfirmed {
+                order,
+                earlier_order,
+                meshes,
+                spread,
+            } => format!(
+                "convergence is not confirmed: {}; the finest meshes differ by {:.2} %",
+                doubt(order, earlier_order, meshes),
+                100.0 * spread
+            ),
             Self::Oscillating { spread } => {
                 format!(
                     "oscillates within {:.2} % of the finest value",
@@ -143,6 +206,29 @@ impl Verdict {
                 "does not converge on these meshes: the last difference is the larger one, spread {:.2} %",
                 100.0 * spread
             ),
+        }
+    }
+}
+
+/// Why an observed order confirms nothing, and what to do.
+fn doubt(order: f64, earlier: Option<f64>, meshes: usize) -> String {
+    if order < *CREDIBLE_ORDERS.start() {
+        return format!("order {order:.2} is too slow for an extrapolation, refine further");
+    }
+    if order > *CREDIBLE_ORDERS.end() {
+        return format!(
+            "order {order:.2} is more than the scheme has, so the differences do not follow a power law yet; refine further"
+        );
+    }
+    match earlier {
+        None if meshes <= 3 => {
+            format!("three meshes give one order ({order:.2}); run `--levels 4`")
+        }
+        None => format!(
+            "order {order:.2} on the finest meshes, none on the coarser ones; refine further"
+        ),
+        Some(earlier) => {
+            format!("the order changes from {earlier:.2} to {order:.2}; refine further")
         }
     }
 }
@@ -217,9 +303,13 @@ impl Study {
 mod tests {
     use super::*;
 
+    fn second_order(meshes: i32) -> Vec<f64> {
+        (0..meshes).map(|i| 3.0 + 0.1 * 0.25_f64.powi(i)).collect()
+    }
+
     #[test]
-    fn a_made_up_second_order_result_is_seen_as_such() {
-        let values: Vec<f64> = [1.0, 0.5, 0.25].iter().map(|h| 3.0 + 0.1 * h * h).collect();
+    fn a_second_order_result_on_four_meshes_converges() {
+        let values = second_order(4);
         let Some(Verdict::Converging {
             order,
             richardson,
@@ -228,20 +318,58 @@ mod tests {
         else {
             panic!("not converging");
         };
-        assert!((order - 2.0).abs() < 1e-10);
+        assert!((order - 2.0).abs() < 1e-9, "{order}");
         assert!((richardson - 3.0).abs() < 1e-12);
-        let error = (values[2] - 3.0) / values[2];
+        let error = (values[3] - 3.0) / values[3];
         assert!((index / error - 1.25).abs() < 1e-6);
     }
 
     #[test]
-    fn a_result_that_follows_the_mesh_is_not_called_converged() {
-        let verdict = Verdict::of(&[2.6, 1.3, 0.65]).unwrap();
+    fn three_meshes_confirm_no_order() {
+        let verdict = Verdict::of(&second_order(3)).unwrap();
+        let Verdict::Unconfirmed {
+            order,
+            earlier_order: None,
+            meshes: 3,
+            ..
+        } = verdict
+        else {
+            panic!("{verdict:?}");
+        };
+        assert!((order - 2.0).abs() < 1e-9);
+        let words = verdict.in_words();
         assert!(
-            verdict
-                .in_words(0.65)
-                .starts_with("does not converge to a result")
+            words.contains("not confirmed: three meshes give one order (2.00); run `--levels 4`"),
+            "{words}"
         );
+    }
+
+    #[test]
+    fn an_order_that_changes_is_not_confirmed() {
+        // The fourth mesh shows what three cannot: orders of 2 and then 1.
+        let changes = Verdict::of(&[1.0, 0.6, 0.5, 0.45]).unwrap();
+        assert_eq!(changes.order().map(f64::round), Some(1.0));
+        let words = changes.in_words();
+        assert!(words.contains("from 2.00 to 1.00"), "{words}");
+        let first = Verdict::of(&[1.0, 1.3, 0.9, 0.7]).unwrap().in_words();
+        assert!(first.contains("none on the coarser ones"), "{first}");
+        for (ratio, words) in [(1.2, "too slow"), (8.0, "more than the scheme has")] {
+            let values: Vec<f64> = (0..4).map(|i| 3.0 + f64::powi(1.0 / ratio, i)).collect();
+            let verdict = Verdict::of(&values).unwrap();
+            assert!(
+                matches!(verdict, Verdict::Unconfirmed { .. }),
+                "{verdict:?}"
+            );
+            assert!(verdict.in_words().contains(words), "{}", verdict.in_words());
+        }
+    }
+
+    #[test]
+    fn a_result_that_follows_the_mesh_is_not_called_converged() {
+        for values in [&[2.6, 1.3, 0.65][..], &[5.2, 2.6, 1.3, 0.65]] {
+            let words = Verdict::of(values).unwrap().in_words();
+            assert!(words.starts_with("does not converge to a result"));
+        }
         assert!(matches!(
             Verdict::of(&[1.0, 1.1, 1.3]),
             Some(Verdict::Diverging { .. })

@@ -42,6 +42,7 @@ pub mod outcome;
 pub mod power;
 pub mod regime;
 pub mod resistance;
+pub mod richardson;
 pub mod scenario;
 pub mod shapes;
 pub mod shots;

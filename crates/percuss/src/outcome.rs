@@ -155,7 +155,7 @@ pub struct RunResult {
     pub time_to_rest: Option<f64>,
     /// Largest force between projectile and target [N].
     pub peak_force: Option<f64>,
-    /// Time during which projectile and target touched [s].
+    /// Total time during which projectile and target touch, pauses left out [s]; to the end of a run that ends before they part.
     pub contact_time: Option<f64>,
     /// Time at the end [s].
     pub end_time: Option<f64>,

@@ -70,7 +70,7 @@ pub struct ResultRecord {
     pub time_to_rest_us: Option<f64>,
     /// Largest force between projectile and target [kN].
     pub peak_force_kn: Option<f64>,
-    /// Time during which projectile and target touched [us].
+    /// Total time during which projectile and target touch, pauses left out [us]; to the end of a run that ends before they part.
     pub contact_time_us: Option<f64>,
     /// Time at the end of the run [us].
     pub end_time_us: Option<f64>,

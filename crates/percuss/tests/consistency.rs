@@ -193,6 +193,7 @@ fn numbers(result: &RunResult) -> Vec<(&'static str, f64)> {
         ("projectile_final_mass", result.projectile_final_mass),
         ("time_to_rest", result.time_to_rest),
         ("peak_force", result.peak_force),
+        ("contact_time", result.contact_time),
         ("end_time", result.end_time),
         (
             "low end of the band",
@@ -405,6 +406,7 @@ fn a_shot_twice_as_large_goes_twice_as_deep() {
                 ),
                 ("peak force", one.peak_force, other.peak_force, 4.0),
                 ("time to rest", one.time_to_rest, other.time_to_rest, 2.0),
+                ("contact time", one.contact_time, other.contact_time, 2.0),
             ];
             for (name, one, other, factor) in pairs {
                 if one.is_some() != other.is_some() {

@@ -499,10 +499,10 @@ fn a_flyer_plate_as_a_case() {
         "spall_strength = \"1.2 GPa\"",
     ));
     println!("{:?}\n{:?}", result.details, result.warnings);
-    // Strength adds to the pressure of the Hugoniot: two thirds of 290 to 400 MPa.
-    let excess = detail(&result, "peak interface stress")
+    // Strength adds to the pressure of the Hugoniot, by less than two thirds of 400 MPa: the precursor moves the material already.
+    let excess = detail(&result, "interface stress, plateau")
         - detail(&result, "impedance match: pressure without strength");
-    assert!((0.15..0.6).contains(&excess), "{excess}");
+    assert!((0.1..0.267).contains(&excess), "{excess}");
     assert_near(
         "particle speed [m/s]",
         detail(&result, "impedance match: particle speed"),
@@ -516,6 +516,73 @@ fn a_flyer_plate_as_a_case() {
     let numerics = result.numerics();
     assert!(numerics.energy_residual < 1e-9 && numerics.momentum_residual < 1e-9);
     assert!(!result.history.unwrap().profiles.is_empty());
+}
+
+/// Symmetric impact: each body is a piston at half the speed, whose exact stress is known. The start-up of the artificial viscosity, an
+/// overshoot of 2 % on every mesh, is in none of the numbers.
+#[test]
+fn the_plateau_of_the_interface_stress_is_the_exact_one() {
+    let (_, last, ..) = exact(hypoelastic(), piston::SPEED, constant_product);
+    for cells in [25, 50, 100, 200, 400] {
+        let result = fdm_recorded(&format!(
+            r#"
+            projectile = {{ material = "a", length = "3 mm", diameter = "60 mm", velocity = "{} m/s" }}
+            target = {{ material = "a", thickness = "6 mm", back_face = "free" }}
+            fdm = {{ geometry = "planar", projectile_elements = {cells} }}
+            [materials.a]
+            name = "aluminium of the piston problem"
+            density = "2790 kg/m3"
+            youngs_modulus = "76.0760 GPa"
+            poissons_ratio = 0.33
+            equation_of_state = {{ sound_speed = "5330 m/s", slope = 1.34, gruneisen = 2.0 }}
+            strength.perfectly_plastic = {{ flow_stress = "260 MPa" }}
+            "#,
+            2.0 * piston::SPEED
+        ));
+        let plateau = 1e9 * detail(&result, "interface stress, plateau");
+        let what = format!("{cells} cells");
+        assert_near(&format!("plateau on {what}"), plateau, last.stress, 1e-3);
+        let area = std::f64::consts::PI * 0.03_f64.powi(2);
+        let peak = result.peak_force.unwrap() / area;
+        assert_near(&format!("peak on {what}"), peak, last.stress, 3e-3);
+        let samples = &result.history.as_ref().unwrap().samples;
+        let start = samples.iter().map(|s| s.contact_force).fold(0.0, f64::max) / area;
+        assert!(
+            start > 1.01 * last.stress,
+            "no start-up to leave out: {start:e}"
+        );
+    }
+}
+
+/// Unlike plates without strength to speak of: the plateau is the impedance match.
+#[test]
+fn the_plateau_is_the_impedance_match_of_unlike_plates() {
+    let metal = |id: &str, density: f64, speed: f64, slope: f64| {
+        format!(
+            "[materials.{id}]\nname = '{id}'\ndensity = '{density} kg/m3'\nyoungs_modulus = '100 GPa'\npoissons_ratio = 0.3\n\
+             equation_of_state = {{ sound_speed = '{speed} m/s', slope = {slope}, gruneisen = 1.8 }}\n\
+             strength.perfectly_plastic = {{ flow_stress = '5 MPa' }}\n"
+        )
+    };
+    let metals = metal("heavy", 8930.0, 3940.0, 1.49) + &metal("light", 2703.0, 5240.0, 1.4);
+    for (flyer, target) in [("heavy", "light"), ("light", "heavy")] {
+        for cells in [50, 100, 200] {
+            let result = fdm_recorded(&format!(
+                r#"
+                projectile = {{ material = "{flyer}", length = "3 mm", diameter = "60 mm", velocity = "800 m/s" }}
+                target = {{ material = "{target}", thickness = "3 mm", back_face = "free" }}
+                fdm = {{ geometry = "planar", projectile_elements = {cells} }}
+                {metals}
+                "#
+            ));
+            assert_near(
+                &format!("{flyer} on {target}, {cells} cells"),
+                detail(&result, "interface stress, plateau"),
+                detail(&result, "impedance match: pressure without strength"),
+                3e-3,
+            );
+        }
+    }
 }
 
 #[test]

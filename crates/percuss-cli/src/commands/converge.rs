@@ -25,8 +25,12 @@ last, and say whether its results converge: the observed order, the value
 extrapolated to zero element length (Richardson) and the grid-convergence
 index, the uncertainty of the finest mesh with a factor of safety of 1.25.
 
-A result whose limit is not there, or whose limit is next to nothing of its
-value, is said not to converge.
+Convergence is confirmed by two successive observed orders that agree within
+0.5 and lie between 0.5 and 2.2. That takes four meshes: with three, or with
+orders that change, the order is printed and no uncertainty is claimed.
+
+A result whose differences do not shrink, or whose limit is next to nothing of
+its value, does not converge.
 
 With --out DIR the study is written as convergence.json and its figures as SVG
 and PNG.";
@@ -147,7 +151,7 @@ impl Converge {
     }
 }
 
-/// Meshes as rows, quantities as columns, and below them what the finest meshes say.
+/// Meshes as rows, quantities as columns, and below them order, extrapolated value and grid-convergence index.
 fn table(study: &Study) -> String {
     let mut table = Table::new();
     table.load_style(UTF8_HORIZONTAL_ONLY);
@@ -164,17 +168,19 @@ fn table(study: &Study) -> String {
         row.extend(study.quantities.iter().map(|q| significant(q.values[i], 5)));
         table.add_row(row);
     }
-    let numbers = |verdict: &Verdict| match *verdict {
-        Verdict::Converging {
-            order,
-            richardson,
-            index,
-        } => [
-            format!("{order:.2}"),
-            significant(richardson, 5),
-            significant(100.0 * index, 3),
-        ],
-        _ => ["–".to_owned(), "–".to_owned(), "–".to_owned()],
+    let numbers = |verdict: &Verdict| {
+        let (richardson, index) = match *verdict {
+            Verdict::Converging {
+                richardson, index, ..
+            } => (Some(richardson), Some(100.0 * index)),
+            _ => (None, None),
+        };
+        [
+            verdict.order().map(|order| format!("{order:.2}")),
+            richardson.map(|value| significant(value, 5)),
+            index.map(|percent| significant(percent, 3)),
+        ]
+        .map(|number| number.unwrap_or_else(|| "–".to_owned()))
     };
     for (i, name) in ["order", "Richardson", "GCI [%]"].into_iter().enumerate() {
         let mut row = vec![name.to_owned(), String::new()];
@@ -197,9 +203,8 @@ fn verdicts(study: &Study) -> String {
         .quantities
         .iter()
         .map(|quantity| {
-            let fine = quantity.values.last().copied().unwrap_or(f64::NAN);
             let name = quantity.name.replace('_', " ");
-            let line = format!("{name}: {}", quantity.verdict.in_words(fine));
+            let line = format!("{name}: {}", quantity.verdict.in_words());
             format!("{}\n", wrap(&line, width(), 2))
         })
         .collect()

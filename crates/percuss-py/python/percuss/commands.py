@@ -210,7 +210,7 @@ def converge(
     model : str, optional
         Name of the model; ``chain`` when not given.
     levels : int, optional
-        Number of meshes, 3 to 8, each twice as fine as the last; 4 when not given.
+        Number of meshes, 3 to 8, each twice as fine as the last; 4 when not given. Three give one order, which confirms nothing.
     out : path, optional
         Folder for the study and its figures, as ``percuss converge --out`` writes them; made if it does not exist.
     progress : callable or bool, optional

@@ -28,6 +28,9 @@ class Judgement(Result):
         What the reference comes from.
     failures : list of str
         Shots whose reference was to be computed and failed, and why.
+    refused : list of Record
+        Shots left out of all numbers because their reference fails its convergence check: materials, ``length_to_diameter``,
+        ``impact_velocity_m_s`` and ``reason``.
     findings : list of str
         What it comes to, in words.
     statistics : list of Record
@@ -36,12 +39,14 @@ class Judgement(Result):
     ablation : list of Record
         The seed paper's case with one thing changed at a time: ``variant``, ``change``, ``depth_of_penetration_mm``, ``error``.
     verdicts : list of Record
-        Every depth beside the reference: ``depth_of_penetration_mm``, ``reference_depth_mm`` and ``reference_uncertainty_mm``.
+        Every depth beside the reference: ``depth_of_penetration_mm``, ``reference_depth_mm``, ``reference_uncertainty_mm`` and ``reference_meshes``
+        (two where it is provisional).
     """
 
     percuss_version: str
     reference: str
     failures: list[str]
+    refused: list[Record]
     findings: list[str]
     statistics: list[Record]
     ablation: list[Record]
@@ -113,11 +118,11 @@ def judge(
     ReadError
         When a file cannot be read.
     UsageError
-        When there is no reference to judge by, or ``compute`` has no file to write to.
+        When there is no reference that passes its convergence check, or ``compute`` has no file to write to.
 
     Examples
     --------
     >>> percuss.judge().findings[0]  # doctest: +SKIP
-    '104 shots; on 66 of them the reference itself is known within 10 %.'
+    '71 shots have a reference that passes its convergence check: 42 rest on two meshes and are provisional, 43 are known within 10 %.'
     """
     return Judgement(native_answer("judge", reference=reference, study=study, compute=compute, cells=cells, out=out, progress=progress))

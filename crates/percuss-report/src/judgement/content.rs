@@ -1,6 +1,9 @@
 //! What the report says, in which order.
 
-use percuss::judge::{self, Grouping, study};
+use percuss::{
+    judge::{self, Grouping, study},
+    units::significant,
+};
 
 use super::{Judgement, Origin, figures::Drawn, tables};
 use crate::page::Block;
@@ -25,8 +28,10 @@ pub(super) fn page<'a>(
         Block::List(
             [
                 "An error is depth by the model over depth by the reference, less 1: positive where the model goes too deep.",
-                "The reference is model axi on two meshes, extrapolated at first order in the cell size; its uncertainty is the distance of the \
-                 extrapolation from the finer mesh.",
+                "The reference is model axi. Three meshes that are monotone with an observed order of 0.5 to 2.2 are extrapolated in the cell \
+                 size, by at most 25 %. Otherwise the finest one counts where they agree within 10 %. Two meshes are provisional: extrapolated \
+                 at first order, by at most 15 %.",
+                "A shot whose reference fails this check, or whose rod stops short of a shorter one, is in none of the numbers.",
                 "Medians are over shots; a tenth of the errors lies below the lower end of a range and a tenth above the upper one.",
                 "The last column is the part of the shots with an error of at most 25 %, either way.",
                 "A model that does not apply to a shot is not counted there: numbers of models with different n are of different shots.",
@@ -37,6 +42,14 @@ pub(super) fn page<'a>(
         Block::Heading("All shots".to_owned()),
         Block::Table(tables::groups(verdicts, Grouping::All)),
     ];
+    let refused = tables::refused(&judgement.references);
+    if !refused.rows.is_empty() {
+        let title = format!(
+            "{} shots left out: their reference fails its check",
+            refused.rows.len()
+        );
+        page.push(Block::Folded(title, vec![Block::Table(refused)]));
+    }
     page.extend(figures.maps.iter().map(Block::Figure));
     page.push(Block::Heading("By what may decide".to_owned()));
     for &grouping in Grouping::ALL {
@@ -74,19 +87,18 @@ fn paper_case<'a>(judgement: &Judgement) -> Vec<Block<'a>> {
     if !judgement.study.is_empty() {
         let depths = study::SPEEDS.iter().filter_map(|&speed| {
             let estimate = study::depth(&judgement.study, speed)?;
-            let uncertainty = estimate
-                .uncertainty_mm
-                .map_or_else(String::new, |mm| format!(" ± {mm:.2}"));
             Some(format!(
-                "{:.2}{uncertainty} mm at {speed} m/s",
-                estimate.depth_mm
+                "{} ± {} mm at {speed} m/s",
+                significant(estimate.depth_mm, 3),
+                significant(estimate.uncertainty_mm, 2)
             ))
         });
         let depths: Vec<String> = depths.collect();
         blocks.extend([
             Block::Subheading("The same case by the reference".to_owned()),
             Block::Text(format!(
-                "Meshes at a target radius of {} mm, extrapolated: {}. The other rows vary the radius of the target.",
+                "At a target radius of {} mm: {}; extrapolated, or where the meshes alternate the finest one with their spread. The other \
+                 rows vary the radius of the target.",
                 study::RADIUS,
                 depths.join(", ")
             )),

@@ -157,7 +157,7 @@ fn depths(verdicts: &[Verdict], projectile: &str, target: &str, length: f64) -> 
             }
         });
     let bars = reference.iter().map(|v| {
-        let size = v.reference_uncertainty_mm.unwrap_or(0.0);
+        let size = v.reference_uncertainty_mm;
         // A logarithmic axis has no place for a bar down to nothing.
         (size.min(0.9 * v.reference_depth_mm), size)
     });

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use percuss::{
     Error,
     judge::{
-        self, Reference, Shot, Verdict,
+        self, CheckedReference, Reference, Shot, Verdict,
         ablation::{self, Line},
         study::Study,
     },
@@ -25,9 +25,9 @@ use crate::{
 /// All that a report says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judgement {
-    /// The reference of every shot and mesh.
-    pub references: Vec<Reference>,
-    /// Every contender on every shot that has a reference.
+    /// The reference of every shot on its meshes, checked.
+    pub references: Vec<CheckedReference>,
+    /// Every contender on every shot whose reference passes the check.
     pub verdicts: Vec<Verdict>,
     /// The paper's case by the reference.
     pub study: Vec<Study>,
@@ -49,15 +49,11 @@ impl Judgement {
     ///
     /// # Errors
     /// [`Error::Input`] when a shot's materials are not in the library.
-    pub fn new(
-        shots: &[Shot],
-        references: Vec<Reference>,
-        study: Vec<Study>,
-    ) -> Result<Self, Error> {
+    pub fn new(shots: &[Shot], references: &[Reference], study: Vec<Study>) -> Result<Self, Error> {
         Ok(Self {
-            verdicts: judge::judge(shots, &references)?,
+            verdicts: judge::judge(shots, references)?,
             ablation: ablation::ablation(&study)?,
-            references,
+            references: judge::check_references(shots, references),
             study,
         })
     }
@@ -68,6 +64,7 @@ impl Judgement {
 /// - `judgement.html`: the whole report in one file;
 /// - `judgement.md` with one PNG a figure: the same without the single shots and some of the figures;
 /// - `verdicts.csv`, `verdicts.parquet`: a row a contender and shot; the first is the file that the library stores;
+/// - `references.csv`, `references.parquet`: a row per shot, with the depth by the reference or why it does not count;
 /// - `statistics.csv`, `statistics.parquet`: a row a contender and group;
 /// - `ablation.csv`, `ablation.parquet`: the paper's case by one-dimensional variants.
 ///

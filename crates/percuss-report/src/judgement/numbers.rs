@@ -1,6 +1,6 @@
 //! The numbers of a judgement as CSV and Parquet.
 
-use percuss::judge::{self, Group, Grouping, Verdict, ablation::Line};
+use percuss::judge::{self, CheckedReference, Group, Grouping, Verdict, ablation::Line};
 
 use super::Judgement;
 use crate::{
@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// Names and contents of the files.
-pub(super) fn files(judgement: &Judgement) -> Result<[(&'static str, Vec<u8>); 6], ReportError> {
+pub(super) fn files(judgement: &Judgement) -> Result<[(&'static str, Vec<u8>); 8], ReportError> {
     let verdicts = judge::to_csv(&judgement.verdicts).map_err(|source| ReportError::Table {
         table: "verdicts.csv".to_owned(),
         source: source.into(),
@@ -18,14 +18,17 @@ pub(super) fn files(judgement: &Judgement) -> Result<[(&'static str, Vec<u8>); 6
         .iter()
         .flat_map(|grouping| judge::statistics(&judgement.verdicts, *grouping))
         .collect();
-    let [a, b, c, d, e] = [
+    let [a, b, c, d, e, f, g] = [
         "verdicts.parquet",
         "statistics.csv",
         "statistics.parquet",
         "ablation.csv",
         "ablation.parquet",
+        "references.csv",
+        "references.parquet",
     ];
     let (of_verdict, of_group, of_line) = (verdict_columns(), group_columns(), line_columns());
+    let of_reference = reference_columns();
     Ok([
         ("verdicts.csv", verdicts),
         (a, column::parquet(a, &of_verdict, &judgement.verdicts)?),
@@ -33,6 +36,8 @@ pub(super) fn files(judgement: &Judgement) -> Result<[(&'static str, Vec<u8>); 6
         (c, column::parquet(c, &of_group, &groups)?),
         (d, column::csv(d, &of_line, &judgement.ablation)?),
         (e, column::parquet(e, &of_line, &judgement.ablation)?),
+        (f, column::csv(f, &of_reference, &judgement.references)?),
+        (g, column::parquet(g, &of_reference, &judgement.references)?),
     ])
 }
 
@@ -49,10 +54,39 @@ fn verdict_columns() -> Vec<Column<Verdict>> {
             v.depth_of_penetration_mm
         }),
         Column::float("reference_depth_mm", |v: &Row| v.reference_depth_mm),
-        Column::optional("reference_uncertainty_mm", |v: &Row| {
+        Column::float("reference_uncertainty_mm", |v: &Row| {
             v.reference_uncertainty_mm
         }),
+        Column::integer("reference_meshes", |v: &Row| v.reference_meshes as i64),
         Column::float("relative_error", Row::error),
+    ]
+}
+
+fn reference_columns() -> Vec<Column<CheckedReference>> {
+    type Row = CheckedReference;
+    vec![
+        Column::text("projectile", |r: &Row| r.shot.projectile.clone()),
+        Column::text("target", |r: &Row| r.shot.target.clone()),
+        Column::float("length_to_diameter", |r: &Row| r.shot.length_to_diameter),
+        Column::float("impact_velocity_m_s", |r: &Row| r.shot.speed),
+        Column::integer("meshes", |r: &Row| r.meshes.len() as i64),
+        Column::optional("finest_cells_per_radius", |r: &Row| {
+            r.meshes.last().map(|mesh| mesh.cells)
+        }),
+        Column::optional("finest_depth_mm", |r: &Row| {
+            r.meshes.last().map(|mesh| mesh.value)
+        }),
+        Column::optional("reference_depth_mm", |r: &Row| {
+            r.estimate.ok().map(|estimate| estimate.depth_mm)
+        }),
+        Column::optional("reference_uncertainty_mm", |r: &Row| {
+            r.estimate.ok().map(|estimate| estimate.uncertainty_mm)
+        }),
+        Column::text("refused", |r: &Row| {
+            r.estimate
+                .err()
+                .map_or_else(String::new, |refusal| refusal.in_words())
+        }),
     ]
 }
 

@@ -2,9 +2,9 @@
 
 use percuss::{
     judge::{
-        self, Errors, Grouping, Verdict,
+        self, CheckedReference, Errors, Grouping, Verdict,
         ablation::Line,
-        contenders, estimate, pair_name, shots,
+        contenders, pair_name,
         study::{self, Study},
     },
     units::significant,
@@ -144,35 +144,22 @@ pub(super) fn every_shot(judgement: &Judgement) -> Table {
     table
         .head
         .extend(contenders.iter().map(|c| format!("#{} [mm] (%)", c.name)));
-    for shot in shots() {
-        let Some(reference) = estimate(&judgement.references, &shot) else {
-            continue;
+    for entry in &judgement.references {
+        let shot = &entry.shot;
+        let reference = match &entry.estimate {
+            Ok(estimate) => format!(
+                "{} ± {}",
+                significant(estimate.depth_mm, 4),
+                significant(estimate.uncertainty_mm, 2)
+            ),
+            Err(refusal) => format!("refused: {}", refusal.in_words()),
         };
-        let mut meshes: Vec<_> = judgement
-            .references
-            .iter()
-            .filter(|row| row.is_of(&shot))
-            .map(|row| (row.cells_per_radius, row.depth_of_penetration_mm))
-            .collect();
-        meshes.sort_by_key(|(cells, _)| *cells);
-        let meshes: Vec<String> = meshes
-            .iter()
-            .map(|(cells, depth)| format!("{cells}: {}", significant(*depth, 4)))
-            .collect();
-        let uncertainty = reference
-            .uncertainty_mm
-            .map_or_else(String::new, |mm| format!(" ± {}", significant(mm, 2)));
-        let mut row = vec![
-            pair_name(&shot.projectile, &shot.target),
-            shot.length_to_diameter.to_string(),
-            shot.speed.to_string(),
-            meshes.join(", "),
-            format!("{}{uncertainty}", significant(reference.depth_mm, 4)),
-        ];
+        let mut row = shot_columns(entry);
+        row.push(reference);
         let own: Vec<&Verdict> = judgement
             .verdicts
             .iter()
-            .filter(|verdict| verdict.is_of(&shot))
+            .filter(|verdict| verdict.is_of(shot))
             .collect();
         row.extend(contenders.iter().map(|contender| {
             own.iter()
@@ -186,6 +173,41 @@ pub(super) fn every_shot(judgement: &Judgement) -> Table {
                 )
         }));
         table.rows.push(row);
+    }
+    table
+}
+
+/// Materials, L/D, velocity and the depths on all meshes of a shot.
+fn shot_columns(entry: &CheckedReference) -> Vec<String> {
+    let shot = &entry.shot;
+    let meshes: Vec<String> = entry
+        .meshes
+        .iter()
+        .map(|mesh| format!("{}: {}", mesh.cells, significant(mesh.value, 4)))
+        .collect();
+    vec![
+        pair_name(&shot.projectile, &shot.target),
+        shot.length_to_diameter.to_string(),
+        shot.speed.to_string(),
+        meshes.join(", "),
+    ]
+}
+
+/// The shots whose reference fails its check, each with the reason.
+pub(super) fn refused(references: &[CheckedReference]) -> Table {
+    let mut table = Table::new(&[
+        "materials",
+        "#L/D",
+        "#speed [m/s]",
+        "#on meshes [mm]",
+        "refused because",
+    ]);
+    for entry in references {
+        if let Err(refusal) = &entry.estimate {
+            let mut row = shot_columns(entry);
+            row.push(refusal.in_words());
+            table.rows.push(row);
+        }
     }
     table
 }

@@ -118,13 +118,15 @@ fn figure_8(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
         let Some(verdict) = converge::Verdict::of(&values) else {
             continue;
         };
-        let (order, limit) = match verdict {
-            converge::Verdict::Converging {
-                order, richardson, ..
-            } => (format!("{order:.2}"), format!("{richardson:.4} mm")),
-            _ => ("none".to_owned(), "none".to_owned()),
+        let none = || "none".to_owned();
+        let order = verdict
+            .order()
+            .map_or_else(none, |order| format!("{order:.2}"));
+        let limit = match verdict {
+            converge::Verdict::Converging { richardson, .. } => format!("{richardson:.4} mm"),
+            _ => none(),
         };
-        let words = verdict.in_words(values[3]);
+        let words = verdict.in_words();
         items.push(Item {
             place: "Fig. 8",
             statement: format!("40–80 elements are converged ({})", way.name()),

@@ -22,7 +22,13 @@ pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
     columns.push(text("outcome", |r| word(&r.outcome), "failed"));
     columns.push(text("termination", |r| word(&r.termination), ""));
     columns.push(text("scheme", |r| r.scheme.to_owned(), ""));
-    let numbers: [(&str, ReadNumber); 31] = [
+    columns.push(text("target_closure", |r| word(&r.target_closure), ""));
+    columns.push(text(
+        "criterion",
+        |r| r.criterion.clone().unwrap_or_default(),
+        "",
+    ));
+    let numbers: [(&str, ReadNumber); 32] = [
         ("impact_velocity_m_s", |r| Some(r.impact_velocity_m_s)),
         ("impact_energy_j", |r| Some(r.impact_energy_j)),
         ("depth_of_penetration_mm", |r| r.depth_of_penetration_mm),
@@ -52,6 +58,7 @@ pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
         ("plug_velocity_m_s", |r| r.plug_velocity_m_s),
         ("time_to_rest_us", |r| r.time_to_rest_us),
         ("peak_force_kn", |r| r.peak_force_kn),
+        ("contact_time_us", |r| r.contact_time_us),
         ("end_time_us", |r| r.end_time_us),
         ("steps", |r| r.steps.map(|steps| steps as f64)),
         ("time_step_ns", |r| r.time_step_ns),
@@ -109,4 +116,69 @@ pub(super) fn word(value: &impl Serialize) -> String {
 fn json(value: &impl Serialize) -> String {
     // Words and numbers always make JSON.
     serde_json::to_string(value).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use percuss::{
+        case::{self, Document},
+        model::{self, Control},
+        summary::ResultRecord,
+        sweep::Sweep,
+    };
+
+    use super::columns;
+
+    const CASE: &str = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }\n\
+                        target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n";
+
+    /// Results that are no scalar, and the columns that hold them.
+    const NOT_SCALAR: [(&str, &[&str]); 6] = [
+        // The same in every row: the manifest has it.
+        ("model", &[]),
+        ("reason", &["error"]),
+        ("band", &["band_of", "band_low", "band_high"]),
+        (
+            "expected_error",
+            &[
+                "expected_error",
+                "expected_error_low",
+                "expected_error_high",
+            ],
+        ),
+        ("details", &["details"]),
+        ("warnings", &["warnings"]),
+    ];
+
+    #[test]
+    fn every_scalar_result_is_a_column() {
+        let scenario = case::load_str("case", CASE).unwrap();
+        let chain = model::model("chain").unwrap();
+        let result = model::run(chain, &scenario, &mut Control::default()).unwrap();
+        let record = serde_json::to_value(ResultRecord::new(&scenario, &result)).unwrap();
+        let file = "title = 'speeds'\nbase = 'case.toml'\nmodel = 'chain'\ndesign = 'grid'\n\
+                    [[parameter]]\nkey = 'projectile.velocity'\nvalues = ['200 m/s', '230 m/s']\n";
+        let (file, case) = (Document::new("sweep", file), Document::new("case", CASE));
+        let sweep = Sweep::of(&file, &case).unwrap();
+        let columns = columns(&sweep);
+        let names: Vec<&str> = columns.iter().map(|column| column.name()).collect();
+        let mut checked = 0;
+        for (key, value) in record.as_object().unwrap() {
+            let standing_for = NOT_SCALAR.iter().find(|(name, _)| name == key);
+            match standing_for {
+                Some((_, others)) => assert!(
+                    others.iter().all(|name| names.contains(name)),
+                    "{key}: {others:?}"
+                ),
+                // A list of objects of any number has no place in a row.
+                None if key == "fragments" => assert!(value.is_array()),
+                None => assert!(
+                    names.contains(&key.as_str()),
+                    "{key} is no column: {names:?}"
+                ),
+            }
+            checked += 1;
+        }
+        assert!(checked > 30, "{checked}");
+    }
 }

@@ -42,10 +42,7 @@ pub(super) fn converged(job: &Job<'_>) -> Result<Study, Problem> {
     let words: Vec<String> = study
         .quantities
         .iter()
-        .map(|quantity| {
-            let fine = quantity.values.last().copied().unwrap_or(f64::NAN);
-            quantity.verdict.in_words(fine)
-        })
+        .map(|quantity| quantity.verdict.in_words())
         .collect();
     let files = [("convergence.json".to_owned(), pretty(&study))];
     let record = json!({ "study": study, "words": words });

@@ -39,6 +39,7 @@ pub(super) fn sum_up(
     result.projectile_final_diameter = (sums.mass > 0.0).then(|| 2.0 * crater::largest_radius(rod));
     result.projectile_final_mass = Some(sums.mass);
     result.time_to_rest = watch.at_rest.map(|(time, _)| time);
+    result.contact_time = Some(watch.contact_time);
     result.peak_force = Some(watch.peak_force);
     result.end_time = Some(solver.time);
     let shapes = Shapes {

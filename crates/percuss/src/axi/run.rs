@@ -83,10 +83,11 @@ pub(super) fn materials(scenario: &Scenario) -> impl Iterator<Item = (&Material,
 
 impl<'a> Run<'a> {
     pub(super) fn new(scenario: &'a Scenario) -> Self {
+        let solver = build(scenario);
         Self {
             scenario,
-            solver: build(scenario),
-            watch: Watch::default(),
+            watch: Watch::new(&solver),
+            solver,
         }
     }
 

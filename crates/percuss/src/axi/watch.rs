@@ -13,6 +13,10 @@ const QUIET_FRACTION: f64 = 1e-3;
 /// Part of the impact speed by which a projectile that has come through may still slow in a window.
 const FREE_FRACTION: f64 = 1e-3;
 
+/// Part of the largest force so far below which bodies do not touch: nodes of the grid that two bodies share still exchange the impulses
+/// of what rings in them.
+const TOUCHING_FRACTION: f64 = 1e-2;
+
 /// What is followed during a run.
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Watch {
@@ -23,6 +27,12 @@ pub(super) struct Watch {
     pub(super) smallest_time_step: f64,
     pub(super) energy_residual: f64,
     pub(super) momentum_residual: f64,
+    /// Total time during which the projectile presses on the target [s].
+    pub(super) contact_time: f64,
+    /// Whether it presses in the step that comes next.
+    touches: bool,
+    /// Time up to which the run was followed [s].
+    followed: f64,
     /// Time and depth at which the projectile's momentum was first used up.
     pub(super) at_rest: Option<(f64, f64)>,
     /// Whether the crater floor passed the original back face.
@@ -34,6 +44,14 @@ pub(super) struct Watch {
 }
 
 impl Watch {
+    /// A watch of a solver at the moment of impact.
+    pub(super) fn new(solver: &Solver) -> Self {
+        Self {
+            touches: solver.pending.contact_force > 0.0,
+            ..Self::default()
+        }
+    }
+
     /// Keeps up extremes and the state of the projectile after a step.
     pub(super) fn follow(&mut self, solver: &Solver, thickness: Option<f64>) {
         let before = self.depth;
@@ -46,6 +64,11 @@ impl Watch {
             self.perforated |= thickness.is_some_and(|thickness| self.depth >= thickness);
         }
         self.peak_force = self.peak_force.max(solver.pending.contact_force);
+        if self.touches {
+            self.contact_time += solver.time - self.followed;
+        }
+        self.touches = solver.pending.contact_force > TOUCHING_FRACTION * self.peak_force;
+        self.followed = solver.time;
         if solver.step <= 1 {
             self.first_time_step = solver.time_step;
             self.smallest_time_step = solver.time_step;

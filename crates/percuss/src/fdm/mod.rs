@@ -46,6 +46,8 @@ impl Model for Fdm {
                     "geometry `rod`: the column of target in line with the rod stands for the target, closed as in `chain`",
                     "geometry `planar`: uniaxial strain, until release waves from the edges arrive; needs the materials' equations \
                      of state",
+                    "geometry `planar`: the plateau of the interface stress is its mean over the second half of the time in which a \
+                     wave crosses the thinner body; the peak force leaves out the first half",
                 ],
                 ..Guard::OPEN
             }

@@ -146,7 +146,8 @@ mod tests {
             regime: ProjectileRegime::Deforming,
             depth_of_penetration_mm: 1.0 + error,
             reference_depth_mm: 1.0,
-            reference_uncertainty_mm: None,
+            reference_uncertainty_mm: 0.0,
+            reference_meshes: 3,
         }
     }
 

@@ -3,7 +3,9 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{contender::contenders, design::Shot, estimate::estimate, reference::Reference};
+use super::{
+    contender::contenders, design::Shot, estimate::check_references, reference::Reference,
+};
 use crate::{
     Error,
     regime::{ProjectileRegime, Regime},
@@ -28,8 +30,10 @@ pub struct Verdict {
     pub depth_of_penetration_mm: f64,
     /// Depth by the reference [mm], extrapolated in the cell size.
     pub reference_depth_mm: f64,
-    /// How far the reference may be off for its cells [mm]; unknown where it was computed on one mesh only.
-    pub reference_uncertainty_mm: Option<f64>,
+    /// Distance of that from the reference's finest mesh [mm].
+    pub reference_uncertainty_mm: f64,
+    /// Meshes that the reference rests on: three, or two where it is provisional.
+    pub reference_meshes: usize,
 }
 
 /// Uncertainty over depth up to which a reference is called sharp: well below the errors that are judged by it.
@@ -43,8 +47,7 @@ impl Verdict {
 
     /// Whether the reference of this shot is known within [`SHARP`].
     pub fn is_sharp(&self) -> bool {
-        self.reference_uncertainty_mm
-            .is_some_and(|uncertainty| uncertainty <= SHARP * self.reference_depth_mm)
+        self.reference_uncertainty_mm <= SHARP * self.reference_depth_mm
     }
 
     /// Whether this is of a shot.
@@ -56,15 +59,16 @@ impl Verdict {
     }
 }
 
-/// Runs every contender on every shot that has a reference. A contender that fails on a shot is left out there.
+/// Runs every contender on every shot whose reference passes its check. A contender that fails on a shot is left out there.
 ///
 /// # Errors
 /// [`Error::Input`] when a shot's materials are not in the library.
 pub fn judge(shots: &[Shot], references: &[Reference]) -> Result<Vec<Verdict>, Error> {
     let contenders = contenders();
-    let judged: Result<Vec<Vec<Verdict>>, Error> = shots
+    let checked = check_references(shots, references);
+    let judged: Result<Vec<Vec<Verdict>>, Error> = checked
         .par_iter()
-        .filter_map(|shot| Some((shot, estimate(references, shot)?)))
+        .filter_map(|entry| Some((&entry.shot, entry.estimate.ok()?)))
         .map(|(shot, reference)| {
             let scenario = shot.scenario()?;
             let regime = Regime::of(&scenario).projectile;
@@ -80,6 +84,7 @@ pub fn judge(shots: &[Shot], references: &[Reference]) -> Result<Vec<Verdict>, E
                     depth_of_penetration_mm: depth * 1e3,
                     reference_depth_mm: reference.depth_mm,
                     reference_uncertainty_mm: reference.uncertainty_mm,
+                    reference_meshes: reference.meshes,
                 })
             });
             Ok(depths.collect())

@@ -14,7 +14,9 @@ pub mod study;
 
 pub use contender::{Contender, contenders};
 pub use design::{Shot, shots};
-pub use estimate::{Estimate, estimate};
+pub use estimate::{
+    CheckedReference, Estimate, Refusal, RefusedReference, check_references, depth_of,
+};
 pub use expectation::{Expectation, expectation, quantile, verdicts};
 pub use findings::findings;
 pub use judgement::{SHARP, Verdict, judge, to_csv};

@@ -156,7 +156,7 @@ fn sharp_name(sharp: bool) -> String {
     let percent = 100.0 * SHARP;
     match sharp {
         true => format!("within {percent} %"),
-        false => format!("over {percent} %, or unknown"),
+        false => format!("over {percent} %"),
     }
 }
 

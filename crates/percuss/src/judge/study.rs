@@ -5,7 +5,7 @@ use std::{path::Path, sync::atomic::AtomicBool};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    estimate::{Estimate, extrapolate},
+    estimate::{Estimate, depth_of, finest},
     reference::PARTICLE_STEPS_PER_SECOND,
     resume::{self, Job, Report},
 };
@@ -14,6 +14,7 @@ use crate::{
     axi::Axi,
     case,
     model::{Control, Model},
+    richardson::OnMesh,
 };
 
 /// The study that comes with the library.
@@ -82,15 +83,24 @@ pub fn read_file(file: &Path) -> Result<Vec<Study>, Error> {
     resume::rows(file)
 }
 
-/// Depth at a speed [m/s], extrapolated over the meshes in one target; `None` without any.
+/// Depth at a speed [m/s] over the meshes in one target; `None` with fewer than two.
+///
+/// Where the meshes give no extrapolation, it is the depth on the finest one, with the spread of the finest three as its uncertainty.
 pub fn depth(study: &[Study], speed: f64) -> Option<Estimate> {
-    let mut meshes: Vec<(u32, f64)> = study
+    let own = study
         .iter()
-        .filter(|row| row.impact_velocity_m_s == speed && row.target_radius_mm == RADIUS)
-        .map(|row| (row.cells_per_radius, row.depth_of_penetration_mm))
+        .filter(|row| row.impact_velocity_m_s == speed && row.target_radius_mm == RADIUS);
+    let mut meshes: Vec<OnMesh> = own
+        .map(|row| OnMesh {
+            cells: f64::from(row.cells_per_radius),
+            value: row.depth_of_penetration_mm,
+        })
         .collect();
-    meshes.sort_by_key(|(cells, _)| std::cmp::Reverse(*cells));
-    extrapolate(&meshes)
+    meshes.sort_by(|a, b| a.cells.total_cmp(&b.cells));
+    depth_of(&meshes).ok().or(match *meshes {
+        [.., coarse, medium, fine] => Some(finest([coarse, medium, fine])),
+        _ => None,
+    })
 }
 
 struct Variant {

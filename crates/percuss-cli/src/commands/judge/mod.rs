@@ -3,7 +3,10 @@ mod compute;
 use std::{path::PathBuf, sync::atomic::AtomicBool};
 
 use clap::{Args, ValueEnum};
-use percuss::judge::{self, Group, Grouping, Reference, Verdict, ablation::Line, reference, study};
+use percuss::judge::{
+    self, CheckedReference, Group, Grouping, Reference, RefusedReference, Verdict, ablation::Line,
+    reference, study,
+};
 use percuss_report::judgement::{self, Judgement, Origin};
 use serde::Serialize;
 
@@ -33,10 +36,15 @@ length, regime and materials, and a few sentences that say what it comes to.
 With --out DIR the report is written as one HTML page and as Markdown with its
 figures, and the numbers as CSV and Parquet.
 
+A reference counts with three meshes: the depth must be monotone, the observed
+order between 0.5 and 2.2, and the extrapolation at most 25 %. With two meshes
+it is provisional and may be extrapolated by at most 15 %. A rod that stops
+short of a shorter one is refused. Shots that fail are listed with the reason
+and left out of all numbers.
+
 With --compute the shots that the files of --reference and --study lack are
 computed first, and appended as each is done: break it off at any time, and the
-same command goes on where it was. Two meshes, --cells 4 and --cells 8, give a
-reference its uncertainty.";
+same command goes on where it was. Run it with --cells 4, 8 and 12.";
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -107,6 +115,7 @@ struct Record<'a> {
     percuss_version: &'static str,
     reference: &'a str,
     failures: &'a [String],
+    refused: Vec<RefusedReference>,
     findings: Vec<String>,
     statistics: Vec<Group>,
     ablation: &'a [Line],
@@ -190,8 +199,12 @@ impl Judge {
                     .to_owned(),
             });
         }
+        let checked = judge::check_references(&shots, &references);
+        if checked.iter().all(|entry| entry.estimate.is_err()) {
+            return Err(refused_all(&reference, &checked));
+        }
         let _ = hear(COMPUTED, "running all models on all shots");
-        let judgement = Judgement::new(&shots, references, study)?;
+        let judgement = Judgement::new(&shots, &references, study)?;
         let origin = Origin {
             reference,
             command: self.command(),
@@ -242,6 +255,28 @@ impl Judge {
     }
 }
 
+/// The error when no reference passes the check.
+fn refused_all(reference: &str, checked: &[CheckedReference]) -> Failure {
+    let reasons = checked.iter().filter_map(|entry| {
+        let refused = entry.refused()?;
+        Some(format!(
+            "{}, L/D {}, {} m/s: {}",
+            judge::pair_name(&refused.projectile, &refused.target),
+            refused.length_to_diameter,
+            refused.impact_velocity_m_s,
+            refused.reason
+        ))
+    });
+    let reasons: Vec<String> = reasons.take(3).collect();
+    Failure::Usage {
+        message: format!(
+            "no reference in {reference} passes the convergence check: {}",
+            reasons.join("; ")
+        ),
+        help: "compute three meshes: --compute with --cells 4, 8 and 12".to_owned(),
+    }
+}
+
 fn record(found: &Found) -> Record<'_> {
     let Found {
         judgement, origin, ..
@@ -250,6 +285,11 @@ fn record(found: &Found) -> Record<'_> {
         percuss_version: env!("CARGO_PKG_VERSION"),
         reference: &origin.reference,
         failures: &found.failures,
+        refused: judgement
+            .references
+            .iter()
+            .filter_map(CheckedReference::refused)
+            .collect(),
         findings: judge::findings(&judgement.verdicts),
         statistics: Grouping::ALL
             .iter()

@@ -46,6 +46,8 @@ pub struct Published<'a> {
     friction_impulse: f64,
     support_impulse: f64,
     peak_force: f64,
+    /// Time during which the tip touches the target [s].
+    contact_time: f64,
     largest_depth: f64,
     initial: (f64, f64),
 }
@@ -168,6 +170,7 @@ impl<'a> Published<'a> {
             friction_impulse: 0.0,
             support_impulse: 0.0,
             peak_force: 0.0,
+            contact_time: 0.0,
             largest_depth: 0.0,
             initial: (0.5 * body.mass * speed * speed, body.mass * speed),
         })
@@ -303,6 +306,9 @@ impl<'a> Published<'a> {
         }
         self.step += 1;
         self.peak_force = self.peak_force.max(self.contact_force);
+        if joined || self.contact_force > 0.0 {
+            self.contact_time += self.time_step;
+        }
         self.largest_depth = self.largest_depth.max(self.rod_displacement[0]);
     }
 

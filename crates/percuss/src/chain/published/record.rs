@@ -151,6 +151,7 @@ impl Published<'_> {
         result.projectile_final_mass = Some(self.scenario.projectile.mass);
         result.time_to_rest = stopped.then(|| self.time());
         result.peak_force = Some(self.peak_force);
+        result.contact_time = Some(self.contact_time);
         result.end_time = Some(self.time());
         result.numerics = Some(Numerics {
             steps: self.step,

@@ -13,6 +13,11 @@ impl<L: Law> Grid<L> {
         last.unwrap_or(0)
     }
 
+    /// Whether the projectile touches the target, a wall, or what presses on its face.
+    pub(in crate::fdm) fn touches(&self) -> bool {
+        self.tip_pressure > 0.0 || self.closed.get(self.tip_segment()) == Some(&true)
+    }
+
     /// Node of the crater floor; `None` where there is no target.
     pub(in crate::fdm) fn floor(&self) -> Option<usize> {
         let tip = self.tip_segment();

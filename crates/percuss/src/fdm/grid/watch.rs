@@ -21,6 +21,10 @@ pub(in crate::fdm) struct Watch {
     pub(in crate::fdm) smallest_time_step: f64,
     pub(in crate::fdm) energy_residual: f64,
     pub(in crate::fdm) momentum_residual: f64,
+    /// Total time during which the projectile touches the target [s].
+    pub(in crate::fdm) contact_time: f64,
+    /// Time up to which the run was followed [s].
+    followed: f64,
     /// Time and depth at which the projectile's momentum was first used up.
     pub(in crate::fdm) at_rest: Option<(f64, f64)>,
 }
@@ -31,6 +35,10 @@ impl Watch {
         let depth = grid.depth();
         self.largest_depth = self.largest_depth.max(depth);
         self.peak_force = self.peak_force.max(grid.contact_force);
+        if grid.touches() {
+            self.contact_time += grid.time - self.followed;
+        }
+        self.followed = grid.time;
         if grid.step == 1 {
             self.first_time_step = grid.time_step;
             self.smallest_time_step = grid.time_step;

@@ -128,6 +128,16 @@ impl PlanarLaw {
     }
 }
 
+impl PlanarLaw {
+    /// Speed of the fastest wave that an impact at a velocity [m/s] can send into the body at rest [m/s].
+    pub(super) fn fastest_wave(&self, velocity: f64) -> f64 {
+        let shock = self.state.shock_speed(velocity);
+        shock.map_or(self.wave_speed_at_rest(), |shock| {
+            shock.max(self.wave_speed_at_rest())
+        })
+    }
+}
+
 impl Law for PlanarLaw {
     type Cell = PlanarCell;
     const STORED_ACROSS_STEPS: bool = false;

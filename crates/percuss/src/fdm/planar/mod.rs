@@ -1,6 +1,7 @@
 //! Geometry `planar`: uniaxial strain, shocks and spall.
 
 mod column;
+mod interface;
 mod law;
 mod results;
 mod run;

@@ -1,6 +1,8 @@
 //! From the grid at the end of a planar impact to its result.
 
-use super::{law::PlanarLaw, run::BackFaceMotion, state::impedance_match};
+use super::{
+    interface::InterfaceForce, law::PlanarLaw, run::BackFaceMotion, state::impedance_match,
+};
 use crate::{
     fdm::{
         grid::{Grid, Watch},
@@ -23,6 +25,7 @@ pub(super) struct Ending<'a> {
     pub(super) watch: &'a Watch,
     pub(super) termination: Termination,
     pub(super) back: BackFaceMotion,
+    pub(super) interface: &'a InterfaceForce,
 }
 
 pub(super) fn sum_up(ending: &Ending<'_>, recorder: Option<Recorder>) -> RunResult {
@@ -42,7 +45,8 @@ pub(super) fn sum_up(ending: &Ending<'_>, recorder: Option<Recorder>) -> RunResu
     result.residual_velocity = Some(momentum / mass);
     result.projectile_final_mass = Some(mass);
     result.time_to_rest = watch.at_rest.map(|(time, _)| time);
-    result.peak_force = Some(watch.peak_force);
+    result.peak_force = Some(ending.interface.peak);
+    result.contact_time = Some(watch.contact_time);
     result.end_time = Some(grid.time);
     result.details = details(ending);
     result.numerics = Some(numerics(grid, watch));
@@ -69,18 +73,15 @@ fn edge_release(ending: &Ending<'_>) -> f64 {
 fn details(ending: &Ending<'_>) -> Vec<Detail> {
     let (scenario, grid) = (ending.scenario, ending.grid);
     let detail = |name, unit, value| Detail { name, unit, value };
-    let mut details = vec![
-        detail(
-            "edge release reaches the axis",
-            "us",
-            edge_release(ending) * 1e6,
-        ),
-        detail(
-            "peak interface stress",
-            "GPa",
-            ending.watch.peak_force / scenario.projectile.area() * 1e-9,
-        ),
-    ];
+    let mut details = vec![detail(
+        "edge release reaches the axis",
+        "us",
+        edge_release(ending) * 1e6,
+    )];
+    if let Some(force) = ending.interface.plateau() {
+        let stress = force / scenario.projectile.area();
+        details.push(detail("interface stress, plateau", "GPa", stress * 1e-9));
+    }
     let front = match &scenario.target {
         TargetBody::Layers { layers, .. } => layers.first().map(|plate| &*plate.material),
         _ => None,
@@ -109,6 +110,10 @@ fn details(ending: &Ending<'_>) -> Vec<Detail> {
             first.position * 1e3,
         ));
         details.push(detail("first spall", "us", first.time * 1e6));
+        if ending.back.free {
+            let pull_back = ending.back.largest - ending.back.smallest_after;
+            details.push(detail("pull-back of the back face", "m/s", pull_back));
+        }
     }
     details
 }

@@ -3,6 +3,7 @@
 use super::{
     DEFAULT_CELLS, DEFAULT_VISCOSITY,
     column::Medium,
+    interface::InterfaceForce,
     law::PlanarLaw,
     results::{Ending, sum_up},
 };
@@ -25,11 +26,22 @@ const PASSAGES: f64 = 3.0;
 /// Most cells of a target whose cells are to be as long as the projectile's.
 const MOST_CELLS: f64 = 20_000.0;
 
-/// Largest speed of the back face, and whether it is one that can move freely.
+/// Motion of the back face: whether it is one that can move freely, its largest speed, and the smallest one after that.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct BackFaceMotion {
     pub(super) free: bool,
     pub(super) largest: f64,
+    pub(super) smallest_after: f64,
+}
+
+impl BackFaceMotion {
+    fn follow(&mut self, speed: f64) {
+        if speed > self.largest {
+            self.largest = speed;
+            self.smallest_after = speed;
+        }
+        self.smallest_after = self.smallest_after.min(speed);
+    }
 }
 
 /// Why the geometry does not apply to a case, if it does not.
@@ -129,8 +141,8 @@ fn slab(law: PlanarLaw, start: f64, length: f64, cells: usize) -> Slab<PlanarLaw
     }
 }
 
-/// The grid at the moment of impact, and the time that waves take through all of it [s].
-fn build(scenario: &Scenario) -> Option<(Grid<PlanarLaw>, f64)> {
+/// The grid at the moment of impact, the time that waves take through all of it [s], and the force on the struck face.
+fn build(scenario: &Scenario) -> Option<(Grid<PlanarLaw>, f64, InterfaceForce)> {
     let rod = &scenario.projectile;
     let (projectile, target) = cells(scenario);
     let flyer = law(&rod.material, scenario)?;
@@ -162,7 +174,8 @@ fn build(scenario: &Scenario) -> Option<(Grid<PlanarLaw>, f64)> {
         }
         _ => slabs.push(slab(law(&rod.material, scenario)?, 0.0, 0.0, 0)),
     }
-    Some((Grid::new(slabs, [End::Free, end]), passage))
+    let interface = InterfaceForce::new(&slabs, scenario.impact_speed);
+    Some((Grid::new(slabs, [End::Free, end]), passage, interface))
 }
 
 /// Runs a case to which the geometry applies.
@@ -174,7 +187,7 @@ pub(in crate::fdm) fn run(
         model: "fdm",
         reason: not_applicable(scenario).unwrap_or_default(),
     };
-    let (mut grid, passage) = build(scenario).ok_or_else(refuse)?;
+    let (mut grid, passage, mut interface) = build(scenario).ok_or_else(refuse)?;
     let options = &scenario.options.fdm;
     let courant = options.courant.unwrap_or(DEFAULT_COURANT);
     let end_time = options
@@ -184,7 +197,7 @@ pub(in crate::fdm) fn run(
     let mut watch = Watch::default();
     let mut back = BackFaceMotion {
         free: grid.ends[1] == End::Free,
-        largest: 0.0,
+        ..BackFaceMotion::default()
     };
     let mut recorder = control.record.then(Recorder::new);
     record(&grid, &mut recorder);
@@ -192,9 +205,11 @@ pub(in crate::fdm) fn run(
         if scenario.impact_speed == 0.0 {
             break Termination::NothingMoves;
         }
+        let before = grid.time;
         grid.advance(courant, end_time - grid.time)?;
+        interface.follow(&grid, before);
         watch.follow(&grid, scenario.impact_speed);
-        back.largest = back.largest.max(grid.nodes[grid.nodes.len() - 1].velocity);
+        back.follow(grid.nodes[grid.nodes.len() - 1].velocity);
         record(&grid, &mut recorder);
         if grid.step.is_multiple_of(AUDIT_INTERVAL) {
             watch.audit(&grid, courant)?;
@@ -224,6 +239,7 @@ pub(in crate::fdm) fn run(
         watch: &watch,
         termination,
         back,
+        interface: &interface,
     };
     Ok(sum_up(&ending, recorder))
 }

@@ -111,6 +111,16 @@ impl StateEquation {
         )
     }
 
+    /// Speed of a shock with a particle speed [m/s], `c₀ + s u`; `None` for a gas.
+    pub(super) fn shock_speed(&self, particle_speed: f64) -> Option<f64> {
+        match *self {
+            Self::MieGruneisen {
+                sound_speed, slope, ..
+            } => Some(sound_speed + slope * particle_speed),
+            Self::IdealGas { .. } => None,
+        }
+    }
+
     /// Grüneisen's coefficient over volume, `Γ ρ` [kg/m3].
     pub(super) fn heating_by_compression(&self, volume: f64) -> f64 {
         self.coefficients(volume).1

@@ -75,6 +75,7 @@ pub(super) fn sum_up(ending: &Ending<'_>, recorder: Option<Recorder>) -> RunResu
     result.projectile_final_mass = Some(mass);
     result.time_to_rest = watch.at_rest.map(|(time, _)| time);
     result.peak_force = Some(watch.peak_force);
+    result.contact_time = Some(watch.contact_time);
     result.end_time = Some(grid.time);
     result.numerics = Some(numerics(grid, watch));
     result.warnings = warnings(ending, &result);

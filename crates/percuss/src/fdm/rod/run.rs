@@ -114,7 +114,7 @@ impl<'a> Rod<'a> {
             }
             self.grid.advance(self.courant, f64::INFINITY)?;
             self.watch.follow(&self.grid, self.scenario.impact_speed);
-            self.window.touched |= self.grid.tip_pressure > 0.0 || self.touches();
+            self.window.touched |= self.grid.touches();
             self.record(&mut recorder);
             if self.has_passed() {
                 break Termination::PassedBackFace;
@@ -156,10 +156,6 @@ impl<'a> Rod<'a> {
         let audit = self.watch.audit(&self.grid, self.courant);
         *unbalanced = audit.is_err();
         audit
-    }
-
-    fn touches(&self) -> bool {
-        self.grid.closed.first() == Some(&true)
     }
 
     fn has_passed(&self) -> bool {
