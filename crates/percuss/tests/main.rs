@@ -28,4 +28,5 @@ mod published;
 mod rigid_penetration;
 mod rod_on_wall;
 mod separation;
+mod strength_laws;
 mod taylor_bar;
