@@ -25,6 +25,7 @@ mod plastic_wave;
 mod plugging;
 mod prototype;
 mod published;
+mod remnant;
 mod rigid_penetration;
 mod rod_on_wall;
 mod separation;
