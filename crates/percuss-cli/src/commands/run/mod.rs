@@ -59,7 +59,7 @@ Examples:
   percuss run my-shot/scenario.toml --quiet
   percuss run my-shot/scenario.toml --model axi --out results
   percuss run my-shot/scenario.toml --model axi --out results --resume
-  percuss run my-shot/scenario.toml --model axi --out results --animation --frames 40
+  percuss run my-shot/scenario.toml --model axi --out results --animation
 
 Exit codes: 0 ok, 2 bad input or a model that does not apply, 3 numerical
 failure, 4 a file could not be read or written, 130 stopped by the user";
