@@ -1,6 +1,9 @@
 //! A model of two dimensions on the command line: its files, its options, going on from a checkpoint.
 
-use std::{fs, path::Path};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use crate::support::percuss;
 
@@ -19,37 +22,75 @@ fn case(folder: &Path, text: &str) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-#[test]
-fn a_run_writes_fields_pictures_an_animation_and_shapes() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = case(folder.path(), CASE);
-    let out = folder.path().join("out");
+/// Runs the case by model `axi` with further options, into a folder that it returns.
+fn written(folder: &Path, options: &[&str]) -> PathBuf {
+    let case = case(folder, CASE);
+    let out = folder.join("out");
     let shown = out.to_str().unwrap();
-    let run = percuss(
-        folder.path(),
-        [
-            "run", &*case, "--model", "axi", "--out", shown, "--field", "speed",
-        ],
-    );
+    let line = ["run", &*case, "--model", "axi", "--out", shown];
+    let run = percuss(folder, line.iter().chain(options));
     assert_eq!(run.code, 0, "{}", run.stderr);
+    out
+}
+
+fn files_in(folder: &Path) -> usize {
+    fs::read_dir(folder).unwrap().count()
+}
+
+#[test]
+fn a_run_writes_its_shapes_and_the_field_at_the_end_and_no_more() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = written(folder.path(), &["--field", "speed"]);
     for name in [
         "result.json",
         "history.csv",
-        "fields.pvd",
-        "field.png",
+        "field.vtp",
         "crater-profile.csv",
         "projectile-shape.csv",
         "final-shape.svg",
     ] {
         assert!(out.join(name).exists(), "{name}");
     }
-    let gif = fs::read(out.join("animation.gif")).unwrap();
-    assert!(gif.starts_with(b"GIF89a") && gif.len() < 5_000_000);
-    let count = |name: &str| fs::read_dir(out.join(name)).unwrap().count();
-    assert!(count("fields") > 10 && count("fields") == count("frames"));
-    assert!(!out.join("checkpoint.percuss").exists());
+    let picture = fs::read(out.join("field.png")).unwrap();
+    assert!(picture.starts_with(b"\x89PNG") && picture.len() > 10_000);
+    for name in [
+        "fields.pvd",
+        "fields",
+        "frames",
+        "animation.gif",
+        "checkpoint.percuss",
+    ] {
+        assert!(!out.join(name).exists(), "{name}");
+    }
+}
+
+#[test]
+fn a_series_of_fields_is_written_on_request() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = written(folder.path(), &["--fields"]);
+    let series = files_in(&out.join("fields"));
+    assert!((10..=64).contains(&series), "{series}");
     let collection = fs::read_to_string(out.join("fields.pvd")).unwrap();
-    assert_eq!(collection.matches("<DataSet").count(), count("fields"));
+    assert_eq!(collection.matches("<DataSet").count(), series);
+    assert!(!out.join("frames").exists() && !out.join("animation.gif").exists());
+    // The last frame of the series is the field at the end.
+    let (_, last) = collection.rsplit_once("file=\"").unwrap();
+    let (last, _) = last.split_once('"').unwrap();
+    assert_eq!(
+        fs::read(out.join(last)).unwrap(),
+        fs::read(out.join("field.vtp")).unwrap()
+    );
+}
+
+#[test]
+fn an_animation_is_written_on_request_with_a_number_of_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = written(folder.path(), &["--animation", "--frames", "8"]);
+    let gif = fs::read(out.join("animation.gif")).unwrap();
+    assert!(gif.starts_with(b"GIF89a") && gif.len() < 1_000_000);
+    let frames = files_in(&out.join("frames"));
+    assert!((4..=8).contains(&frames), "{frames}");
+    assert!(!out.join("fields").exists() && !out.join("fields.pvd").exists());
 }
 
 #[test]
@@ -79,13 +120,35 @@ fn options_of_fields_are_refused_where_there_are_none() {
     let case = case(folder.path(), CASE);
     let shown = folder.path().join("out");
     let shown = shown.to_str().unwrap();
-    let run = percuss(folder.path(), ["run", &*case, "--out", shown, "--resume"]);
+    for option in ["--resume", "--fields", "--animation", "--frames=10"] {
+        let run = percuss(folder.path(), ["run", &*case, "--out", shown, option]);
+        let said = run.stderr;
+        assert_eq!(run.code, 2, "{said}");
+        let name = option.split('=').next().unwrap();
+        let expected = format!("`{name}` has no effect with model `chain`, which has no fields");
+        assert!(
+            said.contains(&expected) && said.contains("--model axi"),
+            "{said}"
+        );
+    }
+    let axi = ["run", &*case, "--model", "axi"];
+    let run = percuss(
+        folder.path(),
+        axi.iter().chain(&["--out", shown, "--frames", "9"]),
+    );
     let said = run.stderr;
     assert_eq!(run.code, 2, "{said}");
     assert!(
-        said.contains("`--resume` has no effect with model `chain`"),
+        said.contains("`--frames` has no effect without `--fields` or `--animation`"),
         "{said}"
     );
+    for given in [
+        &["--fields"][..],
+        &["--animation", "--out", shown, "--frames", "1"][..],
+    ] {
+        let run = percuss(folder.path(), axi.iter().chain(given));
+        assert_eq!(run.code, 2, "{given:?}: {}", run.stderr);
+    }
     let run = percuss(
         folder.path(),
         ["run", &*case, "--model", "axi", "--field", "speed"],

@@ -127,15 +127,16 @@ def test_a_run_that_is_stopped_goes_on_to_the_folder_of_the_program(program: Pro
 
     out = tmp_path / "out"
     with pytest.raises(Enough):
-        percuss.run(case, "axi", out=out, field="speed", checkpoint="1 h", progress=hear)
+        percuss.run(case, "axi", out=out, field="speed", fields=True, animation=True, frames=20, checkpoint="1 h", progress=hear)
     assert (out / "checkpoint.percuss").is_file() and not (out / "result.json").exists()
-    rest = percuss.run(case, "axi", out=out, field="speed", resume=True)
+    rest = percuss.run(case, "axi", out=out, field="speed", fields=True, animation=True, frames=20, resume=True)
     assert rest.to_dict() == percuss.run(case, "axi").to_dict()
     # Pictures are named by their folder, fields by the file that lists them.
-    assert {out / "frames", out / "fields.pvd", out / "animation.gif"} <= set(rest.files)
+    assert {out / "frames", out / "fields.pvd", out / "animation.gif", out / "field.vtp", out / "field.png"} <= set(rest.files)
     ours = contents(out)
     out.rename(tmp_path / "python")
-    said = program("run", tmp_path / "short.toml", "--model", "axi", "--field", "speed", "--out", out)
+    asked = ("--field", "speed", "--fields", "--animation", "--frames", "20")
+    said = program("run", tmp_path / "short.toml", "--model", "axi", *asked, "--out", out)
     assert said.returncode == 0, said.stderr
     theirs = contents(out)
     assert set(ours) == set(theirs)
@@ -144,7 +145,7 @@ def test_a_run_that_is_stopped_goes_on_to_the_folder_of_the_program(program: Pro
 
 
 def test_what_has_no_effect_is_refused(program: Program, tmp_path: Path) -> None:
-    for given in ({"field": "speed"}, {"resume": True}, {"checkpoint": 60.0}):
+    for given in ({"field": "speed"}, {"fields": True}, {"animation": True}, {"resume": True}, {"checkpoint": 60.0}):
         with pytest.raises(percuss.UsageError, match="--out <DIR>"):
             percuss.run(TAYLOR, **given)
         with pytest.raises(percuss.UsageError, match="has no effect with model `chain`"):

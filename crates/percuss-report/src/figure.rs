@@ -6,11 +6,11 @@ use std::{
 };
 
 use resvg::{
-    tiny_skia::{Pixmap, Transform},
+    tiny_skia::{Color, Pixmap, Transform},
     usvg::{Options, Tree, fontdb::Database},
 };
 
-use crate::{ReportError, replace_file::replace_file};
+use crate::{ReportError, png_file, replace_file::replace_file};
 
 /// Pixels of a PNG per SVG user unit.
 const PNG_SCALE: f32 = 2.0;
@@ -44,12 +44,10 @@ impl Figure {
     /// # Errors
     /// [`ReportError::Figure`].
     pub fn png(&self) -> Result<Vec<u8>, ReportError> {
-        self.pixels(PNG_SCALE)?
-            .encode_png()
-            .map_err(|error| failure(&self.name, error.to_string()))
+        png_file::encode(&self.name, &self.pixels(PNG_SCALE)?)
     }
 
-    /// The figure at a number of pixels per SVG user unit.
+    /// The figure on white, at a number of pixels per SVG user unit.
     pub(crate) fn pixels(&self, scale: f32) -> Result<Pixmap, ReportError> {
         let tree = tree(&self.name, &self.svg)?;
         let size = tree
@@ -59,6 +57,7 @@ impl Figure {
             .ok_or_else(|| failure(&self.name, "it has no area".to_owned()))?;
         let mut pixels = Pixmap::new(size.width(), size.height())
             .ok_or_else(|| failure(&self.name, "it is too large".to_owned()))?;
+        pixels.fill(Color::WHITE);
         resvg::render(
             &tree,
             Transform::from_scale(scale, scale),

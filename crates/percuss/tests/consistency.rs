@@ -215,7 +215,7 @@ fn numbers(result: &RunResult) -> Vec<(&'static str, f64)> {
     .collect()
 }
 
-fn assert_finite(result: &RunResult) {
+pub fn assert_finite(result: &RunResult) {
     for (name, value) in numbers(result) {
         assert!(value.is_finite(), "{}: {name} is {value}", result.model);
     }

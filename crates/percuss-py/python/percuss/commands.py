@@ -25,6 +25,9 @@ def run(
     history: bool = True,
     out: Path | None = None,
     field: str | None = None,
+    fields: bool = False,
+    animation: bool = False,
+    frames: int | None = None,
     checkpoint: float | str | None = None,
     resume: bool = False,
     progress: Progress | bool | None = None,
@@ -44,11 +47,17 @@ def run(
         Whether to keep time histories; with ``out`` they are kept.
     out : path, optional
         Folder for a copy of the case, the result, the histories and the figures, as ``percuss run --out`` writes them; made if it does
-        not exist. A model of two dimensions, which ``axi`` is, adds its fields for ParaView (``fields.pvd``), pictures of one of them and
-        an animation. ``result.files`` lists the files.
+        not exist. A model of two dimensions, which ``axi`` is, adds its fields at the end for ParaView (``field.vtp``) and a picture of
+        one of them (``field.png``). ``result.files`` lists the files.
     field : str, optional
         Field that the pictures show: ``plastic-strain`` (when not given), ``temperature``, ``von-mises-stress``, ``pressure``, ``speed``,
         ``density`` or ``damage``.
+    fields : bool
+        Whether to write the fields of a model of two dimensions over time, as a series for ParaView (``fields.pvd``).
+    animation : bool
+        Whether to write an animation of one field (``animation.gif``) and its pictures (``frames/``).
+    frames : int, optional
+        Most frames of ``fields`` and ``animation``, 2 to 1000; 64 when not given.
     checkpoint : float or str, optional
         How often a model of two dimensions leaves a checkpoint in ``out`` [s], or a text such as ``"5 min"``; 60 s when not given.
         Ctrl-C leaves one as well.
@@ -85,11 +94,12 @@ def run(
     ('rebounded', 0.2235)
     """
     laws = (projectile_law, target_law, resistance_law)
-    if out is not None or field is not None or checkpoint is not None or resume:
+    written = {"field": field, "fields": fields, "animation": animation, "frames": frames, "resume": resume}
+    if out is not None or checkpoint is not None or any(value not in (None, False) for value in written.values()):
         if any(law is not None for law in laws):
             raise UsageError("files are written of runs with the library's laws alone: leave out `out`, or put the law into the library")
         every = f"{float(checkpoint)!r} s" if isinstance(checkpoint, (int, float)) else checkpoint
-        answer = native_answer("run", of=case, model=model, out=out, field=field, checkpoint=every, resume=resume, progress=progress)
+        answer = native_answer("run", of=case, model=model, out=out, checkpoint=every, progress=progress, **written)
         ran = answer.run()
         assert ran is not None
         return RunResult(ran, answer)

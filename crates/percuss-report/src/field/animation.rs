@@ -57,9 +57,14 @@ impl Palette {
             all.min_by_key(|(_, other)| off(other))
                 .map_or(0, |(index, _)| index as u8)
         };
+        // Most pixels have the colour of the one before.
+        let mut last = ([0; 3], nearest([0; 3]));
         let pixels = picture.pixels().iter().map(|pixel| {
             let color = [pixel.red(), pixel.green(), pixel.blue()];
-            *known.entry(color).or_insert_with(|| nearest(color))
+            if color != last.0 {
+                last = (color, *known.entry(color).or_insert_with(|| nearest(color)));
+            }
+            last.1
         });
         Indexed {
             width: picture.width() as u16,

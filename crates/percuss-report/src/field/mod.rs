@@ -1,7 +1,8 @@
-//! Fields of a run in two dimensions: a series of files for ParaView, pictures and an animation.
+//! Fields of a run in two dimensions: files for ParaView, a picture, and on request a series of both and an animation.
 
 mod animation;
 mod colors;
+mod layer;
 mod picture;
 mod quantity;
 mod raster;
@@ -14,30 +15,66 @@ use std::{
     sync::Mutex,
 };
 
-use percuss::{Scenario, scenario::TargetBody};
+use percuss::{Scenario, frames::Frame, scenario::TargetBody};
 use rayon::prelude::*;
-use resvg::tiny_skia::Pixmap;
 
 use self::{animation::Palette, colors::Colors, picture::Canvas, raster::View, vtp::Points};
-use crate::{ReportError, replace_file::replace_file, run_figures::caption};
+use crate::{ReportError, png_file, replace_file::replace_file, run_figures::caption};
 
 pub use quantity::FieldQuantity;
 pub use series::FieldSeries;
 
-/// Pixels of a picture and of the animation per SVG user unit.
+/// Pixels of the picture at the end and of those of an animation per SVG user unit.
 const PICTURE_SCALE: f32 = 1.5;
 const ANIMATION_SCALE: f32 = 1.0;
-/// Folder of the pictures.
+/// Name of the picture and of the field at the end.
+const PICTURE: &str = "field.png";
+const FIELD: &str = "field.vtp";
+/// Folder of the pictures of an animation.
 const FOLDER: &str = "frames";
 /// Part of the values of a frame that may lie beyond the ends of the colours.
 const BEYOND: f64 = 1e-3;
 
-/// Draws every frame of a series as `frames/frame-NNNNN.png`, the last one as `field.png` too, and all of them as `animation.gif`.
-/// `progress` hears the part done, 0 to 1. Returns the files, the folder of the pictures standing for them.
+/// The field at the end of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FinalField {
+    file: Vec<u8>,
+}
+
+impl FinalField {
+    /// That of a frame.
+    pub fn of(frame: &Frame<'_>) -> Self {
+        Self {
+            file: vtp::encode(frame),
+        }
+    }
+
+    /// Writes it for ParaView as `field.vtp`, and a picture of one quantity as `field.png`; returns both files.
+    ///
+    /// # Errors
+    /// [`ReportError::Write`]; [`ReportError::Figure`].
+    pub fn write(
+        &self,
+        folder: &Path,
+        scenario: &Scenario,
+        quantity: FieldQuantity,
+    ) -> Result<[PathBuf; 2], ReportError> {
+        let field = replace_file(folder, FIELD, &self.file)?;
+        let points = points(&self.file, &field, quantity)?;
+        let (canvas, _) = canvas(scenario, quantity, &Span::of(&points));
+        let base = canvas.base(PICTURE_SCALE)?;
+        let picture = canvas.picture(&points, &base, PICTURE_SCALE)?;
+        let picture = png_file::encode(PICTURE, &picture)?;
+        Ok([field, replace_file(folder, PICTURE, &picture)?])
+    }
+}
+
+/// Draws every frame of a series as `frames/frame-NNNNN.png`, and all of them as `animation.gif`. `progress` hears the part done, 0 to
+/// 1. Returns the folder of the pictures and the animation; nothing for a series without frames.
 ///
 /// # Errors
 /// [`ReportError::Read`] when a file of the series is missing or damaged; [`ReportError::Write`]; [`ReportError::Figure`].
-pub fn draw_fields(
+pub fn animate(
     folder: &Path,
     scenario: &Scenario,
     series: &FieldSeries,
@@ -52,44 +89,18 @@ pub fn draw_fields(
     let Some(span) = spans.into_iter().reduce(Span::with) else {
         return Ok(Vec::new());
     };
-    let wall = scenario.target == TargetBody::RigidWall;
-    let (_, _, unit) = quantity.source();
-    let values = (
-        f64::from(span.values.0) / unit,
-        f64::from(span.values.1) / unit,
-    );
-    let colors = Colors::new(quantity, values, wall);
-    let title = format!(
-        "{}{}",
-        label(quantity),
-        if wall {
-            ""
-        } else {
-            " in projectile and target"
-        }
-    );
-    let canvas = Canvas::new(
-        &title,
-        &caption(scenario, Some(scenario.impact_speed)),
-        colors,
-        view(scenario, &span),
-    );
-    let (large, small) = (canvas.base(PICTURE_SCALE)?, canvas.base(ANIMATION_SCALE)?);
-    let palette = Palette::new(&colors.all());
+    let (canvas, palette) = canvas(scenario, quantity, &span);
+    let base = canvas.base(ANIMATION_SCALE)?;
     let pictures = folder.join(FOLDER);
     clear(&pictures);
     let progress = Mutex::new((0, progress));
     let indexed: Vec<_> = files
         .par_iter()
         .map(|(number, file)| {
-            let points = read(file, quantity)?;
-            let picture = canvas.picture(&points, &large, PICTURE_SCALE)?;
-            replace_file(
-                &pictures,
-                &format!("frame-{number:05}.png"),
-                &png(&picture)?,
-            )?;
-            let picture = canvas.picture(&points, &small, ANIMATION_SCALE)?;
+            let picture = canvas.picture(&read(file, quantity)?, &base, ANIMATION_SCALE)?;
+            let name = format!("frame-{number:05}.png");
+            let png = png_file::encode(&name, &picture)?;
+            replace_file(&pictures, &name, &png)?;
             let indexed = palette.index(&picture);
             if let Ok(mut progress) = progress.lock() {
                 progress.0 += 1;
@@ -99,14 +110,31 @@ pub fn draw_fields(
             Ok(indexed)
         })
         .collect::<Result<_, ReportError>>()?;
-    let mut written = vec![pictures];
-    if let Some((_, file)) = files.last() {
-        let picture = canvas.picture(&read(file, quantity)?, &large, PICTURE_SCALE)?;
-        written.push(replace_file(folder, "field.png", &png(&picture)?)?);
-    }
     let animation = animation::encode(&palette, &indexed)?;
-    written.push(replace_file(folder, "animation.gif", &animation)?);
-    Ok(written)
+    let animation = replace_file(folder, "animation.gif", &animation)?;
+    Ok(vec![pictures, animation])
+}
+
+/// What all pictures of frames that reach a span have in common, and the colours in them.
+fn canvas(scenario: &Scenario, quantity: FieldQuantity, span: &Span) -> (Canvas, Palette) {
+    let wall = scenario.target == TargetBody::RigidWall;
+    let (_, _, unit) = quantity.source();
+    let (least, most) = span.values;
+    let values = (f64::from(least) / unit, f64::from(most) / unit);
+    let colors = Colors::new(quantity, values, wall);
+    let palette = Palette::new(&colors.all());
+    let bodies = if wall {
+        ""
+    } else {
+        " in projectile and target"
+    };
+    let canvas = Canvas::new(
+        &format!("{}{bodies}", label(quantity)),
+        &caption(scenario, Some(scenario.impact_speed)),
+        colors,
+        view(scenario, span),
+    );
+    (canvas, palette)
 }
 
 fn label(quantity: FieldQuantity) -> String {
@@ -132,34 +160,20 @@ fn clear(folder: &Path) {
 }
 
 fn read(file: &Path, quantity: FieldQuantity) -> Result<Points, ReportError> {
-    let failure = |reason: String| ReportError::Read {
+    let bytes = fs::read(file).map_err(|error| ReportError::Read {
         path: file.to_owned(),
-        reason,
-    };
-    let bytes = fs::read(file).map_err(|error| failure(error.to_string()))?;
-    let (array, components, _) = quantity.source();
-    vtp::decode(&bytes, array, components)
-        .ok_or_else(|| failure("it is damaged or of another program".to_owned()))
+        reason: error.to_string(),
+    })?;
+    points(&bytes, file, quantity)
 }
 
-fn png(picture: &Pixmap) -> Result<Vec<u8>, ReportError> {
-    let failure = |error: png::EncodingError| ReportError::Figure {
-        name: "frame".to_owned(),
-        reason: error.to_string(),
-    };
-    let colors: Vec<u8> = picture
-        .pixels()
-        .iter()
-        .flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()])
-        .collect();
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_compression(png::Compression::Balanced);
-    let mut writer = encoder.write_header().map_err(failure)?;
-    writer.write_image_data(&colors).map_err(failure)?;
-    writer.finish().map_err(failure)?;
-    Ok(bytes)
+/// The points in the bytes of a file.
+fn points(bytes: &[u8], file: &Path, quantity: FieldQuantity) -> Result<Points, ReportError> {
+    let (array, components, _) = quantity.source();
+    vtp::decode(bytes, array, components).ok_or_else(|| ReportError::Read {
+        path: file.to_owned(),
+        reason: "it is damaged or of another program".to_owned(),
+    })
 }
 
 /// What frames reach.

@@ -9,7 +9,7 @@ use kuva::{
         render_utils::generate_ticks,
     },
 };
-use resvg::tiny_skia::{self, Pixmap, PremultipliedColorU8};
+use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 
 use super::{
     colors::{Colors, LEVELS},
@@ -96,11 +96,7 @@ impl Canvas {
 
     /// The canvas without bodies.
     pub(crate) fn base(&self, scale: f32) -> Result<Pixmap, ReportError> {
-        let mut pixels = self.figure.pixels(scale)?;
-        // The last row may have no more than a part of a pixel of the drawing.
-        pixels.fill(tiny_skia::Color::WHITE);
-        draw_over(&mut pixels, &self.figure.svg, scale)?;
-        Ok(pixels)
+        self.figure.pixels(scale)
     }
 
     /// Time and depth above the colour bar.

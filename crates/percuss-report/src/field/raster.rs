@@ -1,13 +1,9 @@
 //! Material points as a picture of the bodies that they make up.
 
-use super::vtp::Points;
+use super::{layer::Layer, vtp::Points};
 
 /// Pixels along an edge of one pixel of the finished picture, which is their mean.
 const FINER: usize = 2;
-/// Reach of a particle, in sizes of the particle, within which it closes gaps to its neighbours in stretched material. What that
-/// adds at a surface is taken away again, all but the half size that belongs to the particle.
-const REACH: f32 = 2.4;
-const OWN: f32 = 0.5;
 /// Index where there is no body.
 pub(crate) const NOTHING: u8 = u8::MAX;
 
@@ -49,91 +45,40 @@ pub(crate) fn draw(
     let (columns, rows) = (width.div_ceil(2) * FINER, height * FINER);
     let across = (width * FINER) as f32 / (2.0 * view.radius as f32);
     let down = rows as f32 / (view.depth.1 - view.depth.0) as f32;
-    let place = |index: usize| {
-        let [radius, depth] = points.places[index];
-        (radius * across, (depth - view.depth.0 as f32) * down)
+    let place = |[radius, depth]: [f32; 2]| {
+        let y = (depth - view.depth.0 as f32) * down;
+        [radius * across, y]
     };
     let size = middle(&points.sizes) * down;
-    let reach = (REACH * size).max(1.5);
-    let near = |(x, y): (f32, f32), act: &mut dyn FnMut(usize, f32)| {
-        let range = |middle: f32, most: usize| {
-            let from = (middle - reach).floor().max(0.0) as usize;
-            from..((middle + reach).ceil().max(0.0) as usize).min(most)
-        };
-        for row in range(y, rows) {
-            let off = row as f32 + 0.5 - y;
-            for column in range(x, columns) {
-                let aside = column as f32 + 0.5 - x;
-                let square = off * off + aside * aside;
-                if square < reach * reach {
-                    act(row * columns + column, square / (reach * reach));
-                }
-            }
-        }
+    let mut fine = Fine {
+        columns,
+        body: vec![NOTHING; columns * rows],
+        inside: vec![0.0; columns * rows],
+        value: vec![0.0; columns * rows],
     };
     // Each body by itself, so that what closes gaps in one leaves those between two.
-    let mut body = vec![NOTHING; columns * rows];
-    let mut nearest = vec![f32::INFINITY; columns * rows];
     for this in 0..=points.bodies.iter().copied().max().unwrap_or(0) {
-        let mut own = vec![f32::INFINITY; columns * rows];
+        let mut layer = Layer::new((columns, rows), size);
         for (index, _) in points
             .bodies
             .iter()
             .enumerate()
             .filter(|(_, body)| **body == this)
         {
-            near(place(index), &mut |at, square| {
-                own[at] = own[at].min(square)
-            });
+            layer.add(place(points.places[index]), points.values[index]);
         }
-        shrink(&mut own, columns, reach - OWN * size);
-        for (at, square) in own.into_iter().enumerate() {
-            if square < nearest[at] {
-                nearest[at] = square;
-                body[at] = this;
-            }
-        }
+        layer.close();
+        fine.paint(&layer, this);
     }
-    let mut sums = vec![(0.0_f32, 0.0_f32); columns * rows];
-    for (index, own) in points.bodies.iter().enumerate() {
-        let value = points.values[index];
-        near(place(index), &mut |at, square| {
-            if body[at] == *own {
-                let weight = (1.0 - square).powi(4);
-                sums[at].0 += weight;
-                sums[at].1 += weight * value;
-            }
-        });
-    }
-    let fine = |column: usize, row: usize| -> [u8; 3] {
-        let at = row * columns + column;
-        let own = body[at];
-        let differs = |column: usize, row: usize| {
-            column < columns && row < rows && body[row * columns + column] != own
-        };
-        let around = [
-            (column + FINER, row),
-            (column.saturating_sub(FINER), row),
-            (column, row + FINER),
-            (column, row.saturating_sub(FINER)),
-        ];
-        if own == NOTHING {
-            let depth = view.depth.0 + (row as f64 + 0.5) / f64::from(down);
-            return paint.nothing(depth);
-        }
-        if around.iter().any(|(column, row)| differs(*column, *row)) {
-            return paint.edge();
-        }
-        let (weight, sum) = sums[at];
-        paint.color(own, if weight > 0.0 { sum / weight } else { 0.0 })
-    };
     let half = width.div_ceil(2);
     let mut pixels = vec![[0; 3]; width * height];
     for row in 0..height {
         for column in 0..half {
             let mut mean = [0_u32; 3];
             for i in 0..FINER * FINER {
-                let color = fine(column * FINER + i % FINER, row * FINER + i / FINER);
+                let (x, y) = (column * FINER + i % FINER, row * FINER + i / FINER);
+                let depth = || view.depth.0 + (y as f64 + 0.5) / f64::from(down);
+                let color = fine.color((x, y), depth, paint);
                 for (sum, entry) in mean.iter_mut().zip(color) {
                     *sum += u32::from(entry);
                 }
@@ -153,6 +98,60 @@ pub(crate) fn draw(
     }
 }
 
+/// Pixels of the finer picture of the half beyond the axis.
+struct Fine {
+    columns: usize,
+    body: Vec<u8>,
+    /// How far a pixel lies inside its body [px].
+    inside: Vec<f32>,
+    value: Vec<f32>,
+}
+
+impl Fine {
+    /// Takes the pixels that lie deeper inside a body than in those before.
+    fn paint(&mut self, layer: &Layer, body: u8) {
+        let columns = self.columns.max(1);
+        let bodies = self.body.chunks_exact_mut(columns);
+        let insides = self.inside.chunks_exact_mut(columns);
+        let values = self.value.chunks_exact_mut(columns);
+        for (row, ((bodies, insides), values)) in bodies.zip(insides).zip(values).enumerate() {
+            let line = layer.line(row as f32 + 0.5);
+            for column in 0..columns {
+                let [inside, value] = line.at(column as f32 + 0.5);
+                if inside > insides[column] {
+                    (bodies[column], insides[column], values[column]) = (body, inside, value);
+                }
+            }
+        }
+    }
+
+    fn color(
+        &self,
+        (column, row): (usize, usize),
+        depth: impl Fn() -> f64,
+        paint: &dyn Paint,
+    ) -> [u8; 3] {
+        let at = row * self.columns + column;
+        let own = self.body[at];
+        if own == NOTHING {
+            return paint.nothing(depth());
+        }
+        let differs = |column: usize, row: usize| {
+            let other = self.body.get(row * self.columns + column);
+            column < self.columns && other.is_some_and(|other| *other != own)
+        };
+        let is_edge = differs(column + FINER, row)
+            || differs(column.saturating_sub(FINER), row)
+            || differs(column, row + FINER)
+            || differs(column, row.saturating_sub(FINER));
+        if is_edge {
+            paint.edge()
+        } else {
+            paint.color(own, self.value[at])
+        }
+    }
+}
+
 /// The middle one of all values.
 fn middle(values: &[f32]) -> f32 {
     let mut values = values.to_vec();
@@ -161,53 +160,6 @@ fn middle(values: &[f32]) -> f32 {
         return 0.0;
     }
     *values.select_nth_unstable_by(half, f32::total_cmp).1
-}
-
-/// Takes away what is nearer than a distance to a place where there is nothing, which is infinite.
-fn shrink(own: &mut [f32], columns: usize, distance: f32) {
-    let rows = own.len() / columns.max(1);
-    // Distance along the row first; the mirror image beyond the axis, and what is beyond the other edges, is no gap.
-    let far = (distance.ceil() as usize + 1) as f32;
-    let mut along = vec![far; own.len()];
-    for row in 0..rows {
-        let row = row * columns;
-        let mut last = far;
-        for column in 0..columns {
-            last = if own[row + column].is_infinite() {
-                0.0
-            } else {
-                (last + 1.0).min(far)
-            };
-            along[row + column] = last;
-        }
-        last = far;
-        for column in (0..columns).rev() {
-            last = if own[row + column].is_infinite() {
-                0.0
-            } else {
-                (last + 1.0).min(far)
-            };
-            along[row + column] = along[row + column].min(last);
-        }
-    }
-    let square = distance * distance;
-    let most = distance as usize;
-    for row in 0..rows {
-        for column in 0..columns {
-            let at = row * columns + column;
-            if own[at].is_infinite() {
-                continue;
-            }
-            let near = |other: usize| {
-                let off = row.abs_diff(other) as f32;
-                let aside = along[other * columns + column];
-                off * off + aside * aside <= square
-            };
-            if (row.saturating_sub(most)..(row + most + 1).min(rows)).any(near) {
-                own[at] = f32::INFINITY;
-            }
-        }
-    }
 }
 
 #[cfg(test)]

@@ -15,13 +15,13 @@ use crate::{ReportError, replace_file::replace_file};
 const COLLECTION: &str = "fields.pvd";
 /// Folder of the files.
 const FOLDER: &str = "fields";
-/// Frames kept lie between this number and half of it: a series that is full drops every other frame.
-const MOST_FRAMES: usize = 128;
 
 /// A series of fields that grows with a run, in a folder.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FieldSeries {
     folder: PathBuf,
+    /// Most frames: a series that is full drops every other one.
+    most: usize,
     entries: Vec<Entry>,
     stride: u64,
 }
@@ -33,19 +33,19 @@ struct Entry {
 }
 
 impl FieldSeries {
-    /// An empty series; files of an earlier one are removed.
+    /// An empty series of at most a number of frames, 2 or more; files of an earlier one are removed.
     ///
     /// # Errors
     /// [`ReportError::Write`].
-    pub fn create(folder: &Path) -> Result<Self, ReportError> {
-        Self::resume(folder, f64::NEG_INFINITY)
+    pub fn create(folder: &Path, most: usize) -> Result<Self, ReportError> {
+        Self::resume(folder, most, f64::NEG_INFINITY)
     }
 
     /// The series of a run that is taken up again at a time [s]: later frames are removed.
     ///
     /// # Errors
     /// [`ReportError::Write`].
-    pub fn resume(folder: &Path, time: f64) -> Result<Self, ReportError> {
+    pub fn resume(folder: &Path, most: usize, time: f64) -> Result<Self, ReportError> {
         let text = fs::read_to_string(folder.join(COLLECTION)).unwrap_or_default();
         let (entries, later): (Vec<Entry>, Vec<Entry>) = text
             .lines()
@@ -53,6 +53,7 @@ impl FieldSeries {
             .partition(|entry| entry.time <= time);
         let mut series = Self {
             folder: folder.to_owned(),
+            most: most.max(2),
             stride: 1,
             entries,
         };
@@ -87,18 +88,39 @@ impl FieldSeries {
         let folder = self.folder.join(FOLDER);
         replace_file(&folder, &entry.file(), &vtp::encode(frame))?;
         self.entries.push(entry);
-        if self.entries.len() > MOST_FRAMES && !frame.last {
+        if self.entries.len() > self.most {
+            self.thin_out(frame.last);
+        }
+        self.collect()
+    }
+
+    /// Drops every other frame of a series that goes on, and at the end only the frame before the last one.
+    fn thin_out(&mut self, last: bool) {
+        let dropped: Vec<Entry> = if last {
+            let before = self.entries.len() - 2;
+            vec![self.entries.remove(before)]
+        } else {
             self.stride *= 2;
             let stride = self.stride;
             let (kept, dropped) = std::mem::take(&mut self.entries)
                 .into_iter()
                 .partition(|entry| entry.number.is_multiple_of(stride));
             self.entries = kept;
-            for entry in dropped {
-                self.remove(entry);
-            }
+            dropped
+        };
+        for entry in dropped {
+            self.remove(entry);
         }
-        self.collect()
+    }
+
+    /// Removes the files of the series, with the collection and the folder that they stand in.
+    pub fn discard(self) {
+        for entry in &self.entries {
+            self.remove(*entry);
+        }
+        // What cannot be removed does no harm; a folder with files of others stays.
+        let _ = fs::remove_file(self.collection());
+        let _ = fs::remove_dir(self.folder.join(FOLDER));
     }
 
     /// The collection that ParaView opens.
@@ -180,25 +202,41 @@ mod tests {
 
     #[test]
     fn a_long_series_thins_out_and_a_resumed_one_is_the_same() {
+        for most in [9, 128] {
+            let folder = tempfile::tempdir().unwrap();
+            let mut series = FieldSeries::create(folder.path(), most).unwrap();
+            for number in 0..1000 {
+                add(&mut series, number, false);
+            }
+            assert!((most / 2..=most).contains(&series.frames()), "{most}");
+            assert!(series.files().iter().all(|(_, file)| file.exists()));
+            let mut resumed = FieldSeries::resume(folder.path(), most, 900.5).unwrap();
+            assert_eq!(resumed.stride, series.stride);
+            for number in 901..1000 {
+                add(&mut resumed, number, false);
+            }
+            assert_eq!(resumed, series);
+            add(&mut series, 1001, true);
+            add(&mut series, 1001, true);
+            assert_eq!(series.files().last().unwrap().0, 1001);
+            assert!(series.frames() <= most, "{most}");
+            let files = fs::read_dir(folder.path().join(FOLDER)).unwrap().count();
+            assert_eq!(files, series.frames());
+            let cleared = FieldSeries::create(folder.path(), most).unwrap();
+            assert_eq!(cleared.frames(), 0);
+            assert_eq!(fs::read_dir(folder.path().join(FOLDER)).unwrap().count(), 0);
+        }
+    }
+
+    #[test]
+    fn a_discarded_series_leaves_nothing() {
         let folder = tempfile::tempdir().unwrap();
-        let mut series = FieldSeries::create(folder.path()).unwrap();
-        for number in 0..1000 {
-            add(&mut series, number, false);
+        let mut series = FieldSeries::create(folder.path(), 4).unwrap();
+        for number in 0..9 {
+            add(&mut series, number, number == 8);
         }
-        assert!((MOST_FRAMES / 2..=MOST_FRAMES).contains(&series.frames()));
-        assert!(series.files().iter().all(|(_, file)| file.exists()));
-        let mut resumed = FieldSeries::resume(folder.path(), 900.5).unwrap();
-        assert_eq!(resumed.stride, series.stride);
-        for number in 901..1000 {
-            add(&mut resumed, number, false);
-        }
-        assert_eq!(resumed, series);
-        add(&mut series, 1001, true);
-        add(&mut series, 1001, true);
-        assert_eq!(series.files().last().unwrap().0, 1001);
-        let files = fs::read_dir(folder.path().join(FOLDER)).unwrap().count();
-        assert_eq!(files, series.frames());
-        assert_eq!(FieldSeries::create(folder.path()).unwrap().frames(), 0);
-        assert_eq!(fs::read_dir(folder.path().join(FOLDER)).unwrap().count(), 0);
+        assert!(series.frames() > 1 && series.collection().exists());
+        series.discard();
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 }

@@ -74,13 +74,16 @@ impl Law {
             } else if !particle.yield_point.holds(size[l]) {
                 let before = particle.yield_point.stress();
                 let increment = self.flow(particle, size[l], time_step);
-                let after = size[l] - 3.0 * self.shear_modulus * increment;
-                let scale = 1.0 - 3.0 * self.shear_modulus * increment / size[l];
-                for entry in &mut trial {
-                    entry[l] *= scale;
+                // Without flow the stress stays as it is; one of 0 has no direction to return along.
+                if increment > 0.0 {
+                    let after = size[l] - 3.0 * self.shear_modulus * increment;
+                    let scale = 1.0 - 3.0 * self.shear_modulus * increment / size[l];
+                    for entry in &mut trial {
+                        entry[l] *= scale;
+                    }
+                    plastic[l] = 0.5 * (before.min(after) + after) * increment * mean_volume[l];
+                    increments[l] = increment;
                 }
-                plastic[l] = 0.5 * (before.min(after) + after) * increment * mean_volume[l];
-                increments[l] = increment;
             }
         }
         block.deviator = trial;

@@ -4,7 +4,7 @@ mod task;
 
 use std::{path::PathBuf, sync::Arc, sync::atomic::AtomicBool, time::Duration};
 
-use clap::{Args, builder::PossibleValuesParser};
+use clap::{Args, builder::PossibleValuesParser, value_parser};
 use percuss::{
     model::MODELS,
     outcome::{RunResult, Termination},
@@ -40,11 +40,13 @@ and PNG) are written to DIR, which is made if it does not exist. A model without
 time histories writes the first two only. Files of the same names are replaced,
 others are left alone.
 
-A model of two dimensions, which `axi` is, also writes its fields for ParaView
-(fields.pvd, at any time of the run), pictures of one of them (frames/,
-field.png), an animation (animation.gif), and the shapes of crater and
-projectile (CSV and figure). Ctrl-C, or a request of the system to end, leaves a
-checkpoint there, from which --resume goes on with the very same numbers.
+A model of two dimensions, which `axi` is, also writes the shapes of crater and
+projectile (CSV and figure) and its fields at the end: field.vtp for ParaView
+and a picture of one of them, field.png. On request it writes the fields over
+time: --fields as a series for ParaView (fields.pvd, which can be opened during
+the run), --animation as animation.gif and its pictures (frames/). Ctrl-C, or a
+request of the system to end, leaves a checkpoint there, from which --resume
+goes on with the same numbers.
 
 Anything longer than a second shows its progress, if standard error is a
 terminal.";
@@ -57,6 +59,7 @@ Examples:
   percuss run my-shot/scenario.toml --quiet
   percuss run my-shot/scenario.toml --model axi --out results
   percuss run my-shot/scenario.toml --model axi --out results --resume
+  percuss run my-shot/scenario.toml --model axi --out results --animation
 
 Exit codes: 0 ok, 2 bad input or a model that does not apply, 3 numerical
 failure, 4 a file could not be read or written, 130 stopped by the user";
@@ -85,6 +88,15 @@ pub struct Run {
     #[arg(long, value_name = "NAME", requires = "out")]
     #[arg(value_parser = PossibleValuesParser::new(FieldQuantity::ALL.map(FieldQuantity::name)))]
     field: Option<String>,
+    /// Write the fields of a model of two dimensions over time, as a series for ParaView
+    #[arg(long, requires = "out")]
+    fields: bool,
+    /// Write an animation of one field of a model of two dimensions, and its pictures
+    #[arg(long, requires = "out")]
+    animation: bool,
+    /// Most frames of --fields and --animation, 2 to 1000; a run has between half as many and all of them, unless it is too short [default: 64]
+    #[arg(long, value_name = "N", requires = "out", value_parser = value_parser!(u16).range(2..=1000))]
+    frames: Option<u16>,
     /// How often a model of two dimensions leaves a checkpoint in DIR [default: 60s]
     #[arg(long, value_name = "TIME", requires = "out", value_parser = checkpoints::interval)]
     checkpoint: Option<Duration>,

@@ -16,7 +16,7 @@ use percuss::{
     outcome::RunResult,
     summary::CaseResults,
 };
-use percuss_report::{FieldQuantity, FieldSeries};
+use percuss_report::{FieldQuantity, FieldSeries, FinalField};
 
 use super::{
     Run,
@@ -28,6 +28,8 @@ use crate::{
     run_folder::RunFolder,
 };
 
+/// Most frames of the fields over time, unless another number is asked for.
+const FRAMES: u16 = 64;
 /// Time between two checkpoints, unless another one is asked for.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(60);
 
@@ -58,7 +60,10 @@ pub(super) struct Task<'a> {
 
 /// What a run in two dimensions leaves in its folder besides its result.
 struct Fields<'a> {
-    series: FieldSeries,
+    /// The fields over time, where something is made of them.
+    series: Option<FieldSeries>,
+    /// The fields at the end.
+    last: Option<FinalField>,
     keeper: Keeper<'a>,
     /// Checkpoint to go on from.
     resume: Option<Vec<u8>>,
@@ -83,10 +88,8 @@ impl<'a> Task<'a> {
         let folder = RunFolder::wanted(out, Some(&document))?;
         let fields = match out.filter(|_| model.has_fields()) {
             Some(out) => Some(Fields {
-                series: match &start {
-                    Some((header, _)) => FieldSeries::resume(out, header.time)?,
-                    None => FieldSeries::create(out)?,
-                },
+                series: series(options, out, start.as_ref().map(|(header, _)| header))?,
+                last: None,
                 keeper: Keeper::new(out, options.checkpoint.unwrap_or(CHECKPOINT_INTERVAL), stop),
                 resume: start.map(|(_, bytes)| bytes),
             }),
@@ -138,20 +141,29 @@ impl<'a> Task<'a> {
             return Ok(Vec::new());
         };
         let mut files = folder.write(&ran.scenario, &ran.result, &ran.results(), report)?;
-        if let Some(fields) = &self.fields {
-            let field = self.options.field.as_deref().and_then(FieldQuantity::named);
-            files.push(fields.series.collection());
-            files.extend(percuss_report::draw_fields(
-                out,
-                &ran.scenario,
-                &fields.series,
-                field.unwrap_or_default(),
-                &mut |part| report(part, "drawing the field"),
-            )?);
+        if let Some(fields) = &mut self.fields {
+            let written = fields.write(self.options, out, &ran.scenario, report)?;
+            files.extend(written);
             checkpoints::remove(out);
         }
         Ok(files)
     }
+}
+
+/// The series of fields that a run writes, if it is asked for one or for what is made of one.
+fn series(
+    options: &Run,
+    out: &Path,
+    start: Option<&Header>,
+) -> Result<Option<FieldSeries>, Failure> {
+    if !(options.fields || options.animation) {
+        return Ok(None);
+    }
+    let most = usize::from(options.frames.unwrap_or(FRAMES));
+    Ok(Some(match start {
+        Some(header) => FieldSeries::resume(out, most, header.time)?,
+        None => FieldSeries::create(out, most)?,
+    }))
 }
 
 impl Fields<'_> {
@@ -162,11 +174,17 @@ impl Fields<'_> {
         report: &mut dyn FnMut(model::Progress) -> ControlFlow<()>,
     ) -> Result<RunResult, Failure> {
         let mut failure = None;
-        let mut add = |frame: &Frame<'_>| match self.series.add(frame) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(error) => {
-                failure = Some(Failure::from(error));
-                ControlFlow::Break(())
+        let Self { series, last, .. } = self;
+        let mut add = |frame: &Frame<'_>| {
+            if frame.last {
+                *last = Some(FinalField::of(frame));
+            }
+            match series.as_mut().map_or(Ok(()), |series| series.add(frame)) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(error) => {
+                    failure = Some(Failure::from(error));
+                    ControlFlow::Break(())
+                }
             }
         };
         let mut control = Control {
@@ -185,25 +203,72 @@ impl Fields<'_> {
             (None, result) => Ok(result?),
         }
     }
+
+    /// Writes the fields at the end, and those over time as far as the options ask for them; returns the files.
+    fn write(
+        &mut self,
+        options: &Run,
+        out: &Path,
+        scenario: &Scenario,
+        report: &mut (dyn FnMut(f64, &str) + Send),
+    ) -> Result<Vec<PathBuf>, Failure> {
+        let quantity = options.field.as_deref().and_then(FieldQuantity::named);
+        let quantity = quantity.unwrap_or_default();
+        let mut files = Vec::new();
+        if let Some(last) = self.last.take() {
+            report(0.0, "drawing the field");
+            files.extend(last.write(out, scenario, quantity)?);
+        }
+        let Some(series) = self.series.take() else {
+            return Ok(files);
+        };
+        if options.animation {
+            let mut report = |part: f64| report(part, "drawing the animation");
+            files.extend(percuss_report::animate(
+                out,
+                scenario,
+                &series,
+                quantity,
+                &mut report,
+            )?);
+        }
+        if options.fields {
+            files.push(series.collection());
+        } else {
+            series.discard();
+        }
+        Ok(files)
+    }
 }
 
 /// Refuses options that would have no effect.
 fn check_use(options: &Run, model: &dyn Model) -> Result<(), Failure> {
     let given = [
+        ("--fields", options.fields),
+        ("--animation", options.animation),
+        ("--frames", options.frames.is_some()),
         ("--field", options.field.is_some()),
         ("--checkpoint", options.checkpoint.is_some()),
         ("--resume", options.resume),
     ];
-    match given.iter().find(|(_, given)| *given) {
-        Some((option, _)) if !model.has_fields() => Err(Failure::Usage {
+    if let Some((option, _)) = given.iter().find(|(_, given)| *given)
+        && !model.has_fields()
+    {
+        return Err(Failure::Usage {
             message: format!(
                 "`{option}` has no effect with model `{}`, which has no fields",
                 model.name()
             ),
             help: format!("remove `{option}` or give `--model axi`"),
-        }),
-        _ => Ok(()),
+        });
     }
+    if options.frames.is_some() && !(options.fields || options.animation) {
+        return Err(Failure::Usage {
+            message: "`--frames` has no effect without `--fields` or `--animation`".to_owned(),
+            help: "remove `--frames`, or add the one whose frames it counts".to_owned(),
+        });
+    }
+    Ok(())
 }
 
 /// The checkpoint to go on from, if there is one and it is wanted.

@@ -4,6 +4,7 @@ mod contact;
 mod failure;
 mod load;
 mod outgoing;
+mod pressure_dependent;
 mod pressurised;
 mod rigid_motion;
 mod shell_collapse;

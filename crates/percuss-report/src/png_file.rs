@@ -1,0 +1,31 @@
+//! Pictures as PNG files.
+
+use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Filter};
+use resvg::tiny_skia::Pixmap;
+
+use crate::ReportError;
+
+/// The PNG file of an opaque picture; an error names it.
+///
+/// Drawings consist of even areas, whose bytes repeat as they are: filters would cost half of the time and make the file larger.
+pub(crate) fn encode(name: &str, picture: &Pixmap) -> Result<Vec<u8>, ReportError> {
+    let failure = |error: EncodingError| ReportError::Figure {
+        name: name.to_owned(),
+        reason: error.to_string(),
+    };
+    let colors: Vec<u8> = picture
+        .pixels()
+        .iter()
+        .flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()])
+        .collect();
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, picture.width(), picture.height());
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_compression(Compression::Balanced);
+    encoder.set_filter(Filter::NoFilter);
+    let mut writer = encoder.write_header().map_err(failure)?;
+    writer.write_image_data(&colors).map_err(failure)?;
+    writer.finish().map_err(failure)?;
+    Ok(bytes)
+}
