@@ -7,9 +7,11 @@ use serde::Serialize;
 use super::{Contender, Verdict, design};
 use crate::{
     Scenario,
-    case::Nose,
+    case::{BackFace, Nose, TargetClosure},
+    chain,
     model::Model,
     regime::{ProjectileRegime, Regime, TargetKind},
+    scenario::TargetBody,
 };
 
 /// The stored judgement.
@@ -71,16 +73,12 @@ pub fn verdicts() -> &'static [Verdict] {
 /// Error to expect of a model's depth on a case; `None` where the design has too few shots like it: other noses, thin targets,
 /// speeds or lengths beyond the design, options that were not judged.
 pub fn expectation(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> Option<Expectation> {
-    let thick = matches!(
-        regime.target,
-        TargetKind::SemiInfinite | TargetKind::ThickPlate
-    );
     let rod = &scenario.projectile;
     let room = rod.material.room_temperature.si();
     let heated = rod
         .temperature
         .is_some_and(|temperature| temperature != room);
-    if !thick || rod.nose != Nose::Flat || heated {
+    if !is_deep(model, scenario, regime.target) || rod.nose != Nose::Flat || heated {
         return None;
     }
     let length = scenario.projectile.length / scenario.projectile.diameter;
@@ -96,6 +94,28 @@ pub fn expectation(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> O
     let contender = Contender::of(model, scenario)?;
     let verdicts = INDEX.get(&(contender.name, regime.projectile))?;
     among(verdicts, scenario.impact_speed, length)
+}
+
+/// Whether a target acts like the semi-infinite ones of the design. Axisymmetric depths in plates of 1 to 5 diameters on a fixed rear
+/// face, and of 3 to 5 on a free one, are within 15 % of those; an expanding cavity follows them, a column does not.
+fn is_deep(model: &dyn Model, scenario: &Scenario, target: TargetKind) -> bool {
+    let cavity = model.name() == "chain"
+        && chain::closure_in_use(scenario) == Some(TargetClosure::ExpandingCavity);
+    match target {
+        TargetKind::SemiInfinite | TargetKind::ThickPlate => true,
+        TargetKind::Plate if cavity => {
+            let fewest = match scenario.target {
+                TargetBody::Layers {
+                    back_face: BackFace::Free,
+                    ..
+                } => 3.0,
+                _ => 1.0,
+            };
+            let thickness = scenario.target_thickness();
+            thickness.is_some_and(|h| h >= fewest * scenario.projectile.diameter)
+        }
+        _ => false,
+    }
 }
 
 /// The error to expect from verdicts of one contender and regime.
