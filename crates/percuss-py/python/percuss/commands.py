@@ -91,7 +91,7 @@ def run(
     --------
     >>> result = percuss.run("cases/paper-table1/scenario.toml")
     >>> result.outcome, round(result.depth_of_penetration_mm, 4)
-    ('rebounded', 0.2235)
+    ('rebounded', 0.2034)
     """
     laws = (projectile_law, target_law, resistance_law)
     written = {"field": field, "fields": fields, "animation": animation, "frames": frames, "resume": resume}
