@@ -11,6 +11,7 @@ mod layout;
 mod limit;
 mod materials;
 mod models;
+mod moved;
 mod new;
 mod readme;
 mod reproduce;
