@@ -10,6 +10,7 @@ use percuss::Error;
 use percuss_report::ReportError;
 
 use crate::{
+    commands::by_models,
     diagnostic::{self, Look},
     terminal,
 };
@@ -133,6 +134,11 @@ impl Failure {
     fn text(&self, look: Look) -> String {
         let message = |what: &str, help: &str| diagnostic::message(look, what, help);
         match self {
+            Self::Library(Error::NoModelApplies { reasons }) => {
+                let reasons = reasons.iter();
+                let reasons = by_models(reasons.map(|(name, reason)| (*name, reason.clone())));
+                message("no model applies to this case", "") + &lines(&reasons)
+            }
             Self::Library(Error::Input(error)) => diagnostic::input_error(look, error),
             Self::Library(Error::Read {
                 path,
@@ -164,11 +170,7 @@ impl Failure {
             }
             Self::Output(error) => message(&format!("cannot write the output: {error}"), ""),
             Self::NoResult(reasons) => {
-                let text = message("no model gives a result for this case", "");
-                let reason = |reason: &String| {
-                    format!("  {}\n", terminal::wrap(reason, terminal::width() - 2, 4))
-                };
-                text + &reasons.iter().map(reason).collect::<String>()
+                message("no model gives a result for this case", "") + &lines(reasons)
             }
             Self::Stopped { time_us } => {
                 let what = format!("the run was stopped at {time_us:.1} us and left a checkpoint");
@@ -192,4 +194,13 @@ impl Failure {
             Self::CommandLine(error) => error.render().to_string(),
         }
     }
+}
+
+/// Reasons below an error, one under the other.
+fn lines(reasons: &[String]) -> String {
+    let line = |reason: &String| {
+        let reason = terminal::wrap(reason, terminal::width() - 2, 4);
+        format!("  {reason}\n")
+    };
+    reasons.iter().map(line).collect()
 }

@@ -73,7 +73,11 @@ fn head(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text: &m
     if let Some(closure) = record.target_closure {
         line += &format!(", target closure {closure}");
     }
-    *text += &format!("{}\n\n", wrap(&line, width(), 0));
+    *text += &format!("{}\n", wrap(&line, width(), 0));
+    if let Some(choice) = &result.model_choice {
+        *text += &format!("{}\n", wrap(choice, width(), 0));
+    }
+    text.push('\n');
 }
 
 fn energy(numerics: &Numerics, text: &mut String) {

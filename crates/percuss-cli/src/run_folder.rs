@@ -43,7 +43,7 @@ pub struct RunFolder {
 }
 
 impl RunFolder {
-    /// Makes the folder, if one is wanted, and puts a copy of the case into it, if there is one. To be called before runs that may
+    /// Makes the folder, if one is wanted, and puts a copy of the case into it, which needs no other file, if there is one. To be called before runs that may
     /// take long: a folder that cannot be written should be known at once.
     pub fn wanted(path: Option<&Path>, case: Option<&Document>) -> Result<Option<Self>, Failure> {
         path.map(|path| Self::create(path, case)).transpose()
@@ -57,7 +57,7 @@ impl RunFolder {
             written: Vec::new(),
         };
         if let Some(case) = case {
-            folder.put(CASE_COPY, case.text().as_bytes())?;
+            folder.put(CASE_COPY, case.self_contained()?.as_bytes())?;
         }
         Ok(folder)
     }

@@ -43,11 +43,21 @@ fn the_table_has_limits_brackets_and_fits_and_says_who_has_none() {
         "-28.8",
         "184.5",
         "v_r = a (v^p - v_bl^p)^(1/p)",
+        "the rear face of the plate is taken as free: the case gives no `target.back_face`",
+        "plugging ★",
+        "★ recommended: plugging: ",
+        "models that predict a limit: ",
+        "no expected error of chain, fdm, plugging, awerbuch_bodner: fewer than 5 published limits",
+        "residual velocity above a given limit (an input, not a prediction of the limit)",
         "without a limit",
         "plate_cavity: not applicable, because it takes",
     ] {
-        assert!(text.contains(part), "{part:?} is not in:\n{text}");
+        assert!(flat(&text).contains(part), "{part:?} is not in:\n{text}");
     }
+    assert!(
+        !text.contains("+0.0"),
+        "a model repeats the measured limit:\n{text}"
+    );
     assert!(
         text.lines().all(|line| line.chars().count() <= 80),
         "{text}"
@@ -256,4 +266,87 @@ fn what_is_wrong_is_said_with_its_place() {
         );
         assert_eq!(said.stdout, "");
     }
+}
+
+#[test]
+fn the_expected_error_is_that_on_published_limits_of_the_same_kind() {
+    let light = BLUNT.replace("weldox-460-e", "aluminium-2024-t351");
+    let folder = folder(&light);
+    let options = ["shot.toml", "--model", "plugging", "--points", "0"];
+    let text = ok(&folder, &options);
+    assert!(
+        flat(&text).contains("expected error of plugging: +"),
+        "{text}"
+    );
+    assert!(flat(&text).contains("noses on "), "{text}");
+    let object = json(&ok(&folder, &[&options[..], &["--json"]].concat()));
+    let expected = &object["results"][0]["expected_error"];
+    assert!(expected["shots"].as_u64().unwrap() >= 5, "{expected}");
+    assert_eq!(expected["blind"], expected["shots"]);
+}
+
+/// Without a word on the rear face the chain used to be stopped at every speed.
+#[test]
+fn a_rear_face_is_free_unless_the_case_fixes_it() {
+    let sheet = |back: &str| {
+        format!(
+            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', velocity = '300 m/s' }}\n\
+             target = {{ material = 'aluminium-2024-t351', thickness = '5 mm'{back} }}\n\
+             chain = {{ projectile_elements = 10, target_elements = 8 }}\n"
+        )
+    };
+    let options = [
+        "shot.toml",
+        "--model",
+        "chain",
+        "--tolerance",
+        "10 m/s",
+        "--points",
+        "0",
+        "--json",
+    ];
+    let of = |back: &str| json(&ok(&folder(&sheet(back)), &options));
+    let (open, free) = (of(""), of(", back_face = 'free'"));
+    assert_eq!(open["results"], free["results"]);
+    assert_eq!(open["results"][0]["outcome"], "found");
+    assert_eq!(open["rear_face"]["condition"], "free");
+    assert_eq!(
+        (&open["rear_face"]["assumed"], &free["rear_face"]["assumed"]),
+        (&Value::Bool(true), &Value::Bool(false))
+    );
+
+    let fixed = folder(&sheet(", back_face = 'fixed'"));
+    let text = ok(&fixed, &["shot.toml"]);
+    let head: Vec<&str> = text.lines().take(4).collect();
+    assert!(
+        flat(&head.join(" ")).contains("perforation is impossible: the case fixes the rear face"),
+        "{text}"
+    );
+    let object = json(&ok(&fixed, &options));
+    assert_eq!(object["results"][0]["outcome"], "never_perforates");
+    assert_eq!(object["results"][0]["runs"], 0);
+}
+
+#[test]
+fn a_limit_that_is_an_input_is_no_result() {
+    let given = format!("{BLUNT}[recht_ipson]\nballistic_limit = '184.5 m/s'\n");
+    let folder = folder(&given);
+    let object = json(&ok(
+        &folder,
+        &["shot.toml", "--model", "recht_ipson", "--json"],
+    ));
+    let entry = &object["results"][0];
+    assert_eq!(entry["outcome"], "input");
+    assert_eq!(
+        (&entry["ballistic_limit_m_s"], &object["range"]),
+        (&Value::Null, &Value::Null)
+    );
+    assert_eq!(entry["input_limit"]["ballistic_limit_m_s"], 184.5);
+    assert_eq!(entry["input_limit"]["computed_by"], Value::Null);
+    assert_eq!(entry["curve"].as_array().unwrap().len(), 12);
+    let text = ok(&folder, &["shot.toml", "--model", "recht_ipson"]);
+    assert!(
+        text.contains("no model predicts a limit for this case"),
+        "{text}"
+    );
 }

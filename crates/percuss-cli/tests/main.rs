@@ -12,6 +12,7 @@ mod layout;
 mod limit;
 mod materials;
 mod models;
+mod moved;
 mod new;
 mod readme;
 mod reproduce;

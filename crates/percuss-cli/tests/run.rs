@@ -2,7 +2,9 @@
 
 use std::fs;
 
-use crate::support::{CASE, json, ok, percuss, shot};
+use serde_json::Value;
+
+use crate::support::{CASE, flat, json, ok, percuss, shot};
 
 #[test]
 fn a_run_prints_its_results() {
@@ -95,7 +97,7 @@ fn quiet_is_one_line_with_the_values_of_json() {
             "warnings" => {
                 assert_eq!(value, result[name].as_array().unwrap().len().to_string());
             }
-            "outcome" => assert_eq!(value, result[name].as_str().unwrap()),
+            "outcome" | "model" => assert_eq!(value, result[name].as_str().unwrap()),
             _ if value == "null" => assert!(result[name].is_null(), "{pair}"),
             _ => assert_eq!(
                 value.parse::<f64>().unwrap(),
@@ -247,4 +249,74 @@ help: "
         "{}",
         said.stderr
     );
+}
+
+/// A rigid ogive on a thick plate, which the chain does not take.
+const OGIVE: &str = r#"
+projectile = { material = "4340", length = "60 mm", diameter = "8 mm", nose = { ogive = { crh = 3.0 } }, velocity = "400 m/s" }
+target = { material = "6061-t6", thickness = "semi-infinite" }
+"#;
+
+#[test]
+fn a_case_that_the_chain_does_not_take_runs_by_the_recommended_model() {
+    let folder = shot(OGIVE);
+    let compared = json(&ok(folder.path(), &["compare", "shot.toml", "--json"]));
+    let recommended = &compared["recommended"][0]["models"][0];
+    let model = recommended["model"].as_str().unwrap();
+    let ran = json(&ok(folder.path(), &["run", "shot.toml", "--json"]));
+    assert_eq!(ran["results"][0]["model"], model);
+    let choice = ran["results"][0]["model_choice"].as_str().unwrap();
+    let start = format!(
+        "model `{model}` instead of the default `chain`, which does not apply: it takes flat noses"
+    );
+    assert!(choice.starts_with(&start), "{choice}");
+    let because = recommended["because"].as_str().unwrap();
+    assert!(choice.contains(because), "{choice}");
+
+    let text = ok(folder.path(), &["run", "shot.toml"]);
+    let first: Vec<&str> = text.lines().take(4).collect();
+    assert!(
+        flat(&first.join(" ")).contains("instead of the default `chain`"),
+        "{text}"
+    );
+    // The model that ran does not stand among the others.
+    assert!(!text.contains(&format!("\n{model}  ")), "{text}");
+
+    let named = percuss(folder.path(), ["run", "shot.toml", "--model", "chain"]);
+    assert_eq!((named.code, named.stdout.as_str()), (2, ""));
+    assert!(
+        flat(&named.stderr).contains("it takes flat noses"),
+        "{}",
+        named.stderr
+    );
+    let asked = json(&ok(
+        folder.path(),
+        &["run", "shot.toml", "--json", "--model", model],
+    ));
+    assert_eq!(asked["results"][0]["model_choice"], Value::Null);
+    ok(
+        folder.path(),
+        &["run", "shot.toml", "--out", "results", "-q"],
+    );
+    assert!(folder.path().join("results/result.json").is_file());
+}
+
+#[test]
+fn where_no_model_applies_the_error_gives_every_reason() {
+    let folder = shot(&OGIVE.replace(
+        "target = { material = \"6061-t6\", thickness = \"semi-infinite\" }",
+        "target = { rigid_wall = true }",
+    ));
+    let said = percuss(folder.path(), ["run", "shot.toml", "--out", "results"]);
+    assert_eq!((said.code, said.stdout.as_str()), (2, ""));
+    assert!(
+        said.stderr
+            .starts_with("error: no model applies to this case"),
+        "{}",
+        said.stderr
+    );
+    for model in ["chain", "plate_cavity", "taylor"] {
+        assert!(said.stderr.contains(model), "{}", said.stderr);
+    }
+    assert!(!folder.path().join("results").exists());
 }

@@ -51,6 +51,12 @@ fn describe(failure: &Failure, attributes: &Bound<'_, PyDict>) -> PyResult<Optio
             attributes.set_item("reason", reason)?;
             "NotApplicableError"
         }
+        Failure::Library(Error::NoModelApplies { reasons }) => {
+            let (model, reason) = reasons.first().cloned().unwrap_or_default();
+            attributes.set_item("model", model)?;
+            attributes.set_item("reason", reason)?;
+            "NotApplicableError"
+        }
         Failure::Library(Error::Numerical(error)) => {
             attributes.set_item("message", &error.what)?;
             attributes.set_item("step", error.step)?;

@@ -43,14 +43,14 @@ impl RunResult {
     }
 }
 
-/// Computes a case by a model.
+/// Computes a case by a model, the default one of the case where none is named.
 #[pyfunction]
 #[pyo3(signature = (case, model, record, progress=None, projectile_law=None, target_law=None, resistance_law=None))]
 #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub fn run(
     py: Python<'_>,
     case: &Bound<'_, Case>,
-    model: &str,
+    model: Option<&str>,
     record: bool,
     progress: Option<Py<PyAny>>,
     projectile_law: Option<Py<PyAny>>,
@@ -64,7 +64,7 @@ pub fn run(
         ..Laws::default()
     };
     let scenario = laws.put_into(py, &case.get().scenario);
-    let model = model::model(model).map_err(|error| raise(py, error))?;
+    let chosen = model::choose(model, &scenario).map_err(|error| raise(py, error))?;
     let mut asker = Asker::new(progress.as_ref());
     let mut solver_time = Duration::ZERO;
     let result = py.detach(|| {
@@ -80,7 +80,7 @@ pub fn run(
             ..Control::default()
         };
         let start = Instant::now();
-        let result = model::run_explained(model, &scenario, &mut control).map_err(Failure::from);
+        let result = chosen.run(&scenario, &mut control).map_err(Failure::from);
         solver_time = start.elapsed();
         result
     });

@@ -38,6 +38,30 @@ def test_a_run_gives_the_numbers_of_the_program(case: str, program: Program) -> 
     assert percuss.run(percuss.load(path), model, history=False).to_dict() == whole | result
 
 
+def test_a_run_without_a_model_takes_the_one_of_the_program(program: Program, tmp_path: Path) -> None:
+    sharp = percuss.Case(
+        projectile={
+            "material": "4340",
+            "length": "60 mm",
+            "diameter": "8 mm",
+            "nose": {"ogive": {"crh": 3.0}},
+            "velocity": "400 m/s",
+        },
+        target={"material": "6061-t6", "thickness": "semi-infinite"},
+    )
+    sharp.save(tmp_path / "sharp.toml")
+    whole = answer(program, "run", str(tmp_path / "sharp.toml"))
+    (result,) = whole.pop("results")
+    ran = percuss.run(tmp_path / "sharp.toml")
+    assert ran.to_dict() == whole | result
+    assert ran.model == percuss.compare(sharp).recommended[0].models[0].model != "chain"
+    assert ran.model_choice is not None and "instead of the default `chain`" in ran.model_choice
+    with pytest.raises(percuss.NotApplicableError, match="it takes flat noses"):
+        percuss.run(sharp, "chain")
+    with pytest.raises(percuss.NotApplicableError, match="no model applies"):
+        percuss.run(sharp.replace({"target": {"rigid_wall": True}}))
+
+
 def test_every_command_gives_the_answer_of_the_program(program: Program, tmp_path: Path) -> None:
     case = "cases/taylor-copper-wilkins/scenario.toml"
     loaded = percuss.load(case).replace({"materials.mine": MINE})
@@ -57,6 +81,9 @@ def test_every_command_gives_the_answer_of_the_program(program: Program, tmp_pat
     limits = percuss.limit(plate, model="plugging", velocity=(50, 400), tolerance=0.5, points=3)
     words = ["--model", "plugging", "--velocity", "50..400", "--tolerance", "0.5 m/s", "--points", "3"]
     assert limits.to_dict() == answer(program, "limit", plate, *words)
+
+    assert limits.rear_face is not None and not limits.rear_face.assumed
+    assert [m.to_dict() for m in percuss.materials("titanium")] == answer(program, "materials", "titanium")
 
     shots = tmp_path / "shots.csv"
     shots.write_text("velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")

@@ -15,7 +15,7 @@ use crate::{
 const POINTS: u32 = 200;
 
 /// Draws residual velocities of all models, their curves of Lambert and Jonas, and what was measured, as `limit`; `None` when no
-/// model found a limit.
+/// model found a limit or starts from one. Models that start from a limit have a curve without points: their limit is an input.
 pub fn limit_figure(scenario: &Scenario, limits: &Limits) -> Option<Figure> {
     limit_chart(scenario, limits).map(|chart| chart.draw())
 }
@@ -26,7 +26,8 @@ pub fn limit_chart(scenario: &Scenario, limits: &Limits) -> Option<Chart> {
         let results = limits.results.iter().enumerate();
         results.filter(|(_, limit)| limit.outcome == LimitOutcome::Found)
     };
-    found().next()?;
+    let inputs = || limits.results.iter().filter(|limit| is_input(limit));
+    found().map(|(_, limit)| limit).chain(inputs()).next()?;
     let mut chart = LineChart::new(
         "limit",
         format!("Residual velocity and ballistic limit: {}", limits.case),
@@ -36,6 +37,9 @@ pub fn limit_chart(scenario: &Scenario, limits: &Limits) -> Option<Chart> {
     .caption(caption(scenario, None));
     for (symbol, (_, limit)) in found().enumerate() {
         chart = series(chart, limit, symbol);
+    }
+    for (place, limit) in inputs().enumerate() {
+        chart = input_curve(chart, limit, found().count() + place);
     }
     let measured: Vec<_> = limits
         .experiments
@@ -80,4 +84,22 @@ fn series(chart: LineChart, limit: &ModelLimit, symbol: usize) -> LineChart {
         (speed, fit.at(speed))
     });
     chart.series(Series::new("", curve).color(palette::symbol_color(symbol)))
+}
+
+fn is_input(limit: &ModelLimit) -> bool {
+    limit.outcome == LimitOutcome::Input && !limit.curve.is_empty()
+}
+
+/// The residual velocities of a model that starts from a limit.
+fn input_curve(chart: LineChart, limit: &ModelLimit, symbol: usize) -> LineChart {
+    let Some(input) = limit.input_limit else {
+        return chart;
+    };
+    let at = input.ballistic_limit_m_s;
+    let points = limit.curve.iter();
+    let points = points.map(|p| (p.impact_velocity_m_s, p.residual_velocity_m_s));
+    let name = format!("{}, given {} m/s", limit.model, significant(at));
+    let curve = Series::new(name, std::iter::once((at, 0.0)).chain(points));
+    let color = palette::symbol_color(symbol);
+    chart.series(curve.style(Style::Dashed).color(color))
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use percuss::limit::{CurvePoint, LambertJonasFit, Limits, ModelLimit};
+use percuss::limit::{CurvePoint, ExpectedLimitError, LambertJonasFit, Limits, ModelLimit};
 
 use crate::{
     ReportError,
@@ -59,6 +59,11 @@ fn model_columns() -> Vec<Column<ModelLimit>> {
     let fit = |name: &str, of: fn(&LambertJonasFit) -> f64| {
         Column::optional(name, move |l: &ModelLimit| l.fit.as_ref().map(of))
     };
+    let expected = |name: &str, of: fn(&ExpectedLimitError) -> f64| {
+        Column::optional(name, move |l: &ModelLimit| {
+            l.expected_error.as_ref().map(of)
+        })
+    };
     vec![
         Column::text("model", |l: &ModelLimit| l.model.to_owned()),
         Column::text("outcome", |l: &ModelLimit| l.outcome.in_words().to_owned()),
@@ -66,6 +71,12 @@ fn model_columns() -> Vec<Column<ModelLimit>> {
             l.ballistic_limit_m_s
         }),
         Column::optional("stated_limit_m_s", |l: &ModelLimit| l.stated_limit_m_s),
+        Column::optional("input_limit_m_s", |l: &ModelLimit| {
+            l.input_limit.map(|input| input.ballistic_limit_m_s)
+        }),
+        expected("expected_error_median", |e| e.errors.median),
+        expected("expected_error_low", |e| e.errors.low),
+        expected("expected_error_high", |e| e.errors.high),
         Column::optional("stopped_m_s", |l: &ModelLimit| {
             l.bracket.map(|bracket| bracket.stopped_m_s)
         }),

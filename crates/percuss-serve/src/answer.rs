@@ -9,7 +9,7 @@ use axum::{
 };
 use percuss::{
     Scenario,
-    model::{self, Control, Model},
+    model::{self, ChosenModel, Control},
     outcome::RunResult,
     summary::CaseResults,
 };
@@ -64,7 +64,7 @@ struct Refusal {
 /// Computes a case; `tell` hears how far it is.
 pub(crate) fn run(
     scenario: &Scenario,
-    model: &dyn Model,
+    chosen: &ChosenModel,
     stop: &Stop,
     tell: Option<&Tell>,
 ) -> Result<RunResult, Problem> {
@@ -81,7 +81,9 @@ pub(crate) fn run(
         progress: Some(&mut report),
         ..Control::recording()
     };
-    model::run_explained(model, scenario, &mut control).map_err(|error| stop.problem(error))
+    chosen
+        .run(scenario, &mut control)
+        .map_err(|error| stop.problem(error))
 }
 
 /// Charts of a result; a model without a time history has none.
@@ -122,20 +124,25 @@ fn draft(
 /// The answer of a model to a case that was read; a draft of it where only some charts are in view.
 pub(crate) fn answer(
     read: ReadCase,
-    model: &'static dyn Model,
+    chosen: &ChosenModel,
     in_view: Option<&[String]>,
     stop: &Stop,
     tell: Option<&Tell>,
 ) -> Result<Answer, Problem> {
     let start = Instant::now();
     let ReadCase { text, scenario } = read;
-    let mut result = run(&scenario, model, stop, tell)?;
+    let mut result = run(&scenario, chosen, stop, tell)?;
     let results = CaseResults::new(&scenario, std::slice::from_ref(&result));
     let books = result.numerics.as_ref().map_or_else(Vec::new, |numerics| {
         result_rows::book_rows(numerics, result.end_time.unwrap_or(0.0))
     });
+    let outcome = result_rows::outcome_rows(&scenario, &result, &results.results[0]);
+    let choice = chosen
+        .note
+        .iter()
+        .map(|note| ("model".to_owned(), note.clone()));
     let rows = [
-        result_rows::outcome_rows(&scenario, &result, &results.results[0]),
+        choice.chain(outcome).collect(),
         result_rows::detail_rows(&result),
         books,
     ];
@@ -151,7 +158,7 @@ pub(crate) fn answer(
         },
         values,
         case: text,
-        model: model.name(),
+        model: chosen.model.name(),
         results,
         rows,
         charts: charts.iter().map(Chart::data).collect(),
@@ -167,14 +174,14 @@ pub(crate) fn answer_to(
     stop: &Stop,
 ) -> Result<Answer, Problem> {
     let read = asked.read(text)?;
-    let model = asked.model(&read.scenario, bounds)?;
-    if model.is_slow() {
+    let chosen = asked.model(&read.scenario, bounds)?;
+    if chosen.model.is_slow() {
         return Err(Problem::bad_request(format!(
             "model `{}` takes too long to answer at once",
-            model.name()
+            chosen.model.name()
         )));
     }
-    answer(read, model, asked.in_view.as_deref(), stop, None)
+    answer(read, &chosen, asked.in_view.as_deref(), stop, None)
 }
 
 /// `POST /api/answer`.

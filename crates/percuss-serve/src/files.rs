@@ -29,8 +29,8 @@ pub(crate) async fn post(State(workers): State<Workers>, request: Request) -> Re
     let made = workers.run(move |stop| {
         let name = asked.file.clone().unwrap_or_default();
         let read = asked.read(asked.edited()?)?;
-        let model = asked.model(&read.scenario, &bounds)?;
-        file(&name, &read.scenario, model, stop)
+        let chosen = asked.model(&read.scenario, &bounds)?;
+        file(&name, &read.scenario, &chosen, stop)
     });
     match made.await {
         Ok((kind, content)) => {
@@ -49,10 +49,10 @@ pub(crate) async fn post(State(workers): State<Workers>, request: Request) -> Re
 fn file(
     name: &str,
     scenario: &percuss::Scenario,
-    model: &dyn percuss::model::Model,
+    chosen: &percuss::model::ChosenModel,
     stop: &Stop,
 ) -> Result<(&'static str, Vec<u8>), Problem> {
-    let result = answer::run(scenario, model, stop, None)?;
+    let result = answer::run(scenario, chosen, stop, None)?;
     if name == "result.json" {
         let results = CaseResults::new(scenario, &[result]);
         return Ok(("application/json", pretty(&results).into_bytes()));

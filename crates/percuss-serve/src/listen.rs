@@ -123,13 +123,13 @@ impl Server {
 fn first_page(options: &Options) -> Result<Index, ServeError> {
     let case = options.case.clone().unwrap_or_else(cases::first);
     let scenario = percuss::case::load_str(&case.name, &case.text)?;
-    let model = request::suitable(&scenario);
+    let model = percuss::model::default_model(&scenario)?;
     let read = request::ReadCase {
         text: case.text.clone(),
         scenario,
     };
     let stop = Stop::after(options.bounds.time());
-    let answer = answer::answer(read, model, None, &stop, None)?;
+    let answer = answer::answer(read, &model, None, &stop, None)?;
     Ok(Index::new(&case, &answer, &options.bounds))
 }
 

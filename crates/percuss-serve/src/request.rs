@@ -9,7 +9,7 @@ use axum::{
 };
 use percuss::{
     Scenario, case,
-    model::{self, Model},
+    model::{self, ChosenModel},
 };
 use serde::{Deserialize, de::DeserializeOwned};
 use tokio::time;
@@ -128,26 +128,16 @@ impl CaseRequest {
         }
     }
 
-    /// The model that is asked for, within bounds.
+    /// The model that is asked for, or the default one of the case, within bounds.
     pub(crate) fn model(
         &self,
         scenario: &Scenario,
         bounds: &Bounds,
-    ) -> Result<&'static dyn Model, Problem> {
-        let model = match &self.model {
-            Some(name) => model::model(name)?,
-            None => suitable(scenario),
-        };
-        bounds.check(model, scenario)?;
-        Ok(model)
+    ) -> Result<ChosenModel, Problem> {
+        let chosen = model::choose(self.model.as_deref(), scenario)?;
+        bounds.check(chosen.model, scenario)?;
+        Ok(chosen)
     }
-}
-
-/// The chain where it applies, otherwise the first model that does.
-pub(crate) fn suitable(scenario: &Scenario) -> &'static dyn Model {
-    let models = model::quick();
-    let applies = |model: &&&'static dyn Model| model::applicability(**model, scenario).is_ok();
-    *models.iter().find(applies).unwrap_or(&models[0])
 }
 
 /// The body of a request.

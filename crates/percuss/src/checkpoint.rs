@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-use crate::{Error, Scenario, case::ModelOptions};
+use crate::{Error, Scenario, case::ModelOptions, scenario::Given};
 
 /// First bytes of every checkpoint.
 const MAGIC: &[u8] = b"percuss checkpoint\n";
@@ -125,6 +125,8 @@ fn fingerprint(scenario: &Scenario) -> u64 {
         sources: Vec::new(),
         experiments: Vec::new(),
         options: ModelOptions::default(),
+        // A default that is written down changes no run.
+        given: Given::default(),
         ..scenario.clone()
     };
     bare.options.axi = scenario.options.axi.clone();

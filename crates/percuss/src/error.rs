@@ -17,6 +17,12 @@ pub enum Error {
         /// Why, in words.
         reason: String,
     },
+    /// No quick model applies to this case.
+    #[error("no model applies to this case: {}", in_one_line(.reasons))]
+    NoModelApplies {
+        /// Names of the models, and why each of them does not apply.
+        reasons: Vec<(&'static str, String)>,
+    },
     /// No model has this name.
     #[error("no model is named `{name}`{}; models: {}", did_you_mean(.suggestion), .known.join(", "))]
     UnknownModel {
@@ -83,6 +89,10 @@ impl Error {
                 let message = format!("model `{model}` does not apply to this case: {reason}");
                 (message, help.to_owned())
             }
+            Self::NoModelApplies { reasons } => (
+                "no model applies to this case".to_owned(),
+                in_one_line(reasons),
+            ),
             Self::UnknownModel {
                 name,
                 suggestion,
@@ -119,6 +129,15 @@ impl From<NumericalError> for Error {
     fn from(error: NumericalError) -> Self {
         Self::Numerical(Box::new(error))
     }
+}
+
+/// A reason per model, in one text.
+fn in_one_line(reasons: &[(&'static str, String)]) -> String {
+    let lines: Vec<String> = reasons
+        .iter()
+        .map(|(model, reason)| format!("{model}: {reason}"))
+        .collect();
+    lines.join("; ")
 }
 
 /// What an error of input is about.

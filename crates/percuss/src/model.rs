@@ -1,11 +1,13 @@
 //! Models: what every one of them offers, and the list of all.
 
+mod choice;
+
 use crate::{
     Error, Scenario,
     analytic::{
-        AwerbuchBodner, CraterEnergy, Forrestal, ForrestalConcrete, Hydrodynamic, LambertJonas,
-        LanzOdermatt, PlateCavity, Plugging, Poncelet, QuasiStatic, RechtIpson, Tate, Taylor,
-        WalkerAnderson, WilkinsGuinan,
+        AwerbuchBodner, CraterEnergy, Forrestal, ForrestalConcrete, Hydrodynamic, InputLimit,
+        LambertJonas, LanzOdermatt, PlateCavity, Plugging, Poncelet, QuasiStatic, RechtIpson, Tate,
+        Taylor, WalkerAnderson, WilkinsGuinan,
     },
     axi::Axi,
     chain::Chain,
@@ -16,6 +18,8 @@ use crate::{
     outcome::RunResult,
     regime::Regime,
 };
+
+pub use choice::{ChosenModel, DEFAULT_MODEL, choose, default_model};
 
 pub use crate::control::{Checkpoints, Control, OnFrame, Progress};
 
@@ -42,6 +46,11 @@ pub trait Model: Sync {
 
     /// Why the model does not apply to a case that its guard lets pass, if it does not: an option or a number is missing.
     fn not_applicable(&self, _: &Scenario) -> Option<String> {
+        None
+    }
+
+    /// Ballistic limit that a model of residual velocity starts from, where the case has one; `None` for a model that needs none.
+    fn input_limit(&self, _: &Scenario) -> Option<InputLimit> {
         None
     }
 

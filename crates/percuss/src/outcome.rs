@@ -119,6 +119,8 @@ pub struct RunResult {
     pub model: &'static str,
     /// Scheme of the model.
     pub scheme: &'static str,
+    /// Why it is this model and not the default one, of a run that names none; `None` otherwise.
+    pub model_choice: Option<String>,
     /// How the shot ended.
     pub outcome: Outcome,
     /// What the outcome was told by, in words; empty where the model names nothing beyond its termination.
@@ -288,6 +290,7 @@ impl RunResult {
         Self {
             model,
             scheme,
+            model_choice: None,
             outcome,
             criterion: String::new(),
             termination,

@@ -41,6 +41,17 @@ pub struct Scenario {
     pub options: ModelOptions,
     /// What was measured, for comparison; no model sees it.
     pub experiments: Vec<Measurement>,
+    /// Which values that have a default the case gives.
+    pub given: Given,
+}
+
+/// Which values that have a default a case gives: a study with other defaults leaves them as they are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Given {
+    /// `target.back_face`.
+    pub rear_face: bool,
+    /// `chain.target_closure`.
+    pub target_closure: bool,
 }
 
 /// A measured value of one quantity, in SI units.
@@ -157,6 +168,34 @@ impl Scenario {
         }
     }
 
+    /// The case as its ballistic limit is asked for: the rear face of a plate is free unless the case gives another one. `None`
+    /// where nothing changes.
+    pub fn with_free_rear_face(&self) -> Option<Self> {
+        let mut free = self.clone();
+        let TargetBody::Layers {
+            layers, back_face, ..
+        } = &mut free.target
+        else {
+            return None;
+        };
+        if self.given.rear_face || layers.last()?.thickness.is_none() {
+            return None;
+        }
+        *back_face = BackFace::Free;
+        free.choose_target_closure();
+        Some(free)
+    }
+
+    /// Sets the target resistance model of a case that gives none; it depends on the rest of the case.
+    fn choose_target_closure(&mut self) {
+        if !self.given.target_closure {
+            self.options.chain.target_closure = None;
+            let (closure, reason) = chain::default_closure(self);
+            self.options.chain.target_closure = Some(closure);
+            self.resistance_reason = reason;
+        }
+    }
+
     /// Whether the constants of one of its materials were calibrated on shots of a source.
     pub fn is_calibrated_on(&self, source: &str) -> bool {
         let layers: &[Plate] = match &self.target {
@@ -204,6 +243,10 @@ impl Scenario {
         let projectile = resolve_rod(&case, library, check);
         let target = resolve_target(&case, library, check);
         let options = case.model_options();
+        let given = Given {
+            rear_face: case.target.back_face.is_some(),
+            target_closure: options.chain.target_closure.is_some(),
+        };
         let mut scenario = Self {
             name: name.to_owned(),
             title: case.title,
@@ -220,16 +263,13 @@ impl Scenario {
                 .iter()
                 .filter_map(Measurement::resolve)
                 .collect(),
+            given,
         };
         let chain = &mut scenario.options.chain;
         if chain.target_elements.is_none() && chain.scheme == Scheme::Conservative {
             scenario.options.chain.target_elements = scenario.thin_target_elements();
         }
-        if scenario.options.chain.target_closure.is_none() {
-            let (closure, reason) = chain::default_closure(&scenario);
-            scenario.options.chain.target_closure = Some(closure);
-            scenario.resistance_reason = reason;
-        }
+        scenario.choose_target_closure();
         Some(scenario)
     }
 
@@ -252,9 +292,7 @@ fn look_up<'a>(
 ) -> Option<&'a MaterialEntry> {
     let found = library.find(name);
     if found.is_none() {
-        let near = library
-            .nearest(name)
-            .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+        let near = library.suggestion(name);
         check.of_material().fail(
             &format!("{table}.material"),
             format!("no material is named `{}`", crate::units::shorten(name)),

@@ -30,6 +30,8 @@ pub struct ResultRecord {
     pub model: &'static str,
     /// Scheme of the model.
     pub scheme: &'static str,
+    /// Why it is this model and not the default one, of a run that names none; null otherwise.
+    pub model_choice: Option<String>,
     /// What stood for the target: `chain.target_closure`, where there is a choice of it.
     pub target_closure: Option<&'static str>,
     /// How the shot ended.
@@ -113,6 +115,7 @@ impl ResultRecord {
         let us = |time: Option<f64>| time.map(|time| time * 1e6);
         let numerics = result.numerics.as_ref();
         Self {
+            model_choice: result.model_choice.clone(),
             criterion: (!result.criterion.is_empty()).then(|| result.criterion.clone()),
             termination: Some(result.termination),
             depth_of_penetration_mm: mm(result.depth_of_penetration),
@@ -173,6 +176,7 @@ impl ResultRecord {
         Self {
             model,
             scheme,
+            model_choice: None,
             target_closure: closure.map(TargetClosure::name),
             outcome,
             criterion: None,

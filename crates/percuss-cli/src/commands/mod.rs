@@ -19,7 +19,7 @@ mod uncertainty;
 mod validate;
 
 pub use calibrate::Calibrate;
-pub use compare::Compare;
+pub use compare::{Compare, by_models};
 pub use completions::Completions;
 pub use converge::Converge;
 pub use judge::Judge;

@@ -75,7 +75,7 @@ class SweepFolder:
 
 def run(
     case: Case,
-    model: str,
+    model: str | None,
     record: bool,
     progress: Progress | None = None,
     projectile_law: StrengthLaw | None = None,

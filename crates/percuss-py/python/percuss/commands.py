@@ -20,7 +20,7 @@ ResistanceLaw: TypeAlias = Callable[[float, float], float]
 
 def run(
     case: CaseLike,
-    model: str = "chain",
+    model: str | None = None,
     *,
     history: bool = True,
     out: Path | None = None,
@@ -41,8 +41,9 @@ def run(
     ----------
     case : Case or path
         The case, or its file.
-    model : str
-        Name of the model; :func:`percuss.models` lists them.
+    model : str, optional
+        Name of the model; :func:`percuss.models` lists them. When not given, it is ``chain``; where that does not apply, it is the model
+        that :func:`compare` recommends, and ``result.model_choice`` says why.
     history : bool
         Whether to keep time histories; with ``out`` they are kept.
     out : path, optional

@@ -69,11 +69,13 @@ class Model(Record):
         return [*super()._shown(), *rows, ("options", ", ".join(self.options))]
 
 
-def materials(*, case: CaseLike | None = None, file: Path | None = None) -> Records[Material]:
+def materials(search: str | None = None, *, case: CaseLike | None = None, file: Path | None = None) -> Records[Material]:
     """The materials that a case can name.
 
     Parameters
     ----------
+    search : str, optional
+        Words that id, family, name or state of the materials hold, such as ``"aluminium"``; all materials when not given.
     case : Case or path, optional
         Case whose materials are included, and those of the files that it names.
     file : path, optional
@@ -83,8 +85,11 @@ def materials(*, case: CaseLike | None = None, file: Path | None = None) -> Reco
     --------
     >>> "copper-woodward" in [material.id for material in percuss.materials()]
     True
+    >>> [material.id for material in percuss.materials("titanium")]
+    ['ti-6al-4v-static', 'ti-6al-4v-steinberg']
     """
-    records = answer("materials", case=case, file=file)
+    words = [] if search is None else [search]
+    records = answer("materials", *words, case=case, file=file)
     return Records(map(Material, records), "id", "family", "name", "state", "density", "trust", "sources")
 
 

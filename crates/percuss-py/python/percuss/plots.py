@@ -134,11 +134,15 @@ def limits(limits: Limits, ax: Axes | None) -> Axes:
         raise ValueError("no case was searched: `plot_v50` draws the shots")
     ax = new_axes(ax)
     for model in limits.results:
-        if model.ballistic_limit_m_s is None:
+        given = model.ballistic_limit_m_s is None
+        if given and (model.outcome != "input" or not model.curve):
             continue
-        points = [(model.ballistic_limit_m_s, 0.0)]
+        limit = model.input_limit.ballistic_limit_m_s if given else model.ballistic_limit_m_s
+        points = [(limit, 0.0)]
         points += [(p.impact_velocity_m_s, p.residual_velocity_m_s) for p in model.curve or []]
-        ax.plot(*zip(*points, strict=True), marker=".", label=f"{model.model}, {model.ballistic_limit_m_s:.4g} m/s")
+        style = {"linestyle": "--"} if given else {"marker": "."}
+        label = f"{model.model}, {'given ' if given else ''}{limit:.4g} m/s"
+        ax.plot(*zip(*points, strict=True), label=label, **style)
     for experiment in limits.experiments:
         if experiment.quantity == "ballistic_limit_m_s":
             ax.axvline(experiment.value, color="k", linestyle="--", label=f"measured, {experiment.value:.4g} m/s")

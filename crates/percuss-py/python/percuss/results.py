@@ -22,6 +22,8 @@ class RunResult(Result):
     ----------
     case, model, scheme : str
         Names of the case, the model and its scheme.
+    model_choice : str or None
+        Why it is this model, where none was named and ``chain`` does not apply.
     outcome, criterion, termination : str
         How the shot ended, what that was told by, and why the run was ended.
     impact_velocity_m_s, residual_velocity_m_s, ballistic_limit_m_s, plug_velocity_m_s : float or None
@@ -48,6 +50,7 @@ class RunResult(Result):
     percuss_version: str
     model: str
     scheme: str
+    model_choice: str | None
     target_closure: str | None
     outcome: str
     criterion: str | None
@@ -188,16 +191,25 @@ class Comparison(Result):
 
 
 class Limits(Result):
-    """Ballistic limits: the values of ``percuss limit --json``. A row a model.
+    """Ballistic limits: the values of ``percuss limit --json``. One row per model.
 
     Attributes
     ----------
     searched_m_s : list of float
         Lowest and highest impact speed of the search [m/s].
+    rear_face : Record or None
+        ``condition`` of the rear face (``free``, ``fixed`` or ``non-reflecting``), and whether it is ``assumed`` because the case gives
+        none.
+    recommended : list of Record
+        The ``model`` to rely on, and ``because`` of what; may be empty. ``note`` says what to know of it.
+    range : Record or None
+        ``lowest_m_s`` and ``highest_m_s`` of the ``models`` that predict a limit.
     experiments : list of Record
         What was measured.
     results : list of Record
-        An entry a model: ``ballistic_limit_m_s``, ``bracket``, ``curve`` of residual velocities and the ``fit`` to it.
+        One entry per model: ``ballistic_limit_m_s``, its ``expected_error`` from published limits of the same kind, ``bracket``, ``curve``
+        of residual velocities and the ``fit`` to it. A model with the outcome ``input`` starts from ``input_limit`` and predicts no
+        limit.
     v50 : Record or None
         V50 of shots that scatter, when a file of them was given: ``estimates``, an entry a ``method`` with ``v50_m_s`` and the ends of
         its interval, ``low_m_s`` and ``high_m_s`` [m/s].
@@ -208,6 +220,10 @@ class Limits(Result):
     case: str
     percuss_version: str
     searched_m_s: list[float]
+    rear_face: Record | None
+    recommended: list[Record]
+    note: str | None
+    range: Record | None
     experiments: list[Record]
     results: list[Record]
     v50: Record | None
@@ -217,7 +233,7 @@ class Limits(Result):
         return list(self._data.get("results", []))
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws residual velocity against impact velocity for every model that found a limit."""
+        """Draws residual velocity against impact velocity for every model that found a limit; dashed above a limit that is an input."""
         return plots.limits(self, ax)
 
     def plot_v50(self, ax: Axes | None = None) -> Axes:
@@ -227,8 +243,14 @@ class Limits(Result):
     def _repr_html_(self) -> str:
         text = ""
         if "results" in self:
-            rows = [[r.model, r.outcome.replace("_", " "), shown(r.ballistic_limit_m_s), r.reason or ""] for r in self.results]
-            text += table_html(["model", "outcome", "ballistic_limit_m_s", "reason"], rows, self.case)
+            chosen = {choice.model for choice in self.recommended}
+            rows = [
+                [r.model + (" ★" if r.model in chosen else ""), r.outcome.replace("_", " "), shown(r.ballistic_limit_m_s), r.reason or ""]
+                for r in self.results
+            ]
+            face = self.rear_face
+            assumed = f", rear face taken as {face.condition}" if face is not None and face.assumed else ""
+            text += table_html(["model", "outcome", "ballistic_limit_m_s", "reason"], rows, f"{self.case}{assumed}")
         if self.v50 is not None:
             names = ["method", "v50_m_s", "low_m_s", "high_m_s", "standard_deviation_m_s", "reason"]
             rows = [[shown(estimate[name]).replace("_", " ") for name in names] for estimate in self.v50.estimates]

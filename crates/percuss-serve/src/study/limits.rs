@@ -1,7 +1,7 @@
 //! Ballistic limits.
 
 use percuss::{
-    limit::{self, Search},
+    limit::{self, RearFace, Search},
     model,
 };
 use percuss_report::{limit_chart, limit_files};
@@ -25,6 +25,11 @@ pub(super) fn limits(job: &Job<'_>) -> Result<Study, Problem> {
         .iter()
         .map(|limit| limit.outcome.in_words())
         .collect();
+    let expected: Vec<Option<String>> = limits
+        .results
+        .iter()
+        .map(|limit| Some(limit.expected_error.as_ref()?.in_words()))
+        .collect();
     let files: Vec<_> = csv_files(limit_files(&limits)?)
         .chain([("limit.json".to_owned(), pretty(&limits))])
         .collect();
@@ -32,6 +37,8 @@ pub(super) fn limits(job: &Job<'_>) -> Result<Study, Problem> {
         "measured": limits.measured().map(|(value, _)| value),
         "limits": limits,
         "outcomes": outcomes,
+        "rear_face": limits.rear_face.and_then(RearFace::in_words),
+        "expected": expected,
     });
     Ok(Study::new(record, chart.as_slice(), files))
 }

@@ -171,7 +171,7 @@ impl Job<'_> {
 
     /// The model that is asked for, within bounds.
     fn model(&self, scenario: &Scenario) -> Result<&'static dyn Model, Problem> {
-        self.asked.model(scenario, self.bounds)
+        Ok(self.asked.model(scenario, self.bounds)?.model)
     }
 
     /// What a computation is told when it says how far it is.
@@ -203,6 +203,6 @@ fn csv_files(
 /// A run of a model that takes a while, as an answer like any other.
 fn slow_run(job: &Job<'_>) -> Result<answer::Answer, Problem> {
     let read = job.read()?;
-    let model = job.model(&read.scenario)?;
-    answer::answer(read, model, None, job.stop, Some(job.tell))
+    let chosen = job.asked.model(&read.scenario, job.bounds)?;
+    answer::answer(read, &chosen, None, job.stop, Some(job.tell))
 }

@@ -44,6 +44,25 @@ fn the_numbers_are_those_of_the_library() {
     }
 }
 
+/// Without a model that is asked for, the page takes the one that a comparison recommends, and says why.
+#[test]
+fn a_case_that_the_chain_does_not_take_is_answered_by_the_recommended_model() {
+    let served = Served::new(Options::default());
+    let sharp = "projectile = { material = '4340', length = '60 mm', diameter = '8 mm', nose = { ogive = { crh = 3.0 } }, velocity = '400 m/s' }\n\
+                 target = { material = '6061-t6', thickness = 'semi-infinite' }\n";
+    let chosen = model::default_model(&case::load_str("shot", sharp).unwrap()).unwrap();
+    assert_ne!(chosen.model.name(), "chain");
+    let answer = served
+        .post("/api/answer", &json!({ "name": "shot", "case": sharp }))
+        .json();
+    assert_eq!(answer["model"], chosen.model.name());
+    let note = chosen.note.unwrap();
+    assert_eq!(answer["results"]["results"][0]["model_choice"], note);
+    assert_eq!(answer["rows"][0][0], json!(["model", note]));
+    let named = json!({ "name": "shot", "case": sharp, "model": "chain" });
+    assert_eq!(served.post("/api/answer", &named).status, 422);
+}
+
 #[test]
 fn edits_of_the_form_are_edits_of_the_text() {
     let served = Served::new(Options::default());

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use percuss::{
     case::{self, Document},
-    compare,
+    compare, limit,
     model::{self, model},
     sweep::BatchKernel,
     uncertainty::{self, Settings, Study, Watch},
@@ -121,4 +121,34 @@ fn a_draft_has_the_charts_in_view_and_the_same_numbers() {
     let (whole_first, whole_last, _) = ends(&whole);
     assert!(points <= 401, "{points}");
     assert_eq!((first, last), (whole_first, whole_last));
+}
+
+#[test]
+fn limits_are_those_of_the_library_and_say_what_they_rest_on() {
+    let served = Served::new(Options::default());
+    let text = "projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', velocity = '300 m/s' }\n\
+                target = { material = 'aluminium-2024-t351', thickness = '12 mm' }\n\
+                chain = { projectile_elements = 8, target_elements = 6 }\n\
+                fdm = { projectile_elements = 8, target_elements = 6 }\n";
+    let answer = served.post("/api/study/limit", &json!({ "name": "shot", "case": text }));
+    let done = answer.lines().pop().unwrap()["done"].clone();
+    let scenario = case::load_str("shot", text).unwrap();
+    let found = limit::limits(
+        &model::quick(),
+        &scenario,
+        &limit::Search::default(),
+        &mut limit::Watch::default(),
+    );
+    let printed = serde_json::to_string(&found.unwrap()).unwrap();
+    let expected: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(done["limits"], expected);
+    let face = done["rear_face"].as_str().unwrap();
+    assert!(face.contains("taken as free"), "{face}");
+    assert_eq!(done["limits"]["recommended"][0]["model"], "plugging");
+    let said = done["expected"].as_array().unwrap();
+    let said: Vec<&str> = said.iter().filter_map(Value::as_str).collect();
+    assert!(
+        said.iter().any(|words| words.contains("published limits")),
+        "{said:?}"
+    );
 }

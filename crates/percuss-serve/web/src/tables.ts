@@ -58,19 +58,34 @@ export function convergence({ study, words }: Convergence): HTMLElement[] {
 }
 
 export function limits(study: Limits): HTMLElement[] {
-  const { results } = study.limits;
+  const { results, recommended, note, range } = study.limits;
+  const chosen = new Map(recommended.map((choice) => [choice.model, choice.because]));
   const found = results.filter((limit) => limit.outcome === "found");
   const lines = found.map((limit) => [
-    limit.model,
+    chosen.has(limit.model) ? `${limit.model} ★` : limit.model,
     number(limit.ballistic_limit_m_s, 5),
     limit.bracket ? `${significant(limit.bracket.stopped_m_s, 5)} … ${significant(limit.bracket.perforated_m_s, 5)}` : "–",
     String(limit.runs),
   ]);
   if (study.measured !== null) lines.push(["experiment", number(study.measured, 5), "", ""]);
+  const said: HTMLElement[] = [];
+  if (study.rear_face) said.push(make("p", {}, study.rear_face));
+  for (const [model, because] of chosen) said.push(make("p", {}, make("b", {}, `Recommended: ${model} ★ `), because));
+  if (note) said.push(make("p", {}, note));
+  if (range && range.models > 1) {
+    said.push(make("p", {}, `Range of ${range.models} models: ${number(range.lowest_m_s)} to ${number(range.highest_m_s)} m/s`));
+  }
+  const errors = results.flatMap((limit, i) =>
+    study.expected[i] ? [make("li", {}, make("b", {}, `expected error of ${limit.model}: `), study.expected[i])] : []);
   const rest = results.flatMap((limit, i) =>
     limit.outcome === "found" ? [] : [make("li", {}, make("b", {}, `${limit.model}: `), limit.reason ?? study.outcomes[i] ?? "")]);
   const answer = found.length
     ? table(["model", "ballistic limit [m/s]", "stopped … perforated [m/s]", "runs"], lines)
     : make("p", {}, "No model finds a limit between 0 and 2000 m/s.");
-  return [answer, make("details", {}, make("summary", {}, `${rest.length} models without a limit`), make("ul", {}, ...rest))];
+  return [
+    ...said,
+    answer,
+    ...(errors.length ? [make("ul", {}, ...errors)] : []),
+    make("details", {}, make("summary", {}, `${rest.length} models without a limit`), make("ul", {}, ...rest)),
+  ];
 }

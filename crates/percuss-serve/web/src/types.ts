@@ -137,7 +137,12 @@ export interface Convergence extends Study {
 export interface Limits extends Study {
   measured: number | null;
   outcomes: string[];
+  rear_face: string | null;
+  expected: (string | null)[];
   limits: {
+    recommended: { model: string; because: string }[];
+    note: string | null;
+    range: { lowest_m_s: number; highest_m_s: number; models: number } | null;
     results: {
       model: string;
       outcome: string;

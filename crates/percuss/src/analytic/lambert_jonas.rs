@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    limit::limit,
+    limit::{InputLimit, limit},
     plate_shot::{PlateShot, plate_result, refuse},
 };
 use crate::{
@@ -78,6 +78,11 @@ impl Model for LambertJonas {
             self.name(),
         )
         .err()
+    }
+
+    fn input_limit(&self, scenario: &Scenario) -> Option<InputLimit> {
+        let given = scenario.options.lambert_jonas.ballistic_limit;
+        InputLimit::of(scenario, given, self.name())
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {

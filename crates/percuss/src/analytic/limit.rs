@@ -1,5 +1,7 @@
 //! The ballistic limit that the models of residual velocity start from: given, or computed by another model.
 
+use serde::Serialize;
+
 use super::{
     plate_cavity::{Passage, PlateCavity},
     plugging::{Plugging, ballistic_limit},
@@ -12,11 +14,38 @@ use crate::{
     units::{Velocity, significant},
 };
 
+/// Ballistic limit that a model of residual velocity starts from.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct InputLimit {
+    /// The limit [m/s].
+    pub ballistic_limit_m_s: f64,
+    /// Model that computes it; `None` where the case gives it.
+    pub computed_by: Option<&'static str>,
+}
+
+impl InputLimit {
+    /// The limit of a case; `None` when there is none.
+    pub(super) fn of(scenario: &Scenario, given: Option<Velocity>, table: &str) -> Option<Self> {
+        let limit = limit(scenario, given, table).ok()?;
+        Some(Self {
+            ballistic_limit_m_s: limit.speed,
+            computed_by: limit.computed_by,
+        })
+    }
+
+    /// Where the limit comes from, in words.
+    pub fn origin_in_words(&self) -> &'static str {
+        self.computed_by.unwrap_or("the case")
+    }
+}
+
 /// A ballistic limit and where it comes from.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Limit {
     /// Impact speed above which the plate is perforated [m/s].
     pub speed: f64,
+    /// Model that computes it; `None` where the case gives it.
+    pub computed_by: Option<&'static str>,
     /// The limit with its origin in the name.
     pub detail: Detail,
     /// What to know of a limit that the case does not give.
@@ -32,6 +61,7 @@ pub(super) fn limit(
     if let Some(given) = given {
         return Ok(Limit {
             speed: given.si(),
+            computed_by: None,
             detail: detail("ballistic limit, given", given.si()),
             warnings: Vec::new(),
         });
@@ -63,6 +93,7 @@ pub(super) fn limit(
     ));
     Ok(Limit {
         speed,
+        computed_by: Some(model.name()),
         detail: detail(name, speed),
         warnings,
     })

@@ -37,6 +37,7 @@ pub use forrestal_concrete::{ForrestalConcrete, ForrestalConcreteOptions};
 pub use hydrodynamic::Hydrodynamic;
 pub use lambert_jonas::{LambertJonas, LambertJonasOptions};
 pub use lanz_odermatt::{LanzOdermatt, LanzOdermattOptions};
+pub use limit::InputLimit;
 pub use nose_load::NoseLoad;
 pub use plate_cavity::{CavityShape, PlateCavity, PlateCavityOptions};
 pub use plugging::{Plugging, PluggingOptions};

@@ -93,9 +93,7 @@ impl Observations {
         for parameter in fitted {
             if let Some((id, _)) = parameter.material() {
                 let entry = library.find(id).ok_or_else(|| {
-                    let near = library
-                        .nearest(id)
-                        .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+                    let near = library.suggestion(id);
                     let help = format!("{near}`percuss materials` lists all");
                     parameter.no_material(&format!("no material is named `{id}`"), &help)
                 })?;

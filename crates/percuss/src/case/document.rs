@@ -128,7 +128,7 @@ impl Document {
                 self.written_key(span.start)
             }
         };
-        if let Some(more) = help_for_key(&key, error.message()) {
+        if let Some(more) = help_for_key(&key, &self.names_under(&key), error.message()) {
             help = more;
         }
         let table = key.split('.').next().unwrap_or_default();
@@ -143,6 +143,19 @@ impl Document {
             key,
             message,
             help,
+        }
+    }
+
+    /// Names of the keys in a table; none where there is no table under that key.
+    fn names_under(&self, key: &str) -> Vec<String> {
+        let root = self.text.parse::<toml::Table>().ok();
+        let mut at = root.map(toml::Value::Table);
+        for part in key.split('.') {
+            at = at.and_then(|value| value.get(part).cloned());
+        }
+        match at {
+            Some(toml::Value::Table(table)) => table.keys().cloned().collect(),
+            _ => Vec::new(),
         }
     }
 

@@ -2,11 +2,11 @@
 
 use std::{fs::File, io::Read, path::Path};
 
-use super::{Case, Document};
+use super::{Case, Document, load_materials};
 use crate::{
     check::{Check, Finding},
     error::Error,
-    material::{Library, MaterialTable},
+    material::Library,
     scenario::Scenario,
 };
 
@@ -27,21 +27,6 @@ pub fn load(path: impl AsRef<Path>) -> Result<Scenario, Error> {
 /// [`Error::Input`] when the text is not a valid case. A text cannot name material files.
 pub fn load_str(name: &str, text: &str) -> Result<Scenario, Error> {
     Document::new(name, text).scenario()
-}
-
-/// Reads a file of materials.
-///
-/// # Errors
-/// [`Error::Read`] when it cannot be read, [`Error::Input`] when its content is not valid.
-pub fn load_materials(path: impl AsRef<Path>) -> Result<MaterialTable, Error> {
-    let document = Document::read(path)?.of_materials();
-    let table: MaterialTable = document.parse()?;
-    let mut findings = Vec::new();
-    for (id, material) in &table {
-        material.check(&mut Check::new(&mut findings).within(id));
-    }
-    document.report(findings)?;
-    Ok(table)
 }
 
 /// Cases live as `NAME/scenario.toml`; a file with another name is called after itself.
@@ -115,6 +100,16 @@ pub(super) fn library_of(case: &Case, document: &Document) -> Result<Library, Er
             }
             other => other?,
         };
+        // One of the two would be ignored.
+        if let Some(id) = table.keys().find(|id| case.materials.contains_key(*id)) {
+            let message = format!(
+                "the material `{id}` is given by the case and by the file `{}`",
+                relative.display()
+            );
+            let help = "rename or remove one of the two";
+            let finding = Finding::at(&format!("materials.{id}"), message, help);
+            return Err(document.place(finding.of_material()).into());
+        }
         library.add(&table, &relative.display().to_string());
     }
     Ok(library)

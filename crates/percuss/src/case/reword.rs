@@ -31,12 +31,15 @@ pub(super) fn reword(message: &str, source: &str) -> Reworded {
         })
 }
 
-/// Help that depends on the key as well as on the message.
-pub(super) fn help_for_key(key: &str, message: &str) -> Option<String> {
+/// Help that depends on the key and on the names in its table as well as on the message.
+pub(super) fn help_for_key(key: &str, names: &[String], message: &str) -> Option<String> {
     if key.ends_with("_elements") && message.starts_with("invalid") {
         return Some(format!(
             "write a whole number from 1 to {MAX_ELEMENTS} without quotes"
         ));
+    }
+    if let Some(help) = help_for_strength(key, names, message) {
+        return Some(help);
     }
     let no_choice = message.ends_with(" variant")
         || message.starts_with("wanted exactly 1 element, found 0")
@@ -58,6 +61,45 @@ pub(super) fn help_for_key(key: &str, message: &str) -> Option<String> {
     }
     (message == "wanted string or table")
         .then(|| "`percuss new NAME` writes a case that shows what is allowed".to_owned())
+}
+
+/// How a strength law is written, with the constants of the commonest one.
+const STRENGTH: &str = "name the law: strength.LAW = { PARAMETER = VALUE }. Johnson\u{2013}Cook with its A, B, n, C and m is \
+                        strength.johnson_cook = { a = \"90 MPa\", b = \"292 MPa\", n = 0.31, c = 0.025, m = 1.09 }";
+/// Keys that stand for the constants of Johnson and Cook's law, or for the law, outside its table.
+const LAW_KEYS: [&str; 11] = [
+    "A",
+    "B",
+    "C",
+    "N",
+    "M",
+    "a",
+    "b",
+    "c",
+    "n",
+    "m",
+    "johnson_cook",
+];
+
+/// Help for constants of a strength law that stand in the wrong place or are written in capitals.
+fn help_for_strength(key: &str, names: &[String], message: &str) -> Option<String> {
+    let (table, last) = key.rsplit_once('.').unwrap_or(("", key));
+    let is_law_key = LAW_KEYS.contains(&last);
+    if message.starts_with("unknown field") && is_law_key {
+        if table.ends_with("johnson_cook") {
+            return Some(format!(
+                "did you mean `{}`? The constants A, B, n, C and m are written a, b, n, c and m here; also allowed: reference_rate, rate_form",
+                last.to_lowercase()
+            ));
+        }
+        return message.contains("`strength`").then(|| STRENGTH.to_owned());
+    }
+    let is_constant = |name: &String| LAW_KEYS.contains(&name.as_str());
+    let several =
+        message.starts_with("wanted exactly 1 element, more") && names.iter().any(is_constant);
+    let no_law = message.starts_with("unknown variant") && is_law_key;
+    let is_strength = last == "strength" || table.ends_with("strength");
+    (is_strength && (several || no_law)).then(|| STRENGTH.to_owned())
 }
 
 /// Unknown keys and values.

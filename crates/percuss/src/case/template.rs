@@ -136,10 +136,7 @@ impl Template {
             Finding::at(&format!("materials.{id}"), message, help).of_material()
         };
         let entry = self.library.find(id).ok_or_else(|| {
-            let near = self
-                .library
-                .nearest(id)
-                .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+            let near = self.library.suggestion(id);
             fail(
                 format!("no material is named `{id}`"),
                 format!("{near}`percuss materials` lists all"),

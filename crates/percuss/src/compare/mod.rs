@@ -31,6 +31,7 @@ use crate::{
 };
 
 pub use jobs::{Progress, Watch};
+pub(crate) use recommend::recommend;
 pub use recommend::{Choice, Recommendation};
 
 /// What every model says of a case. The names are stable; those of `percuss run --json` have the same meaning.
@@ -113,7 +114,8 @@ pub fn compare(
         .iter()
         .zip(results.chunks(models.len().max(1)))
         .map(|((scenario, regime), results)| {
-            recommend::recommend(models, scenario, regime, results)
+            let given: Vec<_> = results.iter().map(ResultRecord::given).collect();
+            recommend(models, scenario, regime, &given)
         })
         .collect();
     Ok(Comparison {
@@ -216,6 +218,14 @@ impl ResultRecord {
     /// Whether the model gave a result.
     pub fn is_result(&self) -> bool {
         !matches!(self.outcome, Outcome::NotApplicable | Outcome::Failed)
+    }
+
+    /// Whether it is a result, and why if it is none.
+    fn given(&self) -> Result<(), &str> {
+        match self.is_result() {
+            true => Ok(()),
+            false => Err(self.reason.as_deref().unwrap_or_default()),
+        }
     }
 
     /// One of the main numbers, in the unit of the quantity's name.

@@ -6,7 +6,6 @@ use crate::{
     Scenario,
     model::Model,
     regime::{ProjectileRegime, Regime},
-    summary::ResultRecord,
 };
 
 /// What to rely on at a speed.
@@ -29,6 +28,21 @@ pub struct Choice {
     pub because: &'static str,
 }
 
+impl Choice {
+    /// The choice of a model for a case of a regime, if it is a first choice there.
+    pub(crate) fn of(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> Option<Self> {
+        let mut choices = model.guard().first_choice.iter();
+        let fitting = choices.find(|choice| choice.fits(scenario, regime))?;
+        Some(Self {
+            model: model.name(),
+            because: fitting.because,
+        })
+    }
+}
+
+/// Whether a model gives a result, and why if it does not.
+pub(crate) type Given<'a> = Result<(), &'a str>;
+
 /// First choices for a regime: those that gave a result, and the others with the reason why not.
 struct FirstChoices<'a> {
     given: Vec<Choice>,
@@ -40,25 +54,17 @@ impl<'a> FirstChoices<'a> {
         models: &[&dyn Model],
         scenario: &Scenario,
         regime: &Regime,
-        results: &'a [ResultRecord],
+        results: &[Given<'a>],
     ) -> Self {
         let mut choices = Self {
             given: Vec::new(),
             missed: Vec::new(),
         };
         for (model, result) in models.iter().zip(results) {
-            let mut fitting = model.guard().first_choice.iter();
-            let Some(choice) = fitting.find(|choice| choice.fits(scenario, regime)) else {
-                continue;
-            };
-            if result.is_result() {
-                choices.given.push(Choice {
-                    model: model.name(),
-                    because: choice.because,
-                });
-            } else {
-                let reason = result.reason.as_deref().unwrap_or_default();
-                choices.missed.push((model.name(), reason));
+            match (Choice::of(*model, scenario, regime), result) {
+                (Some(choice), Ok(())) => choices.given.push(choice),
+                (Some(choice), Err(reason)) => choices.missed.push((choice.model, reason)),
+                (None, _) => {}
             }
         }
         choices
@@ -66,11 +72,11 @@ impl<'a> FirstChoices<'a> {
 }
 
 /// What to rely on for a case in its regime, given what every model said.
-pub(super) fn recommend(
+pub(crate) fn recommend(
     models: &[&dyn Model],
     scenario: &Scenario,
     regime: &Regime,
-    results: &[ResultRecord],
+    results: &[Given<'_>],
 ) -> Recommendation {
     let own = FirstChoices::of(models, scenario, regime, results);
     let neighbour: Option<(ProjectileRegime, Vec<Choice>)> = regime.neighbour.map(|neighbour| {
@@ -108,7 +114,7 @@ pub(super) fn recommend(
         }
         (true, None) => {
             notes.push(
-                match results.iter().filter(|result| result.is_result()).count() {
+                match results.iter().filter(|result| result.is_ok()).count() {
                     0 => "no model gives a result",
                     1 => "no model is the first choice for this kind of case; one gives a result",
                     _ => {

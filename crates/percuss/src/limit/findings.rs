@@ -1,12 +1,13 @@
 //! What shots of a model come to: whether one is perforated, where the limit is, and what to warn of.
 
 use super::{
-    Bracket, CurvePoint, LimitOutcome, ModelLimit, fit_lambert_jonas,
+    Bracket, CurvePoint, LimitOutcome, ModelLimit, RearFace, fit_lambert_jonas,
     search::{Passage, Sample, bracket},
     warnings,
 };
 use crate::{
     Error, Scenario,
+    analytic::InputLimit,
     model::Model,
     outcome::{Outcome, RunResult},
     units::significant,
@@ -50,14 +51,18 @@ impl Shot {
     }
 }
 
-/// Why a model cannot be asked, at whatever speed.
-pub(super) fn unsuited(model: &dyn Model, scenario: &Scenario) -> Option<String> {
+/// Why a model cannot be asked, at whatever speed, and what the search comes to then.
+pub(super) fn unsuited(model: &dyn Model, scenario: &Scenario) -> Option<(LimitOutcome, String)> {
     if !model.guard().decides_perforation() {
-        return Some("it does not say whether a target is perforated".to_owned());
+        let reason = "it does not say whether a target is perforated".to_owned();
+        return Some((LimitOutcome::NotApplicable, reason));
     }
-    match scenario.target_thickness() {
-        Some(_) => None,
-        None => Some("the target has no back face to perforate".to_owned()),
+    match RearFace::of(scenario) {
+        Some(face) => Some((LimitOutcome::NeverPerforates, face.impossible()?)),
+        None => Some((
+            LimitOutcome::NotApplicable,
+            "the target has no back face to perforate".to_owned(),
+        )),
     }
 }
 
@@ -128,6 +133,8 @@ pub(super) fn without_limit(
         reason: Some(reason),
         ballistic_limit_m_s: None,
         stated_limit_m_s: None,
+        input_limit: None,
+        expected_error: None,
         bracket: None,
         runs: 0,
         curve: Vec::new(),
@@ -173,9 +180,7 @@ pub(super) fn entry(
     let fit = fit_lambert_jonas(&curve);
     said.extend(warnings::curve_starts_elsewhere(limit, fit));
     ModelLimit {
-        model,
         scheme,
-        outcome: LimitOutcome::Found,
         reason: None,
         ballistic_limit_m_s: limit,
         stated_limit_m_s: stated,
@@ -184,6 +189,50 @@ pub(super) fn entry(
         fit,
         curve,
         warnings: said,
+        ..without_limit(model, LimitOutcome::Found, String::new())
+    }
+}
+
+/// The entry of a model that starts from a limit, whose shots above it, in the order of their speeds, are these.
+pub(super) fn input_entry(
+    model: &'static str,
+    input: InputLimit,
+    samples: &[Sample<Shot>],
+) -> ModelLimit {
+    let shots = || samples.iter().filter_map(|sample| sample.shot.as_ref());
+    let curve = curve(samples);
+    let input_limit = Some(input);
+    if curve.is_empty() && !samples.is_empty() {
+        let (outcome, reason) = no_bracket(samples);
+        return ModelLimit {
+            input_limit,
+            runs: shots().count(),
+            ..without_limit(model, outcome, reason)
+        };
+    }
+    let mut said = shots()
+        .next()
+        .map_or_else(Vec::new, |shot| shot.warnings.clone());
+    said.extend(warnings::speeds_without_answer(samples));
+    ModelLimit {
+        scheme: shots()
+            .map(|shot| shot.scheme)
+            .find(|scheme| !scheme.is_empty())
+            .unwrap_or(""),
+        input_limit,
+        runs: shots().count(),
+        fit: fit_lambert_jonas(&curve),
+        curve,
+        warnings: said,
+        ..without_limit(
+            model,
+            LimitOutcome::Input,
+            format!(
+                "it starts from the limit of {}, {} m/s, and predicts none",
+                input.origin_in_words(),
+                significant(input.ballistic_limit_m_s, 4)
+            ),
+        )
     }
 }
 

@@ -8,12 +8,13 @@ use std::{
 use rayon::prelude::*;
 
 use super::{
-    LimitOutcome, ModelLimit, Progress, Search, Watch,
+    ModelLimit, Progress, Search, Watch,
     findings::{self, Shot},
     search::{INTERVALS, Passage, Sample, search},
 };
 use crate::{
     Error, Scenario,
+    analytic::InputLimit,
     model::{self, Control, Model},
     regime::Regime,
 };
@@ -71,26 +72,42 @@ struct Job<'a, 'b, 'c> {
 
 impl Job<'_, '_, '_> {
     fn entry(&self) -> Result<ModelLimit, Error> {
-        if let Some(reason) = findings::unsuited(self.model, self.scenario) {
-            let outcome = LimitOutcome::NotApplicable;
+        if let Some((outcome, reason)) = findings::unsuited(self.model, self.scenario) {
             return Ok(findings::without_limit(self.model.name(), outcome, reason));
+        }
+        if let Some(input) = self.input_limit() {
+            let shots = self.curve_above(input.ballistic_limit_m_s)?;
+            return Ok(findings::input_entry(self.model.name(), input, &shots));
         }
         let mut samples = search(self.search.range, self.search.tolerance, &|speed| {
             self.shoot(speed)
         })?;
-        let mut curve = Vec::new();
-        if let Some(limit) = findings::limit_of(&samples) {
-            let most = self.search.range.to.min((1.0 + BEYOND) * limit);
-            curve = self.curve_speeds(limit, most);
-        }
-        let shots: Vec<Sample<Shot>> = curve
-            .par_iter()
-            .map(|speed| self.shoot(*speed))
-            .collect::<Result<_, _>>()?;
+        let shots = match findings::limit_of(&samples) {
+            Some(limit) => self.curve_above(limit)?,
+            None => Vec::new(),
+        };
         let residuals = findings::curve(&shots);
         samples.extend(shots);
         samples.sort_by(|a, b| a.speed.total_cmp(&b.speed));
         Ok(findings::entry(self.model.name(), &samples, residuals))
+    }
+
+    /// The limit that the model starts from. A limit by another model needs a speed at which that model applies: its own limit, which
+    /// the lowest such speed of the scan leads to.
+    fn input_limit(&self) -> Option<InputLimit> {
+        let at = |speed: f64| self.model.input_limit(&self.scenario.at_speed(speed));
+        let part = |i: u32| f64::from(i) / f64::from(INTERVALS);
+        let first = (1..=INTERVALS).find_map(|i| at(self.search.range.at(part(i))))?;
+        Some(at(first.ballistic_limit_m_s).unwrap_or(first))
+    }
+
+    /// Shots at the speeds of the curve above a limit.
+    fn curve_above(&self, limit: f64) -> Result<Vec<Sample<Shot>>, Error> {
+        let most = self.search.range.to.min((1.0 + BEYOND) * limit);
+        self.curve_speeds(limit, most)
+            .par_iter()
+            .map(|speed| self.shoot(*speed))
+            .collect()
     }
 
     /// Speeds above the limit, closer to each other where the residual velocity rises steeply.

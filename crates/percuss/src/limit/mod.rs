@@ -14,10 +14,15 @@
 //! # Ok::<(), percuss::Error>(())
 //! ```
 
+mod expected;
 mod findings;
 mod fit;
 mod jobs;
+mod rear_face;
+mod recommended;
 mod search;
+#[cfg(test)]
+mod study_tests;
 #[cfg(test)]
 mod tests;
 mod warnings;
@@ -25,11 +30,18 @@ mod warnings;
 use serde::Serialize;
 
 use crate::{
-    Error, Scenario, compare::ExperimentRecord, guard::Guard, model::Model, outcome::BandQuantity,
+    Error, Scenario,
+    analytic::InputLimit,
+    compare::{Choice, ExperimentRecord},
+    guard::Guard,
+    model::Model,
+    outcome::BandQuantity,
 };
 
 pub use crate::compare::{Progress, Watch};
+pub use expected::ExpectedLimitError;
 pub use fit::{LambertJonasFit, fit_lambert_jonas};
+pub use rear_face::RearFace;
 
 /// Range of impact speeds [m/s], ends included.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,6 +108,8 @@ impl Default for Search {
 pub enum LimitOutcome {
     /// A bracket was found.
     Found,
+    /// The model starts from a given limit and predicts none.
+    Input,
     /// Nothing in the range perforates.
     NeverPerforates,
     /// Everything in the range perforates.
@@ -113,6 +127,7 @@ impl LimitOutcome {
     pub fn in_words(self) -> &'static str {
         match self {
             Self::Found => "found",
+            Self::Input => "limit is an input",
             Self::NeverPerforates => "never perforates",
             Self::AlwaysPerforates => "always perforates",
             Self::Undecided => "undecided",
@@ -155,6 +170,10 @@ pub struct ModelLimit {
     pub ballistic_limit_m_s: Option<f64>,
     /// Ballistic limit that the model states of itself [m/s].
     pub stated_limit_m_s: Option<f64>,
+    /// Ballistic limit that the model starts from; it is no prediction.
+    pub input_limit: Option<InputLimit>,
+    /// Expected error of the limit, from published limits of the same kind.
+    pub expected_error: Option<ExpectedLimitError>,
     /// The bracket.
     pub bracket: Option<Bracket>,
     /// Shots that were computed, those of the curve included.
@@ -176,15 +195,35 @@ pub struct Limits {
     pub percuss_version: &'static str,
     /// Lowest and highest impact speed of the search [m/s].
     pub searched_m_s: (f64, f64),
+    /// Rear face of the target; null where it has none.
+    pub rear_face: Option<RearFace>,
+    /// The models that are the first choice at their own limit and predict limits; may be empty.
+    pub recommended: Vec<Choice>,
+    /// What to know of that choice, if there is something.
+    pub note: Option<String>,
+    /// Range of the limits that models predict; null where none does.
+    pub range: Option<LimitRange>,
     /// What was measured.
     pub experiments: Vec<ExperimentRecord>,
-    /// One entry a model, in their order.
+    /// One entry per model, in their order.
     pub results: Vec<ModelLimit>,
+}
+
+/// Lowest and highest of the limits that models predict. The names are stable.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LimitRange {
+    /// Lowest [m/s].
+    pub lowest_m_s: f64,
+    /// Highest [m/s].
+    pub highest_m_s: f64,
+    /// How many models predict one.
+    pub models: usize,
 }
 
 /// Searches for the ballistic limit of a case by these models, on all cores.
 ///
-/// A model that does not apply, fails or finds none leaves the reason in its entry and never stops the others.
+/// The rear face of a plate is free unless the case gives another one; behind a fixed one perforation is impossible. A model that
+/// does not apply, fails or finds none leaves the reason in its entry and never stops the others.
 ///
 /// # Errors
 /// [`Error::Cancelled`] when `watch` says so.
@@ -194,13 +233,37 @@ pub fn limits(
     search: &Search,
     watch: &mut Watch<'_>,
 ) -> Result<Limits, Error> {
+    let free = scenario.with_free_rear_face();
+    let scenario = free.as_ref().unwrap_or(scenario);
+    let mut results = jobs::run(models, scenario, search, watch)?;
+    for (model, entry) in models.iter().zip(&mut results) {
+        let limit = entry.ballistic_limit_m_s;
+        let expected = limit.map(|limit| expected::expected_error(*model, scenario, limit));
+        entry.expected_error = expected.flatten();
+    }
+    let (recommended, note) = recommended::recommended(models, scenario, &results);
     Ok(Limits {
         case: scenario.name.clone(),
         percuss_version: env!("CARGO_PKG_VERSION"),
         searched_m_s: (search.range.from, search.range.to),
+        rear_face: RearFace::of(scenario),
+        recommended,
+        note,
+        range: LimitRange::of(&results),
         experiments: ExperimentRecord::all(scenario),
-        results: jobs::run(models, scenario, search, watch)?,
+        results,
     })
+}
+
+impl LimitRange {
+    fn of(results: &[ModelLimit]) -> Option<Self> {
+        let found = || results.iter().filter_map(|entry| entry.ballistic_limit_m_s);
+        Some(Self {
+            lowest_m_s: found().reduce(f64::min)?,
+            highest_m_s: found().reduce(f64::max)?,
+            models: found().count(),
+        })
+    }
 }
 
 impl Limits {
@@ -209,6 +272,21 @@ impl Limits {
         self.results
             .iter()
             .any(|limit| limit.outcome == LimitOutcome::Found)
+    }
+
+    /// Whether a model is recommended.
+    pub fn is_recommended(&self, model: &str) -> bool {
+        self.recommended.iter().any(|choice| choice.model == model)
+    }
+
+    /// Models that predict a limit and have no expected error of it.
+    pub fn without_expected_error(&self) -> Vec<&'static str> {
+        let found = self.results.iter();
+        let found = found.filter(|entry| entry.outcome == LimitOutcome::Found);
+        found
+            .filter(|entry| entry.expected_error.is_none())
+            .map(|entry| entry.model)
+            .collect()
     }
 
     /// Mean of the measured ballistic limits [m/s], and of how many.

@@ -9,7 +9,7 @@ use super::{Material, MaterialTable};
 use crate::{
     case::Document,
     check::{Check, Finding},
-    error::{Error, nearest},
+    error::Error,
 };
 
 macro_rules! files {
@@ -113,16 +113,5 @@ impl Library {
                 && other.material.family.is_some()
                 && other.material.family == entry.material.family
         })
-    }
-
-    /// The id or family nearest to a mistyped name.
-    pub fn nearest(&self, name: &str) -> Option<String> {
-        let families = self
-            .iter()
-            .filter_map(|entry| entry.material.family.as_deref());
-        nearest(
-            name,
-            families.chain(self.entries.keys().map(String::as_str)),
-        )
     }
 }

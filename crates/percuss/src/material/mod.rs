@@ -8,6 +8,7 @@ mod failure;
 mod library;
 mod references;
 mod sanity;
+mod search;
 mod strength;
 mod tensile;
 #[cfg(test)]

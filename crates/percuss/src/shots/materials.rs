@@ -11,9 +11,7 @@ use crate::{
 /// Makes sure that a case can be made of a shot with each of its records.
 pub(super) fn check(shot: &Shot, row: &Row<'_>, library: &Library) -> Result<(), Box<InputError>> {
     let unknown = |column: &str, name: &str, help: &str| {
-        let near = library
-            .nearest(name)
-            .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+        let near = library.suggestion(name);
         let error = row.error(
             column,
             format!("no material is named `{}`", shorten(name)),

@@ -34,7 +34,7 @@ pub use statistics::Errors;
 
 use prediction::Computed;
 
-use crate::{Error, guard::FittedTo, material::Library, model::Model, shots::Shot};
+use crate::{Error, Scenario, guard::FittedTo, material::Library, model::Model, shots::Shot};
 
 /// What every model said of every shot.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,4 +118,33 @@ pub fn run(
         fitted_to: models.iter().map(|model| model.guard().fitted_to).collect(),
         predictions: predictions.into_iter().flatten().collect(),
     })
+}
+
+/// Predictions of models for published tests with their main material records, and the cases that they are of, computed on this
+/// thread. A test that no case can be made of is left out.
+pub(crate) fn with_main_records<'a>(
+    models: &'a [&'static dyn Model],
+    shots: impl IntoIterator<Item = (usize, &'a Shot)>,
+    library: &'a Library,
+) -> impl Iterator<Item = (Prediction, Scenario)> {
+    let of_shot = move |(index, shot): (usize, &'a Shot)| {
+        let name = shot.projectile_materials.first();
+        let scenario = shot.scenario(name.map_or("", String::as_str), library);
+        let case = Computed {
+            shot,
+            index,
+            record: 0,
+            scenario: &scenario,
+            regime: "",
+        };
+        let go_on = AtomicBool::new(false);
+        let predictions = models.iter().map(|model| case.predict(*model, &go_on));
+        let predictions: Vec<Prediction> = predictions.collect();
+        let made = scenario.into_iter();
+        made.flat_map(move |scenario| {
+            let predictions = predictions.clone().into_iter();
+            predictions.map(move |prediction| (prediction, scenario.clone()))
+        })
+    };
+    shots.into_iter().flat_map(of_shot)
 }

@@ -8,6 +8,8 @@ mod sweep;
 mod tests;
 mod warnings;
 
+pub use kinds::by_models;
+
 use std::path::PathBuf;
 
 use clap::{Args, builder::PossibleValuesParser};

@@ -1,3 +1,4 @@
+mod reliance;
 mod table;
 mod values;
 
@@ -32,6 +33,12 @@ v_r = a (v^p - v_bl^p)^(1/p), is fitted to them. A model that does not apply
 says why; one that stops or lets through everything in the range says so.
 A model that may take minutes, which `axi` is, runs only when it is asked for by
 name.
+
+The rear face of a plate is free unless the case gives `target.back_face`;
+behind a fixed one perforation is impossible. The recommended model is marked
+with ★, and the errors of the models on published limits of the same kind stand
+below. `recht_ipson` and `lambert_jonas` start from a limit: their residual
+velocities are shown, and their limit counts as none.
 
 With --shots FILE.csv the speed V50 at which half of all shots go through is
 estimated from shots that scatter: by maximum likelihood (probit and logit) with

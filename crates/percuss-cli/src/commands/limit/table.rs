@@ -2,12 +2,12 @@
 
 use percuss::{
     Scenario,
-    limit::{LambertJonasFit, LimitOutcome, Limits, ModelLimit, Tolerance},
+    limit::{LambertJonasFit, LimitOutcome, Limits, ModelLimit, RearFace, Tolerance},
     units::significant,
     v50::{Estimate, Method, Pattern, V50},
 };
 
-use super::values;
+use super::{reliance, values};
 use crate::{
     table::{Column, blocks},
     terminal::{bold, counted, width, wrap, yellow},
@@ -27,7 +27,11 @@ pub fn head(scenario: &Scenario, limits: &Limits, tolerance: Tolerance) -> Strin
         values::in_words(tolerance)
     );
     let (title, line) = (wrap(title, width(), 0), wrap(&line, width(), 0));
-    format!("{}\n{line}\n\n", bold(title))
+    let rear_face = limits.rear_face.and_then(RearFace::in_words);
+    let rear_face = rear_face.map_or_else(String::new, |words| {
+        format!("{}\n", wrap(&words, width(), 0))
+    });
+    format!("{}\n{line}\n{rear_face}\n", bold(title))
 }
 
 /// Table of limits, warnings, and models without a limit.
@@ -39,6 +43,9 @@ pub fn text(limits: &Limits) -> String {
     } else {
         text += &numbers(limits, &found);
     }
+    text += &reliance::text(limits);
+    text += &curves(&found);
+    text += &reliance::inputs(limits);
     let said = limits.results.iter().flat_map(|limit| {
         let warnings = limit.warnings.iter();
         warnings.map(|warning| (limit.model, warning.clone()))
@@ -77,7 +84,14 @@ fn numbers(limits: &Limits, found: &[&ModelLimit]) -> String {
     let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| significant(v, 4));
     let first = Column {
         numbers: false,
-        ..column("model", "experiment", &|limit| limit.model.to_owned())
+        ..column("model", "experiment", &|limit| {
+            let star = if limits.is_recommended(limit.model) {
+                " ★"
+            } else {
+                ""
+            };
+            format!("{}{star}", limit.model)
+        })
     };
     let measured_words = measured.map_or_else(String::new, |(value, count)| match count {
         1 => significant(value, 4),
@@ -107,7 +121,7 @@ fn numbers(limits: &Limits, found: &[&ModelLimit]) -> String {
         number(limit.bracket.map(|bracket| bracket.perforated_m_s))
     }));
     columns.push(column("runs", "", &|limit| limit.runs.to_string()));
-    blocks(&first, columns) + &curves(found)
+    blocks(&first, columns)
 }
 
 /// Numbers of the curves through the residual velocities.
@@ -148,7 +162,8 @@ fn curves(found: &[&ModelLimit]) -> String {
 
 /// One line for each reason why models have no limit.
 pub fn reasons(limits: &Limits) -> Vec<String> {
-    let said = limits.results.iter().filter(|limit| !is_found(limit));
+    let without = |limit: &&ModelLimit| !is_found(limit) && limit.outcome != LimitOutcome::Input;
+    let said = limits.results.iter().filter(without);
     let said = said.map(|limit| {
         let reason = limit.reason.as_deref().unwrap_or("it does not say why");
         let words = match limit.outcome {
@@ -180,14 +195,17 @@ pub fn lines(limits: &Limits) -> String {
     let value = |value: Option<f64>| value.map_or_else(|| "none".to_owned(), |v| significant(v, 6));
     let line = |limit: &ModelLimit| {
         format!(
-            "model={} outcome={} ballistic_limit_m_s={} stopped_m_s={} perforated_m_s={} runs={} warnings={}\n",
+            "model={} outcome={} ballistic_limit_m_s={} stopped_m_s={} perforated_m_s={} runs={} warnings={} \
+             recommended={} input_limit_m_s={}\n",
             limit.model,
             limit.outcome.in_words().replace(' ', "_"),
             value(limit.ballistic_limit_m_s),
             value(limit.bracket.map(|bracket| bracket.stopped_m_s)),
             value(limit.bracket.map(|bracket| bracket.perforated_m_s)),
             limit.runs,
-            limit.warnings.len()
+            limit.warnings.len(),
+            limits.is_recommended(limit.model),
+            value(limit.input_limit.map(|input| input.ballistic_limit_m_s)),
         )
     };
     limits.results.iter().map(line).collect()

@@ -21,16 +21,20 @@ records of one material form a family; the one marked ★ answers to the family'
 name. Trust says how well the numbers are established: A read in two independent
 places, B one secondary source that names its primary source, C indicative.
 
+With WORDS those are listed whose id, family, name or state hold every word.
+Common synonyms are known, such as aluminum, titanium and rha.
+
 `percuss materials show NAME` prints everything that is known of one.";
 
 const AFTER_HELP: &str = "\
 Examples:
   percuss materials
+  percuss materials aluminium
   percuss materials show copper
   percuss materials show my-alloy --case my-shot/scenario.toml
   percuss materials --json
 
-Exit codes: 0 ok, 2 bad input, 4 a file could not be read";
+Exit codes: 0 ok, 2 bad input or no such material, 4 a file could not be read";
 
 /// List the materials, or show one
 #[derive(Debug, Args)]
@@ -46,6 +50,9 @@ pub struct Materials {
     /// Include the materials of a file
     #[arg(long, global = true, value_name = "FILE", conflicts_with = "case")]
     file: Option<PathBuf>,
+    /// Words that the materials listed have in their id, family, name or state
+    #[arg(value_name = "WORDS")]
+    search: Vec<String>,
     #[command(subcommand)]
     action: Option<Action>,
 }
@@ -59,7 +66,7 @@ impl Materials {
     pub fn run(&self) -> Result<(), Failure> {
         let library = self.library(&AtHand::default())?;
         match &self.action {
-            None => list::list(&library, self.json),
+            None => list::list(&self.listed(&library)?, self.json),
             Some(Action::Show(show)) => show.run(&library, self.json),
         }
     }
@@ -68,8 +75,26 @@ impl Materials {
     pub fn answer(&self, at_hand: &AtHand) -> Result<Answer, Failure> {
         let library = self.library(at_hand)?;
         match &self.action {
-            None => Answer::json_of(&list::records(&library), Vec::new()),
+            None => Answer::json_of(&list::records(&self.listed(&library)?), Vec::new()),
             Some(Action::Show(show)) => show.answer(&library),
+        }
+    }
+
+    /// The materials to list: all of them, or those that hold the words.
+    fn listed<'a>(&self, library: &'a Library) -> Result<Vec<&'a MaterialEntry>, Failure> {
+        let words = self.search.join(" ");
+        if words.trim().is_empty() {
+            return Ok(library.iter().collect());
+        }
+        match library.search(&words) {
+            found if found.is_empty() => Err(Failure::Material {
+                message: format!("no material has `{words}` in its id, family, name or state"),
+                help: format!(
+                    "{}`percuss materials` lists all",
+                    library.suggestion(&words)
+                ),
+            }),
+            found => Ok(found),
         }
     }
 

@@ -58,9 +58,7 @@ impl Show {
 
     fn find<'a>(&self, library: &'a Library) -> Result<&'a MaterialEntry, Failure> {
         library.find(&self.name).ok_or_else(|| {
-            let near = library
-                .nearest(&self.name)
-                .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+            let near = library.suggestion(&self.name);
             Failure::Material {
                 message: format!("no material is named `{}`", self.name),
                 help: format!("{near}`percuss materials` lists all"),

@@ -6,7 +6,7 @@ use std::{path::PathBuf, sync::Arc, sync::atomic::AtomicBool, time::Duration};
 
 use clap::{Args, builder::PossibleValuesParser, value_parser};
 use percuss::{
-    model::MODELS,
+    model::{DEFAULT_MODEL, MODELS},
     outcome::{RunResult, Termination},
     summary::ResultRecord,
 };
@@ -26,17 +26,20 @@ use crate::{
 const LONG_ABOUT: &str = "\
 Run a case and print its results: how the shot ended, how deep it went, what is
 left of the projectile, where the energy went, how well the books of energy and
-momentum balance, and what to know before relying on the numbers. Without --model the model is `chain`,
-and the leading result of every other quick model that applies stands beside it.
+momentum balance, and what to know before relying on the numbers. Without
+--model the model is `chain`; where that does not apply, it is the model that
+`percuss compare` recommends, and the first lines say so. The leading result of
+every other quick model that applies stands beside it.
 
 With --quiet one line is printed, of NAME=VALUE pairs with the names of --json:
   outcome=at_rest depth_of_penetration_mm=0.0436 residual_velocity_m_s=-1.2
-  ballistic_limit_m_s=null projectile_final_length_mm=12.7 warnings=1
+  ballistic_limit_m_s=null projectile_final_length_mm=12.7 warnings=1 model=chain
 (in one line; a number that does not exist is `null`).
 
-With --out DIR a copy of the case (case-as-run.toml; files it names are not
-copied), result.json, the time histories (CSV and Parquet) and the figures (SVG
-and PNG) are written to DIR, which is made if it does not exist. A model without
+With --out DIR a copy of the case (case-as-run.toml, with the materials of the
+files that it names), result.json, the time histories (CSV and Parquet) and the
+figures (SVG and PNG) are written to DIR, which is made if it does not exist. A
+case-as-run.toml needs no other file and gives the same results. A model without
 time histories writes the first two only. Files of the same names are replaced,
 others are left alone.
 
@@ -71,7 +74,7 @@ pub struct Run {
     /// Case file; `percuss new` writes one to start from
     #[arg(value_name = "CASE.toml")]
     case: PathBuf,
-    /// Model to compute with; `percuss models` describes them, `percuss compare CASE` names those that apply [default: chain]
+    /// Model to compute with; `percuss models` describes them, `percuss compare CASE` names those that apply [default: chain where it applies]
     #[arg(long, value_name = "NAME")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: Option<String>,
@@ -105,8 +108,6 @@ pub struct Run {
     resume: bool,
 }
 
-/// Model of a run that names none.
-const DEFAULT_MODEL: &str = "chain";
 /// Part of the work that is done when the run has come to its end; the rest is writing.
 const COMPUTED: f64 = 0.9;
 
@@ -152,14 +153,10 @@ impl Run {
         })
     }
 
-    /// Name of the model.
-    fn model(&self) -> &str {
-        self.model.as_deref().unwrap_or(DEFAULT_MODEL)
-    }
-
     /// Whether the model, if there is such a one, leaves checkpoints in the folder.
     fn leaves_checkpoints(&self) -> bool {
-        let chosen = MODELS.iter().find(|model| model.name() == self.model());
+        let asked = self.model.as_deref().unwrap_or(DEFAULT_MODEL);
+        let chosen = MODELS.iter().find(|model| model.name() == asked);
         self.out.is_some() && chosen.is_some_and(|model| model.has_fields())
     }
 
@@ -181,7 +178,7 @@ impl Run {
             Some(_) => None,
             None => {
                 let mut progress = Progress::new(true);
-                let others = others::rows(&ran.scenario, self.model(), &mut progress);
+                let others = others::rows(&ran.scenario, ran.result.model, &mut progress);
                 progress.finish();
                 Some(others?)
             }
@@ -206,12 +203,13 @@ fn one_line(record: &ResultRecord) -> String {
     let value = |value: Option<f64>| value.map_or_else(|| "null".to_owned(), |v| v.to_string());
     format!(
         "outcome={} depth_of_penetration_mm={} residual_velocity_m_s={} \
-         ballistic_limit_m_s={} projectile_final_length_mm={} warnings={}\n",
+         ballistic_limit_m_s={} projectile_final_length_mm={} warnings={} model={}\n",
         outcome.as_str().unwrap_or_default(),
         value(record.depth_of_penetration_mm),
         value(record.residual_velocity_m_s),
         value(record.ballistic_limit_m_s),
         value(record.projectile_final_length_mm),
         record.warnings.len(),
+        record.model,
     )
 }

@@ -12,7 +12,7 @@ use percuss::{
     Error, Scenario,
     checkpoint::Header,
     frames::Frame,
-    model::{self, Control, Model},
+    model::{self, ChosenModel, Control, Model},
     outcome::RunResult,
     summary::CaseResults,
 };
@@ -53,7 +53,7 @@ impl Ran {
 pub(super) struct Task<'a> {
     options: &'a Run,
     scenario: Arc<Scenario>,
-    model: &'static dyn Model,
+    chosen: ChosenModel,
     folder: Option<RunFolder>,
     fields: Option<Fields<'a>>,
 }
@@ -79,7 +79,8 @@ impl<'a> Task<'a> {
     ) -> Result<Self, Failure> {
         let document = at_hand.read(&options.case)?;
         let scenario = document.scenario()?;
-        let model = model::model(options.model())?;
+        let chosen = model::choose(options.model.as_deref(), &scenario)?;
+        let model = chosen.model;
         check_use(options, model)?;
         let start = start(options, model, &scenario, say)?;
         // A model that does not apply leaves no folder.
@@ -98,7 +99,7 @@ impl<'a> Task<'a> {
         Ok(Self {
             options,
             scenario: Arc::new(scenario),
-            model,
+            chosen,
             folder,
             fields,
         })
@@ -115,14 +116,14 @@ impl<'a> Task<'a> {
             }
         };
         let result = match &mut self.fields {
-            Some(fields) => fields.run(self.model, &self.scenario, &mut report)?,
+            Some(fields) => fields.run(&self.chosen, &self.scenario, &mut report)?,
             None => {
                 let mut control = Control {
                     record: self.folder.is_some(),
                     progress: Some(&mut report),
                     ..Control::default()
                 };
-                model::run_explained(self.model, &self.scenario, &mut control)?
+                self.chosen.run(&self.scenario, &mut control)?
             }
         };
         Ok(Ran {
@@ -169,7 +170,7 @@ fn series(
 impl Fields<'_> {
     fn run(
         &mut self,
-        model: &dyn Model,
+        chosen: &ChosenModel,
         scenario: &Scenario,
         report: &mut dyn FnMut(model::Progress) -> ControlFlow<()>,
     ) -> Result<RunResult, Failure> {
@@ -194,7 +195,7 @@ impl Fields<'_> {
             record: true,
             progress: Some(report),
         };
-        let result = model::run(model, scenario, &mut control);
+        let result = chosen.run(scenario, &mut control);
         match (failure.or(self.keeper.failure.take()), result) {
             (Some(failure), _) => Err(failure),
             (None, Err(Error::Cancelled { time_us, .. })) if self.keeper.stopped() => {

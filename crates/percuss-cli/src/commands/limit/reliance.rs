@@ -1,0 +1,95 @@
+//! Recommended models, range and expected errors of limits, and curves above limits that are inputs.
+
+use percuss::{
+    limit::{LambertJonasFit, LimitOutcome, Limits, ModelLimit},
+    units::significant,
+};
+
+use crate::{
+    table::{Column, blocks},
+    terminal::{bold, width, wrap},
+};
+
+/// Which model to rely on, how far the models lie apart, and how large their errors on published limits are.
+pub fn text(limits: &Limits) -> String {
+    let mut lines: Vec<String> = limits
+        .recommended
+        .iter()
+        .map(|choice| format!("★ recommended: {}: {}", choice.model, choice.because))
+        .collect();
+    lines.extend(limits.note.clone());
+    if let Some(range) = limits.range.filter(|range| range.models > 1) {
+        lines.push(format!(
+            "range of {} models that predict a limit: {} to {} m/s",
+            range.models,
+            significant(range.lowest_m_s, 4),
+            significant(range.highest_m_s, 4)
+        ));
+    }
+    lines.extend(limits.results.iter().filter_map(|limit| {
+        let expected = limit.expected_error.as_ref()?;
+        let (model, words) = (limit.model, expected.in_words());
+        Some(format!("expected error of {model}: {words}"))
+    }));
+    let without = limits.without_expected_error();
+    if !without.is_empty() {
+        lines.push(format!(
+            "no expected error of {}: fewer than 5 published limits of this kind have been compared",
+            without.join(", ")
+        ));
+    }
+    if lines.is_empty() {
+        return String::new();
+    }
+    let line = |line: &String| format!("{}\n", wrap(line, width(), 2));
+    lines.iter().map(line).collect::<String>() + "\n"
+}
+
+/// Residual velocities of the models that start from a limit; empty without any.
+pub fn inputs(limits: &Limits) -> String {
+    let inputs: Vec<&ModelLimit> = limits
+        .results
+        .iter()
+        .filter(|limit| limit.outcome == LimitOutcome::Input)
+        .collect();
+    if inputs.is_empty() {
+        return String::new();
+    }
+    let column = |heading: &str, cell: &dyn Fn(&ModelLimit) -> String| Column {
+        heading: heading.to_owned(),
+        cells: inputs.iter().map(|limit| cell(limit)).collect(),
+        numbers: true,
+    };
+    let words = |heading: &str, cell: &dyn Fn(&ModelLimit) -> String| Column {
+        numbers: false,
+        ..column(heading, cell)
+    };
+    let fit = |limit: &ModelLimit, of: fn(&LambertJonasFit) -> f64| {
+        let value = limit.fit.as_ref().map(of);
+        value.map_or_else(|| "–".to_owned(), |value| significant(value, 4))
+    };
+    let first = words("model", &|limit| limit.model.to_owned());
+    let columns = vec![
+        column("input\nlimit\n[m/s]", &|limit| {
+            let input = limit.input_limit.map(|input| input.ballistic_limit_m_s);
+            input.map_or_else(String::new, |limit| significant(limit, 4))
+        }),
+        words("from", &|limit| {
+            let input = limit.input_limit.as_ref();
+            input.map_or_else(String::new, |input| input.origin_in_words().to_owned())
+        }),
+        column("points", &|limit| limit.curve.len().to_string()),
+        column("to\n[m/s]", &|limit| {
+            let last = limit.curve.last();
+            last.map_or_else(String::new, |p| significant(p.impact_velocity_m_s, 4))
+        }),
+        column("a", &|limit| fit(limit, |fit| fit.a)),
+        column("p", &|limit| fit(limit, |fit| fit.p)),
+    ];
+    let title = "residual velocity above a given limit (an input, not a prediction of the limit)";
+    format!(
+        "{}\n{}",
+        bold(wrap(title, width(), 0)),
+        blocks(&first, columns)
+    )
+}

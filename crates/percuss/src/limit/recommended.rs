@@ -1,0 +1,73 @@
+//! Models to rely on for a ballistic limit.
+
+use super::{LimitOutcome, ModelLimit};
+use crate::{Scenario, compare::Choice, model::Model, outcome::BandQuantity, regime::Regime};
+
+/// The first choices among the models that predict limits, each judged at its own limit, and what to know of them.
+///
+/// A first choice that predicts depths alone has not been compared with measured limits: it is named, not recommended.
+pub(super) fn recommended(
+    models: &[&dyn Model],
+    scenario: &Scenario,
+    results: &[ModelLimit],
+) -> (Vec<Choice>, Option<String>) {
+    let found: Vec<(&dyn Model, f64)> = models
+        .iter()
+        .zip(results)
+        .filter_map(|(model, entry)| Some((*model, entry.ballistic_limit_m_s?)))
+        .collect();
+    if found.is_empty() {
+        let inputs = results.iter().any(|r| r.outcome == LimitOutcome::Input);
+        let note = inputs.then(|| "no model predicts a limit for this case".to_owned());
+        return (Vec::new(), note);
+    }
+    let choices = |of: fn(&Scenario) -> Option<Regime>| -> Vec<(&dyn Model, Choice)> {
+        let fitting = found.iter().filter_map(|(model, limit)| {
+            let scenario = scenario.at_speed(*limit);
+            let choice = Choice::of(*model, &scenario, &of(&scenario)?)?;
+            Some((*model, choice))
+        });
+        fitting.collect()
+    };
+    let own = choices(|scenario| Some(Regime::of(scenario)));
+    let neighbours = choices(|scenario| {
+        let regime = Regime::of(scenario);
+        let projectile = regime.neighbour?;
+        Some(Regime {
+            projectile,
+            ..regime
+        })
+    });
+    let (own, others) = by_quantity(own);
+    if !own.is_empty() {
+        return (own, None);
+    }
+    let (neighbours, _) = by_quantity(neighbours);
+    if !neighbours.is_empty() {
+        let note = "the projectile is at the edge of another regime, whose first choice this is";
+        return (neighbours, Some(note.to_owned()));
+    }
+    let unproven: String = others
+        .iter()
+        .map(|choice| {
+            format!(
+                "; `{}` is the first choice for other results of this case, but its limits have not been compared with measured ones",
+                choice.model
+            )
+        })
+        .collect();
+    let note = format!(
+        "no model is the first choice for the limit of this kind of case: take the range as its uncertainty{unproven}"
+    );
+    (Vec::new(), Some(note))
+}
+
+/// Choices of models that predict limits, and the others.
+fn by_quantity(choices: Vec<(&dyn Model, Choice)>) -> (Vec<Choice>, Vec<Choice>) {
+    let (limits, others): (Vec<_>, Vec<_>) = choices.into_iter().partition(|(model, _)| {
+        let predicts = model.guard().predicts;
+        predicts.contains(&BandQuantity::BallisticLimit)
+    });
+    let only = |choices: Vec<(&dyn Model, Choice)>| choices.into_iter().map(|(_, c)| c).collect();
+    (only(limits), only(others))
+}
