@@ -74,8 +74,10 @@ fn head(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text: &m
         line += &format!(", target closure {closure}");
     }
     *text += &format!("{}\n", wrap(&line, width(), 0));
-    if let Some(choice) = &result.model_choice {
-        *text += &format!("{}\n", wrap(choice, width(), 0));
+    for choice in [&result.model_choice, &result.target_closure_choice] {
+        if let Some(choice) = choice {
+            *text += &format!("{}\n", wrap(choice, width(), 0));
+        }
     }
     text.push('\n');
 }

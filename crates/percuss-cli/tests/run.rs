@@ -34,7 +34,7 @@ fn a_run_prints_its_results() {
         "depth by other models (`percuss compare` says which to rely on)\n",
         "\nfdm                         0.05129",
         "\ncrater_energy               0.924",
-        "\nwarning: the depth rests on the target closure",
+        "\nwarning: the depth rests on the target resistance model",
     ] {
         assert!(text.contains(part), "{part:?} is not in:\n{text}");
     }

@@ -141,8 +141,12 @@ pub(crate) fn answer(
         .note
         .iter()
         .map(|note| ("model".to_owned(), note.clone()));
+    let resistance = result
+        .target_closure_choice
+        .iter()
+        .map(|note| ("target resistance".to_owned(), note.clone()));
     let rows = [
-        choice.chain(outcome).collect(),
+        choice.chain(resistance).chain(outcome).collect(),
         result_rows::detail_rows(&result),
         books,
     ];

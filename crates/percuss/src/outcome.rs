@@ -121,6 +121,9 @@ pub struct RunResult {
     pub scheme: &'static str,
     /// Why it is this model and not the default one, of a run that names none; `None` otherwise.
     pub model_choice: Option<String>,
+    /// Why the target resistance model is not the usual one, of a case that names none, and the depth by that one if it differs by more than a
+    /// tenth; `None` otherwise.
+    pub target_closure_choice: Option<String>,
     /// How the shot ended.
     pub outcome: Outcome,
     /// What the outcome was told by, in words; empty where the model names nothing beyond its termination.
@@ -291,6 +294,7 @@ impl RunResult {
             model,
             scheme,
             model_choice: None,
+            target_closure_choice: None,
             outcome,
             criterion: String::new(),
             termination,

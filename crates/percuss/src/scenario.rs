@@ -5,7 +5,7 @@ use std::{f64::consts::PI, sync::Arc};
 use crate::{
     case::{
         BackFace, Case, Experiment, Layer, LayerInterface, ModelOptions, Nose, Scheme, Support,
-        Thickness, Uncertainty,
+        TargetClosure, Thickness, Uncertainty,
     },
     chain,
     check::{Check, limits},
@@ -193,6 +193,14 @@ impl Scenario {
             let (closure, reason) = chain::default_closure(self);
             self.options.chain.target_closure = Some(closure);
             self.resistance_reason = reason;
+        }
+    }
+
+    /// Makes a column the target resistance model, unless the case gives one: a study varies a key that only a column has.
+    pub(crate) fn choose_column(&mut self, key: &str) {
+        if !self.given.target_closure {
+            self.options.chain.target_closure = Some(TargetClosure::Column);
+            self.resistance_reason = Some(format!("`{key}` is varied, and only a column has it"));
         }
     }
 

@@ -34,6 +34,9 @@ pub struct ResultRecord {
     pub model_choice: Option<String>,
     /// What stood for the target: `chain.target_closure`, where there is a choice of it.
     pub target_closure: Option<&'static str>,
+    /// Why that is not the usual one, of a case that names none, with the depth by the usual one if it differs by more than a tenth; null
+    /// otherwise.
+    pub target_closure_choice: Option<String>,
     /// How the shot ended.
     pub outcome: Outcome,
     /// What the outcome was told by, in words; null where the model names nothing beyond its termination.
@@ -116,6 +119,7 @@ impl ResultRecord {
         let numerics = result.numerics.as_ref();
         Self {
             model_choice: result.model_choice.clone(),
+            target_closure_choice: result.target_closure_choice.clone(),
             criterion: (!result.criterion.is_empty()).then(|| result.criterion.clone()),
             termination: Some(result.termination),
             depth_of_penetration_mm: mm(result.depth_of_penetration),
@@ -177,6 +181,7 @@ impl ResultRecord {
             model,
             scheme,
             model_choice: None,
+            target_closure_choice: None,
             target_closure: closure.map(TargetClosure::name),
             outcome,
             criterion: None,

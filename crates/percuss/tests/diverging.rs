@@ -284,7 +284,7 @@ fn below_the_threshold_a_penetrable_cone_is_the_plain_one() {
 fn keys_of_a_column_are_refused() {
     for (options, key) in [
         ("border_shear = 0.1", "border_shear"),
-        ("constraint_factor = 2.7", "constraint_factor"),
+        ("constraint_factor = 2.5", "constraint_factor"),
         ("erosion_closure = \"tate\"", "erosion_closure"),
         ("scheme = \"published\"", "target_closure"),
     ] {

@@ -24,6 +24,8 @@ class RunResult(Result):
         Names of the case, the model and its scheme.
     model_choice : str or None
         Why it is this model, where none was named and ``chain`` does not apply.
+    target_closure, target_closure_choice : str or None
+        Target resistance model of ``chain``, and why it is not the usual one where the case names none.
     outcome, criterion, termination : str
         How the shot ended, what that was told by, and why the run was ended.
     impact_velocity_m_s, residual_velocity_m_s, ballistic_limit_m_s, plug_velocity_m_s : float or None
@@ -52,6 +54,7 @@ class RunResult(Result):
     scheme: str
     model_choice: str | None
     target_closure: str | None
+    target_closure_choice: str | None
     outcome: str
     criterion: str | None
     termination: str | None

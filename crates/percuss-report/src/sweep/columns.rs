@@ -133,7 +133,7 @@ mod tests {
                         target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n";
 
     /// Results that are no scalar, and the columns that hold them.
-    const NOT_SCALAR: [(&str, &[&str]); 6] = [
+    const NOT_SCALAR: [(&str, &[&str]); 8] = [
         // The same in every row: the manifest has it.
         ("model", &[]),
         ("reason", &["error"]),
@@ -147,6 +147,9 @@ mod tests {
             ],
         ),
         ("details", &["details"]),
+        // A sweep names its model.
+        ("model_choice", &[]),
+        ("target_closure_choice", &["target_closure"]),
         ("warnings", &["warnings"]),
     ];
 

@@ -14,7 +14,7 @@ use crate::support::{PAPER, Served};
 fn by_library(name: &str, text: &str, model: &str) -> Value {
     let scenario = case::load_str(name, text).unwrap();
     let model = model::model(model).unwrap();
-    let result = model::run(model, &scenario, &mut Control::default()).unwrap();
+    let result = model::run_explained(model, &scenario, &mut Control::default()).unwrap();
     let printed = serde_json::to_string(&CaseResults::new(&scenario, &[result])).unwrap();
     serde_json::from_str(&printed).unwrap()
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::{Case, ChainOptions, Document, TargetClosure, load, reword::reword};
+use super::{Case, ChainOptions, Document, load, reword::reword};
 use crate::{
     check::Finding,
     error::Error,
@@ -71,23 +71,20 @@ impl Template {
     /// The scenario with other values under some dotted keys.
     pub(crate) fn scenario(&self, changes: &[(&str, Value)]) -> Result<Scenario, Vec<Finding>> {
         let table = self.changed(changes)?;
-        let mut case = Case::deserialize(table).map_err(|error| {
+        let case = Case::deserialize(table).map_err(|error| {
             let source = changes
                 .last()
                 .map_or_else(String::new, |(_, v)| v.to_string());
             let said = reword(error.message(), &source);
             vec![Finding::whole(said.message, said.help)]
         })?;
+        let mut scenario = case.into_scenario(&self.name, &self.library)?;
         // All cases of a sweep have one target resistance model, also where a varied number happens to be its default.
-        if changes
-            .iter()
-            .any(|(key, _)| ChainOptions::is_of_a_column(key))
-        {
-            case.chain
-                .target_closure
-                .get_or_insert(TargetClosure::Column);
+        let mut keys = changes.iter().map(|(key, _)| *key);
+        if let Some(key) = keys.find(|key| ChainOptions::is_of_a_column(key)) {
+            scenario.choose_column(key);
         }
-        case.into_scenario(&self.name, &self.library)
+        Ok(scenario)
     }
 
     /// A material of the case with other values under some dotted keys; `None` if there is no such material.

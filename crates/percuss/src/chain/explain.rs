@@ -29,7 +29,7 @@ pub(crate) fn explain(
 ) -> Result<(), Error> {
     if let Some(reason) = &scenario.resistance_reason {
         let words = of_resistance(scenario, reason, result, control)?;
-        result.warnings.insert(0, words);
+        result.target_closure_choice = Some(words);
     }
     if result.band.is_none() && super::is_expanding(scenario) {
         result.band = over_erosion(scenario, result, control)?;

@@ -72,6 +72,8 @@ impl Closure {
             && options.heat_fraction.unwrap_or(0.9) == 0.9
             && options.artificial_viscosity.unwrap_or_default() == ArtificialViscosity::default()
             && options.damping_ratio.unwrap_or(0.0) == 0.0
+            && options.local_damping.unwrap_or(0.0) == 0.0
+            && options.failure.is_none()
             && (self.target != TargetClosure::Column || column)
     }
 
@@ -182,7 +184,7 @@ mod tests {
             (
                 "chain",
                 "chain.constraint_factor = 2.7",
-                Some("chain: column"),
+                Some("chain: expanding-cavity"),
             ),
             ("chain", "chain.constraint_factor = 2.5", None),
             (
@@ -198,6 +200,8 @@ mod tests {
             ("chain", "chain.kinematics = 'small-strain'", None),
             ("chain", "chain.scheme = 'published'", None),
             ("chain", "chain.rate_effects = false", None),
+            ("chain", "chain.local_damping = 0.1", None),
+            ("chain", "chain.failure.spall = {}", None),
             ("tate", "", Some("tate")),
             ("tate", "tate.target_resistance = '3 GPa'", None),
             ("axi", "", None),

@@ -254,14 +254,9 @@ fn a_column_by_an_option_says_so_first_and_gives_the_other_depth() {
         model::run_explained(chain, &scenario, &mut Control::default()).unwrap()
     };
     let usual = explained("");
-    assert!(
-        !usual
-            .warnings
-            .iter()
-            .any(|words| words.contains("`column`"))
-    );
+    assert_eq!(usual.target_closure_choice, None);
     let result = explained("chain.border_shear = 0.5");
-    let first = &result.warnings[0];
+    let first = result.target_closure_choice.unwrap();
     assert!(first.contains("`column`: `chain.border_shear`"), "{first}");
     assert!(
         first.contains("`expanding-cavity` gives a depth of 0.69"),

@@ -233,14 +233,22 @@ impl Projectile {
         })
     }
 
-    /// Whether pieces are still to collide.
-    pub(super) fn pieces_approach(&self) -> bool {
-        let motions: Vec<(f64, f64)> = self.rods().map(Rod::motion).collect();
-        let speeds = motions.windows(2).map(|pair| {
-            let [behind, ahead] = [pair[0], pair[1]].map(|(mass, momentum)| momentum / mass);
-            behind - ahead
-        });
-        speeds.fold(0.0, f64::max) > 0.0
+    /// Whether loose pieces are still to collide at more than a speed [m/s].
+    pub(super) fn pieces_approach(&self, least: f64) -> bool {
+        let speeds: Vec<f64> = self
+            .rods()
+            .map(|rod| {
+                let (mass, momentum) = rod.motion();
+                momentum / mass
+            })
+            .collect();
+        self.behind
+            .iter()
+            .zip(speeds.windows(2))
+            .any(|(piece, pair)| {
+                let is_loose = !piece.joint.closed && piece.joint.bond.holds() == 0.0;
+                is_loose && pair[0] - pair[1] > least
+            })
     }
 
     /// The pieces from the tail on, where there is more than one.

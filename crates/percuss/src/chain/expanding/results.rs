@@ -78,7 +78,10 @@ impl Watch {
             return Some(Termination::ProjectileConsumed);
         }
         self.at_rest?;
-        if state.rod.pieces_approach() {
+        if state
+            .rod
+            .pieces_approach(REST_FRACTION * scenario.impact_speed)
+        {
             return None;
         }
         if !touched && momentum <= 0.0 {
