@@ -142,12 +142,12 @@ mod tests {
     fn a_case_with_its_materials_in_it_is_the_same_case() {
         let inline = format!(
             "[materials]\nother = {{ {} }}\n",
-            record("20")
+            record("2000")
                 .replace(" # kept", "")
                 .trim()
                 .replace('\n', ", ")
         );
-        let header = format!("[materials.other]\n{}", record("20"));
+        let header = format!("[materials.other]\n{}", record("2000"));
         for own in ["", &header, &inline] {
             let folder = folder(own);
             let document = Document::read(folder.path().join("shot.toml")).unwrap();
@@ -170,7 +170,7 @@ mod tests {
     /// A sweep would take the record of the case, and a run that of the file.
     #[test]
     fn a_record_of_the_case_and_of_a_file_is_refused() {
-        let folder = folder(&format!("[materials.rod]\n{}", record("20")));
+        let folder = folder(&format!("[materials.rod]\n{}", record("2000")));
         let error = Document::read(folder.path().join("shot.toml"))
             .and_then(|document| document.scenario())
             .unwrap_err()

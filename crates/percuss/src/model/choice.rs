@@ -173,10 +173,6 @@ mod tests {
             (OGIVE, semi_infinite),
             (OGIVE, concrete),
             (", nose = 'hemisphere'", THICK),
-            (
-                ", nose = { ogive = { crh = 3.0 } }, obliquity = '20 deg'",
-                plate,
-            ),
         ] {
             let case = scenario(projectile, target);
             let chosen = default_model(&case).unwrap_or_else(|error| panic!("{target}: {error}"));

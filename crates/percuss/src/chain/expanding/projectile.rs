@@ -111,25 +111,30 @@ impl Projectile {
         }
     }
 
-    /// Brings pieces that would pass each other within the step to touch, as a plastic impact; others part.
+    /// Brings pieces that would pass each other within the step to touch, as a plastic impact. Those that touch part when they are pulled
+    /// harder than their bond holds.
     pub(super) fn meet(&mut self, kick: f64, time_step: f64) {
         for i in 0..self.behind.len() {
             let gap = self.gap(i).max(0.0);
-            let pull = self.behind[i].joint.pull;
+            let Joint { closed, bond, pull } = self.behind[i].joint;
             let Some((behind, ahead)) = self.ends(i) else {
                 continue;
             };
             let opening = ahead.mean_velocity() - behind.mean_velocity();
             let change = behind.velocity - ahead.velocity - gap / time_step;
-            let mut loss = 0.0;
-            if change >= 0.0 {
-                let impulse = change / (1.0 / behind.mass + 1.0 / ahead.mass);
-                loss += behind.jump(-impulse / behind.mass, time_step);
-                loss += ahead.jump(impulse / ahead.mass, time_step);
+            let wanted = change / (1.0 / behind.mass + 1.0 / ahead.mass);
+            let least = if closed { -bond.holds() * kick } else { 0.0 };
+            let impulse = wanted.max(least);
+            let mut loss = behind.jump(-impulse / behind.mass, time_step);
+            loss += ahead.jump(impulse / ahead.mass, time_step);
+            let touches = wanted >= 0.0 || wanted > least;
+            if touches {
+                self.contact_loss += loss;
+            } else {
+                self.fracture_work += loss;
             }
-            self.contact_loss += loss;
             self.fracture_work += pull * opening * kick;
-            self.behind[i].joint.closed = change >= 0.0;
+            self.behind[i].joint.closed = touches;
         }
     }
 
