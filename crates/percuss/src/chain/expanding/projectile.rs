@@ -127,13 +127,16 @@ impl Projectile {
             let impulse = wanted.max(least);
             let mut loss = behind.jump(-impulse / behind.mass, time_step);
             loss += ahead.jump(impulse / ahead.mass, time_step);
+            let drifts = (ahead.velocity - behind.velocity) * time_step;
             let touches = wanted >= 0.0 || wanted > least;
             if touches {
                 self.contact_loss += loss;
             } else {
                 self.fracture_work += loss;
             }
-            self.fracture_work += pull * opening * kick;
+            // What the bond does over the drift is work of fracture, the rest of what it did in the kick went into the collision.
+            self.fracture_work += pull * drifts;
+            self.contact_loss += pull * (opening * kick - drifts);
             self.behind[i].joint.closed = touches;
         }
     }
