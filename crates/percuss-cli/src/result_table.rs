@@ -74,10 +74,9 @@ fn head(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text: &m
         line += &format!(", target closure {closure}");
     }
     *text += &format!("{}\n", wrap(&line, width(), 0));
-    for choice in [&result.model_choice, &result.target_closure_choice] {
-        if let Some(choice) = choice {
-            *text += &format!("{}\n", wrap(choice, width(), 0));
-        }
+    let choices = [&result.model_choice, &result.target_closure_choice];
+    for choice in choices.into_iter().flatten() {
+        *text += &format!("{}\n", wrap(choice, width(), 0));
     }
     text.push('\n');
 }

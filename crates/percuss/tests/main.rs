@@ -9,6 +9,7 @@ mod constant_pressure;
 mod constants;
 mod contact_time;
 mod convergence;
+mod defaults;
 mod diverging;
 mod elastic_bars;
 mod eroding_rods;

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from . import _percuss
 from .ask import CaseLike, Path, Speed, native_answer, several, speeds, with_unit
@@ -95,7 +95,7 @@ def run(
     ('rebounded', 0.2034)
     """
     laws = (projectile_law, target_law, resistance_law)
-    written = {"field": field, "fields": fields, "animation": animation, "frames": frames, "resume": resume}
+    written: dict[str, Any] = {"field": field, "fields": fields, "animation": animation, "frames": frames, "resume": resume}
     if out is not None or checkpoint is not None or any(value not in (None, False) for value in written.values()):
         if any(law is not None for law in laws):
             raise UsageError("files are written of runs with the library's laws alone: leave out `out`, or put the law into the library")

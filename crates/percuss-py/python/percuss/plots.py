@@ -140,9 +140,8 @@ def limits(limits: Limits, ax: Axes | None) -> Axes:
         limit = model.input_limit.ballistic_limit_m_s if given else model.ballistic_limit_m_s
         points = [(limit, 0.0)]
         points += [(p.impact_velocity_m_s, p.residual_velocity_m_s) for p in model.curve or []]
-        style = {"linestyle": "--"} if given else {"marker": "."}
         label = f"{model.model}, {'given ' if given else ''}{limit:.4g} m/s"
-        ax.plot(*zip(*points, strict=True), label=label, **style)
+        ax.plot(*zip(*points, strict=True), label=label, linestyle="--" if given else "-", marker=None if given else ".")
     for experiment in limits.experiments:
         if experiment.quantity == "ballistic_limit_m_s":
             ax.axvline(experiment.value, color="k", linestyle="--", label=f"measured, {experiment.value:.4g} m/s")

@@ -31,7 +31,7 @@ impl Cone {
     }
 
     /// Distance of a depth from the apex [m].
-    pub(super) fn from_apex(self, z: f64) -> f64 {
+    pub(super) fn distance_to_apex(self, z: f64) -> f64 {
         self.apex + z
     }
 

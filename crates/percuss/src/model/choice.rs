@@ -73,7 +73,10 @@ pub fn default_model(scenario: &Scenario) -> Result<ChosenModel, Error> {
         .collect();
     let given: Vec<_> = results
         .iter()
-        .map(|result| result.as_ref().map(|()| ()).map_err(String::as_str))
+        .map(|result| match result {
+            Ok(()) => Ok(()),
+            Err(reason) => Err(reason.as_str()),
+        })
         .collect();
     let names: Vec<&dyn Model> = models.iter().map(|model| *model as &dyn Model).collect();
     let recommended = compare::recommend(&names, scenario, &regime, &given);

@@ -152,7 +152,7 @@ impl RearFace {
         let velocity = (line.at(at + half) - line.at(at - half)) / line.spacing();
         let share = 1.0 / self.cone.stretch(depth);
         let strain =
-            share / self.cone.from_apex(depth) * line.at(at) + share * velocity / self.speed;
+            share / self.cone.distance_to_apex(depth) * line.at(at) + share * velocity / self.speed;
         [share * line.at(at), strain]
     }
 
