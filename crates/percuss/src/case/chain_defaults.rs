@@ -2,7 +2,7 @@
 
 use super::{
     chain_words::{ErosionClosure, Kinematics, TargetClosure},
-    number_or_word::ConstraintFactor,
+    number_or_word::{ConstraintFactor, NumberOrWord},
     options::ChainOptions,
     published_options::PublishedOptions,
 };
@@ -40,11 +40,17 @@ impl ChainOptions {
         [
             (
                 "constraint_factor",
-                self.constraint_factor() != default.constraint_factor(),
+                match (
+                    self.constraint_factor().number(),
+                    default.constraint_factor().number(),
+                ) {
+                    (Some(given), Some(default)) => differ(given, default),
+                    (given, default) => given != default,
+                },
             ),
             (
                 "border_shear",
-                self.border_shear() != default.border_shear(),
+                differ(self.border_shear(), default.border_shear()),
             ),
             (
                 "erosion_closure",
@@ -100,4 +106,9 @@ impl ChainOptions {
     pub fn published(&self) -> PublishedOptions {
         self.published.unwrap_or_default()
     }
+}
+
+/// Whether two numbers differ by more than single precision does.
+fn differ(given: f64, default: f64) -> bool {
+    (given - default).abs() > 1e-6 * default.abs()
 }

@@ -71,7 +71,7 @@ fn read(document: &Document) -> Result<MaterialTable, Error> {
     for (id, material) in &plain {
         material.check(&mut check.within(id));
         if nested.contains_key(id) {
-            check.fail(
+            check.of_material().fail(
                 id,
                 format!("the material `{id}` is given twice: as [{id}] and as [{TABLE}.{id}]"),
                 "keep one of the two tables",

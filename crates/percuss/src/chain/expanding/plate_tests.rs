@@ -145,6 +145,7 @@ fn writing_down_a_default_changes_nothing() {
             "projectile_elements = 40",
             "target_closure = 'expanding-cavity'",
             "constraint_factor = 2.7",
+            "constraint_factor = 2.700000047683716",
             "border_shear = 0.577",
             "border_shear_law = 'friction'",
             "dishing = false",
