@@ -27,6 +27,7 @@ pub mod checkpoint;
 pub mod compare;
 mod control;
 pub mod converge;
+mod courant_retry;
 mod error;
 pub mod fdm;
 pub mod fragments;

@@ -35,12 +35,12 @@ use super::{
     between::Moment,
     cone::{Cone, Grading},
     mesh::modelled_thickness,
-    retry,
     solver::StepControl,
 };
 use crate::{
     Error, Scenario,
     case::{BackFace, ErosionStrain},
+    courant_retry::CourantRetry,
     history::Recorder,
     model::{Control, Progress},
     outcome::{RunResult, Termination},
@@ -101,7 +101,7 @@ impl<'a> Expanding<'a> {
         scenario: &'a Scenario,
         control: &mut Control<'_>,
     ) -> Result<RunResult, Error> {
-        let mut courant = retry::CourantRetry::new(
+        let mut courant = CourantRetry::new(
             scenario.options.chain.courant,
             DEFAULT_COURANT,
             SMALLEST_COURANT,
