@@ -15,7 +15,7 @@ use crate::{
     fdm::Fdm,
     guard::{Guard, Verdict},
     judge,
-    outcome::RunResult,
+    outcome::{Outcome, RunResult},
     regime::Regime,
 };
 
@@ -183,8 +183,10 @@ pub(crate) fn complete(
         return Err(refusal(model, reason));
     }
     result.warnings.splice(0..0, warnings);
-    // Nothing was judged with a law of the caller's own.
-    if result.depth_of_penetration.is_some() && scenario.resistance.is_none() {
+    // The benchmark has no law of the caller's own, and a crater that reached the rear face has the depth of the plate.
+    let is_depth_of_crater =
+        result.depth_of_penetration.is_some() && result.outcome != Outcome::Perforated;
+    if is_depth_of_crater && scenario.resistance.is_none() {
         result.expected_error = judge::expectation(model, scenario, regime);
     }
     Ok(result)
