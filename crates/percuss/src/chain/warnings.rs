@@ -99,24 +99,26 @@ pub(super) fn warnings_of_cavity(
 /// Error of a peak contact force that is mentioned.
 const NOTABLE_PEAK_ERROR: f64 = 0.05;
 
-/// How far the forces of an expanding cavity may be relied on: a peak at the first contact beside the force of a plane impact [N], and the
-/// force on a fixed rear face beside that of `axi`.
+/// How far the forces of an expanding cavity may be relied on: the peak [N] at the first contact beside the force of a plane impact [N],
+/// and the force on a fixed rear face beside that of `axi`.
 pub(super) fn warning_of_forces(
     scenario: &Scenario,
-    peak: f64,
+    first_contact: Option<f64>,
     plane_impact: Option<f64>,
 ) -> Option<String> {
     let kn = |force: f64| significant(force * 1e-3, 3);
-    let peak = plane_impact
-        .filter(|plane| (peak / plane - 1.0).abs() > NOTABLE_PEAK_ERROR)
-        .map(|plane| {
-            format!(
-                "the peak contact force belongs to the first contact and depends on the mesh: {} kN here, {} kN on fine meshes (plane \
-                 impact)",
+    let peak = first_contact.filter(|peak| *peak > 0.0).and_then(|peak| {
+        let words = "the peak contact force belongs to the first contact and depends on the mesh";
+        match plane_impact {
+            Some(plane) if (peak / plane - 1.0).abs() <= NOTABLE_PEAK_ERROR => None,
+            Some(plane) => Some(format!(
+                "{words}: {} kN here, {} kN by a plane impact, the limit of fine meshes",
                 kn(peak),
                 kn(plane)
-            )
-        });
+            )),
+            None => Some(words.to_owned()),
+        }
+    });
     let rear = matches!(
         &scenario.target,
         TargetBody::Layers { layers, back_face: BackFace::Fixed, .. } if layers.iter().all(|plate| plate.thickness.is_some())

@@ -195,12 +195,9 @@ pub(super) fn sum_up(
         });
     }
     result.warnings = warnings_of_cavity(scenario, &result, &reached, erosion_strain);
-    let at_first_contact = plane_impact.filter(|_| watch.peak_time < edge_wave_time(scenario));
-    result.warnings.extend(warning_of_forces(
-        scenario,
-        watch.peak_force,
-        at_first_contact,
-    ));
+    let first_contact = (watch.peak_time < edge_wave_time(scenario)).then_some(watch.peak_force);
+    let warning = warning_of_forces(scenario, first_contact, plane_impact);
+    result.warnings.extend(warning);
     result.warnings.extend(warning_of_target_failure(state));
     result.warnings.splice(0..0, remnant.warning());
     result
@@ -212,8 +209,12 @@ fn plane_impact_force(scenario: &Scenario) -> Option<f64> {
         return None;
     };
     let (rod, target) = (&scenario.projectile, &layers.first()?.material);
-    (scenario.impact_speed > 0.0)
-        .then(|| plane_impact::force(&rod.material, target, scenario.impact_speed, rod.area()))
+    let speed = scenario.impact_speed;
+    if speed > 0.0 {
+        plane_impact::force(&rod.material, target, speed, rod.area())
+    } else {
+        None
+    }
 }
 
 /// Time in which a wave from the edge of the struck face reaches the axis [s].
