@@ -1,5 +1,7 @@
 //! Running the program and looking at what it says.
 
+pub mod module_graph;
+pub mod rust_tokens;
 pub mod sweeps;
 
 use std::{
