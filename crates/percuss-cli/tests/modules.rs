@@ -15,11 +15,56 @@ use crate::support::{
 
 /// Components that are still to be cut: the crate and the number of modules.
 const ACCEPTED: &[(&str, usize)] = &[
-    ("percuss", 18),
     ("percuss-report", 5),
     ("percuss-serve", 3),
     ("percuss-cli", 17),
     ("percuss-py", 2),
+];
+
+/// The layers of the library from the lowest up: a module uses modules of its own layer and of lower ones.
+const LAYERS: &[(&str, &[&str])] = &[
+    (
+        "core",
+        &[
+            "check",
+            "document",
+            "error",
+            "fragments",
+            "guard",
+            "history",
+            "ledger",
+            "material",
+            "options",
+            "outcome",
+            "power",
+            "problem",
+            "regime",
+            "resistance",
+            "richardson",
+            "scenario",
+            "shapes",
+            "solver",
+            "units",
+        ],
+    ),
+    ("models", &["analytic", "axi", "chain", "fdm", "model"]),
+    ("input", &["case", "inputs"]),
+    (
+        "studies",
+        &[
+            "calibrate",
+            "compare",
+            "converge",
+            "judge",
+            "limit",
+            "shots",
+            "summary",
+            "sweep",
+            "uncertainty",
+            "v50",
+            "validate",
+        ],
+    ),
 ];
 
 /// The crates of the workspace by name, each with its `lib.rs`.
@@ -49,6 +94,30 @@ fn no_two_modules_of_a_crate_use_each_other() {
         }
     }
     assert!(text.is_empty(), "{text}");
+}
+
+#[test]
+fn no_module_of_the_library_uses_a_higher_layer() {
+    let graph = ModuleGraph::read(&crates()["percuss"]);
+    let layer = |module: &str| {
+        LAYERS
+            .iter()
+            .position(|(_, modules)| modules.contains(&module))
+    };
+    let listed: usize = LAYERS.iter().map(|(_, modules)| modules.len()).sum();
+    for module in graph.modules.iter().filter(|module| *module != ROOT) {
+        assert!(layer(module).is_some(), "module `{module}` has no layer");
+    }
+    assert_eq!(
+        listed,
+        graph.modules.len() - 1,
+        "a layer lists a module that does not exist"
+    );
+    let text = graph.describe(|from, to| layer(from) < layer(to));
+    assert!(
+        text.is_empty(),
+        "these edges lead to a higher layer:\n{text}"
+    );
 }
 
 /// A crate in a folder of its own.

@@ -4,7 +4,7 @@ use crate::{
     Error,
     error::NumericalError,
     history::{Profile, Recorder, Sample},
-    model::Progress,
+    solver::Progress,
 };
 
 /// Largest energy residual of a run that counts.

@@ -2,13 +2,14 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{mesh, plug};
+use super::plug;
 use crate::{
-    case::{BackFace, BorderShearLaw, ErosionClosure, TargetClosure},
     material::{Material, Strength, cavity_expansion_pressure},
+    options::{BorderShearLaw, ErosionClosure, TargetClosure},
     outcome::{Outcome, RunResult},
+    problem::BackFace,
     regime::THICK,
-    scenario::{Plate, Scenario, TargetBody},
+    scenario::{Plate, Scenario, TargetBody, modelled_thickness},
     units::{StrainRate, Temperature, Velocity, significant},
 };
 
@@ -173,7 +174,7 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
     };
     let thickness: f64 = layers
         .iter()
-        .map(|plate| mesh::modelled_thickness(plate, scenario))
+        .map(|plate| modelled_thickness(plate, scenario))
         .sum();
     let element = thickness / scenario.options.chain.target_elements() as f64;
     let (permanent, at_rest) = (result.permanent_depth, result.time_to_rest.is_some());
