@@ -13,14 +13,6 @@ use crate::support::{
     names_in,
 };
 
-/// Components that are still to be cut: the crate and the number of modules.
-const ACCEPTED: &[(&str, usize)] = &[
-    ("percuss-report", 5),
-    ("percuss-serve", 3),
-    ("percuss-cli", 17),
-    ("percuss-py", 2),
-];
-
 /// The layers of the library from the lowest up: a module uses modules of its own layer and of lower ones.
 const LAYERS: &[(&str, &[&str])] = &[
     (
@@ -85,9 +77,6 @@ fn no_two_modules_of_a_crate_use_each_other() {
     for (name, root) in &crates {
         let graph = ModuleGraph::read(root);
         for cycle in graph.cycles() {
-            if ACCEPTED.contains(&(name, cycle.len())) {
-                continue;
-            }
             let modules: Vec<&str> = cycle.iter().map(String::as_str).collect();
             text += &format!("{name}: {} use each other:\n", modules.join(", "));
             text += &graph.describe(|from, to| cycle.contains(from) && cycle.contains(to));
