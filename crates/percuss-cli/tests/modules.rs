@@ -19,6 +19,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         "core",
         &[
             "check",
+            "courant_retry",
             "document",
             "error",
             "fragments",

@@ -25,6 +25,7 @@ pub mod chain;
 pub mod check;
 pub mod compare;
 pub mod converge;
+mod courant_retry;
 pub mod document;
 mod error;
 pub mod fdm;

@@ -48,6 +48,41 @@ fn of_finite_differences() {
     );
 }
 
+/// A strong artificial viscosity needs half the default Courant number.
+#[test]
+fn of_finite_differences_whose_energy_balance_does_not_close_at_it() {
+    let run = |options: &str| {
+        let text = format!(
+            "projectile = {{ material = '6061-t6-lesuer', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }}\n\
+             target = {{ material = '4340-johnson-cook', thickness = '20 mm' }}\n\
+             fdm.artificial_viscosity = {{ linear = 2.0, quadratic = 0.0 }}\n{options}\n"
+        );
+        let scenario = case::load_str("case", &text).unwrap();
+        let model = model::model("fdm").unwrap();
+        model::run(model, &scenario, &mut Control::default())
+    };
+    let without = run("").unwrap();
+    let reduced =
+        |warning: &String| warning.contains("Courant number was reduced from 0.7 to 0.35");
+    assert!(
+        without.warnings.iter().any(reduced),
+        "{:?}",
+        without.warnings
+    );
+    // The default of the chain is another one, and not the grid's.
+    for default in ["fdm.courant = 0.7", "chain.courant = 0.5"] {
+        let with = run(default).unwrap();
+        assert_eq!(
+            with.depth_of_penetration, without.depth_of_penetration,
+            "{default}"
+        );
+        assert_eq!(with.warnings, without.warnings, "{default}");
+    }
+    // A number of the case's own is kept, and the run fails with it.
+    let error = run("fdm.courant = 0.71").unwrap_err().to_string();
+    assert!(error.contains("lower `fdm.courant`"), "{error}");
+}
+
 #[test]
 fn of_the_axisymmetric_model() {
     unchanged(

@@ -1,7 +1,6 @@
 //! What every solver of the chain does between its steps: look at the books, say how far it has come, keep a history.
 
 use crate::{
-    Error,
     error::NumericalError,
     history::{Profile, Recorder, Sample},
     solver::Progress,
@@ -11,25 +10,6 @@ use crate::{
 pub const ENERGY_TOLERANCE: f64 = 1e-3;
 /// Largest momentum residual of a run that counts.
 pub const MOMENTUM_TOLERANCE: f64 = 1e-9;
-
-/// Why a run gave no result.
-pub(super) enum Failure {
-    /// The books do not balance: a smaller time step may help.
-    Unbalanced(NumericalError),
-    Other(Error),
-}
-
-impl From<NumericalError> for Failure {
-    fn from(error: NumericalError) -> Self {
-        Self::Other(error.into())
-    }
-}
-
-impl From<Error> for Failure {
-    fn from(error: Error) -> Self {
-        Self::Other(error)
-    }
-}
 
 /// Largest residuals of the books so far, as parts of what was there at first.
 #[derive(Debug, Clone, Copy, Default)]

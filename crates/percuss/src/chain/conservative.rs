@@ -1,10 +1,9 @@
 //! Scheme `conservative`: the run from impact to its end.
 
 use super::{
-    between::{Failure, Moment},
+    between::Moment,
     mesh,
     results::Results,
-    retry::CourantRetry,
     solver::StepControl,
     state::State,
     tate,
@@ -12,6 +11,7 @@ use super::{
 };
 use crate::{
     Error, Scenario,
+    courant_retry::{AttemptError, CourantRetry},
     error::NumericalError,
     history::Recorder,
     ledger::{EnergyLedger, MomentumLedger},
@@ -98,14 +98,14 @@ impl<'a> Conservative<'a> {
                     result.warnings.extend(courant.warning());
                     return Ok(result);
                 }
-                Err(Failure::Unbalanced(error)) => courant.halve(error)?,
-                Err(Failure::Other(error)) => return Err(error),
+                Err(AttemptError::Unbalanced(error)) => courant.halve(error)?,
+                Err(AttemptError::Other(error)) => return Err(error),
             }
             *self = Self::with_courant(self.scenario, courant.number());
         }
     }
 
-    fn attempt(&mut self, control: &mut Control<'_>) -> Result<RunResult, Failure> {
+    fn attempt(&mut self, control: &mut Control<'_>) -> Result<RunResult, AttemptError> {
         let mut recorder = control.record.then(Recorder::new);
         self.record(&mut recorder);
         let termination = if self.scenario.impact_speed == 0.0 {
@@ -127,7 +127,7 @@ impl<'a> Conservative<'a> {
     pub(super) fn ended(
         &mut self,
         control: &mut Control<'_>,
-    ) -> Result<Option<Termination>, Failure> {
+    ) -> Result<Option<Termination>, AttemptError> {
         match event(&self.state, self.scenario) {
             Ok(None) => {}
             Ok(ended) => return Ok(ended),
@@ -164,7 +164,7 @@ impl<'a> Conservative<'a> {
         &mut self,
         energy: EnergyLedger,
         momentum: MomentumLedger,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), AttemptError> {
         self.audit_books(energy, momentum)?;
         Ok(self.check_time_step()?)
     }
@@ -174,7 +174,7 @@ impl<'a> Conservative<'a> {
         &mut self,
         termination: Termination,
         recorder: Option<Recorder>,
-    ) -> Result<RunResult, Failure> {
+    ) -> Result<RunResult, AttemptError> {
         self.audit()?;
         let results = Results {
             scenario: self.scenario,
@@ -185,7 +185,7 @@ impl<'a> Conservative<'a> {
         Ok(results.sum_up(termination, recorder))
     }
 
-    fn audit(&mut self) -> Result<(), Failure> {
+    fn audit(&mut self) -> Result<(), AttemptError> {
         self.audit_books(self.state.energy(), self.state.momentum())
     }
 
@@ -193,14 +193,14 @@ impl<'a> Conservative<'a> {
         &mut self,
         energy: EnergyLedger,
         momentum: MomentumLedger,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), AttemptError> {
         let residuals = [energy.residual(), momentum.residual()];
         let moment = self.moment();
         let audited = self
             .watch
             .residuals
             .audit(residuals, moment, self.control.courant);
-        audited.map_err(Failure::Unbalanced)
+        audited.map_err(AttemptError::Unbalanced)
     }
 
     fn check_time_step(&self) -> Result<(), NumericalError> {

@@ -28,7 +28,6 @@ mod plate_section;
 mod plug;
 mod published;
 mod results;
-mod retry;
 #[cfg(test)]
 mod separation_tests;
 mod shear_band;

@@ -13,7 +13,7 @@ use crate::{
     units::{Pressure, Time},
 };
 
-/// Options of the model `fdm`. In geometry `rod` a key that is not given has the value that `[chain]` has.
+/// Options of the model `fdm`. In geometry `rod` the keys of mesh, target resistance and end have the values of `[chain]` when not given.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FdmOptions {
@@ -28,8 +28,8 @@ pub struct FdmOptions {
     pub constraint_factor: Option<ConstraintFactor>,
     /// Border-shear coefficient C in `Fy = C π d h σ_f`; geometry `rod` only.
     pub border_shear: Option<f64>,
-    /// Courant number on the current smallest transit time; 0.7 when not given. A run in geometry `rod` that is given none is repeated
-    /// with half of it, down to 0.04375, until its energy balances, and warns; geometry `planar` conserves energy to rounding at any.
+    /// Courant number on the current smallest transit time; 0.7 when not given. At 0.7 a run in geometry `rod` is repeated with half
+    /// of it, down to 0.04375, until its energy balance closes, and warns; geometry `planar` conserves energy to rounding at any.
     pub courant: Option<f64>,
     /// Artificial viscosity in compression; when not given, that of `[chain]` in a rod, and linear 0.1 with quadratic 2 in a
     /// planar impact.
@@ -148,7 +148,6 @@ impl FdmOptions {
             target_elements: self.target_elements.or(chain.target_elements),
             constraint_factor: self.constraint_factor.or(chain.constraint_factor),
             border_shear: self.border_shear.or(chain.border_shear),
-            courant: self.courant.or(chain.courant),
             artificial_viscosity: self.artificial_viscosity.or(chain.artificial_viscosity),
             end_time: self.end_time.or(chain.end_time),
             max_steps: self.max_steps.or(chain.max_steps),

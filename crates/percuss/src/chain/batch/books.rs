@@ -4,7 +4,7 @@ use super::{
     bundle::Bundle,
     lanes::{LANES, Lanes},
 };
-use crate::chain::{between::Failure, conservative::Conservative};
+use crate::{chain::conservative::Conservative, courant_retry::AttemptError};
 
 /// Energy and momentum of projectile and target in every lane.
 #[derive(Default)]
@@ -51,7 +51,7 @@ impl Bundle {
         lane: usize,
         sums: &Sums,
         run: &mut Conservative<'_>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), AttemptError> {
         self.whole.let_out(lane, run);
         let of = |sums: [Lanes; 2]| sums.map(|sum| sum.0[lane]);
         let energy = run.state.energy_ledger(of(sums.kinetic), of(sums.elastic));

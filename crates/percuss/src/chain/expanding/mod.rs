@@ -34,11 +34,11 @@ use self::{
 use super::{
     between::Moment,
     cone::{Cone, Grading},
-    retry,
     solver::StepControl,
 };
 use crate::{
     Error, Scenario,
+    courant_retry::CourantRetry,
     history::Recorder,
     options::ErosionStrain,
     outcome::{RunResult, Termination},
@@ -101,7 +101,7 @@ impl<'a> Expanding<'a> {
         scenario: &'a Scenario,
         control: &mut Control<'_>,
     ) -> Result<RunResult, Error> {
-        let mut courant = retry::CourantRetry::new(
+        let mut courant = CourantRetry::new(
             scenario.options.chain.courant,
             DEFAULT_COURANT,
             SMALLEST_COURANT,

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     Error, Scenario,
-    error::NumericalError,
+    courant_retry::{AttemptError, CourantRetry},
     fdm::grid::{AUDIT_INTERVAL, End, Grid, Watch},
     history::Recorder,
     options::FdmOptions,
@@ -18,7 +18,7 @@ use crate::{
 
 /// Courant number when a case gives none.
 const DEFAULT_COURANT: f64 = 0.7;
-/// A run whose case gives no Courant number is repeated with half of it until its books balance, down to this one.
+/// A run at the default Courant number is repeated with half of it until its energy balance closes, down to this one.
 const SMALLEST_COURANT: f64 = 0.04;
 const DEFAULT_MAX_STEPS: u64 = 20_000_000;
 /// Part of the impact speed below which a projectile counts as stopped.
@@ -73,34 +73,24 @@ impl<'a> Rod<'a> {
     /// Runs to the end.
     ///
     /// # Errors
-    /// [`Error::Numerical`] when a cell is crushed to nothing or the books do not balance; [`Error::Cancelled`].
+    /// [`Error::Numerical`] when a cell is crushed to nothing or the energy balance does not close; [`Error::Cancelled`].
     pub fn run(mut self, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        let chosen = self.options.courant.is_some();
+        let given = self.options.courant;
+        let mut courant = CourantRetry::new(given, DEFAULT_COURANT, SMALLEST_COURANT);
         loop {
-            let mut unbalanced = false;
-            match self.attempt(control, &mut unbalanced) {
+            match self.attempt(control) {
                 Ok(mut result) => {
-                    if !chosen && self.courant < DEFAULT_COURANT {
-                        result.warnings.push(format!(
-                            "the energy book balances at Courant number {} only: it was lowered from {DEFAULT_COURANT}",
-                            self.courant
-                        ));
-                    }
+                    result.warnings.extend(courant.warning());
                     return Ok(result);
                 }
-                Err(_) if unbalanced && !chosen && 0.5 * self.courant >= SMALLEST_COURANT => {
-                    self = Self::with_courant(self.scenario, self.options, 0.5 * self.courant);
-                }
-                Err(error) => return Err(error),
+                Err(AttemptError::Unbalanced(error)) => courant.halve(error)?,
+                Err(AttemptError::Other(error)) => return Err(error),
             }
+            self = Self::with_courant(self.scenario, self.options, courant.number());
         }
     }
 
-    fn attempt(
-        &mut self,
-        control: &mut Control<'_>,
-        unbalanced: &mut bool,
-    ) -> Result<RunResult, Error> {
+    fn attempt(&mut self, control: &mut Control<'_>) -> Result<RunResult, AttemptError> {
         let mut recorder = control.record.then(Recorder::new);
         let end_time = self.end_time();
         let max_steps = self.options.max_steps.unwrap_or(DEFAULT_MAX_STEPS);
@@ -123,7 +113,7 @@ impl<'a> Rod<'a> {
                 break Termination::StepLimit;
             }
             if self.grid.step.is_multiple_of(AUDIT_INTERVAL) {
-                self.audit(unbalanced)?;
+                self.audit()?;
                 self.watch.check_time_step(&self.grid)?;
                 control.report(self.progress(end_time))?;
             }
@@ -135,7 +125,7 @@ impl<'a> Rod<'a> {
                 };
             }
         };
-        self.audit(unbalanced)?;
+        self.audit()?;
         Ok(sum_up(
             &Ending {
                 scenario: self.scenario,
@@ -149,10 +139,9 @@ impl<'a> Rod<'a> {
         ))
     }
 
-    fn audit(&mut self, unbalanced: &mut bool) -> Result<(), NumericalError> {
+    fn audit(&mut self) -> Result<(), AttemptError> {
         let audit = self.watch.audit(&self.grid, self.courant);
-        *unbalanced = audit.is_err();
-        audit
+        audit.map_err(AttemptError::Unbalanced)
     }
 
     fn has_passed(&self) -> bool {

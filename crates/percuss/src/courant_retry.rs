@@ -2,9 +2,28 @@
 
 use crate::{Error, error::NumericalError, units::significant};
 
+/// Why an attempt at a run gave no result.
+pub(crate) enum AttemptError {
+    /// The energy or momentum balance does not close: a smaller time step may help.
+    Unbalanced(NumericalError),
+    Other(Error),
+}
+
+impl From<NumericalError> for AttemptError {
+    fn from(error: NumericalError) -> Self {
+        Self::Other(error.into())
+    }
+}
+
+impl From<Error> for AttemptError {
+    fn from(error: Error) -> Self {
+        Self::Other(error)
+    }
+}
+
 /// Courant number of a run, halved after a numerical error unless the case gives one of its own.
 #[derive(Debug)]
-pub(super) struct CourantRetry {
+pub(crate) struct CourantRetry {
     number: f64,
     first: f64,
     smallest: f64,
@@ -14,7 +33,7 @@ pub(super) struct CourantRetry {
 
 impl CourantRetry {
     /// With the number that a case gives, the default, and the smallest one. A default that is written down is a default.
-    pub(super) fn new(given: Option<f64>, default: f64, smallest: f64) -> Self {
+    pub(crate) fn new(given: Option<f64>, default: f64, smallest: f64) -> Self {
         let first = given.unwrap_or(default);
         Self {
             number: first,
@@ -28,7 +47,7 @@ impl CourantRetry {
         }
     }
 
-    pub(super) fn number(&self) -> f64 {
+    pub(crate) fn number(&self) -> f64 {
         self.number
     }
 
@@ -36,7 +55,7 @@ impl CourantRetry {
     ///
     /// # Errors
     /// The error itself, when the number would become too small or is the case's own.
-    pub(super) fn halve(&mut self, error: NumericalError) -> Result<(), Error> {
+    pub(crate) fn halve(&mut self, error: NumericalError) -> Result<(), Error> {
         if 0.5 * self.number < self.smallest {
             return Err(error.into());
         }
@@ -46,7 +65,7 @@ impl CourantRetry {
     }
 
     /// What to know of a number that was lowered.
-    pub(super) fn warning(&self) -> Option<String> {
+    pub(crate) fn warning(&self) -> Option<String> {
         let reason = self.reason.as_ref()?;
         Some(format!(
             "the Courant number was reduced from {} to {}: with {} {reason}",
