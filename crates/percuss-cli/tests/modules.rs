@@ -110,6 +110,16 @@ fn no_module_of_the_library_uses_a_higher_layer() {
     );
 }
 
+/// The solvers check each other, so they share nothing but what lies below all of them.
+#[test]
+fn no_kind_of_model_uses_another() {
+    let graph = ModuleGraph::read(&crates()["percuss"]);
+    let kinds = ["analytic", "axi", "chain", "fdm"];
+    assert!(kinds.iter().all(|kind| graph.modules.contains(*kind)));
+    let text = graph.describe(|from, to| kinds.contains(&from) && kinds.contains(&to));
+    assert!(text.is_empty(), "{text}");
+}
+
 /// A crate in a folder of its own.
 fn made_up(files: &[(&str, &str)]) -> (TempDir, ModuleGraph) {
     let folder = TempDir::new().unwrap();

@@ -45,7 +45,6 @@ pub use between::{ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
 pub(crate) use closure::{choose_target_closure, closure_in_use};
 use conservative::Conservative;
 pub use published::Published;
-pub(crate) use warnings::held_back;
 
 use std::sync::atomic::AtomicBool;
 

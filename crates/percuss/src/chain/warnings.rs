@@ -4,11 +4,11 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::plug;
 use crate::{
+    guard::fixed_rear_face_warning,
     material::{Material, Strength, cavity_expansion_pressure},
     options::{BorderShearLaw, ErosionClosure, TargetClosure},
     outcome::{Outcome, RunResult},
     problem::BackFace,
-    regime::THICK,
     scenario::{Plate, Scenario, TargetBody, modelled_thickness},
     units::{StrainRate, Temperature, Velocity, significant},
 };
@@ -41,7 +41,7 @@ pub(super) fn warnings(
         ),
         _ => {}
     }
-    warnings.extend(held_back(scenario));
+    warnings.extend(fixed_rear_face_warning(scenario));
     warn_of_plug(scenario, result, &mut warnings);
     warn_of_closure(scenario, result, &mut warnings);
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
@@ -120,23 +120,6 @@ fn warning_of_rear_face(scenario: &Scenario, depth: f64) -> Option<String> {
         ),
         _ => None,
     }
-}
-
-/// What a held back face does to a plate that is not thick.
-pub(crate) fn held_back(scenario: &Scenario) -> Option<String> {
-    let TargetBody::Layers {
-        back_face: BackFace::Fixed,
-        ..
-    } = scenario.target
-    else {
-        return None;
-    };
-    let ratio = scenario.target_thickness()? / scenario.projectile.diameter;
-    (ratio < THICK).then(|| {
-        "the back face is held (`target.back_face = \"fixed\"`, the default of a plate): nothing can leave through it; give \
-         \"free\" for a plate that the projectile may perforate"
-            .to_owned()
-    })
 }
 
 /// Part of the thickness beyond which a plate that dishes is more and more a membrane, which is left out.

@@ -13,8 +13,7 @@ pub use rod::Rod;
 
 use crate::{
     Error, Scenario,
-    chain::held_back,
-    guard::{Guard, NoseKind, Range},
+    guard::{Guard, NoseKind, Range, fixed_rear_face_warning},
     options::ErosionStrain,
     outcome::RunResult,
     regime::{ProjectileRegime, Regime},
@@ -74,7 +73,7 @@ impl Model for Fdm {
             Geometry::Rod => {
                 let mut result = Rod::new(scenario).run(control)?;
                 result.warnings.extend(Range::COLUMN.finding(scenario));
-                result.warnings.extend(held_back(scenario));
+                result.warnings.extend(fixed_rear_face_warning(scenario));
                 Ok(result)
             }
             Geometry::Planar => planar::run(scenario, control),
