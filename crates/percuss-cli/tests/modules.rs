@@ -180,6 +180,9 @@ mod tests { use crate::f::Y; fn t() { crate::g::go(); } }
 #[cfg(all(test, unix))]
 pub(crate) fn for_tests<A, B>(_: crate::g::G) { crate::g::go() }
 struct S { #[cfg(test)] only: crate::e::X, kept: crate::d::D }
+#[derive(crate::c::Sea)]
+#[serde(with = \"crate::g::text\", default = \"fallback\")]
+struct T;
 ";
     let (_folder, graph) = made_up(&[
         ("lib.rs", MADE_UP),
@@ -208,7 +211,7 @@ struct S { #[cfg(test)] only: crate::e::X, kept: crate::d::D }
     ]);
     assert_eq!(
         edges(&graph, "a"),
-        ["b:2", "c:3", "d:4,4,17", "e:6", "f:6", "g:7"]
+        ["b:2", "c:3,18", "d:4,4,17", "e:6", "f:6", "g:7,19"]
     );
     assert_eq!(
         edges(&graph, "b"),

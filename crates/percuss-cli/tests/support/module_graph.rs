@@ -211,19 +211,7 @@ impl Walk {
 
     fn step(&mut self, source: &mut Source<'_>, folder: &Path, depth: usize) {
         if source.is(0, '#') && (source.is(1, '[') || source.is(1, '!')) {
-            let names = source.attribute();
-            let place = format!(
-                "{}:{}",
-                source.file.display(),
-                source.before(1).unwrap().line
-            );
-            let conditional = names.first().is_some_and(|name| name == "cfg");
-            let of_tests = |name: &String| name == "test" || name == "doctest";
-            if conditional && names.iter().any(of_tests) && !names.contains(&"not".to_owned()) {
-                source.skip_item();
-            } else if ["path", "macro_export"].contains(&names[0].as_str()) {
-                panic!("{place}: the module graph does not follow `{}`", names[0]);
-            }
+            self.read_attribute(source);
         } else if source.is(0, '{') {
             source.braces.push(false);
             source.at += 1;
@@ -240,6 +228,38 @@ impl Walk {
             self.read_path(source);
         } else {
             source.at += 1;
+        }
+    }
+
+    /// Reads an attribute: one that sets a test apart with its item, the paths of any other one.
+    fn read_attribute(&mut self, source: &mut Source<'_>) {
+        let start = source.at;
+        let names = source.attribute();
+        let line = source.tokens[start].line;
+        let conditional = names.first().is_some_and(|name| name == "cfg");
+        let of_tests = names.iter().any(|name| name == "test" || name == "doctest");
+        if conditional && of_tests && !names.iter().any(|name| name == "not") {
+            source.skip_item();
+            return;
+        }
+        if let Some(name) = names.first().filter(|name| *name == "path" || *name == "macro_export") {
+            panic!("{}:{line}: the module graph does not follow `{name}`", source.file.display());
+        }
+        let end = source.at;
+        source.at = start;
+        while source.at < end {
+            if let Some(Piece::Text(text)) = source.token(0).map(|token| &token.piece) {
+                let path: Vec<String> = text.split("::").map(str::to_owned).collect();
+                let line = source.token(0).map_or(line, |token| token.line);
+                if path.len() > 1 {
+                    self.add(source, path, line);
+                }
+                source.at += 1;
+            } else if source.name(0).is_some() {
+                self.read_path(source);
+            } else {
+                source.at += 1;
+            }
         }
     }
 

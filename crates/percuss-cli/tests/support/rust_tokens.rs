@@ -9,7 +9,9 @@ pub enum Piece {
     PathSeparator,
     /// Any other single character.
     Mark(char),
-    /// A string, character, number or lifetime, whose content no path depends on.
+    /// A string; attributes may hold paths in one.
+    Text(String),
+    /// A character, number or lifetime.
     Literal,
 }
 
@@ -75,8 +77,7 @@ impl Reader {
             self.at += 2;
             Piece::PathSeparator
         } else if first == '"' || self.string_prefix() > 0 {
-            self.read_string();
-            Piece::Literal
+            Piece::Text(self.read_string())
         } else if first == '\'' {
             self.read_character_or_lifetime();
             Piece::Literal
@@ -147,7 +148,8 @@ impl Reader {
         0
     }
 
-    fn read_string(&mut self) {
+    /// Content of a string as it is written, escapes included.
+    fn read_string(&mut self) -> String {
         let prefix = self.string_prefix();
         let raw = (0..prefix).any(|ahead| self.peek(ahead) == Some('r'));
         self.at += prefix;
@@ -158,13 +160,16 @@ impl Reader {
         }
         self.at += 1;
         let end = format!("\"{}", "#".repeat(hashes));
+        let start = self.at;
         while self.peek(0).is_some() && !self.starts_with(&end) {
             if !raw && self.peek(0) == Some('\\') {
                 self.advance();
             }
             self.advance();
         }
+        let content = self.characters[start..self.at].iter().collect();
         self.at += end.len();
+        content
     }
 
     /// `'x'` and `'\n'` are characters, `'x` without a closing mark is a lifetime.
