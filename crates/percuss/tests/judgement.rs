@@ -46,8 +46,23 @@ fn a_refused_reference_is_left_out_of_the_stored_judgement() {
 }
 
 #[test]
-fn the_study_of_the_papers_case_balances_its_books() {
-    for row in study::built_in() {
+fn the_study_of_the_papers_case_closes_its_energy_balance_on_every_mesh() {
+    let rows = study::built_in();
+    for &speed in study::SPEEDS {
+        for &(cells, radius) in study::VARIANTS {
+            let of = |row: &&study::Study| {
+                row.impact_velocity_m_s == speed
+                    && row.cells_per_radius == cells
+                    && row.target_radius_mm == radius
+            };
+            assert_eq!(
+                rows.iter().filter(of).count(),
+                1,
+                "{speed} {cells} {radius}"
+            );
+        }
+    }
+    for row in rows {
         assert!(study::SPEEDS.contains(&row.impact_velocity_m_s), "{row:?}");
         assert!(
             row.energy_residual.abs() <= 0.01 && row.depth_of_penetration_mm > 0.0,
@@ -88,8 +103,7 @@ fn the_stored_judgement_is_what_judging_gives() {
                 && same(
                     stored.reference_uncertainty_mm,
                     now.reference_uncertainty_mm
-                )
-                && stored.reference_meshes == now.reference_meshes,
+                ),
             "{remedy}: stored {stored:?}, now {now:?}"
         );
     }

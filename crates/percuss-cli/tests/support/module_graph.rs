@@ -8,7 +8,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::rust_tokens::{Piece, Token, tokens};
+use super::{
+    module_source::{Source, read_tree},
+    rust_tokens::{Piece, tokens},
+};
 
 /// Name of the node that stands for the items of `lib.rs` itself.
 pub const ROOT: &str = "lib.rs";
@@ -99,100 +102,6 @@ struct Walk {
     found: Vec<Found>,
 }
 
-/// The tokens of one file, where the reader stands in it, and the modules open there.
-struct Source<'a> {
-    file: &'a Path,
-    tokens: Vec<Token>,
-    at: usize,
-    module: Vec<String>,
-    /// For every open brace, whether it is that of a module.
-    braces: Vec<bool>,
-}
-
-impl Source<'_> {
-    fn token(&self, ahead: usize) -> Option<&Token> {
-        self.tokens.get(self.at + ahead)
-    }
-
-    fn before(&self, back: usize) -> Option<&Token> {
-        self.tokens.get(self.at.checked_sub(back)?)
-    }
-
-    fn name(&self, ahead: usize) -> Option<&str> {
-        match &self.token(ahead)?.piece {
-            Piece::Name(name) => Some(name),
-            _ => None,
-        }
-    }
-
-    fn is(&self, ahead: usize, mark: char) -> bool {
-        self.token(ahead).is_some_and(|token| token.is(mark))
-    }
-
-    fn separates(&self, ahead: usize) -> bool {
-        let token = self.token(ahead);
-        token.is_some_and(|token| token.piece == Piece::PathSeparator)
-    }
-
-    /// Moves behind the bracket that closes the one that the reader stands at.
-    fn skip_brackets(&mut self) {
-        let mut depth = 0;
-        while let Some(token) = self.token(0) {
-            depth += i32::from("([{".chars().any(|mark| token.is(mark)));
-            depth -= i32::from(")]}".chars().any(|mark| token.is(mark)));
-            self.at += 1;
-            if depth == 0 {
-                return;
-            }
-        }
-    }
-
-    /// Reads the attribute that the reader stands at; returns the names in it.
-    fn attribute(&mut self) -> Vec<String> {
-        let start = self.at;
-        self.at += 1 + usize::from(self.is(1, '!'));
-        self.skip_brackets();
-        let names = self.tokens[start..self.at].iter();
-        let names = names.filter_map(|token| match &token.piece {
-            Piece::Name(name) => Some(name.clone()),
-            _ => None,
-        });
-        names.collect()
-    }
-
-    /// Moves behind an item, field or arm, with its other attributes.
-    fn skip_item(&mut self) {
-        while self.is(0, '#') {
-            self.attribute();
-        }
-        let mut until_semicolon = false;
-        let mut until_comma = true;
-        while let Some(token) = self.token(0) {
-            if let Piece::Name(name) = &token.piece {
-                let fields = ["fn", "mod", "struct", "enum", "impl", "trait", "union"];
-                until_comma &= !fields.contains(&name.as_str());
-                until_semicolon |= ["use", "static", "type", "let"].contains(&name.as_str());
-            }
-            if token.is('{') {
-                self.skip_brackets();
-                if !until_semicolon {
-                    return;
-                }
-            } else if token.is('(') || token.is('[') {
-                self.skip_brackets();
-            } else if token.is('}') {
-                return;
-            } else {
-                let ends = token.is(';') || (until_comma && token.is(','));
-                self.at += 1;
-                if ends {
-                    return;
-                }
-            }
-        }
-    }
-}
-
 impl Walk {
     fn read_file(&mut self, file: &Path, folder: &Path, module: &[String]) {
         let text =
@@ -242,8 +151,14 @@ impl Walk {
             source.skip_item();
             return;
         }
-        if let Some(name) = names.first().filter(|name| *name == "path" || *name == "macro_export") {
-            panic!("{}:{line}: the module graph does not follow `{name}`", source.file.display());
+        if let Some(name) = names
+            .first()
+            .filter(|name| *name == "path" || *name == "macro_export")
+        {
+            panic!(
+                "{}:{line}: the module graph does not follow `{name}`",
+                source.file.display()
+            );
         }
         let end = source.at;
         source.at = start;
@@ -417,57 +332,5 @@ impl Walk {
             let whole = self.exported_whole.intersection(&self.modules);
             whole.map(String::as_str).chain([ROOT]).collect()
         }
-    }
-}
-
-/// Reads a tree of `use`: its leaves with the name that each has here and its line.
-fn read_tree(
-    source: &mut Source<'_>,
-    above: &[String],
-    mut line: usize,
-    leaves: &mut Vec<(Vec<String>, String, usize)>,
-) {
-    let mut segments = above.to_vec();
-    let mut name = String::new();
-    while let Some(token) = source.token(0).cloned() {
-        if token.is(';') && above.is_empty() {
-            source.at += 1;
-            break;
-        }
-        if token.is(',') || token.is('}') {
-            break;
-        }
-        source.at += 1;
-        match &token.piece {
-            Piece::Name(word) if word == "as" => {
-                name = source.name(0).unwrap_or("_").to_owned();
-                source.at += 1;
-            }
-            Piece::Name(word) => {
-                line = token.line;
-                // `{self, …}` names the module above.
-                if word != "self" || segments.is_empty() {
-                    segments.push(word.clone());
-                }
-                name = segments.last().cloned().unwrap_or_default();
-            }
-            Piece::Mark('*') => {
-                segments.push("*".to_owned());
-                name = "*".to_owned();
-            }
-            Piece::Mark('{') => {
-                while !source.is(0, '}') && source.token(0).is_some() {
-                    read_tree(source, &segments, line, leaves);
-                    source.at += usize::from(source.is(0, ','));
-                }
-                source.at += 1;
-                name.clear();
-                segments.clear();
-            }
-            _ => {}
-        }
-    }
-    if !segments.is_empty() && !name.is_empty() {
-        leaves.push((segments, name, line));
     }
 }

@@ -39,8 +39,7 @@ class Judgement(Result):
     ablation : list of Record
         The seed paper's case with one thing changed at a time: ``variant``, ``change``, ``depth_of_penetration_mm``, ``error``.
     verdicts : list of Record
-        Every depth beside the reference: ``depth_of_penetration_mm``, ``reference_depth_mm``, ``reference_uncertainty_mm`` and ``reference_meshes``
-        (two where it is provisional).
+        Every depth beside the reference: ``depth_of_penetration_mm``, ``reference_depth_mm`` and ``reference_uncertainty_mm``.
     """
 
     percuss_version: str

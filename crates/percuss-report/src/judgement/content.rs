@@ -29,8 +29,7 @@ pub(super) fn page<'a>(
             [
                 "An error is depth by the model over depth by the reference, less 1: positive where the model goes too deep.",
                 "The reference is model axi. Three meshes that are monotone with an observed order of 0.5 to 2.2 are extrapolated in the cell \
-                 size, by at most 25 %. Otherwise the finest one counts where they agree within 10 %. Two meshes are provisional: extrapolated \
-                 at first order, by at most 15 %.",
+                 size, by at most 25 %. Otherwise the finest one counts where they agree within 10 %. Fewer meshes are no reference.",
                 "A shot whose reference fails this check, or whose rod stops short of a shorter one, is in none of the numbers.",
                 "Medians are over shots; a tenth of the errors lies below the lower end of a range and a tenth above the upper one.",
                 "The last column is the part of the shots with an error of at most 25 %, either way.",
@@ -97,10 +96,11 @@ fn paper_case<'a>(judgement: &Judgement) -> Vec<Block<'a>> {
         blocks.extend([
             Block::Subheading("The same case by the reference".to_owned()),
             Block::Text(format!(
-                "At a target radius of {} mm: {}; extrapolated, or where the meshes alternate the finest one with their spread. The other \
-                 rows vary the radius of the target.",
+                "At a target radius of {} mm: {}, the means over meshes of at least {} cells with their largest distance from the mean. \
+                 The depth alternates with the mesh and is not extrapolated. The other rows vary the radius of the target.",
                 study::RADIUS,
-                depths.join(", ")
+                depths.join(", "),
+                study::FINE
             )),
             Block::Table(tables::study(&judgement.study)),
         ]);

@@ -57,7 +57,6 @@ fn verdict_columns() -> Vec<Column<Verdict>> {
         Column::float("reference_uncertainty_mm", |v: &Row| {
             v.reference_uncertainty_mm
         }),
-        Column::integer("reference_meshes", |v: &Row| v.reference_meshes as i64),
         Column::float("relative_error", Row::error),
     ]
 }

@@ -9,16 +9,10 @@ use crate::richardson::{CREDIBLE_ORDERS, OnMesh, Trend, extrapolate, trend};
 /// rigid flat rod (L/D 3, 17600 kg/m³, 300 m/s, perfectly plastic target of 300 MPa) goes 5.96 and 7.14 mm deep on 4 and 8 cells per
 /// radius, 8.32 mm extrapolated, and 8.58 mm by \[forrestal1988\] with a flat nose.
 const FORMAL_ORDER: f64 = 1.0;
-/// Largest change by an extrapolation from three meshes, as a part of the depth on the finest one.
+/// Largest change by an extrapolation, as a part of the depth on the finest one.
 const STEEPEST: f64 = 0.25;
 /// Largest spread of three meshes that give no extrapolation, as a part of the depth on the finest one.
 const AGREEMENT: f64 = 0.1;
-/// Largest change by an extrapolation from two meshes, whose order is assumed.
-const STEEPEST_PROVISIONAL: f64 = 0.15;
-/// Uncertainty of an extrapolation from two meshes over its distance from the finer one, and its least part of the depth. Of 33 such
-/// extrapolations a third mesh fell within one distance in 19, and within two distances or 5 % in 32.
-const PROVISIONAL_FACTOR: f64 = 2.0;
-const PROVISIONAL_LEAST: f64 = 0.05;
 
 /// Depth of a shot by the reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,14 +21,12 @@ pub struct Estimate {
     pub depth_mm: f64,
     /// Uncertainty that the cell size leaves, either way [mm].
     pub uncertainty_mm: f64,
-    /// Meshes that it rests on: three, or two where it is provisional.
-    pub meshes: usize,
 }
 
 /// Reason why a reference does not count.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Refusal {
-    /// Fewer than two meshes.
+    /// Fewer than three meshes.
     TooFewMeshes,
     /// Three meshes give no extrapolation and do not agree.
     NotConverged {
@@ -47,8 +39,6 @@ pub enum Refusal {
     TooSteep {
         /// Change as a part of the depth on the finest mesh.
         change: f64,
-        /// Its limit.
-        limit: f64,
     },
     /// A shorter rod of the same materials and velocity goes deeper, beyond both uncertainties.
     ShorterRodDeeper {
@@ -63,7 +53,7 @@ impl Refusal {
     /// The reason in words.
     pub fn in_words(&self) -> String {
         match *self {
-            Self::TooFewMeshes => "fewer than two meshes".to_owned(),
+            Self::TooFewMeshes => "fewer than three meshes".to_owned(),
             Self::NotConverged { trend, spread } => {
                 let trend = match trend {
                     Trend::Oscillating => "the depth oscillates".to_owned(),
@@ -75,10 +65,10 @@ impl Refusal {
                     100.0 * spread
                 )
             }
-            Self::TooSteep { change, limit } => format!(
+            Self::TooSteep { change } => format!(
                 "the extrapolation changes the depth by {:+.0} %, more than {:.0} %",
                 100.0 * change,
-                100.0 * limit
+                100.0 * STEEPEST
             ),
             Self::ShorterRodDeeper {
                 length_to_diameter,
@@ -189,76 +179,49 @@ fn meshes(references: &[Reference], shot: &Shot) -> Vec<OnMesh> {
     meshes
 }
 
-/// Depth [mm] by the finest meshes, in order from coarse to fine; or why they give none.
+/// Depth [mm] by the three finest meshes, in order from coarse to fine; or why they give none.
 ///
-/// - **Three meshes**, monotone, with an observed order of [`CREDIBLE_ORDERS`]: extrapolated at that order, but at most at the formal order 1
+/// - **Monotone**, with an observed order of [`CREDIBLE_ORDERS`]: extrapolated at that order, but at most at the formal order 1
 ///   of contact, and refused where that changes the depth by more than 25 %. The uncertainty is the whole change.
-/// - **Three meshes** without such an order: not extrapolated. The finest one counts, with the largest difference as its uncertainty, where
+/// - **Without such an order**: not extrapolated. The finest one counts, with the largest difference as its uncertainty, where
 ///   that is at most 10 %.
-/// - **Two meshes**: provisional, extrapolated at order 1, and refused where that changes the depth by more than 15 %. The uncertainty is
-///   twice the change, and at least 5 %.
 ///
 /// # Errors
 /// The [`Refusal`].
 pub fn depth_of(meshes: &[OnMesh]) -> Result<Estimate, Refusal> {
-    match *meshes {
-        [] | [_] => Err(Refusal::TooFewMeshes),
-        [medium, fine] => {
-            let (depth_mm, change) =
-                extrapolated([medium, fine], FORMAL_ORDER, STEEPEST_PROVISIONAL)?;
-            let part = (PROVISIONAL_FACTOR * change.abs()).max(PROVISIONAL_LEAST);
-            Ok(Estimate {
-                depth_mm,
-                uncertainty_mm: part * fine.value,
-                meshes: 2,
-            })
+    let [.., coarse, medium, fine] = *meshes else {
+        return Err(Refusal::TooFewMeshes);
+    };
+    let trend = trend([coarse, medium, fine]);
+    if let Trend::Monotone { order } = trend
+        && CREDIBLE_ORDERS.contains(&order)
+    {
+        let depth_mm = extrapolate(medium, fine, order.min(FORMAL_ORDER));
+        let change = depth_mm / fine.value - 1.0;
+        if change.abs() > STEEPEST {
+            return Err(Refusal::TooSteep { change });
         }
-        [.., coarse, medium, fine] => {
-            let trend = trend([coarse, medium, fine]);
-            if let Trend::Monotone { order } = trend
-                && CREDIBLE_ORDERS.contains(&order)
-            {
-                let order = order.min(FORMAL_ORDER);
-                let (depth_mm, change) = extrapolated([medium, fine], order, STEEPEST)?;
-                return Ok(Estimate {
-                    depth_mm,
-                    uncertainty_mm: change.abs() * fine.value,
-                    meshes: 3,
-                });
-            }
-            let estimate = finest([coarse, medium, fine]);
-            let spread = estimate.uncertainty_mm / estimate.depth_mm;
-            if spread <= AGREEMENT {
-                return Ok(estimate);
-            }
-            Err(Refusal::NotConverged { trend, spread })
-        }
+        return Ok(Estimate {
+            depth_mm,
+            uncertainty_mm: change.abs() * fine.value,
+        });
     }
-}
-
-/// Depth extrapolated at an order, and its change as a part of that on the finer mesh, which must not be beyond a limit.
-fn extrapolated(
-    [medium, fine]: [OnMesh; 2],
-    order: f64,
-    limit: f64,
-) -> Result<(f64, f64), Refusal> {
-    let depth = extrapolate(medium, fine, order);
-    let change = depth / fine.value - 1.0;
-    match change.abs() <= limit {
-        true => Ok((depth, change)),
-        false => Err(Refusal::TooSteep { change, limit }),
+    let estimate = finest([coarse, medium, fine]);
+    let spread = estimate.uncertainty_mm / estimate.depth_mm;
+    if spread <= AGREEMENT {
+        return Ok(estimate);
     }
+    Err(Refusal::NotConverged { trend, spread })
 }
 
 /// Depth on the finest of three meshes, with their largest difference as its uncertainty.
-pub(super) fn finest(meshes: [OnMesh; 3]) -> Estimate {
+fn finest(meshes: [OnMesh; 3]) -> Estimate {
     let values = meshes.map(|mesh| mesh.value);
     let largest = values.into_iter().fold(f64::MIN, f64::max);
     let smallest = values.into_iter().fold(f64::MAX, f64::min);
     Estimate {
         depth_mm: values[2],
         uncertainty_mm: largest - smallest,
-        meshes: 3,
     }
 }
 

@@ -96,9 +96,11 @@ pub fn expectation(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> O
     among(verdicts, scenario.impact_speed, length)
 }
 
-/// Whether a target acts like the semi-infinite ones of the design. Axisymmetric depths in plates of 1 to 5 diameters on a fixed rear
-/// face, and of 3 to 5 on a free one, are within 15 % of those; an expanding cavity follows
-/// them up to 600 m/s in the one pair that was compared, a column does not.
+/// Whether a target acts like the semi-infinite ones of the design, as long as the crater does not reach the rear face.
+///
+/// Over the design's pairs at L/D 3, 300, 600 and 1000 m/s, the depth by the expanding cavity over that by `axi` is 0.85 to 1.09 times what it
+/// is on semi-infinite targets in plates of 1 to 5 diameters on a fixed rear face, and 0.80 to 1.08 times with a free one from 3 diameters
+/// on. A column does not follow.
 fn is_deep(model: &dyn Model, scenario: &Scenario, target: TargetKind) -> bool {
     let cavity = model.name() == "chain"
         && chain::closure_in_use(scenario) == Some(TargetClosure::ExpandingCavity);
@@ -168,7 +170,6 @@ mod tests {
             depth_of_penetration_mm: 1.0 + error,
             reference_depth_mm: 1.0,
             reference_uncertainty_mm: 0.0,
-            reference_meshes: 3,
         }
     }
 

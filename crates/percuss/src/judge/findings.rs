@@ -21,13 +21,8 @@ pub fn findings(verdicts: &[Verdict]) -> Vec<String> {
     }
     let shots = count_shots(verdicts);
     let sharp = count_shots(verdicts.iter().filter(|verdict| verdict.is_sharp()));
-    let two = verdicts
-        .iter()
-        .filter(|verdict| verdict.reference_meshes < 3);
     let mut sentences = vec![format!(
-        "{shots} shots have a reference that passes its convergence check: {} rest on two meshes and are provisional, {sharp} are known within \
-         10 %.",
-        count_shots(two)
+        "{shots} shots have a reference that passes its convergence check on three meshes: {sharp} are known within 10 %."
     )];
     let all = |_: &Verdict| true;
     if let Some((closure, errors)) = best(verdicts, Contender::is_one_dimensional, shots, all) {

@@ -32,8 +32,6 @@ pub struct Verdict {
     pub reference_depth_mm: f64,
     /// Distance of that from the reference's finest mesh [mm].
     pub reference_uncertainty_mm: f64,
-    /// Meshes that the reference rests on: three, or two where it is provisional.
-    pub reference_meshes: usize,
 }
 
 /// Uncertainty over depth up to which a reference is called sharp: well below the errors that are judged by it.
@@ -84,7 +82,6 @@ pub fn judge(shots: &[Shot], references: &[Reference]) -> Result<Vec<Verdict>, E
                     depth_of_penetration_mm: depth * 1e3,
                     reference_depth_mm: reference.depth_mm,
                     reference_uncertainty_mm: reference.uncertainty_mm,
-                    reference_meshes: reference.meshes,
                 })
             });
             Ok(depths.collect())

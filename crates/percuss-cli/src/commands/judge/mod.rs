@@ -35,11 +35,10 @@ length, regime and materials, and a few sentences that say what it comes to.
 With --out DIR the report is written as one HTML page and as Markdown with its
 figures, and the numbers as CSV and Parquet.
 
-A reference counts with three meshes: the depth must be monotone, the observed
-order between 0.5 and 2.2, and the extrapolation at most 25 %. With two meshes
-it is provisional and may be extrapolated by at most 15 %. A rod that stops
-short of a shorter one is refused. Shots that fail are listed with the reason
-and left out of all numbers.
+A reference needs three meshes. Where the depth is monotone with an observed
+order of 0.5 to 2.2 it is extrapolated, by at most 25 %; otherwise the meshes
+must agree within 10 %. A rod that stops short of a shorter one is refused.
+Shots that fail are listed with the reason and left out of all numbers.
 
 With --compute the shots that the files of --reference and --study lack are
 computed first, and appended as each is done: break it off at any time, and the

@@ -7,6 +7,7 @@ use crate::{
     chain::{closure_in_use, cone::Cone},
     model::{self, Control},
     outcome::{Outcome, RunResult},
+    summary::ResultRecord,
 };
 
 /// The seed paper's rod on a plate of a thickness in projectile diameters.
@@ -124,6 +125,26 @@ fn the_depth_changes_steadily_with_the_thickness() {
 }
 
 #[test]
+fn a_crater_that_reaches_the_rear_face_has_no_expected_error() {
+    for (diameters, speed, outcome) in [
+        (1.0, 230.0, Outcome::Rebounded),
+        (1.0, 800.0, Outcome::Perforated),
+        (3.0, 800.0, Outcome::Rebounded),
+    ] {
+        let scenario = plate(diameters, speed, "", "");
+        let result = run(&scenario);
+        assert_eq!(result.outcome, outcome, "{diameters} {speed}");
+        let is_stopped = outcome == Outcome::Rebounded;
+        let record = ResultRecord::new(&scenario, &result);
+        assert_eq!(
+            record.expected_error.is_some(),
+            is_stopped,
+            "{diameters} {speed}"
+        );
+    }
+}
+
+#[test]
 fn a_thin_free_plate_is_deeper_cratered_until_it_is_perforated() {
     let of = |diameters| run(&plate(diameters, 600.0, ", back_face = 'free'", ""));
     let results: Vec<RunResult> = [4.0, 3.0, 2.0, 1.5, 1.0].map(of).into();
@@ -172,6 +193,7 @@ fn writing_down_a_default_changes_nothing() {
     );
 }
 
+/// The damping itself has an exact test in `tests.rs`. The changes of depth are measured ones (−0.1, −4, −3 and −11 %), rounded up.
 #[test]
 fn damping_changes_the_depth_a_little_and_is_accounted_for() {
     let without = depth(&plate(5.2, 400.0, "", ""));

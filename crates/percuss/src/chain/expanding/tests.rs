@@ -2,7 +2,7 @@
 
 use std::{f64::consts::PI, sync::Arc};
 
-use super::{Expanding, resistance::Resistance, rod::Rod, slice::Metal};
+use super::{Expanding, StepControl, resistance::Resistance, rod::Rod, slice::Metal};
 use crate::{
     Scenario,
     case::{self, TargetClosure},
@@ -106,6 +106,106 @@ fn a_bar_vibrates_as_mindlin_and_herrmann_have_it() {
             "mode {mode}: {period} {exact}"
         );
     }
+}
+
+/// Largest momentum of the first mode of a free bar in successive half periods, under damping.
+fn momentum_peaks(control: &StepControl, slices: usize, half_periods: usize) -> Vec<f64> {
+    let mut rod = elastic_rod(slices);
+    let shape = |position: f64| (PI / LENGTH * (position + LENGTH)).cos();
+    for node in &mut rod.nodes {
+        node.velocity = shape(node.position);
+    }
+    let step = 0.3 * rod.stable_step(1.0);
+    let (mut peaks, mut largest, mut before) = (Vec::new(), 0.0_f64, 1.0_f64);
+    while peaks.len() < half_periods {
+        rod.collect();
+        rod.damp(control, 0.0);
+        rod.kick(step);
+        if let Some(tip) = rod.nodes.last_mut() {
+            tip.kick(tip.whole_force() * step);
+        }
+        rod.drift(step).unwrap();
+        let momentum: f64 = rod
+            .nodes
+            .iter()
+            .map(|n| n.mass * n.velocity * shape(n.position))
+            .sum();
+        if momentum.signum() != before.signum() {
+            peaks.push(std::mem::take(&mut largest));
+        }
+        largest = largest.max(momentum.abs());
+        before = momentum;
+    }
+    peaks
+}
+
+#[test]
+fn a_damped_bar_loses_the_exact_part_of_its_amplitude() {
+    let control = |options: &str| {
+        StepControl::new(&toml::from_str(options).unwrap(), 0.5, 2.0, f64::INFINITY)
+    };
+    // On the way out local damping adds its part to the stiffness, on the way back it takes it off: sqrt((1 - a)/(1 + a)) in a half period.
+    for fraction in [0.05_f64, 0.2] {
+        let peaks = momentum_peaks(&control(&format!("local_damping = {fraction}")), 100, 7);
+        let exact = ((1.0 - fraction) / (1.0 + fraction)).powf(0.5 * 6.0);
+        let found = peaks[6] / peaks[0];
+        assert!(
+            (found / exact - 1.0).abs() < 0.01,
+            "{fraction}: {found} {exact}"
+        );
+    }
+    // Dashpots in proportion to the springs damp the mode by a part of its critical damping: half the angle that it turns in the time that a
+    // wave takes through a slice, times the ratio.
+    let (slices, ratio) = (50, 1.0);
+    let peaks = momentum_peaks(&control("damping_ratio = 1.0"), slices, 7);
+    let part = 0.5 * ratio * PI / slices as f64;
+    let exact = (-6.0 * PI * part).exp();
+    let found = peaks[6] / peaks[0];
+    assert!(
+        (found.ln() / exact.ln() - 1.0).abs() < 0.02,
+        "{found} {exact}"
+    );
+}
+
+/// The peak contact force of the seed paper's case is that of the plane impact, before the edges are felt: the limit of fine meshes.
+#[test]
+fn the_peak_contact_force_converges_to_that_of_a_plane_impact() {
+    let peak = |elements: u32| {
+        let text = format!(
+            "[projectile]\nmaterial = 'copper-woodward'\nlength = '12.74 mm'\ndiameter = '4.8 mm'\nvelocity = '230 m/s'\n\
+             [target]\nmaterial = 'aluminium-2024-t351-woodward'\nthickness = '25 mm'\n\
+             [chain]\nend_time = '0.4 us'\nprojectile_elements = {elements}"
+        );
+        run(&case::load_str("the paper's case", &text).unwrap())
+            .peak_force
+            .unwrap()
+    };
+    // Stress behind an elastic precursor and a bulk wave [Pa]: both flow stresses at the strain of the plane wave, by their power laws.
+    let side = |youngs: f64, poisson: f64, density: f64, flow: f64| {
+        let bulk = youngs / (3.0 * (1.0 - 2.0 * poisson));
+        let plane = bulk + 2.0 * youngs / (3.0 * (1.0 + poisson));
+        let elastic_limit = flow * plane / (plane - bulk) / 1.5;
+        let [slow, fast] = [bulk, plane].map(|modulus| (density * modulus).sqrt());
+        (slow, elastic_limit * (1.0 - slow / fast))
+    };
+    let (copper, aluminium) = (
+        side(114e9, 0.34, 8500.0, 443e6 * 0.02_f64.powf(0.1)),
+        side(70e9, 0.33, 2780.0, 776e6 * 0.02_f64.powf(0.096)),
+    );
+    // Stress = offset + impedance x change of velocity, in both.
+    let stress = (230.0 + copper.1 / copper.0 + aluminium.1 / aluminium.0)
+        / (1.0 / copper.0 + 1.0 / aluminium.0);
+    let exact = stress * 0.25 * PI * 4.8e-3 * 4.8e-3;
+    let peaks = [40, 80, 160, 320].map(peak);
+    let limit = 2.0 * peaks[3] - peaks[2];
+    assert!((limit / exact - 1.0).abs() < 0.03, "{limit} {exact}");
+    assert!(peaks.is_sorted(), "{peaks:?}");
+    // What is said of the default mesh.
+    assert!(
+        (0.85..0.92).contains(&(peaks[0] / exact)),
+        "{}",
+        peaks[0] / exact
+    );
 }
 
 #[test]
