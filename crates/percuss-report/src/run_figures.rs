@@ -59,7 +59,7 @@ pub fn run_charts(
         charts.extend(length.map(Chart::from));
         let velocity = velocity.all(measured(BandQuantity::ResidualVelocity));
         charts.push(velocity.into());
-        charts.extend(time_figures::force(history, &caption).map(Chart::from));
+        charts.extend(time_figures::force(history, result, &caption).map(Chart::from));
         charts.extend(time_figures::energy(history, &caption).map(Chart::from));
     }
     let along = match result.shapes {

@@ -2,7 +2,7 @@
 
 use percuss::{
     history::{History, Sample},
-    outcome::RunResult,
+    outcome::{PLANE_IMPACT, RunResult},
 };
 
 use crate::{AreaChart, Axis, LineChart, Mark, Series, Style, caption::significant};
@@ -82,7 +82,7 @@ pub(crate) fn velocity(history: &History, result: &RunResult, caption: &str) -> 
 }
 
 /// `None` when the model knows no force at either face, as for a target that is a given pressure.
-pub(crate) fn force(history: &History, caption: &str) -> Option<LineChart> {
+pub(crate) fn force(history: &History, result: &RunResult, caption: &str) -> Option<LineChart> {
     let samples = || history.samples.iter();
     let struck = samples().any(|s| s.contact_force != 0.0);
     // A wall is both faces in one.
@@ -93,8 +93,20 @@ pub(crate) fn force(history: &History, caption: &str) -> Option<LineChart> {
         let curve = series("projectile on target", history, |s| s.contact_force * 1e-3);
         chart = chart.series(curve.width(RINGING));
     }
+    let plane = result.details.iter().find(|d| d.name == PLANE_IMPACT);
+    if let Some(plane) = plane {
+        let words = format!(
+            "plane impact, the first contact on a fine mesh: {} kN",
+            significant(plane.value)
+        );
+        chart = chart.mark(Mark::horizontal(words, plane.value));
+    }
     if behind {
-        let curve = series("back face", history, |s| s.back_force * 1e-3);
+        let name = match plane {
+            Some(_) => "rear face, as of a plate of infinite width",
+            None => "rear face",
+        };
+        let curve = series(name, history, |s| s.back_force * 1e-3);
         chart = chart.series(curve.width(RINGING));
     }
     (struck || behind).then_some(chart)

@@ -241,6 +241,9 @@ impl BandQuantity {
     }
 }
 
+/// Name of the detail that holds the force of a plane impact, which the peak contact force approaches on fine meshes.
+pub const PLANE_IMPACT: &str = "force of a plane impact";
+
 /// A number that one model alone has.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Detail {

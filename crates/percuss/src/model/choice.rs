@@ -195,7 +195,7 @@ mod tests {
             )));
         }
         // The other four have results and no recommendation.
-        assert_eq!(recommended, [(OGIVE, THICK)]);
+        assert_eq!(recommended, [(OGIVE, concrete)]);
     }
 
     #[test]

@@ -8,6 +8,7 @@ mod delay_line;
 mod floor;
 mod ground;
 mod node;
+mod plane_impact;
 #[cfg(test)]
 mod plate_tests;
 mod projectile;

@@ -126,15 +126,16 @@ fn the_depth_changes_steadily_with_the_thickness() {
 
 #[test]
 fn a_crater_that_reaches_the_rear_face_has_no_expected_error() {
-    for (diameters, speed, outcome) in [
-        (1.0, 230.0, Outcome::Rebounded),
-        (1.0, 800.0, Outcome::Perforated),
-        (3.0, 800.0, Outcome::Rebounded),
-    ] {
+    for (diameters, speed, is_stopped) in
+        [(1.0, 230.0, true), (1.0, 800.0, false), (3.0, 800.0, true)]
+    {
         let scenario = plate(diameters, speed, "", "");
         let result = run(&scenario);
-        assert_eq!(result.outcome, outcome, "{diameters} {speed}");
-        let is_stopped = outcome == Outcome::Rebounded;
+        assert_eq!(
+            result.outcome != Outcome::Perforated,
+            is_stopped,
+            "{diameters} {speed}"
+        );
         let record = ResultRecord::new(&scenario, &result);
         assert_eq!(
             record.expected_error.is_some(),

@@ -4,16 +4,16 @@ use super::{
     super::{
         between::Residuals,
         results::of_cracks,
-        warnings::{Reached, warnings_of_cavity},
+        warnings::{Reached, warning_of_forces, warnings_of_cavity},
     },
-    parted,
+    parted, plane_impact,
     slice::Slice,
     state::State,
 };
 use crate::{
     history::{ElementState, Profile, Recorder, Sample},
-    outcome::{Numerics, Outcome, RunResult, Termination},
-    scenario::Scenario,
+    outcome::{Detail, Numerics, Outcome, PLANE_IMPACT, RunResult, Termination},
+    scenario::{Scenario, TargetBody},
     units::significant,
 };
 
@@ -27,6 +27,8 @@ const QUIET_FRACTION: f64 = 1e-6;
 pub(super) struct Watch {
     pub(super) largest_depth: f64,
     peak_force: f64,
+    /// Time of it [s].
+    peak_time: f64,
     smallest_time_step: f64,
     first_time_step: f64,
     pub(super) residuals: Residuals,
@@ -42,7 +44,10 @@ pub(super) struct Watch {
 impl Watch {
     pub(super) fn follow(&mut self, state: &State) {
         self.largest_depth = self.largest_depth.max(state.position());
-        self.peak_force = self.peak_force.max(state.contact_force);
+        if state.contact_force > self.peak_force {
+            self.peak_force = state.contact_force;
+            self.peak_time = state.time;
+        }
         if state.step == 1 {
             self.first_time_step = state.time_step;
             self.smallest_time_step = state.time_step;
@@ -181,10 +186,40 @@ pub(super) fn sum_up(
     result.history = recorder.map(|recorder| recorder.finish(sample(state), profile(state)));
     result.fragments = state.rod.fragments();
     result.details = of_cracks(state.cracks.len(), state.cracks.first().copied());
+    let plane_impact = plane_impact_force(scenario);
+    if let Some(force) = plane_impact {
+        result.details.push(Detail {
+            name: PLANE_IMPACT,
+            unit: "kN",
+            value: force * 1e-3,
+        });
+    }
     result.warnings = warnings_of_cavity(scenario, &result, &reached, erosion_strain);
+    let at_first_contact = plane_impact.filter(|_| watch.peak_time < edge_wave_time(scenario));
+    result.warnings.extend(warning_of_forces(
+        scenario,
+        watch.peak_force,
+        at_first_contact,
+    ));
     result.warnings.extend(warning_of_target_failure(state));
     result.warnings.splice(0..0, remnant.warning());
     result
+}
+
+/// Force of a plane impact of the projectile on the target [N].
+fn plane_impact_force(scenario: &Scenario) -> Option<f64> {
+    let TargetBody::Layers { layers, .. } = &scenario.target else {
+        return None;
+    };
+    let (rod, target) = (&scenario.projectile, &layers.first()?.material);
+    (scenario.impact_speed > 0.0)
+        .then(|| plane_impact::force(&rod.material, target, scenario.impact_speed, rod.area()))
+}
+
+/// Time in which a wave from the edge of the struck face reaches the axis [s].
+fn edge_wave_time(scenario: &Scenario) -> f64 {
+    let rod = &scenario.projectile;
+    0.5 * rod.diameter / rod.material.bar_wave_speed()
 }
 
 /// Logarithmic stretch beyond which a slice counts as parted: it takes 63 % of a bar's area, about what metals have lost at fracture.

@@ -7,7 +7,7 @@ use crate::{
     Scenario,
     case::{self, TargetClosure},
     model::{self, Control},
-    outcome::{Outcome, RunResult},
+    outcome::{Outcome, PLANE_IMPACT, RunResult},
     resistance::{OwnResistance, ResistanceLaw},
 };
 
@@ -150,7 +150,7 @@ fn a_damped_bar_loses_the_exact_part_of_its_amplitude() {
         let exact = ((1.0 - fraction) / (1.0 + fraction)).powf(0.5 * 6.0);
         let found = peaks[6] / peaks[0];
         assert!(
-            (found / exact - 1.0).abs() < 0.01,
+            (found.ln() / exact.ln() - 1.0).abs() < 0.02,
             "{fraction}: {found} {exact}"
         );
     }
@@ -176,26 +176,15 @@ fn the_peak_contact_force_converges_to_that_of_a_plane_impact() {
              [target]\nmaterial = 'aluminium-2024-t351-woodward'\nthickness = '25 mm'\n\
              [chain]\nend_time = '0.4 us'\nprojectile_elements = {elements}"
         );
-        run(&case::load_str("the paper's case", &text).unwrap())
-            .peak_force
-            .unwrap()
+        let result = run(&case::load_str("the paper's case", &text).unwrap());
+        let plane = result.details.iter().find(|d| d.name == PLANE_IMPACT);
+        let plane = plane.unwrap().value * 1e3;
+        assert!((plane / 43.1e3 - 1.0).abs() < 5e-3, "{plane}");
+        result.peak_force.unwrap()
     };
-    // Stress behind an elastic precursor and a bulk wave [Pa]: both flow stresses at the strain of the plane wave, by their power laws.
-    let side = |youngs: f64, poisson: f64, density: f64, flow: f64| {
-        let bulk = youngs / (3.0 * (1.0 - 2.0 * poisson));
-        let plane = bulk + 2.0 * youngs / (3.0 * (1.0 + poisson));
-        let elastic_limit = flow * plane / (plane - bulk) / 1.5;
-        let [slow, fast] = [bulk, plane].map(|modulus| (density * modulus).sqrt());
-        (slow, elastic_limit * (1.0 - slow / fast))
-    };
-    let (copper, aluminium) = (
-        side(114e9, 0.34, 8500.0, 443e6 * 0.02_f64.powf(0.1)),
-        side(70e9, 0.33, 2780.0, 776e6 * 0.02_f64.powf(0.096)),
-    );
-    // Stress = offset + impedance x change of velocity, in both.
-    let stress = (230.0 + copper.1 / copper.0 + aluminium.1 / aluminium.0)
-        / (1.0 / copper.0 + 1.0 / aluminium.0);
-    let exact = stress * 0.25 * PI * 4.8e-3 * 4.8e-3;
+    // By hand, with flow stresses of 300 and 533 MPa at the 2 % of strain behind the waves: offsets of 110 MPa in the copper and 196 MPa in
+    // the aluminium, bulk impedances of 31.8 and 13.8 MPa s/m.
+    let exact = 43.1e3;
     let peaks = [40, 80, 160, 320].map(peak);
     let limit = 2.0 * peaks[3] - peaks[2];
     assert!((limit / exact - 1.0).abs() < 0.03, "{limit} {exact}");
