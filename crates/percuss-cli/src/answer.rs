@@ -2,22 +2,14 @@
 
 use std::{
     collections::HashMap,
-    ffi::OsString,
     ops::ControlFlow,
     path::{Path, PathBuf},
-    sync::atomic::AtomicBool,
 };
 
-use clap::Parser;
 use percuss::{Error, calibrate::Calibrated, case::Document, uncertainty::Uncertainty};
 use serde::Serialize;
 
-use crate::{
-    cli::{Cli, Command},
-    commands::Ran,
-    failure::Failure,
-    terminal,
-};
+use crate::{failure::Failure, output, ran::Ran};
 
 /// Hears how far a command has come: part done, 0 to 1, and a few words; [`ControlFlow::Break`] ends it.
 pub type Hear<'a> = &'a mut (dyn FnMut(f64, &str) -> ControlFlow<()> + Send);
@@ -67,7 +59,7 @@ impl Answer {
     /// An answer that is JSON.
     pub(crate) fn json_of(value: &impl Serialize, files: Vec<PathBuf>) -> Result<Self, Failure> {
         Ok(Self {
-            found: Found::Json(terminal::json(value)?),
+            found: Found::Json(output::json(value)?),
             files,
         })
     }
@@ -79,40 +71,9 @@ impl Answer {
     pub fn json(&self) -> Result<String, Failure> {
         match &self.found {
             Found::Json(text) => Ok(text.clone()),
-            Found::Run(ran) => terminal::json(&ran.results()),
-            Found::Uncertainty(found) => terminal::json(found),
-            Found::Calibration(found) => terminal::json(found),
+            Found::Run(ran) => output::json(&ran.results()),
+            Found::Uncertainty(found) => output::json(found),
+            Found::Calibration(found) => output::json(found),
         }
-    }
-}
-
-/// What a command line with `--json` finds out; with `--out` it writes what the command writes. It ends when `stop` becomes true, or
-/// when `hear` says so.
-///
-/// # Errors
-/// Those of the command, and [`Failure::CommandLine`].
-pub fn answer(
-    words: impl IntoIterator<Item = OsString>,
-    at_hand: &AtHand,
-    stop: &AtomicBool,
-    hear: Hear<'_>,
-) -> Result<Answer, Failure> {
-    let cli = Cli::try_parse_from(words).map_err(Failure::CommandLine)?;
-    match cli.command {
-        Command::Run(command) => command.answer(at_hand, stop, hear),
-        Command::Compare(command) => command.answer(at_hand, hear),
-        Command::Limit(command) => command.answer(at_hand, hear),
-        Command::Sweep(command) => command.answer(),
-        Command::Calibrate(command) => command.answer(at_hand, hear),
-        Command::Uncertainty(command) => command.answer(at_hand, stop, hear),
-        Command::Converge(command) => command.answer(at_hand, hear),
-        Command::Validate(command) => command.answer(hear),
-        Command::Judge(command) => command.answer(stop, hear),
-        Command::New(command) => command.answer(),
-        Command::Models(command) => command.answer(),
-        Command::Materials(command) => command.answer(at_hand),
-        Command::Schema(command) => command.answer(),
-        Command::Reproduce(command) => command.answer(hear),
-        Command::Serve(_) | Command::Completions(_) | Command::Man(_) => Err(Failure::no_answer()),
     }
 }

@@ -1,8 +1,11 @@
 //! The commands and what they have in common.
 
-use clap::{Parser, Subcommand};
+use std::{ffi::OsString, sync::atomic::AtomicBool};
+
+use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::{
+    answer::{Answer, AtHand, Hear},
     commands::{
         Calibrate, Compare, Completions, Converge, Judge, Limit, Man, Materials, Models, New,
         Reproduce, Run, Schema, Serve, Sweep, Uncertainty, Validate,
@@ -93,8 +96,39 @@ impl Command {
             Self::Materials(command) => command.run(),
             Self::Schema(command) => command.run(),
             Self::Reproduce(command) => command.run(),
-            Self::Completions(command) => command.run(),
-            Self::Man(command) => command.run(),
+            Self::Completions(command) => command.run(Cli::command()),
+            Self::Man(command) => command.run(Cli::command()),
         }
+    }
+}
+
+/// What a command line with `--json` finds out; with `--out` it writes what the command writes. It ends when `stop` becomes true, or
+/// when `hear` says so.
+///
+/// # Errors
+/// Those of the command, and [`Failure::CommandLine`].
+pub fn answer(
+    words: impl IntoIterator<Item = OsString>,
+    at_hand: &AtHand,
+    stop: &AtomicBool,
+    hear: Hear<'_>,
+) -> Result<Answer, Failure> {
+    let cli = Cli::try_parse_from(words).map_err(Failure::CommandLine)?;
+    match cli.command {
+        Command::Run(command) => command.answer(at_hand, stop, hear),
+        Command::Compare(command) => command.answer(at_hand, hear),
+        Command::Limit(command) => command.answer(at_hand, hear),
+        Command::Sweep(command) => command.answer(),
+        Command::Calibrate(command) => command.answer(at_hand, hear),
+        Command::Uncertainty(command) => command.answer(at_hand, stop, hear),
+        Command::Converge(command) => command.answer(at_hand, hear),
+        Command::Validate(command) => command.answer(hear),
+        Command::Judge(command) => command.answer(stop, hear),
+        Command::New(command) => command.answer(),
+        Command::Models(command) => command.answer(),
+        Command::Materials(command) => command.answer(at_hand),
+        Command::Schema(command) => command.answer(),
+        Command::Reproduce(command) => command.answer(hear),
+        Command::Serve(_) | Command::Completions(_) | Command::Man(_) => Err(Failure::no_answer()),
     }
 }

@@ -10,7 +10,7 @@ use percuss::Error;
 use percuss_report::ReportError;
 
 use crate::{
-    commands::by_models,
+    by_models::by_models,
     diagnostic::{self, Look},
     terminal,
 };

@@ -1,6 +1,7 @@
 //! The program `percuss`, as a library: what the binary calls, and what other programs ask for a command's answer as data.
 
 mod answer;
+mod by_models;
 mod cli;
 mod commands;
 mod diagnostic;
@@ -8,7 +9,9 @@ mod failure;
 mod fragment_table;
 mod judgement_table;
 mod material_card;
+mod output;
 mod progress;
+mod ran;
 mod result_table;
 mod run_folder;
 mod shot_data;
@@ -23,9 +26,10 @@ use std::{ffi::OsString, process::ExitCode};
 
 use clap::{CommandFactory, Parser};
 
-pub use answer::{Answer, AtHand, Found, Hear, answer};
-pub use commands::Ran;
+pub use answer::{Answer, AtHand, Found, Hear};
+pub use cli::answer;
 pub use failure::Failure;
+pub use ran::Ran;
 
 /// What the command line holds, for pages that explain it.
 pub fn command() -> clap::Command {

@@ -9,7 +9,7 @@ use percuss::{
     Scenario, case::Document, compare::Comparison, outcome::RunResult, summary::CaseResults,
 };
 
-use crate::{failure::Failure, terminal};
+use crate::{failure::Failure, output};
 
 /// Name of the copy of the case: one that a user's own file is unlikely to have.
 const CASE_COPY: &str = "case-as-run.toml";
@@ -84,7 +84,7 @@ impl RunFolder {
         results: &CaseResults,
         report: &mut (dyn FnMut(f64, &str) + Send),
     ) -> Result<Vec<PathBuf>, Failure> {
-        self.put("result.json", terminal::json(results)?.as_bytes())?;
+        self.put("result.json", output::json(results)?.as_bytes())?;
         self.written
             .extend(percuss_report::write_fragments(&self.path, result)?);
         if !has_history(result) {
@@ -110,7 +110,7 @@ impl RunFolder {
         scenario: &Scenario,
         comparison: &Comparison,
     ) -> Result<Vec<PathBuf>, Failure> {
-        self.put("compare.json", terminal::json(comparison)?.as_bytes())?;
+        self.put("compare.json", output::json(comparison)?.as_bytes())?;
         self.written
             .extend(percuss_report::write_comparison(&self.path, comparison)?);
         if let Some(figure) = percuss_report::compare_figure(scenario, comparison) {

@@ -1,16 +1,13 @@
-//! What is known of the terminal, and writing to it.
+//! Text for the terminal: its width, colours and line breaks.
 
 use std::{
     env,
     fmt::Display,
-    io::{self, IsTerminal, Write},
+    io::{self, IsTerminal},
 };
 
 use clap::builder::styling::{AnsiColor, Style};
 use comfy_table::Table;
-use serde::Serialize;
-
-use crate::failure::Failure;
 
 /// Widest line of running text: longer ones are hard to read.
 const MAX_WIDTH: usize = 100;
@@ -46,27 +43,6 @@ pub fn bold(text: impl Display) -> String {
 /// Mark of a warning on standard output.
 pub fn yellow(text: impl Display) -> String {
     paint(text, AnsiColor::Yellow.on_default().bold())
-}
-
-/// Writes to standard output. A reader that has gone away, as in `percuss materials | head -1`, is no failure.
-pub fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Output(error)),
-        _ => Ok(()),
-    }
-}
-
-/// Writes a value to standard output as JSON.
-pub fn print_json(value: &impl Serialize) -> Result<(), Failure> {
-    print(&json(value)?)
-}
-
-/// A value as JSON text that ends with a line break.
-pub fn json(value: &impl Serialize) -> Result<String, Failure> {
-    serde_json::to_string_pretty(value)
-        .map(|text| text + "\n")
-        .map_err(|error| Failure::Output(error.into()))
 }
 
 /// `1 model`, `2 models`.

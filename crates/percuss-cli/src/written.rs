@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use crate::{diagnostic, failure::Failure, terminal};
+use crate::{diagnostic, failure::Failure, output, terminal};
 
 /// A list of files, a line each; empty where nothing was written.
 pub struct Written(String);
@@ -25,7 +25,7 @@ impl Written {
 
     /// Prints JSON; the files go to standard error, unless it shall be quiet.
     pub fn print_json(&self, value: &impl Serialize, quiet: bool) -> Result<(), Failure> {
-        terminal::print_json(value)?;
+        output::print_json(value)?;
         if !self.0.is_empty() && !quiet {
             diagnostic::print(&format!("wrote\n{}", self.0));
         }
@@ -40,6 +40,6 @@ impl Written {
             }
             text += &format!("{}\n{}", terminal::bold("wrote"), self.0);
         }
-        terminal::print(&text)
+        output::print(&text)
     }
 }

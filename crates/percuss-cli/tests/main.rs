@@ -12,6 +12,7 @@ mod layout;
 mod limit;
 mod materials;
 mod models;
+mod modules;
 mod moved;
 mod new;
 mod readme;

@@ -1,9 +1,6 @@
 //! Strength laws written in Python: slow, since every flow stress is a call into the interpreter.
 
-use std::{
-    ops::ControlFlow,
-    sync::{Arc, Mutex, MutexGuard, PoisonError},
-};
+use std::{ops::ControlFlow, sync::Arc};
 
 use percuss::{
     Scenario,
@@ -13,7 +10,7 @@ use percuss::{
 };
 use pyo3::prelude::*;
 
-use crate::resistance::resistance;
+use crate::{first_error::FirstError, resistance::resistance};
 
 /// Stress that stands in once a law has failed [Pa]: the run goes on to the next place where it can be ended.
 const STAND_IN: f64 = 1e6;
@@ -21,21 +18,6 @@ const STAND_IN: f64 = 1e6;
 const STEP: f64 = 1e-6;
 const RATE_STEP: f64 = 1e-2;
 const PART: f64 = 1e-4;
-
-/// What the first law that failed raised.
-#[derive(Debug, Clone, Default)]
-pub struct FirstError(Arc<Mutex<Option<PyErr>>>);
-
-impl FirstError {
-    /// Takes note of an error, unless there was one before.
-    pub fn set(&self, error: PyErr) {
-        self.lock().get_or_insert(error);
-    }
-
-    fn lock(&self) -> MutexGuard<'_, Option<PyErr>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
 
 /// The laws that take the place of a case's own.
 #[derive(Default)]
@@ -88,15 +70,15 @@ impl Laws {
 
     /// Whether to go on.
     pub fn flow(&self) -> ControlFlow<()> {
-        match *self.error.lock() {
-            Some(_) => ControlFlow::Break(()),
-            None => ControlFlow::Continue(()),
+        match self.error.is_set() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
         }
     }
 
     /// What the first law that failed raised.
     pub fn into_error(self) -> Option<PyErr> {
-        self.error.lock().take()
+        self.error.take()
     }
 }
 

@@ -6,6 +6,7 @@ mod answer;
 mod case;
 mod command;
 mod errors;
+mod first_error;
 mod history;
 mod law;
 mod resistance;

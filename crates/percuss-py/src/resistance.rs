@@ -5,7 +5,7 @@ use std::sync::Arc;
 use percuss::resistance::{OwnResistance, ResistanceLaw};
 use pyo3::{exceptions::PyValueError, prelude::*};
 
-use crate::law::FirstError;
+use crate::first_error::FirstError;
 
 /// Pressure that stands in once the law has failed [Pa]: the run goes on to the next place where it can be ended.
 const STAND_IN: f64 = 1e9;

@@ -3,8 +3,9 @@
 use percuss::history::{ElementState, History, Profile};
 
 use crate::{
-    Axis, HeatMap, LineChart, Mark, Series, Style, palette,
-    run_figures::significant,
+    Axis, HeatMap, LineChart, Mark, Series, Style,
+    caption::significant,
+    palette,
     stress_grid::{GAP, StressGrid, spacing},
 };
 

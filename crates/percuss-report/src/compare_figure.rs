@@ -3,8 +3,8 @@
 use percuss::{Scenario, compare::Comparison, outcome::BandQuantity, summary::ResultRecord};
 
 use crate::{
-    Axis, Chart, Figure, LineChart, Mark, RowChart, Series, Style, palette, run_figures::caption,
-    run_figures::significant,
+    Axis, Chart, Figure, LineChart, Mark, RowChart, Series, Style, caption::caption,
+    caption::significant, palette,
 };
 
 /// Mark of a recommended model.

@@ -29,6 +29,7 @@ mod axial_figures;
 mod axis;
 mod bar_rows;
 pub mod calibration;
+mod caption;
 mod chart;
 mod chart_data;
 mod column;

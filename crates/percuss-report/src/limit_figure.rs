@@ -7,8 +7,8 @@ use percuss::{
 };
 
 use crate::{
-    Axis, Chart, Figure, LineChart, Mark, Series, Style, palette, run_figures::caption,
-    run_figures::significant,
+    Axis, Chart, Figure, LineChart, Mark, Series, Style, caption::caption, caption::significant,
+    palette,
 };
 
 /// Points of a curve that looks smooth.

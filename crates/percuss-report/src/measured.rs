@@ -2,7 +2,7 @@
 
 use percuss::{Scenario, history::History, outcome::BandQuantity};
 
-use crate::{Series, Style, palette, run_figures::significant};
+use crate::{Series, Style, caption::significant, palette};
 
 /// Relative difference of impact speeds that are one.
 const SAME_SPEED: f64 = 1e-3;

@@ -6,10 +6,10 @@ use percuss::{Scenario, outcome::RunResult, shapes::Shapes};
 
 use crate::{
     Axis, LineChart, ReportError, Series, Style,
+    caption::caption,
     column::{self, Column},
     palette,
     replace_file::replace_file,
-    run_figures::caption,
 };
 
 /// Writes `crater-profile.csv` and `projectile-shape.csv` to a folder, as far as a result has them: radius and depth of the

@@ -5,7 +5,7 @@ use percuss::{
     outcome::{PLANE_IMPACT, RunResult},
 };
 
-use crate::{AreaChart, Axis, LineChart, Mark, Series, Style, run_figures::significant};
+use crate::{AreaChart, Axis, LineChart, Mark, Series, Style, caption::significant};
 
 /// Colours of the lines of the energy book, in its order: dark for the projectile, light for the target.
 const ENERGY_COLORS: [&str; 15] = [

@@ -2,7 +2,7 @@
 
 use percuss::v50::{Estimate, Method, Shot, V50, chance};
 
-use crate::{Axis, Figure, LineChart, Mark, Series, Style, palette, run_figures::significant};
+use crate::{Axis, Figure, LineChart, Mark, Series, Style, caption::significant, palette};
 
 /// Points of a curve that looks smooth.
 const POINTS: u32 = 200;

@@ -62,7 +62,7 @@ impl Bounds {
         let options = &scenario.options;
         let (projectile, target) = match model.name() {
             "fdm" => {
-                let (projectile, target) = options.fdm.elements(scenario);
+                let (projectile, target) = percuss::fdm::elements(scenario);
                 (projectile as usize, target as usize)
             }
             _ => (

@@ -5,7 +5,7 @@ use std::{
     net::{IpAddr, Ipv4Addr, SocketAddr},
 };
 
-use crate::Bounds;
+use crate::{Bounds, problem::Problem};
 
 /// Fewest characters of a token: enough that nobody guesses it.
 const LEAST_TOKEN: usize = 16;
@@ -127,6 +127,13 @@ pub enum ServeError {
     /// The system gives no threads.
     #[error("cannot start: {0}")]
     Start(#[source] io::Error),
+}
+
+impl From<Problem> for ServeError {
+    fn from(problem: Problem) -> Self {
+        let (message, help) = problem.into_message_and_help();
+        Self::NoAnswer { message, help }
+    }
 }
 
 impl ServeError {

@@ -7,7 +7,7 @@ use axum::{
 use percuss::{Error, InputError};
 use serde::Serialize;
 
-use crate::{ServeError, http};
+use crate::http;
 
 /// What is wrong, where, and what to do.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -63,6 +63,11 @@ impl Problem {
         &self.message
     }
 
+    /// What is wrong, and what to do.
+    pub(crate) fn into_message_and_help(self) -> (String, String) {
+        (self.message, self.help)
+    }
+
     /// The case asks for more than a page may.
     pub(crate) fn too_large(message: String, help: String, key: &str) -> Self {
         Self {
@@ -101,13 +106,6 @@ impl Problem {
             "the program failed on this case: that is a fault of its own",
             "please report it with the case",
         )
-    }
-}
-
-impl From<Problem> for ServeError {
-    fn from(problem: Problem) -> Self {
-        let Problem { message, help, .. } = problem;
-        Self::NoAnswer { message, help }
     }
 }
 

@@ -152,6 +152,9 @@ fn slip(value: f64, limits: Limits) -> &'static str {
 pub mod limits {
     use super::Limits;
 
+    /// Most elements that one body may have: beyond it a run takes hours and its histories gigabytes.
+    pub const MAX_ELEMENTS: u32 = 100_000;
+
     const fn limits(min: f64, max: f64) -> Limits {
         Limits { min, max }
     }

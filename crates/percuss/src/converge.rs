@@ -246,7 +246,7 @@ pub fn study(
     let mut meshes = Vec::new();
     let mut results = Vec::new();
     for level in 0..levels {
-        let refined = scenario.refined(REFINEMENT.saturating_pow(level));
+        let refined = model.refined(scenario, REFINEMENT.saturating_pow(level));
         let result = run(model, &refined, control)?;
         let Some(numerics) = &result.numerics else {
             return Err(Error::NotApplicable {

@@ -2,6 +2,7 @@
 
 mod first_choice;
 mod fitted_to;
+mod fixed_rear_face;
 mod nose_kind;
 mod oblique;
 mod range;
@@ -10,6 +11,7 @@ mod words;
 
 pub use first_choice::FirstChoice;
 pub use fitted_to::FittedTo;
+pub(crate) use fixed_rear_face::fixed_rear_face_warning;
 pub use nose_kind::NoseKind;
 pub use range::{Measure, Outside, Range};
 

@@ -23,30 +23,32 @@ pub mod calibrate;
 pub mod case;
 pub mod chain;
 pub mod check;
-pub mod checkpoint;
 pub mod compare;
-mod control;
 pub mod converge;
 mod courant_retry;
+pub mod document;
 mod error;
 pub mod fdm;
 pub mod fragments;
-pub mod frames;
 pub mod guard;
 pub mod history;
+pub mod inputs;
 pub mod judge;
 pub mod ledger;
 pub mod limit;
 pub mod material;
 pub mod model;
+pub mod options;
 pub mod outcome;
 pub mod power;
+pub mod problem;
 pub mod regime;
 pub mod resistance;
 pub mod richardson;
 pub mod scenario;
 pub mod shapes;
 pub mod shots;
+pub mod solver;
 pub mod summary;
 pub mod sweep;
 pub mod uncertainty;
@@ -56,6 +58,7 @@ pub mod validate;
 
 pub use error::{Error, InputError, NumericalError, Subject};
 pub use scenario::Scenario;
+pub use solver::{checkpoint, frames};
 
 /// The README's library example, run from the folder that it stands in.
 #[cfg(doctest)]

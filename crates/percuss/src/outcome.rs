@@ -5,7 +5,6 @@ use serde::Serialize;
 use crate::{
     fragments::Fragment,
     history::History,
-    judge::Expectation,
     ledger::{EnergyLedger, MomentumLedger},
     shapes::Shapes,
 };
@@ -134,8 +133,6 @@ pub struct RunResult {
     ///
     /// The largest depth reached when the run ends before that; `None` for a rigid wall.
     pub depth_of_penetration: Option<f64>,
-    /// Error to expect of that depth against the axisymmetric reference, where shots like this one were judged.
-    pub expected_error: Option<Expectation>,
     /// Largest depth of the crater floor at any time, elastic deflection included [m]; `None` for a rigid wall.
     pub largest_depth: Option<f64>,
     /// Depth that plastic flow and erosion leave once the load is gone [m].
@@ -302,7 +299,6 @@ impl RunResult {
             criterion: String::new(),
             termination,
             depth_of_penetration: None,
-            expected_error: None,
             largest_depth: None,
             permanent_depth: None,
             residual_velocity: None,

@@ -6,9 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    analytic::strength_factor,
-    case::Nose,
-    material::{Material, Strength, cavity_expansion_pressure},
+    material::{Material, Strength, cavity_expansion_pressure, strength_factor},
+    problem::Nose,
     scenario::{Scenario, TargetBody},
     units::{Pressure, Velocity, significant},
 };

@@ -4,11 +4,12 @@ use serde::Serialize;
 
 use crate::{
     Error,
-    case::TargetClosure,
     chain::closure_in_use,
     fragments::FragmentRecord,
-    judge::Expectation,
+    judge::{Expectation, expected_error},
+    options::TargetClosure,
     outcome::{Band, Detail, Outcome, RunResult, Termination},
+    regime::Regime,
     scenario::Scenario,
 };
 
@@ -112,8 +113,13 @@ pub struct ResultRecord {
 }
 
 impl ResultRecord {
-    /// The record of a result.
+    /// The record of a result, with the error to expect of its depth.
     pub fn new(scenario: &Scenario, result: &RunResult) -> Self {
+        Self::in_regime(scenario, &Regime::of(scenario), result)
+    }
+
+    /// The record of a result of a case whose regime is known already.
+    pub(crate) fn in_regime(scenario: &Scenario, regime: &Regime, result: &RunResult) -> Self {
         let mm = |length: Option<f64>| length.map(|length| length * 1e3);
         let us = |time: Option<f64>| time.map(|time| time * 1e6);
         let numerics = result.numerics.as_ref();
@@ -123,7 +129,7 @@ impl ResultRecord {
             criterion: (!result.criterion.is_empty()).then(|| result.criterion.clone()),
             termination: Some(result.termination),
             depth_of_penetration_mm: mm(result.depth_of_penetration),
-            expected_error: result.expected_error.clone(),
+            expected_error: expected_error(scenario, regime, result),
             largest_depth_mm: mm(result.largest_depth),
             permanent_depth_mm: mm(result.permanent_depth),
             residual_velocity_m_s: result.residual_velocity,

@@ -1,7 +1,7 @@
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::{Shell, generate};
 
-use crate::{cli::Cli, failure::Failure, terminal};
+use crate::{failure::Failure, output};
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -22,9 +22,10 @@ pub struct Completions {
 }
 
 impl Completions {
-    pub fn run(&self) -> Result<(), Failure> {
+    /// Prints the script for a program.
+    pub fn run(&self, mut program: Command) -> Result<(), Failure> {
         let mut script = Vec::new();
-        generate(self.shell, &mut Cli::command(), "percuss", &mut script);
-        terminal::print(&String::from_utf8_lossy(&script))
+        generate(self.shell, &mut program, "percuss", &mut script);
+        output::print(&String::from_utf8_lossy(&script))
     }
 }

@@ -13,9 +13,10 @@ use percuss_report::convergence_figure;
 use crate::{
     answer::{Answer, AtHand, Hear},
     failure::Failure,
+    output,
     progress::Progress,
     run_folder::RunFolder,
-    terminal::{self, bold, width, wrap},
+    terminal::{bold, width, wrap},
     written::Written,
 };
 
@@ -85,7 +86,7 @@ impl Converge {
             files,
         } = found?;
         if self.json {
-            return terminal::print_json(&study);
+            return output::print_json(&study);
         }
         let mut text = format!(
             "{}\n{}\n\n",
@@ -117,7 +118,7 @@ impl Converge {
         let mut folder = RunFolder::wanted(self.out.as_deref(), None)?;
         let study = self.compute(model, &scenario, hear)?;
         if let Some(folder) = &mut folder {
-            folder.put("convergence.json", terminal::json(&study)?.as_bytes())?;
+            folder.put("convergence.json", output::json(&study)?.as_bytes())?;
             for i in 0..study.quantities.len() {
                 if let Some(figure) = convergence_figure(&scenario.name, &study, i) {
                     folder.add(figure.write(folder.path())?);

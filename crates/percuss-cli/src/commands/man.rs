@@ -1,8 +1,8 @@
 use std::{fs, path::PathBuf};
 
-use clap::{Args, Command, CommandFactory};
+use clap::{Args, Command};
 
-use crate::{cli::Cli, failure::Failure, run_folder::make_folder, terminal};
+use crate::{failure::Failure, output, run_folder::make_folder};
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -25,11 +25,11 @@ pub struct Man {
 }
 
 impl Man {
-    pub fn run(&self) -> Result<(), Failure> {
-        let mut program = Cli::command();
+    /// Prints or writes the pages of a program.
+    pub fn run(&self, mut program: Command) -> Result<(), Failure> {
         program.build();
         let Some(folder) = &self.out else {
-            return terminal::print(&page(&program)?);
+            return output::print(&page(&program)?);
         };
         make_folder(folder)?;
         let mut written = String::from("wrote\n");
@@ -39,7 +39,7 @@ impl Man {
             fs::write(&path, page(&command)?).map_err(Failure::write(&path))?;
             written += &format!("  {}\n", path.display());
         }
-        terminal::print(&written)
+        output::print(&written)
     }
 }
 

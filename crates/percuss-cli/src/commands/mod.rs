@@ -19,7 +19,7 @@ mod uncertainty;
 mod validate;
 
 pub use calibrate::Calibrate;
-pub use compare::{Compare, by_models};
+pub use compare::Compare;
 pub use completions::Completions;
 pub use converge::Converge;
 pub use judge::Judge;
@@ -29,7 +29,7 @@ pub use materials::Materials;
 pub use models::Models;
 pub use new::New;
 pub use reproduce::Reproduce;
-pub use run::{Ran, Run};
+pub use run::Run;
 pub use schema::Schema;
 pub use serve::Serve;
 pub use sweep::Sweep;

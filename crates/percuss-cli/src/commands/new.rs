@@ -6,7 +6,7 @@ use std::{
 
 use clap::Args;
 
-use crate::{answer::Answer, failure::Failure, run_folder::make_folder, terminal};
+use crate::{answer::Answer, failure::Failure, output, run_folder::make_folder};
 
 /// The case that `percuss new` writes: it runs as it is, and shows every option, at its default or with an example.
 const STARTER: &str = include_str!("new/starter.toml");
@@ -41,7 +41,7 @@ impl New {
             // Or `percuss run` would take it for an option.
             shown.insert_str(0, "./");
         }
-        terminal::print(&format!(
+        output::print(&format!(
             "wrote {shown}\nnext: percuss run {}\n",
             quoted(&shown)
         ))

@@ -1,7 +1,7 @@
 use clap::Args;
 use percuss::case;
 
-use crate::{answer::Answer, failure::Failure, terminal};
+use crate::{answer::Answer, failure::Failure, output};
 
 const LONG_ABOUT: &str = "\
 Print the JSON Schema (draft 2020-12) of case files: every key with what it
@@ -25,7 +25,7 @@ pub struct Schema {}
 
 impl Schema {
     pub fn run(&self) -> Result<(), Failure> {
-        terminal::print_json(&case::schema())
+        output::print_json(&case::schema())
     }
 
     /// What the command prints.

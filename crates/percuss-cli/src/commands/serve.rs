@@ -8,7 +8,7 @@ use clap::Args;
 use percuss::case;
 use percuss_serve::{Bounds, Options, ServeError, Server, StartCase};
 
-use crate::{failure::Failure, terminal};
+use crate::{failure::Failure, output};
 
 const LONG_ABOUT: &str = "\
 Serve a page that answers while its sliders move: the case as a form and as
@@ -92,7 +92,7 @@ impl Serve {
             Some(_) => "; open it with `/?token=` and the token behind the address",
             None => "",
         };
-        terminal::print(&format!("serving {reached}{with_token}\nend with Ctrl-C\n"))?;
+        output::print(&format!("serving {reached}{with_token}\nend with Ctrl-C\n"))?;
         server.run()
     }
 }

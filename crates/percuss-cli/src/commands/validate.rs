@@ -14,6 +14,7 @@ use serde::Serialize;
 use crate::{
     answer::{Answer, Hear},
     failure::Failure,
+    output,
     progress::Progress,
     run_folder::make_folder,
     shot_data, terminal, validation_table,
@@ -126,7 +127,7 @@ impl Validate {
                 .iter()
                 .map(validation_table::one_line)
                 .collect();
-            return terminal::print(&lines);
+            return output::print(&lines);
         }
         let text = validation_table::text(&validation, &data, self.model.len() == 1);
         written.print_under(text)

@@ -1,5 +1,8 @@
 //! Running the program and looking at what it says.
 
+pub mod module_graph;
+pub mod module_source;
+pub mod rust_tokens;
 pub mod sweeps;
 
 use std::{

@@ -19,7 +19,7 @@ use percuss::{Scenario, frames::Frame, scenario::TargetBody};
 use rayon::prelude::*;
 
 use self::{animation::Palette, colors::Colors, picture::Canvas, raster::View, vtp::Points};
-use crate::{ReportError, png_file, replace_file::replace_file, run_figures::caption};
+use crate::{ReportError, caption::caption, png_file, replace_file::replace_file};
 
 pub use quantity::FieldQuantity;
 pub use series::FieldSeries;

@@ -18,10 +18,10 @@ use super::{
 };
 use crate::{
     Axis, Figure, ReportError,
+    caption::significant,
     figure::draw_over,
     frame::{Frame, WIDTH, tick_label},
     primitives::text,
-    run_figures::significant,
 };
 
 /// Space at the right for the colour bar, its numbers and its label [px].

@@ -7,7 +7,7 @@ use percuss::{
 };
 
 use super::stem;
-use crate::{Axis, LineChart, Mark, Series, Style, palette, run_figures::caption};
+use crate::{Axis, LineChart, Mark, Series, Style, caption::caption, palette};
 
 /// Percentiles against speed, with what was measured.
 pub(super) fn bands(

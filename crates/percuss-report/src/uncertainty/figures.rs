@@ -7,7 +7,7 @@ use percuss::{
 };
 
 use super::stem;
-use crate::{Axis, Bar, BarRows, Histogram, Mark, palette, run_figures::caption};
+use crate::{Axis, Bar, BarRows, Histogram, Mark, caption::caption, palette};
 
 fn axis(quantity: &QuantityResult) -> Axis {
     let what = quantity.what();

@@ -17,7 +17,7 @@ pub(super) fn converged(job: &Job<'_>) -> Result<Study, Problem> {
     let scenario = job.read()?.scenario;
     let model = job.model(&scenario)?;
     job.bounds
-        .check(model, &scenario.refined(REFINEMENT.pow(LEVELS - 1)))?;
+        .check(model, &model.refined(&scenario, REFINEMENT.pow(LEVELS - 1)))?;
     // The work grows fourfold with each mesh.
     let work = |level: u32| 4_f64.powi(level as i32);
     let total: f64 = (0..LEVELS).map(work).sum();

@@ -1,8 +1,5 @@
 //! Model `crater_energy`: the kinetic energy of the projectile pays for the volume of the crater.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::{
     deep_shot::{DeepShot, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail, termination},
     nose_load::NoseLoad,
@@ -10,43 +7,16 @@ use super::{
 };
 use crate::{
     Error, Scenario,
-    case::Target,
-    check::{Check, limits},
     guard::{Guard, Range},
     material::cavity_expansion_pressure,
-    model::{Control, Model},
     outcome::{BandQuantity, Outcome, RunResult},
     regime::{ProjectileRegime, Regime, TargetKind},
+    solver::{Control, Model},
     units::Pressure,
 };
 
 /// Plastic strain at which the projectile's flow stress stands for its strength, as in [`crate::regime`].
 const STRENGTH_STRAIN: f64 = 0.1;
-
-/// Options of the model `crater_energy`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct CraterEnergyOptions {
-    /// Energy that a volume of crater costs [J/m3 = Pa]; the target's quasi-static cavity-expansion pressure when not given.
-    pub resistance: Option<Pressure>,
-    /// Diameter of the crater in projectile diameters; 1 for a rigid projectile, computed otherwise, when not given.
-    pub crater_to_projectile_diameter: Option<f64>,
-}
-
-impl CraterEnergyOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(resistance) = self.resistance {
-            check.quantity("resistance", resistance, limits::CONTACT_PRESSURE);
-        }
-        if let Some(ratio) = self.crater_to_projectile_diameter {
-            check.number(
-                "crater_to_projectile_diameter",
-                ratio,
-                limits::CRATER_DIAMETER,
-            );
-        }
-    }
-}
 
 /// `½ m V² = R × volume of the crater`: the class of energy balances for thick targets.
 #[derive(Debug, Clone, Copy)]

@@ -1,8 +1,5 @@
 //! Model `forrestal`: a rigid rod in a thick metal target, resisted by the pressure of a spherical cavity that expands.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::{
     cavity_expansion::CavityExpansion,
     deep_shot::{DeepShot, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail},
@@ -11,87 +8,14 @@ use super::{
 };
 use crate::{
     Error, Scenario,
-    case::Target,
-    check::{Check, limits},
     guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
     material::{MaterialClass, cavity_expansion_pressure},
-    model::{Control, Model},
+    options::{Cavity, Entry, ForrestalOptions},
     outcome::{Band, BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind},
+    solver::{Control, Model},
     units::{Pressure, Velocity, significant},
 };
-
-/// Options of the model `forrestal`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct ForrestalOptions {
-    /// Cavity expansion that the resistance comes from; `incompressible` when not given.
-    pub cavity: Option<Cavity>,
-    /// Strength coefficient A of `σ_n = A Y + B ρ v_n²`, with `yield_stress` as Y; from the cavity expansion when not given.
-    pub a: Option<f64>,
-    /// Yield stress Y [Pa] that `a` multiplies; where the target's law starts to flow when not given.
-    pub yield_stress: Option<Pressure>,
-    /// Inertia coefficient B; from the cavity expansion when not given.
-    pub b: Option<f64>,
-    /// Coefficient of friction between nose and target; 0 when not given.
-    pub friction: Option<f64>,
-    /// How the nose enters; `embedded` when not given.
-    pub entry: Option<Entry>,
-}
-
-/// Cavity expansion behind a resistance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Cavity {
-    /// Quasi-static pressure of the target's strength law with its hardening, incompressible; B = 3/2.
-    #[default]
-    Incompressible,
-    /// Similarity solution of a compressible, perfectly plastic body; B fitted over the speeds of the case.
-    Compressible,
-}
-
-/// How a nose enters a target.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Entry {
-    /// The whole nose is loaded from first contact, as in the published closed forms.
-    #[default]
-    Embedded,
-    /// That part of the nose is loaded which is below the original surface.
-    Gradual,
-}
-
-impl ForrestalOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
-        let numbers = [
-            ("a", self.a, limits::CAVITY_STRENGTH),
-            ("b", self.b, limits::CAVITY_INERTIA),
-            ("friction", self.friction, limits::FRICTION),
-        ];
-        for (key, number, limits) in numbers {
-            if let Some(number) = number {
-                check.number(key, number, limits);
-            }
-        }
-        if let Some(stress) = self.yield_stress {
-            check.quantity("yield_stress", stress, limits::FLOW_STRESS);
-            if self.a.is_none() {
-                check.fail(
-                    "yield_stress",
-                    "`yield_stress` has no effect without `a`",
-                    "add `a`, or remove the key",
-                );
-            }
-        }
-        if self.cavity.is_some() && self.a.is_some() && self.b.is_some() {
-            check.fail(
-                "cavity",
-                "`cavity` has no effect where both `a` and `b` are given",
-                "remove one of the three keys",
-            );
-        }
-    }
-}
 
 /// Rigid rods in thick metal targets \[forrestal1988, forrestal1995\].
 #[derive(Debug, Clone, Copy)]

@@ -2,54 +2,23 @@
 
 use std::f64::consts::PI;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::deep_shot::{DeepShot, NOT_ONE_TARGET, at_rest, detail};
 use super::rigid_motion::Stop;
 use crate::{
     Error, Scenario,
-    case::Target,
-    check::{Check, limits},
     guard::{FirstChoice, FittedTo, Guard, Measure, NoseKind, Outside, Range},
-    material::{MaterialClass, Strength},
-    model::{Control, Model},
+    material::{MaterialClass, Strength, strength_factor},
     outcome::{BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind, nose_factor},
+    solver::{Control, Model},
 };
 
 /// Depth of the crater in projectile diameters.
 const CRATER_DEPTH: f64 = 2.0;
 
-/// Options of the model `forrestal_concrete`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct ForrestalConcreteOptions {
-    /// Factor S on the compressive strength; `82.6 (f_c in MPa)^−0.544` \[forrestal1994\] when not given.
-    pub s: Option<f64>,
-    /// Depth k of the crater in projectile diameters; 2 when not given.
-    pub crater_depth_to_diameter: Option<f64>,
-}
-
-impl ForrestalConcreteOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(s) = self.s {
-            check.number("s", s, limits::CONCRETE_FACTOR);
-        }
-        if let Some(k) = self.crater_depth_to_diameter {
-            check.number("crater_depth_to_diameter", k, limits::CRATER_DEPTH);
-        }
-    }
-}
-
 /// Rigid projectiles into concrete \[forrestal1994, li2003\].
 #[derive(Debug, Clone, Copy)]
 pub struct ForrestalConcrete;
-
-/// Factor S on the compressive strength [Pa] of concrete \[forrestal1994\].
-pub(crate) fn strength_factor(compressive_strength: f64) -> f64 {
-    82.6 * (compressive_strength * 1e-6).powf(-0.544)
-}
 
 /// A rigid projectile and the concrete that resists it.
 #[derive(Debug, Clone, Copy)]

@@ -4,9 +4,9 @@ use super::long_rod::{LongRod, NOT_ONE_TARGET, detail};
 use crate::{
     Error, Scenario,
     guard::{Guard, Measure, Outside, Range},
-    model::{Control, Model},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
+    solver::{Control, Model},
 };
 
 /// The hydrodynamic limit `P = L √(ρ_p/ρ_t)`.

@@ -1,52 +1,20 @@
 //! Model `lambert_jonas`: residual velocity from a ballistic limit by the three-parameter form.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::{
-    limit::{InputLimit, limit},
+    limit::{input_limit, limit},
     plate_shot::{PlateShot, plate_result, refuse},
 };
 use crate::{
     Error, Scenario,
-    case::Target,
-    check::{Check, limits},
     guard::Guard,
-    model::{Control, Model},
     outcome::{BandQuantity, Detail, RunResult},
     regime::TargetKind,
-    units::Velocity,
+    solver::{Control, InputLimit, Model},
 };
 
 /// Lambert and Jonas's residual velocity.
 #[derive(Debug, Clone, Copy)]
 pub struct LambertJonas;
-
-/// Options of the model `lambert_jonas`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct LambertJonasOptions {
-    /// Ballistic limit [m/s]; that of `plugging` (flat noses) or `plate_cavity` (sharp ones) when not given.
-    pub ballistic_limit: Option<Velocity>,
-    /// Factor a; `m/(m + m_p/3)` with the mass m_p of plate in line with the shank when not given.
-    pub a: Option<f64>,
-    /// Exponent p; `2 + h/(3D)` when not given.
-    pub p: Option<f64>,
-}
-
-impl LambertJonasOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(limit) = self.ballistic_limit {
-            check.quantity("ballistic_limit", limit, limits::IMPACT_SPEED);
-        }
-        if let Some(a) = self.a {
-            check.number("a", a, limits::RESIDUAL_FACTOR);
-        }
-        if let Some(p) = self.p {
-            check.number("p", p, limits::RESIDUAL_EXPONENT);
-        }
-    }
-}
 
 impl Model for LambertJonas {
     fn name(&self) -> &'static str {
@@ -82,7 +50,7 @@ impl Model for LambertJonas {
 
     fn input_limit(&self, scenario: &Scenario) -> Option<InputLimit> {
         let given = scenario.options.lambert_jonas.ballistic_limit;
-        InputLimit::of(scenario, given, self.name())
+        input_limit(scenario, given, self.name())
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {

@@ -1,36 +1,14 @@
 //! Model `lanz_odermatt`: the regression of Lanz and Odermatt for tungsten rods on steel.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::long_rod::{LongRod, NOT_ONE_TARGET, detail};
 use crate::{
     Error, Scenario,
-    case::Target,
-    check::{Check, limits},
     guard::{Guard, Measure, Outside, Range},
-    model::{Control, Model},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::TargetKind,
+    solver::{Control, Model},
     units::significant,
 };
-
-/// Options of the model `lanz_odermatt`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct LanzOdermattOptions {
-    /// Brinell hardness of the target; that of its material when not given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub target_hardness: Option<f64>,
-}
-
-impl LanzOdermattOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(hardness) = self.target_hardness {
-            check.number("target_hardness", hardness, limits::BRINELL_HARDNESS);
-        }
-    }
-}
 
 /// The regression of Lanz and Odermatt.
 #[derive(Debug, Clone, Copy)]

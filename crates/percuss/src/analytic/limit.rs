@@ -1,7 +1,5 @@
 //! The ballistic limit that the models of residual velocity start from: given, or computed by another model.
 
-use serde::Serialize;
-
 use super::{
     plate_cavity::{Passage, PlateCavity},
     plugging::{Plugging, ballistic_limit},
@@ -9,34 +7,22 @@ use super::{
 use crate::{
     Scenario,
     guard::NoseKind,
-    model::{Model, applicability},
     outcome::Detail,
+    solver::{InputLimit, Model, applicability},
     units::{Velocity, significant},
 };
 
-/// Ballistic limit that a model of residual velocity starts from.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct InputLimit {
-    /// The limit [m/s].
-    pub ballistic_limit_m_s: f64,
-    /// Model that computes it; `None` where the case gives it.
-    pub computed_by: Option<&'static str>,
-}
-
-impl InputLimit {
-    /// The limit of a case; `None` when there is none.
-    pub(super) fn of(scenario: &Scenario, given: Option<Velocity>, table: &str) -> Option<Self> {
-        let limit = limit(scenario, given, table).ok()?;
-        Some(Self {
-            ballistic_limit_m_s: limit.speed,
-            computed_by: limit.computed_by,
-        })
-    }
-
-    /// Where the limit comes from, in words.
-    pub fn origin_in_words(&self) -> &'static str {
-        self.computed_by.unwrap_or("the case")
-    }
+/// The limit that a case gives or another model computes; `None` when there is none.
+pub(super) fn input_limit(
+    scenario: &Scenario,
+    given: Option<Velocity>,
+    table: &str,
+) -> Option<InputLimit> {
+    let limit = limit(scenario, given, table).ok()?;
+    Some(InputLimit {
+        ballistic_limit_m_s: limit.speed,
+        computed_by: limit.computed_by,
+    })
 }
 
 /// A ballistic limit and where it comes from.

@@ -1,10 +1,10 @@
 //! What the models of long rods read from a case: a rod of one metal on a target of one metal.
 
 use crate::{
-    case::Nose,
     error::NumericalError,
     material::Material,
     outcome::Detail,
+    problem::Nose,
     regime::{ProjectileRegime, Regime},
     scenario::{Scenario, TargetBody},
     units::{Pressure, significant},

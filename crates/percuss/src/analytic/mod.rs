@@ -27,26 +27,30 @@ mod taylor;
 mod walker_anderson;
 mod wilkins_guinan;
 
-pub use awerbuch_bodner::{AwerbuchBodner, AwerbuchBodnerOptions};
+pub use awerbuch_bodner::AwerbuchBodner;
 pub use cavity_expansion::{CavityExpansion, CavityFit, effective_yield_stress};
-pub use crater_energy::{CraterEnergy, CraterEnergyOptions};
+pub use crater_energy::CraterEnergy;
 pub use dynamic_yield::mean_flow_stress;
-pub use forrestal::{Cavity, Entry, Forrestal, ForrestalOptions};
-pub(crate) use forrestal_concrete::strength_factor;
-pub use forrestal_concrete::{ForrestalConcrete, ForrestalConcreteOptions};
+pub use forrestal::Forrestal;
+pub use forrestal_concrete::ForrestalConcrete;
 pub use hydrodynamic::Hydrodynamic;
-pub use lambert_jonas::{LambertJonas, LambertJonasOptions};
-pub use lanz_odermatt::{LanzOdermatt, LanzOdermattOptions};
-pub use limit::InputLimit;
+pub use lambert_jonas::LambertJonas;
+pub use lanz_odermatt::LanzOdermatt;
 pub use nose_load::NoseLoad;
-pub use plate_cavity::{CavityShape, PlateCavity, PlateCavityOptions};
-pub use plugging::{Plugging, PluggingOptions};
-pub use poncelet::{Poncelet, PonceletOptions};
+pub use plate_cavity::PlateCavity;
+pub use plugging::Plugging;
+pub use poncelet::Poncelet;
 pub use quasi_static::QuasiStatic;
-pub use recht_ipson::{RechtIpson, RechtIpsonOptions};
-pub use tate::{Phase, Rods, Stop, Tate, TateOptions};
-pub use taylor::{Taylor, TaylorOptions, TaylorRod, taylor_yield_stress};
-pub use walker_anderson::{WalkerAnderson, WalkerAndersonOptions};
-pub use wilkins_guinan::{
-    WilkinsGuinan, WilkinsGuinanOptions, wilkins_guinan_length, wilkins_guinan_yield_stress,
+pub use recht_ipson::RechtIpson;
+pub use tate::{Phase, Rods, Stop, Tate};
+pub use taylor::{Taylor, TaylorRod, taylor_yield_stress};
+pub use walker_anderson::WalkerAnderson;
+pub use wilkins_guinan::{WilkinsGuinan, wilkins_guinan_length, wilkins_guinan_yield_stress};
+
+pub use crate::options::{
+    AwerbuchBodnerOptions, Cavity, CavityShape, CraterEnergyOptions, Entry,
+    ForrestalConcreteOptions, ForrestalOptions, LambertJonasOptions, LanzOdermattOptions,
+    PlateCavityOptions, PluggingOptions, PonceletOptions, RechtIpsonOptions, TateOptions,
+    TaylorOptions, WalkerAndersonOptions, WilkinsGuinanOptions,
 };
+pub use crate::solver::InputLimit;

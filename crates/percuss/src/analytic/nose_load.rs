@@ -1,6 +1,6 @@
 //! Axial load on a nose that pushes a material aside, frictionless or with Coulomb friction.
 
-use crate::case::Nose;
+use crate::problem::Nose;
 
 /// Steps along a nose.
 const STEPS: u32 = 400;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::case::Nose;
+use crate::problem::Nose;
 
 const PANELS: u32 = 200;
 

@@ -1,51 +1,26 @@
 //! Model `plate_cavity`: a sharp rigid projectile opens a hole through a plate by expanding a cavity.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::{
     nose_shape::tip_depth,
     plate_shot::{PlateShot, plate_result, refuse},
 };
 use crate::{
     Error, Scenario,
-    case::Target,
-    check::{Check, limits},
     guard::{FirstChoice, FittedTo, Guard, Measure, NoseKind, Outside, Range},
     material::{
         Material, MaterialClass, cavity_expansion_pressure, cylindrical_cavity_pressure,
         tensile_strength,
     },
-    model::{Control, Model},
+    options::{CavityShape, PlateCavityOptions},
     outcome::{Band, BandQuantity, Detail, RunResult},
     regime::{ProjectileRegime, TargetKind, nose_factor},
+    solver::{Control, Model},
     units::{Pressure, significant},
 };
 
 /// Ductile hole enlargement by cavity expansion.
 #[derive(Debug, Clone, Copy)]
 pub struct PlateCavity;
-
-/// Options of the model `plate_cavity`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct PlateCavityOptions {
-    /// Cavity whose quasi-static pressure resists; `cylinder` when not given, or `sphere`.
-    pub cavity: CavityShape,
-    /// Coefficient B of the inertial pressure `B ρ (V sin θ)²` on the nose; 1.5 when not given, 0 leaves inertia out.
-    pub inertia: Option<f64>,
-}
-
-/// Cavity whose quasi-static pressure resists; `cylinder` when not given, or `sphere`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum CavityShape {
-    /// A long cylinder in plane strain: a hole through a plate.
-    #[default]
-    Cylinder,
-    /// A sphere: a tip deep inside.
-    Sphere,
-}
 
 /// Inertial coefficient of a spherical cavity that grows at constant speed in an incompressible body: exact.
 const INERTIA: f64 = 1.5;
@@ -75,14 +50,6 @@ const PLATES: &[&str] = &[
     "showalter2008a",
     "showalter2008b",
 ];
-
-impl PlateCavityOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(inertia) = self.inertia {
-            check.number("inertia", inertia, limits::INERTIA_COEFFICIENT);
-        }
-    }
-}
 
 /// Numbers of a perforation that do not depend on the impact speed.
 #[derive(Debug, Clone, Copy)]

@@ -2,41 +2,19 @@
 
 use std::f64::consts::PI;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::plate_shot::{PlateShot, plate_result, refuse, taken_as_rigid};
 use crate::{
     Error, Scenario,
-    case::Target,
-    check::{Check, limits},
     guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
     material::{Material, MaterialClass, tensile_strength},
-    model::{Control, Model},
     outcome::{Band, BandQuantity, Detail, RunResult},
     regime::{ProjectileRegime, THIN, TargetKind},
-    units::Pressure,
+    solver::{Control, Model},
 };
 
 /// Shearing out a plug.
 #[derive(Debug, Clone, Copy)]
 pub struct Plugging;
-
-/// Options of the model `plugging`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct PluggingOptions {
-    /// Shear strength of the plate [Pa]; its tensile strength over √3 when not given.
-    pub shear_strength: Option<Pressure>,
-}
-
-impl PluggingOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(strength) = self.shear_strength {
-            check.quantity("shear_strength", strength, limits::FLOW_STRESS);
-        }
-    }
-}
 
 /// Thickness in diameters above which no plug is computed.
 const THICKEST_PLUG: f64 = 1.5;

@@ -1,8 +1,5 @@
 //! Model `poncelet`: momentum balance of a rigid projectile against strength and drag.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::{
     deep_shot::{DeepShot, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail},
     nose_load::NoseLoad,
@@ -10,37 +7,16 @@ use super::{
 };
 use crate::{
     Error, Scenario,
-    case::{Nose, Target},
-    check::{Check, limits},
     guard::{Guard, Range},
     material::cavity_expansion_pressure,
-    model::{Control, Model},
+    options::PonceletOptions,
     outcome::{BandQuantity, RunResult},
+    problem::Nose,
     regime::{ProjectileRegime, TargetKind, nose_factor},
     scenario::TargetBody,
+    solver::{Control, Model},
     units::Pressure,
 };
-
-/// Options of the model `poncelet`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct PonceletOptions {
-    /// Resistance R of the target [Pa]; its quasi-static cavity-expansion pressure when not given.
-    pub resistance: Option<Pressure>,
-    /// Coefficient C of the drag `C ρ V²`, half the usual drag coefficient; the nose factor N when not given.
-    pub drag: Option<f64>,
-}
-
-impl PonceletOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(resistance) = self.resistance {
-            check.quantity("resistance", resistance, limits::CONTACT_PRESSURE);
-        }
-        if let Some(drag) = self.drag {
-            check.number("drag", drag, limits::DRAG);
-        }
-    }
-}
 
 /// `m V dV/dx = −A (R + C ρ V²)`: the class of momentum balances for thick targets.
 #[derive(Debug, Clone, Copy)]

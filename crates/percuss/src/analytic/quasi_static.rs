@@ -10,9 +10,9 @@ use crate::{
     Error, Scenario,
     guard::{Guard, Measure, Outside, Range},
     material::cavity_expansion_pressure,
-    model::{Control, Model},
     outcome::{Band, BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind},
+    solver::{Control, Model},
     units::significant,
 };
 

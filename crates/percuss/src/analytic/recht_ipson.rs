@@ -1,42 +1,20 @@
 //! Model `recht_ipson`: residual velocity from a ballistic limit by energy and momentum.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::{
-    limit::{InputLimit, limit},
+    limit::{input_limit, limit},
     plate_shot::{PlateShot, plate_result, refuse, taken_as_rigid},
 };
 use crate::{
     Error, Scenario,
-    case::Target,
-    check::{Check, limits},
     guard::{Guard, NoseKind},
-    model::{Control, Model},
     outcome::{BandQuantity, Detail, RunResult},
     regime::{ProjectileRegime, TargetKind},
-    units::Velocity,
+    solver::{Control, InputLimit, Model},
 };
 
 /// Recht and Ipson's residual velocity.
 #[derive(Debug, Clone, Copy)]
 pub struct RechtIpson;
-
-/// Options of the model `recht_ipson`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct RechtIpsonOptions {
-    /// Ballistic limit [m/s]; that of `plugging` (flat noses) or `plate_cavity` (sharp ones) when not given.
-    pub ballistic_limit: Option<Velocity>,
-}
-
-impl RechtIpsonOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(limit) = self.ballistic_limit {
-            check.quantity("ballistic_limit", limit, limits::IMPACT_SPEED);
-        }
-    }
-}
 
 impl Model for RechtIpson {
     fn name(&self) -> &'static str {
@@ -74,7 +52,7 @@ impl Model for RechtIpson {
 
     fn input_limit(&self, scenario: &Scenario) -> Option<InputLimit> {
         let given = scenario.options.recht_ipson.ballistic_limit;
-        InputLimit::of(scenario, given, self.name())
+        input_limit(scenario, given, self.name())
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {

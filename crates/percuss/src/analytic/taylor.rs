@@ -1,42 +1,20 @@
 //! Model `taylor`: a rigid, perfectly plastic rod on a rigid wall, shortened by a plastic front that moves.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::{
     deep_shot::{detail, termination},
     dynamic_yield::{DynamicYield, Shortening, dynamic_yield},
 };
 use crate::{
     Error, Scenario,
-    case::Target,
-    check::{Check, limits},
     guard::{Guard, Measure, NoseKind, Outside, Range},
-    model::{Control, Model},
     outcome::{BandQuantity, Outcome, RunResult},
     regime::{ProjectileRegime, TargetKind},
-    units::Pressure,
+    solver::{Control, Model},
 };
 
 /// Panels of the deformed part.
 const PANELS: u32 = 400;
 const BISECTIONS: u32 = 100;
-
-/// Options of the model `taylor`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct TaylorOptions {
-    /// Dynamic yield stress Y [Pa]; mean flow stress of the strength law over the strain and at the rate reached when not given.
-    pub dynamic_yield_stress: Option<Pressure>,
-}
-
-impl TaylorOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(stress) = self.dynamic_yield_stress {
-            check.quantity("dynamic_yield_stress", stress, limits::FLOW_STRESS);
-        }
-    }
-}
 
 /// A rod after its impact on a wall; lengths over the initial length.
 ///

@@ -1,8 +1,5 @@
 //! Model `wilkins_guinan`: a rod on a rigid wall whose plastic front stands still a fixed part of its length from the wall.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::{
     deep_shot::detail,
     dynamic_yield::{DynamicYield, Shortening, dynamic_yield},
@@ -10,37 +7,13 @@ use super::{
 };
 use crate::{
     Error, Scenario,
-    case::Target,
-    check::{Check, limits},
     guard::{FittedTo, Guard},
-    model::{Control, Model},
     outcome::RunResult,
-    units::Pressure,
+    solver::{Control, Model},
 };
 
 /// Distance of the plastic front from the wall over the initial length.
 const FRONT: f64 = 0.12;
-
-/// Options of the model `wilkins_guinan`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct WilkinsGuinanOptions {
-    /// Dynamic yield stress Y [Pa]; mean flow stress of the strength law over the strain and at the rate reached when not given.
-    pub dynamic_yield_stress: Option<Pressure>,
-    /// Distance of the plastic front from the wall over the initial length; 0.12 \[wilkins1973\] when not given.
-    pub front_to_length: Option<f64>,
-}
-
-impl WilkinsGuinanOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(stress) = self.dynamic_yield_stress {
-            check.quantity("dynamic_yield_stress", stress, limits::FLOW_STRESS);
-        }
-        if let Some(front) = self.front_to_length {
-            check.number("front_to_length", front, limits::FRONT);
-        }
-    }
-}
 
 /// Final over initial length of a rod for `ρV²/Y`: `(1 − h) exp(−ρV²/(2Y)) + h`, h the distance of the front from the wall over the
 /// initial length.

@@ -1,11 +1,7 @@
 //! Eight particles side by side, so that one instruction works on all of them.
 
-use super::{
-    field::Field,
-    law::Law,
-    particle::{Particle, kinetic_energy},
-    transfer::gather,
-};
+use super::{field::Field, law::Law, transfer::gather};
+use crate::solver::{Particle, kinetic_energy};
 
 /// Particles in a block: as many numbers as the widest registers hold.
 pub(super) const LANES: usize = 8;

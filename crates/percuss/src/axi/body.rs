@@ -6,9 +6,9 @@ use super::{
     field::{Field, Strip},
     kernel::first_node,
     law::Law,
-    particle::Particle,
     transfer::Deposit,
 };
+use crate::solver::Particle;
 
 /// Particles that one task takes. It does not depend on the number of threads, so sums come out the same on any.
 pub(super) const CHUNK: usize = 2048;

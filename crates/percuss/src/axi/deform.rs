@@ -3,9 +3,11 @@
 use super::{
     block::{Block, LANES, Lane, Members, each_of, lanes, one},
     law::{Law, Pressure},
-    particle::{Particle, equivalent},
 };
-use crate::material::Trial;
+use crate::{
+    material::Trial,
+    solver::{Particle, equivalent},
+};
 
 /// What a step did in every particle of a block [J].
 #[derive(Debug, Clone, Copy)]

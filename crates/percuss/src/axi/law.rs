@@ -1,13 +1,12 @@
 //! What a body is made of, and what its particles can bear.
 
-use super::{
-    block::{Block, Lane, lanes},
-    particle::Particle,
-};
+use super::block::{Block, Lane, lanes};
 use crate::{
-    case::ArtificialViscosity,
-    fdm::StateEquation,
-    material::{DamageState, FlowState, PreparedDamage, PreparedStrength, YieldPoint},
+    material::{
+        DamageState, FlowState, PreparedDamage, PreparedStrength, StateEquation, YieldPoint,
+    },
+    options::ArtificialViscosity,
+    solver::Particle,
 };
 
 /// Pressure against volume and energy.

@@ -12,8 +12,6 @@ mod deform;
 mod field;
 mod kernel;
 mod law;
-mod options;
-mod particle;
 mod results;
 mod run;
 mod setup;
@@ -24,15 +22,15 @@ mod transfer;
 mod warnings;
 mod watch;
 
-pub use options::{AxiOptions, ContactKind, Edge, Eos};
-pub use particle::Particle;
+pub use crate::options::{AxiOptions, ContactKind, Edge, Eos};
+pub use crate::solver::Particle;
 
 use crate::{
     Error, Scenario,
     guard::Guard,
-    model::{Control, Model},
     outcome::RunResult,
     regime::TargetKind,
+    solver::{Control, Model},
 };
 
 /// Axisymmetric material point method.
@@ -79,6 +77,13 @@ impl Model for Axi {
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
         run::not_applicable(scenario)
+    }
+
+    fn refined(&self, scenario: &Scenario, factor: u32) -> Scenario {
+        let mut refined = scenario.clone();
+        let options = &mut refined.options.axi;
+        options.cells_per_radius = Some(options.cells_per_radius().saturating_mul(factor));
+        refined
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {

@@ -1,11 +1,12 @@
 //! From the state at the end of a run to its result.
 
-use super::{crater, particle::Particle, run::Run, setup::extent};
+use super::{crater, run::Run, setup::extent};
 use crate::{
     history::Recorder,
     outcome::{Detail, Numerics, RunResult, Termination},
     scenario::TargetBody,
     shapes::Shapes,
+    solver::Particle,
 };
 
 /// Part of a cell by which a surface must lie below the original face to be a crater.

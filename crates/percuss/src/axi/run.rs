@@ -5,7 +5,6 @@ use std::iter;
 use super::{
     axial,
     checkpoint::Keeping,
-    options::Eos,
     results::sum_up,
     setup::{build, extent},
     solver::Solver,
@@ -13,14 +12,17 @@ use super::{
 };
 use crate::{
     Error, Scenario,
-    control::go_on,
     error::NumericalError,
-    frames::{Frame, FrameClock},
     history::Recorder,
     material::Material,
-    model::{Control, Progress},
+    options::Eos,
     outcome::{RunResult, Termination},
     scenario::{Plate, TargetBody},
+    solver::{
+        Control, Progress,
+        frames::{Frame, FrameClock},
+        go_on,
+    },
 };
 
 /// Steps between two looks at the books and reports of progress.

@@ -7,16 +7,15 @@ use super::{
     boundary::{Support, Supports},
     contact::Contact,
     law::{Law, Pressure},
-    options::{ContactKind, Edge, Eos},
-    particle::Particle,
     solver::{Books, Pending, Solver},
 };
 use crate::{
     Scenario,
-    case::{BackFace, Nose},
-    fdm::StateEquation,
-    material::Material,
+    material::{Material, StateEquation},
+    options::{ContactKind, Edge, Eos},
+    problem::{BackFace, Nose},
     scenario::{Plate, Rod, TargetBody},
+    solver::Particle,
 };
 
 /// Radii of the projectile that a target is modelled out to, and below the depth that the shot is expected to reach.

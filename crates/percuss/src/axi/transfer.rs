@@ -3,8 +3,8 @@
 use super::{
     field::{Field, Node, Strip},
     kernel::Stencil,
-    particle::Particle,
 };
+use crate::solver::Particle;
 
 /// What a particle adds to the nodes around it.
 #[derive(Debug, Clone, Copy, Default)]

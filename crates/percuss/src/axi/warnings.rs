@@ -5,7 +5,7 @@ use super::{
     setup::extent,
 };
 use crate::{
-    Scenario, case::BackFace, material::Material, outcome::RunResult, scenario::TargetBody,
+    Scenario, material::Material, outcome::RunResult, problem::BackFace, scenario::TargetBody,
 };
 
 /// Part of the energy lost between particles and grid that deserves a word.

@@ -5,9 +5,10 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::{Case, ChainOptions, Document, load, reword::reword};
+use super::{Case, ChainOptions, Document, load};
 use crate::{
     check::Finding,
+    document::reword,
     error::Error,
     material::{Library, Material},
     scenario::Scenario,

@@ -1,8 +1,8 @@
 //! What the shear bands of a layer have in common: strength, spread and failure, from its material and the options.
 
 use crate::{
-    case::{BandFailure, ChainOptions},
     material::{DamageState, Material, PreparedDamage, PreparedStrength, perfectly_plastic},
+    options::{BandFailure, ChainOptions},
     scenario::Plate,
     units::Length,
 };

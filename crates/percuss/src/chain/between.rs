@@ -3,7 +3,7 @@
 use crate::{
     error::NumericalError,
     history::{Profile, Recorder, Sample},
-    model::Progress,
+    solver::Progress,
 };
 
 /// Largest energy residual of a run that counts.

@@ -2,14 +2,25 @@
 
 use super::expanding;
 use crate::{
-    case::{Nose, Scheme, TargetClosure},
+    options::{Scheme, TargetClosure},
+    problem::Nose,
     regime::{THIN, TargetKind},
     scenario::{Scenario, TargetBody},
 };
 
+/// Sets the target resistance model of a case that gives none; it depends on the rest of the case.
+pub(crate) fn choose_target_closure(scenario: &mut Scenario) {
+    if !scenario.given.target_closure {
+        scenario.options.chain.target_closure = None;
+        let (closure, reason) = default_closure(scenario);
+        scenario.options.chain.target_closure = Some(closure);
+        scenario.resistance_reason = reason;
+    }
+}
+
 /// Target resistance of a case that names none, and why it is not the expanding cavity, which is the default of a flat-ended rod on one
 /// layer: against the axisymmetric reference it errs least.
-pub(crate) fn default_closure(scenario: &Scenario) -> (TargetClosure, Option<String>) {
+fn default_closure(scenario: &Scenario) -> (TargetClosure, Option<String>) {
     let options = &scenario.options.chain;
     let solid = matches!(scenario.target, TargetBody::Layers { .. });
     if !solid || options.scheme != Scheme::Conservative || scenario.projectile.nose != Nose::Flat {

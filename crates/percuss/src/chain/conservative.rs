@@ -11,14 +11,14 @@ use super::{
 };
 use crate::{
     Error, Scenario,
-    case::{ErosionClosure, ErosionStrain},
     courant_retry::{AttemptError, CourantRetry},
     error::NumericalError,
     history::Recorder,
     ledger::{EnergyLedger, MomentumLedger},
-    model::{Control, Progress},
+    options::{ErosionClosure, ErosionStrain},
     outcome::{RunResult, Termination},
-    scenario::TargetBody,
+    scenario::{TargetBody, modelled_thickness},
+    solver::{Control, Progress},
 };
 
 /// Courant number when a case gives none.
@@ -266,7 +266,7 @@ fn end_time(scenario: &Scenario) -> f64 {
     match &scenario.target {
         TargetBody::Layers { layers, .. } => {
             for plate in layers {
-                let thickness = mesh::modelled_thickness(plate, scenario);
+                let thickness = modelled_thickness(plate, scenario);
                 time += 2.0 * thickness / plate.material.bar_wave_speed()
                     + 2.0 * (thickness + plate.gap) / speed;
             }

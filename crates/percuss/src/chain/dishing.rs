@@ -10,11 +10,7 @@ use super::{
     dishing_mesh::{Circle, rings, widths},
     plate_section::{PlateSection, Ring},
 };
-use crate::{
-    case::{ChainOptions, Support},
-    material::Material,
-    scenario::PlateEdge,
-};
+use crate::{material::Material, options::ChainOptions, problem::Support, scenario::PlateEdge};
 
 /// A plug and the plate around it.
 #[derive(Debug)]

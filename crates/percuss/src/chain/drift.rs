@@ -10,9 +10,9 @@ use super::{
     state::{Element, Segment, State},
 };
 use crate::{
-    case::Kinematics,
     error::NumericalError,
     material::{Hardening, YieldPoint},
+    options::Kinematics,
 };
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use super::{part::Part, state::Element};
 use crate::{
-    case::Kinematics,
     material::{FlowState, Trial},
+    options::Kinematics,
     power::{exponential, log_ratio},
 };
 

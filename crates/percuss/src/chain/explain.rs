@@ -3,10 +3,10 @@
 use super::expanding::{self, Expanding};
 use crate::{
     Error,
-    case::{ErosionStrain, TargetClosure},
-    model::Control,
+    options::{ErosionStrain, TargetClosure},
     outcome::{Band, BandQuantity, RunResult},
     scenario::Scenario,
+    solver::Control,
     units::significant,
 };
 

@@ -5,26 +5,16 @@ use std::f64::consts::PI;
 use super::{
     cone::{Cone, Grading},
     joint::Joint,
-    part::{Part, Role, constraint_factor},
+    part::{Part, Role},
     solver::LARGEST_STRAIN_STEP,
     state::{Books, Element, End, Node, Segment, State},
 };
 use crate::{
-    case::{BackFace, ErosionClosure, Kinematics, LayerInterface, TargetClosure},
     material::{FlowState, YieldPoint},
-    scenario::{Plate, Scenario, TargetBody},
+    options::{ErosionClosure, Kinematics, TargetClosure, constraint_factor},
+    problem::{BackFace, LayerInterface},
+    scenario::{Plate, Scenario, TargetBody, modelled_thickness},
 };
-
-/// Thickness that stands for a semi-infinite layer, in lengths of the projectile: deeper than any projectile of
-/// comparable density goes.
-const SEMI_INFINITE_LENGTHS: f64 = 4.0;
-
-/// Thickness of a layer as it is modelled [m].
-pub(crate) fn modelled_thickness(plate: &Plate, scenario: &Scenario) -> f64 {
-    plate
-        .thickness
-        .unwrap_or(SEMI_INFINITE_LENGTHS * scenario.projectile.length)
-}
 
 /// Elements of each layer: as the grading shares them, at least one each.
 fn layer_elements(plates: &[Plate], scenario: &Scenario, grading: Option<Grading>) -> Vec<usize> {

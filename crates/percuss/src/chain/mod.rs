@@ -42,12 +42,9 @@ mod warnings;
 mod watch;
 
 pub use between::{ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
-pub(crate) use closure::{closure_in_use, default_closure};
+pub(crate) use closure::{choose_target_closure, closure_in_use};
 use conservative::Conservative;
-pub(crate) use mesh::modelled_thickness;
-pub(crate) use part::constraint_factor;
 pub use published::Published;
-pub(crate) use warnings::held_back;
 
 use std::sync::atomic::AtomicBool;
 
@@ -55,12 +52,12 @@ pub(crate) use batch::Stopped;
 
 use crate::{
     Error, Scenario,
-    case::{BorderShearLaw, Scheme, TargetClosure},
     guard::{FirstChoice, Guard, NoseKind, Range},
     material::MaterialClass,
-    model::{Control, Model},
+    options::{BorderShearLaw, Scheme, TargetClosure},
     outcome::RunResult,
     regime::{ProjectileRegime, TargetKind},
+    solver::{Control, Model},
 };
 
 /// The 1-D discrete element model.
@@ -126,6 +123,18 @@ impl Model for Chain {
             }
             Scheme::Published => Published::not_applicable(scenario),
         }
+    }
+
+    fn refined(&self, scenario: &Scenario, factor: u32) -> Scenario {
+        let finer = |elements: usize| {
+            let elements = u32::try_from(elements).unwrap_or(u32::MAX);
+            Some(elements.saturating_mul(factor))
+        };
+        let mut refined = scenario.clone();
+        let options = &mut refined.options.chain;
+        options.projectile_elements = finer(options.projectile_elements());
+        options.target_elements = finer(options.target_elements());
+        refined
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {

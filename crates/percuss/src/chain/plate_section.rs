@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use super::band_law::Failure;
 use crate::{
-    case::ChainOptions,
     material::{FlowState, Material, PreparedStrength},
+    options::ChainOptions,
 };
 
 /// Part of the transverse shear stiffness that a rectangular section has \[mindlin1951\].

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::{band_law::BandLaw, dishing::Dishing, part::Role, shear_band::Bands, state::State};
 use crate::{
-    case::BorderShearLaw,
+    options::BorderShearLaw,
     outcome::Detail,
     scenario::{Scenario, TargetBody},
 };

@@ -8,8 +8,8 @@ use super::{
     state::{Element, End, Node, Segment, State},
 };
 use crate::{
-    case::{ArtificialViscosity, ChainOptions},
     error::NumericalError,
+    options::{ArtificialViscosity, ChainOptions},
 };
 
 /// Largest change of strain that one element may make in one step.

@@ -2,13 +2,14 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{mesh, plug};
+use super::plug;
 use crate::{
-    case::{BackFace, BorderShearLaw, ErosionClosure, TargetClosure},
+    guard::fixed_rear_face_warning,
     material::{Material, Strength, cavity_expansion_pressure},
+    options::{BorderShearLaw, ErosionClosure, TargetClosure},
     outcome::{Outcome, RunResult},
-    regime::THICK,
-    scenario::{Plate, Scenario, TargetBody},
+    problem::BackFace,
+    scenario::{Plate, Scenario, TargetBody, modelled_thickness},
     units::{StrainRate, Temperature, Velocity, significant},
 };
 
@@ -40,7 +41,7 @@ pub(super) fn warnings(
         ),
         _ => {}
     }
-    warnings.extend(held_back(scenario));
+    warnings.extend(fixed_rear_face_warning(scenario));
     warn_of_plug(scenario, result, &mut warnings);
     warn_of_closure(scenario, result, &mut warnings);
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
@@ -159,23 +160,6 @@ fn warning_of_rear_face(scenario: &Scenario, depth: f64) -> Option<String> {
     }
 }
 
-/// What a held back face does to a plate that is not thick.
-pub(crate) fn held_back(scenario: &Scenario) -> Option<String> {
-    let TargetBody::Layers {
-        back_face: BackFace::Fixed,
-        ..
-    } = scenario.target
-    else {
-        return None;
-    };
-    let ratio = scenario.target_thickness()? / scenario.projectile.diameter;
-    (ratio < THICK).then(|| {
-        "the back face is held (`target.back_face = \"fixed\"`, the default of a plate): nothing can leave through it; give \
-         \"free\" for a plate that the projectile may perforate"
-            .to_owned()
-    })
-}
-
 /// Part of the thickness beyond which a plate that dishes is more and more a membrane, which is left out.
 const LARGE_DISHING: f64 = 0.5;
 
@@ -211,7 +195,7 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
     };
     let thickness: f64 = layers
         .iter()
-        .map(|plate| mesh::modelled_thickness(plate, scenario))
+        .map(|plate| modelled_thickness(plate, scenario))
         .sum();
     let element = thickness / scenario.options.chain.target_elements() as f64;
     let (permanent, at_rest) = (result.permanent_depth, result.time_to_rest.is_some());

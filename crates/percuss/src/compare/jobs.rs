@@ -98,7 +98,7 @@ fn run_one(
         ..Control::default()
     };
     let record = match model::run_in(model, scenario, regime, &mut control) {
-        Ok(result) => ResultRecord::new(scenario, &result),
+        Ok(result) => ResultRecord::in_regime(scenario, regime, &result),
         Err(stop @ Error::Cancelled { .. }) => return Err(stop),
         Err(error) => ResultRecord::without_result(scenario, model.name(), &error),
     };

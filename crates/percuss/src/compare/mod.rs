@@ -15,7 +15,6 @@
 
 mod jobs;
 mod quantities;
-mod recommend;
 #[cfg(test)]
 mod tests;
 
@@ -23,16 +22,15 @@ use serde::Serialize;
 
 use crate::{
     Error, Scenario,
-    model::Model,
+    model::{Model, recommend},
     outcome::{BandQuantity, Outcome},
     regime::Regime,
     scenario::Measurement,
     summary::ResultRecord,
 };
 
+pub use crate::model::{Choice, Recommendation};
 pub use jobs::{Progress, Watch};
-pub(crate) use recommend::recommend;
-pub use recommend::{Choice, Recommendation};
 
 /// What every model says of a case. The names are stable; those of `percuss run --json` have the same meaning.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -2,24 +2,22 @@
 
 mod grid;
 mod numerics;
-mod options;
 pub mod planar;
 mod rod;
 mod viscosity;
 mod warnings;
 
-pub use options::{FdmOptions, Geometry};
+pub use crate::options::{FdmOptions, Geometry};
 pub use planar::StateEquation;
 pub use rod::Rod;
 
 use crate::{
     Error, Scenario,
-    case::ErosionStrain,
-    chain::held_back,
-    guard::{Guard, NoseKind, Range},
-    model::{Control, Model},
+    guard::{Guard, NoseKind, Range, fixed_rear_face_warning},
+    options::ErosionStrain,
     outcome::RunResult,
     regime::{ProjectileRegime, Regime},
+    solver::{Control, Model},
 };
 
 /// One-dimensional finite differences, as a rod or as a planar impact.
@@ -61,12 +59,21 @@ impl Model for Fdm {
         }
     }
 
+    fn refined(&self, scenario: &Scenario, factor: u32) -> Scenario {
+        let (projectile, target) = elements(scenario);
+        let mut refined = scenario.clone();
+        let options = &mut refined.options.fdm;
+        options.projectile_elements = Some(projectile.saturating_mul(factor));
+        options.target_elements = Some(target.saturating_mul(factor));
+        refined
+    }
+
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
         match scenario.options.fdm.geometry {
             Geometry::Rod => {
                 let mut result = Rod::new(scenario).run(control)?;
                 result.warnings.extend(Range::COLUMN.finding(scenario));
-                result.warnings.extend(held_back(scenario));
+                result.warnings.extend(fixed_rear_face_warning(scenario));
                 Ok(result)
             }
             Geometry::Planar => planar::run(scenario, control),
@@ -87,4 +94,21 @@ fn erodes(scenario: &Scenario) -> Option<String> {
             regime.because
         )
     })
+}
+
+/// Cells along the projectile and through the target, as a case resolves them.
+pub fn elements(scenario: &Scenario) -> (u32, u32) {
+    match scenario.options.fdm.geometry {
+        Geometry::Planar => planar::cells(scenario),
+        Geometry::Rod => {
+            let options = scenario
+                .options
+                .fdm
+                .with_defaults_of(&scenario.options.chain);
+            (
+                options.projectile_elements.unwrap_or(40),
+                options.target_elements.unwrap_or(80),
+            )
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Artificial viscosity.
 
-use crate::case::ArtificialViscosity;
+use crate::options::ArtificialViscosity;
 
 /// Viscous pressure `q = ρ Δu (c_q Δu + c_l c)` of a cell whose faces approach at `Δu` [m/s]; none when they part
 /// \[vonneumann1950\].

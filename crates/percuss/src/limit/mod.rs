@@ -41,7 +41,7 @@ use crate::{
 pub use crate::compare::{Progress, Watch};
 pub use expected::ExpectedLimitError;
 pub use fit::{LambertJonasFit, fit_lambert_jonas};
-pub use rear_face::RearFace;
+pub use rear_face::{RearFace, with_free_rear_face};
 
 /// Range of impact speeds [m/s], ends included.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -233,7 +233,7 @@ pub fn limits(
     search: &Search,
     watch: &mut Watch<'_>,
 ) -> Result<Limits, Error> {
-    let free = scenario.with_free_rear_face();
+    let free = with_free_rear_face(scenario);
     let scenario = free.as_ref().unwrap_or(scenario);
     let mut results = jobs::run(models, scenario, search, watch)?;
     for (model, entry) in models.iter().zip(&mut results) {

@@ -70,16 +70,16 @@ fn a_free_rear_face_is_the_one_that_a_case_would_write_down() {
              target = {{ material = 'aluminium-2024-t351', thickness = '26 mm'{back} }}"
         ))
     };
-    let assumed = thick("").with_free_rear_face().unwrap();
+    let assumed = with_free_rear_face(&thick("")).unwrap();
     let written = thick(", back_face = 'free'");
     assert_eq!(
         (&assumed.target, &assumed.options),
         (&written.target, &written.options)
     );
-    assert_eq!(written.with_free_rear_face(), None);
+    assert_eq!(with_free_rear_face(&written), None);
     let semi_infinite = "projectile = { material = 'copper', length = '20 mm', diameter = '5 mm', velocity = '300 m/s' }\n\
                          target = { material = 'copper', thickness = 'semi-infinite' }";
-    assert_eq!(scenario(semi_infinite).with_free_rear_face(), None);
+    assert_eq!(with_free_rear_face(&scenario(semi_infinite)), None);
 }
 
 #[test]

@@ -7,8 +7,8 @@ use std::{
 
 use super::{Material, MaterialTable};
 use crate::{
-    case::Document,
     check::{Check, Finding},
+    document::Document,
     error::Error,
 };
 

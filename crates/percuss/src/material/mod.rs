@@ -9,6 +9,7 @@ mod library;
 mod references;
 mod sanity;
 mod search;
+mod state_equation;
 mod strength;
 mod tensile;
 #[cfg(test)]
@@ -29,6 +30,8 @@ pub use equation_of_state::EquationOfState;
 pub use failure::*;
 pub use library::{Library, MaterialEntry};
 pub use references::{Reference, references};
+pub use state_equation::{StateEquation, impedance_match};
+pub(crate) use strength::strength_factor;
 pub use strength::*;
 pub use tensile::tensile_strength;
 pub(crate) use yield_point::{Trial, YieldPoint, first_return};

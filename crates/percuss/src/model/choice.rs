@@ -1,7 +1,7 @@
 //! Default model of a run: the chain where it applies, otherwise the model that a comparison recommends.
 
-use super::{Control, Model, applicability_in, model, quick, run_in};
-use crate::{Error, Scenario, compare, outcome::RunResult, regime::Regime};
+use super::{Control, Model, applicability_in, model, quick, recommend, run_in};
+use crate::{Error, Scenario, outcome::RunResult, regime::Regime};
 
 /// Name of the model of a run that names none.
 pub const DEFAULT_MODEL: &str = "chain";
@@ -79,7 +79,7 @@ pub fn default_model(scenario: &Scenario) -> Result<ChosenModel, Error> {
         })
         .collect();
     let names: Vec<&dyn Model> = models.iter().map(|model| *model as &dyn Model).collect();
-    let recommended = compare::recommend(&names, scenario, &regime, &given);
+    let recommended = recommend(&names, scenario, &regime, &given);
     let (chosen, why) = match recommended.models.first() {
         Some(choice) => (
             Some(choice.model),
@@ -142,7 +142,10 @@ fn capitalised(words: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{case, compare::Watch};
+    use crate::{
+        case,
+        compare::{Watch, compare},
+    };
 
     fn scenario(projectile: &str, target: &str) -> Scenario {
         let text = format!(
@@ -179,8 +182,7 @@ mod tests {
         ] {
             let case = scenario(projectile, target);
             let chosen = default_model(&case).unwrap_or_else(|error| panic!("{target}: {error}"));
-            let compared =
-                compare::compare(&quick(), &case, &[case.impact_speed], &mut Watch::default());
+            let compared = compare(&quick(), &case, &[case.impact_speed], &mut Watch::default());
             let compared = compared.unwrap();
             let results = compared.results.iter().find(|result| result.is_result());
             let first = compared.recommended[0].models.first();

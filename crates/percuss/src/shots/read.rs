@@ -9,9 +9,10 @@ use super::{
     row::{Row, Table},
 };
 use crate::{
-    case::{Nose, read_text},
+    document::read_text,
     error::{Error, InputError},
     material::{Library, Trust},
+    problem::Nose,
     units::shorten,
 };
 

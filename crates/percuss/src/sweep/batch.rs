@@ -71,11 +71,10 @@ impl Kernel for BatchKernel {
                 (Ok(scenario), Some((regime, warnings))) => {
                     // There is a result for every shot that was prepared.
                     let Some(result) = results.next() else { break };
-                    let result = result.and_then(|result| {
-                        model::complete(self.model, scenario, &regime, warnings, result)
-                    });
+                    let result = result
+                        .and_then(|result| model::complete(self.model, scenario, warnings, result));
                     Ok(match result {
-                        Ok(result) => ResultRecord::new(scenario, &result),
+                        Ok(result) => ResultRecord::in_regime(scenario, &regime, &result),
                         Err(error) => {
                             ResultRecord::without_result(scenario, self.model.name(), &error)
                         }

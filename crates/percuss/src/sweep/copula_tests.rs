@@ -1,7 +1,6 @@
 use std::f64::consts::PI;
 
-use super::{super::tests::sweep, *};
-use crate::sweep::Sweep;
+use super::{Copula, Sweep, tests::sweep};
 
 const NORMALS: &str = "
 [[parameter]]

@@ -1,11 +1,10 @@
-//! The sweep file as types.
+//! The sweep file as a type.
 
 use std::path::PathBuf;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
-use super::{amount::Amount, correlation::Correlation, entry::Entry};
+use crate::inputs::{Correlation, Design, Parameter};
 
 /// A sweep as its TOML file holds it.
 #[derive(Debug, Clone, Deserialize)]
@@ -26,122 +25,4 @@ pub(super) struct SweepFile {
     #[serde(default)]
     pub(super) parameter: Vec<Parameter>,
     pub(super) correlation: Option<Correlation>,
-}
-
-/// How the shots are chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Design {
-    /// Every combination of the values; the first parameter varies slowest.
-    Grid,
-    /// One shot in each of as many equally likely intervals of every parameter as there are shots, matched at random.
-    LatinHypercube,
-    /// Sobol' points with Owen's scrambling.
-    Sobol,
-}
-
-impl Design {
-    /// Its name as the file has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Grid => "grid",
-            Self::LatinHypercube => "latin-hypercube",
-            Self::Sobol => "sobol",
-        }
-    }
-}
-
-/// A number or an option of the case and the values it takes: just one of the other keys.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Parameter {
-    /// Number of the case by the tables that it stands in, such as `projectile.velocity`; entries of lists count from 0.
-    pub key: String,
-    /// A list.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub values: Option<Vec<Entry>>,
-    /// Values at even steps.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub linear: Option<Steps>,
-    /// Values at even ratios.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub log: Option<Steps>,
-    /// Normal distribution.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub normal: Option<Normal>,
-    /// Distribution whose logarithm is normal.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lognormal: Option<Lognormal>,
-    /// Equally likely in between.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub uniform: Option<Uniform>,
-    /// Triangular distribution.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub triangular: Option<Triangular>,
-}
-
-/// Values at even steps, both ends included.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Steps {
-    /// Lower end.
-    pub from: Amount,
-    /// Upper end.
-    pub to: Amount,
-    /// Number of values.
-    pub count: u64,
-}
-
-/// A normal distribution, which may be cut off.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Normal {
-    /// Mean.
-    pub mean: Amount,
-    /// Standard deviation.
-    pub standard_deviation: Amount,
-    /// Where it is cut off below.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub min: Option<Amount>,
-    /// Where it is cut off above.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub max: Option<Amount>,
-}
-
-/// A lognormal distribution, which may be cut off.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Lognormal {
-    /// Median.
-    pub median: Amount,
-    /// Standard deviation of the natural logarithm.
-    pub log_standard_deviation: f64,
-    /// Where it is cut off below.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub min: Option<Amount>,
-    /// Where it is cut off above.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub max: Option<Amount>,
-}
-
-/// A uniform distribution.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Uniform {
-    /// Lower end.
-    pub from: Amount,
-    /// Upper end.
-    pub to: Amount,
-}
-
-/// A triangular distribution.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Triangular {
-    /// Lower end.
-    pub from: Amount,
-    /// Likeliest value.
-    pub mode: Amount,
-    /// Upper end.
-    pub to: Amount,
 }

@@ -11,6 +11,7 @@ use crate::{
     case::Template,
     check::Finding,
     model::{self, Control, Model},
+    regime::Regime,
     summary::ResultRecord,
 };
 
@@ -110,10 +111,14 @@ impl ScalarKernel {
             ..Control::default()
         };
         // One shot is what a panic may cost: the other shots of the block, the block and the sweep go on.
-        let result = caught(|| model::run(self.model, scenario, &mut control));
+        let result = caught(|| {
+            let regime = Regime::of(scenario);
+            let result = model::run_in(self.model, scenario, &regime, &mut control)?;
+            Ok(ResultRecord::in_regime(scenario, &regime, &result))
+        });
         let result = result.unwrap_or_else(|said| Err(Error::Fault(said)));
         match result {
-            Ok(result) => Ok(ResultRecord::new(scenario, &result)),
+            Ok(record) => Ok(record),
             Err(Error::Cancelled { .. }) => Err(Stopped),
             Err(error) => Ok(ResultRecord::without_result(
                 scenario,

@@ -4,17 +4,17 @@ use std::path::Path;
 
 use super::{
     BatchKernel, Sweep,
-    axis::Axis,
-    file::{Design, SweepFile},
-    inputs::{check_values, resolve},
+    file::SweepFile,
     points::{MAX_SHOTS, Points},
     sobol::MAX_DIMENSIONS,
+    written_values::check_values,
 };
 use crate::{
     Error,
     case::{Document, Template},
     check::{Check, Finding},
     error::nearest,
+    inputs::{Axis, Design, resolve},
     model::{MODELS, model},
 };
 

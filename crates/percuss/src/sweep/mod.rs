@@ -3,50 +3,42 @@
 //! Shot i of a sweep is a pure function of the sweep file, the base case and i, and so is its row: which thread, process or
 //! machine computes it, and when, makes no difference.
 
-mod amount;
-mod axis;
 mod batch;
 #[cfg(test)]
 mod block_tests;
 mod caught;
 mod compute;
-mod copula;
-mod correlation;
-mod distribution;
-mod entry;
+#[cfg(test)]
+mod copula_tests;
 mod file;
-mod inputs;
 mod kernel;
 mod load;
-mod parameter;
 mod points;
 mod random;
 mod sobol;
 #[cfg(test)]
 mod tests;
+mod written_values;
 
 use std::{
     ops::Range,
     path::{Path, PathBuf},
 };
 
-pub use amount::Amount;
-pub use axis::Axis;
-pub(crate) use axis::{Values, values};
 pub use batch::BatchKernel;
 pub use compute::Watch;
 pub(crate) use compute::in_blocks;
-pub(crate) use copula::Copula;
-pub use correlation::Correlation;
-pub(crate) use distribution::{Distribution, score};
-pub use entry::Entry;
-pub use file::{Design, Lognormal, Normal, Parameter, Steps, Triangular, Uniform};
-pub use inputs::UncertainInputs;
-pub(crate) use inputs::check_values;
 pub use kernel::{Kernel, Row, ScalarKernel, Shot, Stopped};
 pub(crate) use points::Points;
 pub(crate) use random::{bits, permuted, stream};
 pub(crate) use sobol::MAX_DIMENSIONS;
+pub(crate) use written_values::check_values;
+
+pub use crate::inputs::{
+    Amount, Axis, Correlation, Design, Entry, Lognormal, Normal, Parameter, Steps, Triangular,
+    UncertainInputs, Uniform,
+};
+pub(crate) use crate::inputs::{Copula, Distribution, Values, score, values};
 
 use crate::{
     Error,

@@ -1,12 +1,10 @@
 //! Designs: which values shot i has.
 
 use super::{
-    axis::{Axis, Values, values},
-    copula::Copula,
-    file::Design,
     random::{bits, permuted, stream},
     sobol::Directions,
 };
+use crate::inputs::{Axis, Copula, Design, Values, values};
 
 /// Most shots of a sweep.
 pub(super) const MAX_SHOTS: u64 = 1 << 30;

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::Shot;
 use crate::{
-    case::read_text,
     check::limits::IMPACT_SPEED,
+    document::read_text,
     error::{Error, InputError, nearest},
     shots::row::{Row, Table, field_span},
     units::{Velocity, shorten},

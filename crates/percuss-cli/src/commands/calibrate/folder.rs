@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use percuss::calibrate::Calibrated;
 
-use crate::{failure::Failure, run_folder::RunFolder, terminal};
+use crate::{failure::Failure, output, run_folder::RunFolder};
 
 /// Writes numbers, materials and figures.
 pub(super) fn write(found: &Calibrated, mut folder: RunFolder) -> Result<Vec<PathBuf>, Failure> {
-    folder.put("calibration.json", terminal::json(found)?.as_bytes())?;
+    folder.put("calibration.json", output::json(found)?.as_bytes())?;
     folder.add(percuss_report::calibration::write(
         folder.path(),
         &found.calibration,

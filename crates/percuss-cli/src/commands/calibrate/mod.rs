@@ -23,6 +23,7 @@ use percuss::{
 use crate::{
     answer::{Answer, AtHand, Found, Hear},
     failure::Failure,
+    output,
     progress::Progress,
     run_folder::RunFolder,
     shot_data, terminal, workers,
@@ -263,7 +264,7 @@ impl Calibrate {
             return written.print_json(found, self.quiet);
         }
         if self.quiet {
-            return terminal::print(&table::lines(calibration));
+            return output::print(&table::lines(calibration));
         }
         let mut text = table::text(calibration);
         if self.out.is_none() {

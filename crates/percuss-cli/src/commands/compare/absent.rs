@@ -5,8 +5,11 @@ use percuss::{
     outcome::{BandQuantity, Outcome},
 };
 
-use super::kinds::{by_models, kinds};
-use crate::terminal::{bold, width, wrap};
+use super::kinds::kinds;
+use crate::{
+    by_models::by_models,
+    terminal::{bold, width, wrap},
+};
 
 /// The list below the tables; empty when every model says everything.
 pub fn text(comparison: &Comparison) -> String {

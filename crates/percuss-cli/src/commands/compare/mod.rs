@@ -8,8 +8,6 @@ mod sweep;
 mod tests;
 mod warnings;
 
-pub use kinds::by_models;
-
 use std::path::PathBuf;
 
 use clap::{Args, builder::PossibleValuesParser};
@@ -22,6 +20,7 @@ use percuss::{
 use crate::{
     answer::{Answer, AtHand, Hear},
     failure::Failure,
+    output,
     progress::Progress,
     run_folder::RunFolder,
     speeds::Speeds,
@@ -184,7 +183,7 @@ impl Compare {
             return written.print_json(comparison, self.quiet);
         }
         if self.quiet {
-            return terminal::print(&single::lines(comparison));
+            return output::print(&single::lines(comparison));
         }
         // Without a result there are reasons only, and they are the error.
         let mut text = String::new();

@@ -2,8 +2,11 @@
 
 use percuss::{compare::Comparison, summary::ResultRecord};
 
-use super::kinds::{by_models, kinds};
-use crate::terminal::{width, wrap, yellow};
+use super::kinds::kinds;
+use crate::{
+    by_models::by_models,
+    terminal::{width, wrap, yellow},
+};
 
 /// Warnings of the recommended models; where none is recommended, those of all.
 pub fn text(comparison: &Comparison) -> String {

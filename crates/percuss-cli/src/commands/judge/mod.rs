@@ -14,10 +14,9 @@ use crate::{
     answer::{Answer, Hear},
     diagnostic,
     failure::Failure,
-    judgement_table,
+    judgement_table, output,
     progress::Progress,
     run_folder::make_folder,
-    terminal,
     written::Written,
 };
 
@@ -154,7 +153,7 @@ impl Judge {
                 .iter()
                 .map(judgement_table::one_line)
                 .collect();
-            return terminal::print(&lines);
+            return output::print(&lines);
         }
         let by: Vec<Grouping> = self.by.iter().copied().map(Grouping::from).collect();
         written.print_under(judgement_table::text(&found.judgement, &found.origin, &by))

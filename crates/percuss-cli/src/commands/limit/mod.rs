@@ -17,9 +17,9 @@ use serde::Serialize;
 use crate::{
     answer::{Answer, AtHand, Hear},
     failure::Failure,
+    output,
     progress::Progress,
     run_folder::RunFolder,
-    terminal,
     written::Written,
 };
 
@@ -203,7 +203,7 @@ impl Limit {
     }
 
     fn write(&self, mut folder: RunFolder, found: &Found) -> Result<Vec<PathBuf>, Failure> {
-        folder.put("limit.json", terminal::json(&found.record())?.as_bytes())?;
+        folder.put("limit.json", output::json(&found.record())?.as_bytes())?;
         if let Some((scenario, limits)) = &found.case {
             folder.add(percuss_report::write_limits(folder.path(), limits)?);
             if let Some(figure) = percuss_report::limit_figure(scenario, limits) {
@@ -232,7 +232,7 @@ impl Limit {
                 .shots
                 .as_ref()
                 .map_or_else(String::new, |(_, v50)| table::v50_lines(v50));
-            return terminal::print(&text);
+            return output::print(&text);
         }
         if let Some((scenario, limits)) = &found.case {
             // Without a result there are reasons only, and they are the error.

@@ -2,7 +2,7 @@ use comfy_table::{CellAlignment, Table, presets};
 use percuss::material::MaterialEntry;
 
 use super::MaterialRecord;
-use crate::{failure::Failure, terminal};
+use crate::{failure::Failure, output, terminal};
 
 /// Widest table, of records with short ids; others get a few lines per material.
 const MAX_WIDTH: usize = 100;
@@ -10,7 +10,7 @@ const MAX_WIDTH: usize = 100;
 /// Prints materials.
 pub fn list(materials: &[&MaterialEntry], json: bool) -> Result<(), Failure> {
     if json {
-        return terminal::print_json(&records(materials));
+        return output::print_json(&records(materials));
     }
     let mut table = Table::new();
     table
@@ -28,8 +28,8 @@ pub fn list(materials: &[&MaterialEntry], json: bool) -> Result<(), Failure> {
     let widest = text.lines().map(|line| line.chars().count()).max();
     let room = table.width().map_or(MAX_WIDTH, usize::from).min(MAX_WIDTH);
     match widest > Some(room) {
-        true => terminal::print(&narrow(materials)),
-        false => terminal::print(&format!("{text}\n")),
+        true => output::print(&narrow(materials)),
+        false => output::print(&format!("{text}\n")),
     }
 }
 

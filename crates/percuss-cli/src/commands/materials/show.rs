@@ -3,7 +3,7 @@ use percuss::material::{Library, MaterialEntry, Reference, references};
 use serde::Serialize;
 
 use super::MaterialRecord;
-use crate::{answer::Answer, failure::Failure, material_card, terminal};
+use crate::{answer::Answer, failure::Failure, material_card, output};
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -46,9 +46,9 @@ impl Show {
     pub fn run(&self, library: &Library, json: bool) -> Result<(), Failure> {
         let entry = self.find(library)?;
         if json {
-            return terminal::print_json(&card(entry, library));
+            return output::print_json(&card(entry, library));
         }
-        terminal::print(&material_card::text(entry, library))
+        output::print(&material_card::text(entry, library))
     }
 
     /// What the command prints with --json.

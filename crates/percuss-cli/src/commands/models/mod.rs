@@ -12,7 +12,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use self::options::ModelOption;
-use crate::{answer::Answer, failure::Failure, terminal};
+use crate::{answer::Answer, failure::Failure, output};
 
 const LONG_ABOUT: &str = "\
 List the models: what each of them is, and which projectiles and targets it is
@@ -70,10 +70,10 @@ impl ModelRecord {
 impl Models {
     pub fn run(&self) -> Result<(), Failure> {
         match (&self.name, self.json) {
-            (Some(name), true) => terminal::print_json(&one(name)?),
-            (None, true) => terminal::print_json(&all()),
-            (Some(name), false) => terminal::print(&card::text(&one(name)?)),
-            (None, false) => terminal::print(&table::text(&all())),
+            (Some(name), true) => output::print_json(&one(name)?),
+            (None, true) => output::print_json(&all()),
+            (Some(name), false) => output::print(&card::text(&one(name)?)),
+            (None, false) => output::print(&table::text(&all())),
         }
     }
 

@@ -12,14 +12,15 @@ use percuss::{
 };
 use percuss_report::FieldQuantity;
 
-pub use self::task::Ran;
 use self::task::Task;
 use crate::{
     answer::{Answer, AtHand, Found, Hear},
     diagnostic,
     failure::Failure,
+    output,
     progress::Progress,
-    result_table, run_folder, terminal, workers,
+    ran::Ran,
+    result_table, run_folder, workers,
     written::Written,
 };
 
@@ -172,7 +173,7 @@ impl Run {
         }
         if self.quiet {
             let lines: String = results.results.iter().map(one_line).collect();
-            return terminal::print(&lines);
+            return output::print(&lines);
         }
         let others = match self.model {
             Some(_) => None,

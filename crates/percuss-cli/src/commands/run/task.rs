@@ -3,7 +3,6 @@
 use std::{
     ops::ControlFlow,
     path::{Path, PathBuf},
-    slice,
     sync::{Arc, atomic::AtomicBool},
     time::Duration,
 };
@@ -14,7 +13,6 @@ use percuss::{
     frames::Frame,
     model::{self, ChosenModel, Control, Model},
     outcome::RunResult,
-    summary::CaseResults,
 };
 use percuss_report::{FieldQuantity, FieldSeries, FinalField};
 
@@ -25,6 +23,7 @@ use super::{
 use crate::{
     answer::{AtHand, Hear},
     failure::Failure,
+    ran::Ran,
     run_folder::RunFolder,
 };
 
@@ -32,22 +31,6 @@ use crate::{
 const FRAMES: u16 = 64;
 /// Time between two checkpoints, unless another one is asked for.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(60);
-
-/// A case and what came of it.
-#[derive(Debug)]
-pub struct Ran {
-    /// The case.
-    pub scenario: Arc<Scenario>,
-    /// What came of it.
-    pub result: Arc<RunResult>,
-}
-
-impl Ran {
-    /// What `percuss run --json` prints.
-    pub fn results(&self) -> CaseResults {
-        CaseResults::new(&self.scenario, slice::from_ref(&self.result))
-    }
-}
 
 /// A run that is due.
 pub(super) struct Task<'a> {

@@ -18,6 +18,7 @@ use serde::Serialize;
 use crate::{
     answer::Answer,
     failure::Failure,
+    output,
     progress::Progress,
     terminal::{self, bold},
     workers,
@@ -103,13 +104,13 @@ impl Sweep {
     pub fn run(&self) -> Result<(), Failure> {
         match (&self.what, &self.file, &self.out) {
             (Some(What::Status { folder, json }), ..) => match *json {
-                true => terminal::print_json(&StatusRecord::from(status(folder)?)),
+                true => output::print_json(&StatusRecord::from(status(folder)?)),
                 false => print_status(folder),
             },
             (Some(What::Merge { folders, out }), ..) => {
                 let rows = merge(folders, out)?;
                 let rows = terminal::counted(rows as usize, "row");
-                terminal::print(&format!("wrote {rows} to {}\n", out.display()))
+                output::print(&format!("wrote {rows} to {}\n", out.display()))
             }
             (Some(What::Plot(plot)), ..) => plot.run(),
             (None, Some(file), Some(out)) => self.compute(file, out),
@@ -200,7 +201,7 @@ impl Sweep {
         for (outcome, count) in &board.outcomes {
             text += &format!("  {count:>9} {outcome}\n");
         }
-        terminal::print(&text)
+        output::print(&text)
     }
 }
 
@@ -267,7 +268,7 @@ fn print_status(folder: &Path) -> Result<(), Failure> {
     if status.running {
         text += "  a process is computing it now\n";
     }
-    terminal::print(&text)
+    output::print(&text)
 }
 
 /// Three digits are enough of a rate.

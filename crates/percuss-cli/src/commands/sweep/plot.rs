@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use percuss_report::sweep::{PlotRequest, PlotStyle, plot};
 use serde::Serialize;
 
-use crate::{answer::Answer, failure::Failure, terminal};
+use crate::{answer::Answer, failure::Failure, output};
 
 const LONG_ABOUT: &str = "\
 Draw a result of a sweep, as SVG and PNG: curves of one parameter, or of two
@@ -68,7 +68,7 @@ impl Plot {
     pub fn run(&self) -> Result<(), Failure> {
         let (title, files) = self.draw()?;
         let [svg, png] = files.map(|file| file.display().to_string());
-        terminal::print(&format!("{title}\nwrote {svg} and {png}\n"))
+        output::print(&format!("{title}\nwrote {svg} and {png}\n"))
     }
 
     /// Its title, and the files.

@@ -23,10 +23,11 @@ use percuss::{
 use crate::{
     answer::{self, Answer, AtHand, Hear},
     failure::Failure,
+    output,
     progress::Progress,
     run_folder::RunFolder,
     speeds::{Speeds, SpeedsError},
-    terminal, workers,
+    workers,
     written::Written,
 };
 
@@ -255,14 +256,14 @@ impl Uncertainty {
             return written.print_json(found, self.quiet);
         }
         if self.quiet {
-            return terminal::print(&table::lines(found));
+            return output::print(&table::lines(found));
         }
         written.print_under(table::text(&study.scenario, found))
     }
 }
 
 fn write(mut folder: RunFolder, study: &Study, found: &Found) -> Result<Vec<PathBuf>, Failure> {
-    folder.put("uncertainty.json", terminal::json(found)?.as_bytes())?;
+    folder.put("uncertainty.json", output::json(found)?.as_bytes())?;
     folder.add(percuss_report::write_uncertainty(folder.path(), found)?);
     for figure in percuss_report::uncertainty_figures(&study.scenario, found) {
         folder.add(figure.write(folder.path())?);

@@ -7,9 +7,6 @@ mod tests;
 
 use std::f64::consts::PI;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use self::stages::Impact;
 use super::{
     plate_shot::{PlateShot, plate_result, refuse, taken_as_rigid},
@@ -17,42 +14,18 @@ use super::{
 };
 use crate::{
     Error, Scenario,
-    case::Target,
-    check::{Check, limits},
     guard::{Guard, NoseKind},
     material::tensile_strength,
-    model::{Control, Model},
+    options::AwerbuchBodnerOptions,
     outcome::{Band, BandQuantity, Detail, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
+    solver::{Control, Model},
     units::Pressure,
 };
 
 /// Perforation in three stages.
 #[derive(Debug, Clone, Copy)]
 pub struct AwerbuchBodner;
-
-/// Options of the model `awerbuch_bodner`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct AwerbuchBodnerOptions {
-    /// Stress that crushes the plate in front of the flat face [Pa]; 2.7 tensile strengths when not given.
-    pub crushing_stress: Option<Pressure>,
-    /// Shear strength of the plate [Pa]; its tensile strength over √3 when not given.
-    pub shear_strength: Option<Pressure>,
-}
-
-impl AwerbuchBodnerOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
-        for (key, stress) in [
-            ("crushing_stress", self.crushing_stress),
-            ("shear_strength", self.shear_strength),
-        ] {
-            if let Some(stress) = stress {
-                check.quantity(key, stress, limits::FLOW_STRESS);
-            }
-        }
-    }
-}
 
 /// Factor on the strength under a flat face that the plate around it confines \[woodward1982\].
 const CONFINEMENT: f64 = 2.7;

@@ -3,9 +3,6 @@
 mod equations;
 mod exact;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 pub use equations::{Phase, Rods, Stop};
 
 use super::long_rod::{
@@ -13,40 +10,13 @@ use super::long_rod::{
 };
 use crate::{
     Error, Scenario,
-    case::Target,
-    check::{Check, limits},
     guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
     material::{Material, MaterialClass, cavity_expansion_pressure},
-    model::{Control, Model},
     outcome::{Band, BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
+    solver::{Control, Model},
     units::Pressure,
 };
-
-/// Options of the model `tate`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct TateOptions {
-    /// Strength Y of the projectile [Pa]; its flow stress at a plastic strain of 0.1 when not given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub projectile_strength: Option<Pressure>,
-    /// Resistance R of the target [Pa]; the pressure that slowly expands a spherical cavity in it when not given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub target_resistance: Option<Pressure>,
-}
-
-impl TateOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
-        for (key, value) in [
-            ("projectile_strength", self.projectile_strength),
-            ("target_resistance", self.target_resistance),
-        ] {
-            if let Some(value) = value {
-                check.quantity(key, value, limits::FLOW_STRESS);
-            }
-        }
-    }
-}
 
 /// The long rod of Alekseevskii and Tate.
 #[derive(Debug, Clone, Copy)]

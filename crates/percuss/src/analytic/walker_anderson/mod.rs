@@ -5,9 +5,6 @@ mod motion;
 #[cfg(test)]
 mod tests;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use flow::Flow;
 use motion::Motion;
 
@@ -17,46 +14,13 @@ use super::{
 };
 use crate::{
     Error, Scenario,
-    case::Target,
-    check::{Check, limits},
     guard::Guard,
     material::Material,
-    model::{Control, Model},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
-    units::{Length, Pressure, significant},
+    solver::{Control, Model},
+    units::{Length, significant},
 };
-
-/// Options of the model `walker_anderson`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct WalkerAndersonOptions {
-    /// Flow stress of the projectile [Pa]; that at a plastic strain of 0.1 when not given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub projectile_strength: Option<Pressure>,
-    /// Flow stress of the target [Pa], not its resistance; that at a plastic strain of 0.1 when not given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub target_strength: Option<Pressure>,
-    /// Radius of the crater [m]; from the impact speed when not given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub crater_radius: Option<Length>,
-}
-
-impl WalkerAndersonOptions {
-    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
-        for (key, value) in [
-            ("projectile_strength", self.projectile_strength),
-            ("target_strength", self.target_strength),
-        ] {
-            if let Some(value) = value {
-                check.quantity(key, value, limits::FLOW_STRESS);
-            }
-        }
-        if let Some(radius) = self.crater_radius {
-            check.quantity("crater_radius", radius, limits::DIAMETER);
-        }
-    }
-}
 
 /// The long rod of Walker and Anderson.
 #[derive(Debug, Clone, Copy)]

@@ -1,10 +1,12 @@
 //! Slow loading of a body by a pressure on one of its faces.
 
 use super::{Body, Solver};
-use crate::axi::{
-    field::{FORCE, MOMENTUM},
-    kernel::Stencil,
-    particle::Particle,
+use crate::{
+    axi::{
+        field::{FORCE, MOMENTUM},
+        kernel::Stencil,
+    },
+    solver::Particle,
 };
 
 /// A part between 1 on the loaded face and 0 on all others, and its gradient [1/m].

@@ -18,12 +18,12 @@ use super::{
     boundary::Supports,
     contact::Contact,
     law::{Law, Pressure},
-    particle::Particle,
     solver::{Books, Pending, Solver},
 };
 use crate::{
     case::ArtificialViscosity,
     material::{FlowState, FlowStress, PreparedStrength},
+    solver::Particle,
 };
 
 /// Elastic, then flow at a constant stress; infinite for a material that never flows.

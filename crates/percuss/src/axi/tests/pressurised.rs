@@ -5,9 +5,9 @@ use super::{
     load::{Loading, load},
     rectangle, solver, spherical_shell, supported, uniform,
 };
-use crate::axi::{
-    boundary::{Support, Supports},
-    particle::Particle,
+use crate::{
+    axi::boundary::{Support, Supports},
+    solver::Particle,
 };
 
 const INNER: f64 = 10e-3;

@@ -1,11 +1,11 @@
 //! Which shots can be computed side by side.
 
 use crate::{
-    case::{
+    material::Material,
+    options::{
         ArtificialViscosity, BorderShearLaw, ChainOptions, ErosionClosure, Kinematics, Scheme,
         TargetClosure,
     },
-    material::Material,
     scenario::{Plate, Scenario, TargetBody},
 };
 

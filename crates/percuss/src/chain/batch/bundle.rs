@@ -8,7 +8,7 @@ use super::{
     whole::Whole,
 };
 use crate::{
-    case::BackFace,
+    problem::BackFace,
     scenario::{Scenario, TargetBody},
 };
 

@@ -39,15 +39,13 @@ use bundle::{Bundle, Mesh};
 pub(in crate::chain) use flow::Start;
 pub(in crate::chain) use lanes::LANES;
 
-use super::{
-    conservative::{AUDIT_INTERVAL, Conservative},
-    part::constraint_factor,
-};
+use super::conservative::{AUDIT_INTERVAL, Conservative};
 use crate::{
     Error, Scenario,
-    model::{Control, Progress},
+    options::constraint_factor,
     outcome::RunResult,
     scenario::TargetBody,
+    solver::{Control, Progress},
 };
 
 /// Stages of [`AUDIT_INTERVAL`] steps that an empty lane waits for others to end: shots that start together have their waves in

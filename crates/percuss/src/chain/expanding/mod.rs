@@ -35,17 +35,17 @@ use self::{
 use super::{
     between::Moment,
     cone::{Cone, Grading},
-    mesh::modelled_thickness,
     solver::StepControl,
 };
 use crate::{
     Error, Scenario,
-    case::{BackFace, ErosionStrain},
     courant_retry::CourantRetry,
     history::Recorder,
-    model::{Control, Progress},
+    options::ErosionStrain,
     outcome::{RunResult, Termination},
-    scenario::{Plate, TargetBody},
+    problem::BackFace,
+    scenario::{Plate, TargetBody, modelled_thickness},
+    solver::{Control, Progress},
 };
 
 const DEFAULT_COURANT: f64 = 0.5;

@@ -13,7 +13,7 @@
 //! `B(t) = 2 Σ_j (−1)^j F(t − (2j + 1)h/c_p)` is exact for the contact force F.
 
 use super::delay_line::DelayLine;
-use crate::{case::BackFace, chain::cone::Cone};
+use crate::{chain::cone::Cone, problem::BackFace};
 
 /// Samples of a delay line per transit of the thickness.
 const SAMPLES: usize = 64;

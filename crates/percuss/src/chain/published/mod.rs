@@ -8,15 +8,18 @@ mod springs;
 
 use std::f64::consts::PI;
 
-use super::{friction::rub, part::constraint_factor};
+use super::friction::rub;
 use crate::{
     Error, Scenario,
-    case::{ContactSpring, Interface, PublishedBorderShear, PublishedOptions, PublishedTimeStep},
     error::NumericalError,
     history::Recorder,
     material::Material,
-    model::{Control, Progress},
+    options::{
+        ContactSpring, Interface, PublishedBorderShear, PublishedOptions, PublishedTimeStep,
+        constraint_factor,
+    },
     outcome::{RunResult, Termination},
+    solver::{Control, Progress},
 };
 
 use springs::{Springs, law, single_plate};

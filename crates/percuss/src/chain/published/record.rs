@@ -7,9 +7,9 @@ use super::{
     springs::{Springs, single_plate},
 };
 use crate::{
-    case::Interface,
     history::{ElementState, Profile, Recorder, Sample},
     ledger::{EnergyLedger, MomentumLedger},
+    options::Interface,
     outcome::{Numerics, Outcome, RunResult, Termination},
 };
 

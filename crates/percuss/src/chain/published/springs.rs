@@ -2,8 +2,9 @@
 
 use crate::{
     Scenario,
-    case::{BackFace, SmallStrainStiffness},
     material::{Material, Strength},
+    options::SmallStrainStiffness,
+    problem::BackFace,
     scenario::{Plate, TargetBody},
 };
 

@@ -1,12 +1,12 @@
 //! A column of planar bodies between two ends: the solver by itself, for problems that are no shot.
 
-use super::{law::PlanarLaw, state::StateEquation};
+use super::law::PlanarLaw;
 use crate::{
     Error,
-    case::ArtificialViscosity,
     fdm::grid::{End, Grid, Slab},
     ledger::{EnergyLedger, MomentumLedger},
-    material::Material,
+    material::{Material, StateEquation},
+    options::ArtificialViscosity,
 };
 
 /// What a layer is made of.

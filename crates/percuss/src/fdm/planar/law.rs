@@ -1,13 +1,12 @@
 //! Law of a planar body: Mie–Grüneisen pressure, hypoelastic deviator, artificial viscosity, energy by the work done.
 
-use super::state::StateEquation;
 use crate::{
-    case::ArtificialViscosity,
     fdm::{
         grid::{Law, Motion, Stored, View},
         viscosity,
     },
-    material::{FlowState, PreparedStrength, Trial, YieldPoint},
+    material::{FlowState, PreparedStrength, StateEquation, Trial, YieldPoint},
+    options::ArtificialViscosity,
 };
 
 /// A planar body.

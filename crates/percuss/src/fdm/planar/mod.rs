@@ -5,14 +5,13 @@ mod interface;
 mod law;
 mod results;
 mod run;
-mod state;
 
+pub use crate::material::{StateEquation, impedance_match};
 pub use column::{Boundary, CellState, Column, Layer, Medium, Solid};
-pub use state::{StateEquation, impedance_match};
 
 pub(super) use run::{cells, not_applicable, run};
 
-use crate::case::ArtificialViscosity;
+use crate::options::ArtificialViscosity;
 
 /// Artificial viscosity of a planar impact when a case gives none.
 pub const DEFAULT_VISCOSITY: ArtificialViscosity = ArtificialViscosity {

@@ -1,8 +1,6 @@
 //! From the grid at the end of a planar impact to its result.
 
-use super::{
-    interface::InterfaceForce, law::PlanarLaw, run::BackFaceMotion, state::impedance_match,
-};
+use super::{interface::InterfaceForce, law::PlanarLaw, run::BackFaceMotion};
 use crate::{
     fdm::{
         grid::{Grid, Watch},
@@ -10,6 +8,7 @@ use crate::{
         warnings::warn_of_material,
     },
     history::Recorder,
+    material::impedance_match,
     outcome::{Detail, Outcome, RunResult, Termination},
     scenario::{Scenario, TargetBody},
     units::significant,

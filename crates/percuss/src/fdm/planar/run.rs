@@ -9,14 +9,13 @@ use super::{
 };
 use crate::{
     Error, Scenario,
-    case::BackFace,
-    chain::modelled_thickness,
     fdm::grid::{AUDIT_INTERVAL, End, Grid, Slab, Watch},
     history::Recorder,
     material::{Library, Material},
-    model::{Control, Progress},
     outcome::{RunResult, Termination},
-    scenario::TargetBody,
+    problem::BackFace,
+    scenario::{TargetBody, modelled_thickness},
+    solver::{Control, Progress},
 };
 
 const DEFAULT_COURANT: f64 = 0.7;

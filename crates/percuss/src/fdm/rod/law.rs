@@ -3,12 +3,12 @@
 use std::f64::consts::PI;
 
 use crate::{
-    case::ArtificialViscosity,
     fdm::{
         grid::{Law, Motion, Stored, View},
         viscosity,
     },
     material::{FlowState, PreparedStrength, Trial, YieldPoint},
+    options::ArtificialViscosity,
 };
 
 /// A rod or a column of target.

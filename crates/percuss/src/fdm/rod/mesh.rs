@@ -4,14 +4,11 @@ use std::f64::consts::PI;
 
 use super::law::RodLaw;
 use crate::{
-    case::{BackFace, ConstraintFactor},
-    chain::{constraint_factor, modelled_thickness},
-    fdm::{
-        grid::{End, Grid, Slab},
-        options::FdmOptions,
-    },
+    fdm::grid::{End, Grid, Slab},
     material::Material,
-    scenario::{Scenario, TargetBody},
+    options::{ConstraintFactor, FdmOptions, constraint_factor},
+    problem::BackFace,
+    scenario::{Scenario, TargetBody, modelled_thickness},
 };
 
 /// A law for a material; `factor` multiplies its flow stress.

@@ -5,10 +5,10 @@ use crate::{
     fdm::{
         grid::{Grid, Watch},
         numerics::numerics,
-        options::FdmOptions,
         warnings::warn_of_material,
     },
     history::Recorder,
+    options::FdmOptions,
     outcome::{Outcome, RunResult, Termination},
     scenario::{Scenario, TargetBody},
     units::significant,

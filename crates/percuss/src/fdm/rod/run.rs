@@ -7,16 +7,13 @@ use super::{
 };
 use crate::{
     Error, Scenario,
-    chain::modelled_thickness,
     courant_retry::{AttemptError, CourantRetry},
-    fdm::{
-        grid::{AUDIT_INTERVAL, End, Grid, Watch},
-        options::FdmOptions,
-    },
+    fdm::grid::{AUDIT_INTERVAL, End, Grid, Watch},
     history::Recorder,
-    model::{Control, Progress},
+    options::FdmOptions,
     outcome::{RunResult, Termination},
-    scenario::TargetBody,
+    scenario::{TargetBody, modelled_thickness},
+    solver::{Control, Progress},
 };
 
 /// Courant number when a case gives none.

@@ -75,3 +75,8 @@ impl StrengthLaw for Concrete {
         );
     }
 }
+
+/// Factor S on the compressive strength [Pa] of concrete \[forrestal1994\].
+pub(crate) fn strength_factor(compressive_strength: f64) -> f64 {
+    82.6 * (compressive_strength * 1e-6).powf(-0.544)
+}

@@ -17,6 +17,7 @@ use super::Material;
 use crate::check::Check;
 
 pub use concrete::Concrete;
+pub(crate) use concrete::strength_factor;
 pub use elastic::Elastic;
 pub use johnson_cook::{JohnsonCook, RateForm};
 pub use own::OwnLaw;

@@ -1,0 +1,220 @@
+//! The scenario of a case: materials looked up, what is given indirectly worked out.
+
+use super::Case;
+use crate::{
+    chain,
+    check::{Check, limits},
+    material::{Library, MaterialEntry},
+    options::Scheme,
+    problem::{BackFace, Experiment, Layer, Nose, Thickness, Uncertainty},
+    scenario::{Given, Measurement, Plate, PlateEdge, Rod, Scenario, TargetBody},
+    units::{Length, Mass, Quantity, Velocity},
+};
+
+/// Looks up materials and works out what is given indirectly; findings go to `check`.
+pub(super) fn resolve(
+    name: &str,
+    case: Case,
+    library: &Library,
+    check: &mut Check<'_>,
+) -> Option<Scenario> {
+    let projectile = resolve_rod(&case, library, check);
+    let target = resolve_target(&case, library, check);
+    let options = case.model_options();
+    let given = Given {
+        rear_face: case.target.back_face.is_some(),
+        target_closure: options.chain.target_closure.is_some(),
+    };
+    let mut scenario = Scenario {
+        name: name.to_owned(),
+        title: case.title,
+        sources: case.sources,
+        projectile: projectile?,
+        impact_speed: case.projectile.velocity.si(),
+        obliquity: case.projectile.obliquity(),
+        target: target?,
+        resistance: None,
+        resistance_reason: None,
+        options,
+        experiments: case.experiments.iter().filter_map(measurement).collect(),
+        given,
+    };
+    let chain = &mut scenario.options.chain;
+    if chain.target_elements.is_none() && chain.scheme == Scheme::Conservative {
+        scenario.options.chain.target_elements = thin_target_elements(&scenario);
+    }
+    chain::choose_target_closure(&mut scenario);
+    Some(scenario)
+}
+
+/// Elements through a target so thin that the default number would make them far shorter than the projectile's: a fourth of
+/// that length is short enough. The shortest element sets the time step of all.
+fn thin_target_elements(scenario: &Scenario) -> Option<u32> {
+    const ENOUGH: f64 = 24.0;
+    let shortest =
+        0.25 * scenario.projectile.length / scenario.options.chain.projectile_elements() as f64;
+    let elements = (scenario.target_thickness()? / shortest).ceil().max(ENOUGH);
+    (elements < scenario.options.chain.target_elements() as f64).then_some(elements as u32)
+}
+
+fn measurement(experiment: &Experiment) -> Option<Measurement> {
+    let (quantity, value) = experiment.measured()?;
+    Some(Measurement {
+        quantity,
+        impact_speed: experiment.velocity.map(Velocity::si),
+        value,
+        uncertainty: experiment.uncertainty.map(Uncertainty::si),
+        sources: experiment.source.0.clone(),
+        note: experiment.note.clone(),
+    })
+}
+
+fn look_up<'a>(
+    library: &'a Library,
+    name: &str,
+    table: &str,
+    check: &mut Check<'_>,
+) -> Option<&'a MaterialEntry> {
+    let found = library.find(name);
+    if found.is_none() {
+        let near = library.suggestion(name);
+        check.of_material().fail(
+            &format!("{table}.material"),
+            format!("no material is named `{}`", crate::units::shorten(name)),
+            format!("{near}`percuss materials` lists all; your own go under `[materials.NAME]`"),
+        );
+    }
+    found
+}
+
+fn resolve_rod(case: &Case, library: &Library, check: &mut Check<'_>) -> Option<Rod> {
+    let entry = look_up(library, &case.projectile.material, "projectile", check)?;
+    let (length, mass) = case
+        .projectile
+        .length_and_mass(entry.material.density.si())?;
+    let diameter = case.projectile.diameter.si();
+    let nose = case.projectile.nose;
+    let given = if case.projectile.length.is_some() {
+        "length"
+    } else {
+        "mass"
+    };
+    let key = format!("projectile.{given}");
+    if length <= nose.length(diameter) && nose != Nose::Flat {
+        check.fail(
+            &key,
+            format!(
+                "the projectile has no shank behind its {} nose",
+                nose.name()
+            ),
+            format!(
+                "the nose alone is {} long; give more than that, or a mass above {}",
+                Length::new(nose.length(diameter)),
+                Mass::new(entry.material.density.si() * nose.volume(diameter))
+            ),
+        );
+        return None;
+    }
+    let temperature = case.projectile.temperature;
+    if let (Some(temperature), Some(melting)) = (temperature, entry.material.melting_temperature)
+        && temperature.si() >= melting.si()
+    {
+        check.fail(
+            "projectile.temperature",
+            format!("{temperature} is at or above the melting temperature"),
+            format!("the material `{}` melts at {melting}", entry.id),
+        );
+        return None;
+    }
+    let derived: (&str, String, bool) = if given == "length" {
+        let inside = (limits::MASS.min..=limits::MASS.max).contains(&mass);
+        ("mass", Quantity::to_string(&Mass::new(mass)), inside)
+    } else {
+        let inside = (limits::LENGTH.min..=limits::LENGTH.max).contains(&length);
+        ("length", Quantity::to_string(&Length::new(length)), inside)
+    };
+    if !derived.2 {
+        check.fail(
+            &key,
+            format!(
+                "the {given} gives a {} of {}, which is out of range",
+                derived.0, derived.1
+            ),
+            "check the units of length, mass, diameter and density",
+        );
+        return None;
+    }
+    Some(Rod {
+        material: entry.material.clone(),
+        material_id: entry.id.clone(),
+        length,
+        mass,
+        diameter,
+        nose,
+        temperature: temperature.map(Quantity::si),
+    })
+}
+
+fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Option<TargetBody> {
+    let target = &case.target;
+    if target.rigid_wall {
+        return Some(TargetBody::RigidWall);
+    }
+    if let Some(pressure) = target.constant_pressure {
+        return Some(TargetBody::ConstantPressure(pressure.si()));
+    }
+    let written = target.layers_with_keys();
+    let semi_infinite = written
+        .last()
+        .is_some_and(|(_, layer)| layer.thickness == Thickness::SemiInfinite);
+    let layers: Option<Vec<Plate>> = written
+        .iter()
+        .map(|(key, layer): &(String, Layer)| {
+            let entry = look_up(library, &layer.material, key, check)?;
+            Some(Plate {
+                material: entry.material.clone(),
+                material_id: entry.id.clone(),
+                thickness: match layer.thickness {
+                    Thickness::Finite(thickness) => Some(thickness.si()),
+                    Thickness::SemiInfinite => None,
+                },
+                gap: layer.gap.map_or(0.0, Length::si),
+                interface: layer.interface.unwrap_or_default(),
+                column_diameter: layer.column_diameter.map(Length::si),
+            })
+        })
+        .collect();
+    let natural = if semi_infinite {
+        BackFace::NonReflecting
+    } else {
+        BackFace::Fixed
+    };
+    let column_diameter = target
+        .column_diameter
+        .map_or(case.projectile.diameter.si(), Length::si);
+    if let Some(diameter) = target.plate_diameter
+        && diameter.si() <= 2.0 * column_diameter
+    {
+        check.fail(
+            "target.plate_diameter",
+            format!("{diameter} leaves no plate around what is struck"),
+            format!(
+                "give more than twice the diameter of what is struck, {}",
+                Length::new(column_diameter)
+            ),
+        );
+        return None;
+    }
+    Some(TargetBody::Layers {
+        layers: layers?,
+        back_face: target.back_face.unwrap_or(natural),
+        column_diameter: target
+            .column_diameter
+            .map_or(case.projectile.diameter.si(), Length::si),
+        separate_layers: target.has_separate_layers(),
+        edge: target.plate_diameter.map(|diameter| PlateEdge {
+            diameter: diameter.si(),
+            support: target.support.unwrap_or_default(),
+        }),
+    })
+}

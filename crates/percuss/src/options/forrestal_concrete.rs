@@ -1,0 +1,30 @@
+//! Options of the model `forrestal_concrete`.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    check::{Check, limits},
+    problem::Target,
+};
+
+/// Options of the model `forrestal_concrete`.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ForrestalConcreteOptions {
+    /// Factor S on the compressive strength; `82.6 (f_c in MPa)^−0.544` \[forrestal1994\] when not given.
+    pub s: Option<f64>,
+    /// Depth k of the crater in projectile diameters; 2 when not given.
+    pub crater_depth_to_diameter: Option<f64>,
+}
+
+impl ForrestalConcreteOptions {
+    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
+        if let Some(s) = self.s {
+            check.number("s", s, limits::CONCRETE_FACTOR);
+        }
+        if let Some(k) = self.crater_depth_to_diameter {
+            check.number("crater_depth_to_diameter", k, limits::CRATER_DEPTH);
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! Options of the model `plate_cavity`.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    check::{Check, limits},
+    problem::Target,
+};
+
+/// Options of the model `plate_cavity`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct PlateCavityOptions {
+    /// Cavity whose quasi-static pressure resists; `cylinder` when not given, or `sphere`.
+    pub cavity: CavityShape,
+    /// Coefficient B of the inertial pressure `B ρ (V sin θ)²` on the nose; 1.5 when not given, 0 leaves inertia out.
+    pub inertia: Option<f64>,
+}
+
+/// Cavity whose quasi-static pressure resists; `cylinder` when not given, or `sphere`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CavityShape {
+    /// A long cylinder in plane strain: a hole through a plate.
+    #[default]
+    Cylinder,
+    /// A sphere: a tip deep inside.
+    Sphere,
+}
+
+impl PlateCavityOptions {
+    pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {
+        if let Some(inertia) = self.inertia {
+            check.number("inertia", inertia, limits::INERTIA_COEFFICIENT);
+        }
+    }
+}

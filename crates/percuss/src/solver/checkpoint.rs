@@ -1,0 +1,144 @@
+//! The state of a run as bytes, from which a later run goes on as if it had not been interrupted.
+//!
+//! A checkpoint belongs to one case, one model and one version of the program: anything else is refused, since the run that
+//! goes on would be neither the old one nor a new one.
+
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+
+use crate::{Error, Scenario, options::ModelOptions, scenario::Given};
+
+/// First bytes of every checkpoint.
+const MAGIC: &[u8] = b"percuss checkpoint\n";
+/// Raised whenever the content changes its form.
+const FORMAT: u32 = 2;
+
+/// What a checkpoint says of itself.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Header {
+    format: u32,
+    version: String,
+    model: String,
+    case: u64,
+    content: u64,
+    /// Time step that the run had reached.
+    pub step: u64,
+    /// Time that the run had reached [s].
+    pub time: f64,
+}
+
+impl Header {
+    /// Reads what a checkpoint says of itself.
+    ///
+    /// # Errors
+    /// [`Error::Checkpoint`] when it is none, is damaged, or is of another version of the program, model or case.
+    pub fn read(bytes: &[u8], model: &str, scenario: &Scenario) -> Result<Self, Error> {
+        Ok(open(bytes, model, scenario)?.0)
+    }
+}
+
+/// Puts a state into bytes.
+pub(crate) fn write<T: Serialize>(
+    model: &str,
+    scenario: &Scenario,
+    (step, time): (u64, f64),
+    state: &T,
+) -> Result<Vec<u8>, Error> {
+    let encode = |error: postcard::Error| refused(&format!("it cannot be encoded: {error}"), "");
+    let content = postcard::to_stdvec(state).map_err(encode)?;
+    let header = Header {
+        format: FORMAT,
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        model: model.to_owned(),
+        case: fingerprint(scenario),
+        content: hash(&content),
+        step,
+        time,
+    };
+    let mut bytes = MAGIC.to_vec();
+    bytes.extend(postcard::to_stdvec(&header).map_err(encode)?);
+    bytes.extend(content);
+    Ok(bytes)
+}
+
+/// Takes a state out of bytes.
+pub(crate) fn read<T: DeserializeOwned>(
+    bytes: &[u8],
+    model: &str,
+    scenario: &Scenario,
+) -> Result<T, Error> {
+    let (_, content) = open(bytes, model, scenario)?;
+    postcard::from_bytes(content).map_err(|_| damaged())
+}
+
+fn open<'a>(
+    bytes: &'a [u8],
+    model: &str,
+    scenario: &Scenario,
+) -> Result<(Header, &'a [u8]), Error> {
+    const ANEW: &str = "start anew without `--resume`";
+    let Some(rest) = bytes.strip_prefix(MAGIC) else {
+        return Err(refused("it is no checkpoint of percuss", ANEW));
+    };
+    // The form of the header depends on the format, which therefore comes first.
+    let (format, _) = postcard::take_from_bytes::<u32>(rest).map_err(|_| damaged())?;
+    if format != FORMAT {
+        return Err(refused("it is of another version of percuss", ANEW));
+    }
+    let (header, content) = postcard::take_from_bytes::<Header>(rest).map_err(|_| damaged())?;
+    let version = env!("CARGO_PKG_VERSION");
+    if header.version != version {
+        let what = format!("it is of percuss {}, this is {version}", header.version);
+        return Err(refused(&what, ANEW));
+    }
+    if header.model != model {
+        let what = format!("it is of model `{}`, not `{model}`", header.model);
+        return Err(refused(&what, &format!("give `--model {}`", header.model)));
+    }
+    if header.case != fingerprint(scenario) {
+        return Err(refused(
+            "it is of another case: only its title, sources, experiments, `axi.end_time` and `axi.max_steps` may change",
+            "restore the case or start anew without `--resume`",
+        ));
+    }
+    if header.content != hash(content) {
+        return Err(damaged());
+    }
+    Ok((header, content))
+}
+
+fn damaged() -> Error {
+    refused("it is damaged", "start anew without `--resume`")
+}
+
+fn refused(reason: &str, remedy: &str) -> Error {
+    Error::Checkpoint {
+        reason: reason.to_owned(),
+        remedy: remedy.to_owned(),
+    }
+}
+
+/// A number that stands for everything in a case that its run depends on.
+fn fingerprint(scenario: &Scenario) -> u64 {
+    let mut bare = Scenario {
+        name: String::new(),
+        title: String::new(),
+        sources: Vec::new(),
+        experiments: Vec::new(),
+        options: ModelOptions::default(),
+        // A default that is written down changes no run.
+        given: Given::default(),
+        ..scenario.clone()
+    };
+    bare.options.axi = scenario.options.axi.clone();
+    bare.options.axi.end_time = None;
+    bare.options.axi.max_steps = None;
+    // Debug output gives every number with all its digits.
+    hash(format!("{bare:?}").as_bytes())
+}
+
+/// FNV-1a, 64 bits: the same on every machine, which the standard library's hashes do not promise.
+fn hash(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}

@@ -1,0 +1,27 @@
+//! Values that a file of parameters writes down, tried on the case.
+
+use crate::{case::Template, check::Check, inputs::Axis};
+
+/// Tries every value that the file writes down on the case, one at a time.
+pub(crate) fn check_values(axes: &[Axis], template: &Template, check: &mut Check<'_>) {
+    for (i, axis) in axes.iter().enumerate() {
+        for (key, value) in &axis.samples {
+            let written = axis.written(*value);
+            let Err(findings) = template.scenario(&[(&axis.key, written.clone())]) else {
+                continue;
+            };
+            if let Some(finding) = findings.into_iter().next() {
+                let of = match finding.key.as_str() {
+                    "" => axis.key.clone(),
+                    key => key.to_owned(),
+                };
+                let message = format!(
+                    "with {} = {written} the case is not valid: `{of}`: {}",
+                    axis.key, finding.message
+                );
+                check.fail(&format!("parameter.{i}.{key}"), message, finding.help);
+                return;
+            }
+        }
+    }
+}
