@@ -147,7 +147,11 @@ fn the_report_is_written_whole() {
         "{header}"
     );
     let references = read("references.csv");
-    assert!(references.contains("more than 15 %"), "{references}");
+    assert!(
+        references.contains("which differ by 44 %")
+            && references.contains("fewer than three meshes"),
+        "{references}"
+    );
     for name in ["verdicts.parquet", "statistics.parquet", "ablation.parquet"] {
         let bytes = fs::read(folder.path().join("report").join(name)).unwrap();
         assert!(bytes.starts_with(b"PAR1"), "{name}");
