@@ -15,6 +15,7 @@ mod models;
 mod moved;
 mod new;
 mod readme;
+mod reference;
 mod reproduce;
 mod run;
 mod schema;

@@ -18,8 +18,8 @@ use super::{
 };
 use crate::{
     Axis, Figure, ReportError,
-    figure::draw_over,
     frame::{Frame, WIDTH, tick_label},
+    pixels::draw_over,
     primitives::text,
     run_figures::significant,
 };
