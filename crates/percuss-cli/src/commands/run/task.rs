@@ -208,6 +208,7 @@ impl Fields<'_> {
         };
         if options.animation {
             let mut report = |part: f64| report(part, "drawing the animation");
+            #[cfg(feature = "png")]
             files.extend(percuss_report::animate(
                 out,
                 scenario,
@@ -235,6 +236,15 @@ fn check_use(options: &Run, model: &dyn Model) -> Result<(), Failure> {
         ("--checkpoint", options.checkpoint.is_some()),
         ("--resume", options.resume),
     ];
+    #[cfg(not(feature = "png"))]
+    for (option, given) in [
+        ("`--animation`", options.animation),
+        ("`--field`", options.field.is_some()),
+    ] {
+        if given {
+            return Err(crate::commands::left_out::refuse(option, "png"));
+        }
+    }
     if let Some((option, _)) = given.iter().find(|(_, given)| *given)
         && !model.has_fields()
     {
