@@ -38,9 +38,9 @@ impl Figure {
     /// [`ReportError::Write`]; [`ReportError::Figure`].
     pub(crate) fn write_for_page(&self, folder: &Path) -> Result<PathBuf, ReportError> {
         #[cfg(feature = "png")]
-        let picture = self.png()?;
+        let picture = &self.png()?;
         #[cfg(not(feature = "png"))]
         let picture = self.svg.as_bytes();
-        replace_file(folder, &format!("{}.{IN_PAGES}", self.name), &picture)
+        replace_file(folder, &format!("{}.{IN_PAGES}", self.name), picture)
     }
 }

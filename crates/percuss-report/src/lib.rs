@@ -24,6 +24,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+// What Parquet files and pictures read has no other reader.
+#![cfg_attr(not(all(feature = "parquet", feature = "png")), allow(dead_code))]
+
 mod area_chart;
 mod axial_figures;
 mod axis;
