@@ -206,9 +206,10 @@ impl Fields<'_> {
         let Some(series) = self.series.take() else {
             return Ok(files);
         };
+        // Without pictures the option is refused.
+        #[cfg(feature = "png")]
         if options.animation {
             let mut report = |part: f64| report(part, "drawing the animation");
-            #[cfg(feature = "png")]
             files.extend(percuss_report::animate(
                 out,
                 scenario,
