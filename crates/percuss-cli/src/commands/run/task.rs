@@ -223,9 +223,9 @@ impl Fields<'_> {
         let Some(series) = self.series.take() else {
             return Ok(files);
         };
+        #[cfg(feature = "png")]
         if options.animation {
             let mut report = |part: f64| report(part, "drawing the animation");
-            #[cfg(feature = "png")]
             files.extend(percuss_report::animate(
                 out,
                 scenario,
