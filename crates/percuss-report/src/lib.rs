@@ -1,7 +1,7 @@
 //! Figures and history files of a run of `percuss`.
 //!
 //! [`run_figures()`] draws a result that holds a time history, each figure as SVG and PNG; [`write_histories`] writes the
-//! history itself as CSV and Parquet. [`LineChart`], [`AreaChart`] and [`HeatMap`] give other figures the same looks.
+//! history itself as CSV and Parquet. PNG and Parquet are the features `png` and `parquet`, both on by default. [`LineChart`], [`AreaChart`] and [`HeatMap`] give other figures the same looks.
 //! Text in a PNG is set in DejaVu Sans, which is built in: a machine without fonts draws the same picture.
 //!
 //! ```
