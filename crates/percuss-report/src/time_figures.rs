@@ -95,15 +95,12 @@ pub(crate) fn force(history: &History, result: &RunResult, caption: &str) -> Opt
     }
     let plane = result.details.iter().find(|d| d.name == PLANE_IMPACT);
     if let Some(plane) = plane {
-        let words = format!(
-            "plane impact, the first contact on a fine mesh: {} kN",
-            significant(plane.value)
-        );
+        let words = format!("plane impact {} kN", significant(plane.value));
         chart = chart.mark(Mark::horizontal(words, plane.value));
     }
     if behind {
         let name = match plane {
-            Some(_) => "rear face, as of a plate of infinite width",
+            Some(_) => "rear face (infinite plate)",
             None => "rear face",
         };
         let curve = series(name, history, |s| s.back_force * 1e-3);
