@@ -1,9 +1,7 @@
-//! The user guide as a book: the pages of `docs/` and of the cases, with the references that the program itself writes.
+//! The user guide as a book: the pages of `docs/` and of the cases.
 //!
-//! `cargo run -p percuss-book` brings `docs/reference/` up to date and builds the book into `target/book`.
+//! `cargo run --manifest-path crates/percuss-book/Cargo.toml` builds it into `target/book`.
 
-mod case_reference;
-mod commands;
 mod formulae;
 mod stage;
 
@@ -18,29 +16,6 @@ use mdbook_driver::{MDBook, config::Config};
 /// The root of the repository that this crate stands in.
 pub fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-/// The pages that the program itself writes: their paths in the repository and their texts.
-pub fn references() -> Vec<(&'static str, String)> {
-    vec![
-        ("docs/reference/case-file.md", case_reference::page()),
-        ("docs/reference/commands.md", commands::page()),
-    ]
-}
-
-/// Writes the pages of [`references`] below a folder.
-///
-/// # Errors
-/// Those of the file system.
-pub fn write_references(root: &Path) -> Result<(), Box<dyn Error>> {
-    for (path, text) in references() {
-        let path = root.join(path);
-        if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder)?;
-        }
-        fs::write(path, text)?;
-    }
-    Ok(())
 }
 
 /// Builds the book of a repository into `out/html`; its pages are gathered in `out/pages` before. Gives the path of the first page.

@@ -2,8 +2,8 @@
 
 use std::{env, error::Error, path::PathBuf};
 
-const USAGE: &str = "usage: cargo run -p percuss-book [-- DIR]\n\n\
-    Brings docs/reference/ up to date and builds the user guide into DIR, or into\ntarget/book when none is given.";
+const USAGE: &str = "usage: cargo run --manifest-path crates/percuss-book/Cargo.toml [-- DIR]\n\n\
+    Builds the user guide into DIR, or into target/book when none is given.";
 
 fn main() -> Result<(), Box<dyn Error>> {
     let root = percuss_book::repository();
@@ -16,7 +16,6 @@ fn main() -> Result<(), Box<dyn Error>> {
             return Ok(());
         }
     };
-    percuss_book::write_references(&root)?;
     let first = percuss_book::build(&root, &out)?;
     println!("{}", first.display());
     Ok(())

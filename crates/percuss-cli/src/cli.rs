@@ -38,6 +38,20 @@ Examples:
 Exit codes: 0 ok, 2 bad input, 3 numerical failure, 4 a file could not be read
 or written";
 
+/// Without the lines on commands that this build leaves out.
+fn after_help() -> String {
+    let left_out = [
+        ("  percuss serve ", cfg!(feature = "serve")),
+        ("  percuss sweep ", cfg!(feature = "parquet")),
+    ];
+    let is_there = |line: &&str| {
+        let mut left_out = left_out.iter();
+        left_out.all(|(start, is_there)| *is_there || !line.starts_with(start))
+    };
+    let lines: Vec<&str> = AFTER_HELP.lines().filter(is_there).collect();
+    lines.join("\n")
+}
+
 /// What the command line holds.
 #[derive(Debug, Parser)]
 #[command(
@@ -46,7 +60,7 @@ or written";
     version,
     about = ABOUT,
     long_about = LONG_ABOUT,
-    after_help = AFTER_HELP,
+    after_help = after_help(),
     max_term_width = 80,
     arg_required_else_help = true,
     disable_help_subcommand = true

@@ -16,6 +16,7 @@ mod modules;
 mod moved;
 mod new;
 mod readme;
+mod reference;
 mod reproduce;
 mod run;
 mod schema;

@@ -28,3 +28,10 @@ def test_the_command_is_the_program(tmp_path: Path) -> None:
     assert run("run", "no-such.toml").returncode == 4
     module = [sys.executable, "-m", "percuss", "--version"]
     assert subprocess.run(module, capture_output=True, text=True).stdout == f"percuss {percuss.__version__}\n"
+
+
+def test_the_web_server_is_left_out_and_says_where_it_is() -> None:
+    refused = subprocess.run([COMMAND, "serve", "--port", "0"], capture_output=True, text=True, timeout=60)
+    assert refused.returncode == 2 and refused.stdout == ""
+    assert "needs the feature `serve`" in refused.stderr and "cargo install" in refused.stderr
+    assert "serve" not in subprocess.run([COMMAND, "--help"], capture_output=True, text=True, timeout=60).stdout

@@ -21,8 +21,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("outcome: {}", result.outcome.in_words());
     let start = Instant::now();
     for figure in percuss_report::run_figures(&scenario, &result)? {
-        let [svg, png] = figure.write(folder)?;
-        println!("{}, {}: {}", svg.display(), png.display(), figure.title);
+        let files = figure.write(folder)?;
+        let files: Vec<String> = files
+            .iter()
+            .map(|file| file.display().to_string())
+            .collect();
+        println!("{}: {}", files.join(", "), figure.title);
     }
     let drawn = start.elapsed();
     for file in percuss_report::write_histories(folder, &result)? {

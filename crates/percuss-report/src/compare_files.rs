@@ -45,7 +45,7 @@ pub fn write_comparison(
 /// [`ReportError::Table`].
 pub fn comparison_files(
     comparison: &Comparison,
-) -> Result<[(&'static str, Vec<u8>); 2], ReportError> {
+) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
     let columns = columns();
     let entries: Vec<Entry> = (0..comparison.regime.len())
         .flat_map(|i| {
@@ -60,10 +60,9 @@ pub fn comparison_files(
         })
         .collect();
     let (csv, parquet) = ("compare.csv", "compare.parquet");
-    Ok([
-        (csv, column::csv(csv, &columns, &entries)?),
-        (parquet, column::parquet(parquet, &columns, &entries)?),
-    ])
+    let mut files = vec![(csv, column::csv(csv, &columns, &entries)?)];
+    files.extend(column::parquet(parquet, &columns, &entries)?);
+    Ok(files)
 }
 
 fn columns() -> Vec<Column<Entry>> {

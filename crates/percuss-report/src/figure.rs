@@ -1,19 +1,11 @@
-//! A figure: an SVG drawing, its name and caption, and how it becomes a PNG.
+//! A figure: an SVG drawing, its name and caption.
 
-use std::{
-    path::{Path, PathBuf},
-    sync::{Arc, OnceLock},
-};
+use std::path::{Path, PathBuf};
 
-use resvg::{
-    tiny_skia::{Color, Pixmap, Transform},
-    usvg::{Options, Tree, fontdb::Database},
-};
+use crate::{ReportError, replace_file::replace_file};
 
-use crate::{ReportError, png_file, replace_file::replace_file};
-
-/// Pixels of a PNG per SVG user unit.
-const PNG_SCALE: f32 = 2.0;
+/// The kind of pictures that pages in Markdown show.
+pub(crate) const IN_PAGES: &str = if cfg!(feature = "png") { "png" } else { "svg" };
 
 /// A finished drawing.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,83 +19,28 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Writes `NAME.svg` and `NAME.png` to a folder, which is made if it does not exist. Files of these names are replaced.
+    /// Writes `NAME.svg` and, in a build with the feature `png`, `NAME.png` to a folder, which is made if it does not exist. Files of these
+    /// names are replaced.
     ///
     /// # Errors
     /// [`ReportError::Write`]; [`ReportError::Figure`].
-    pub fn write(&self, folder: &Path) -> Result<[PathBuf; 2], ReportError> {
-        let png = self.png()?;
-        Ok([
-            replace_file(folder, &format!("{}.svg", self.name), self.svg.as_bytes())?,
-            replace_file(folder, &format!("{}.png", self.name), &png)?,
-        ])
+    pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, ReportError> {
+        let svg = format!("{}.svg", self.name);
+        let written = vec![replace_file(folder, &svg, self.svg.as_bytes())?];
+        #[cfg(feature = "png")]
+        let written = [written, vec![self.write_for_page(folder)?]].concat();
+        Ok(written)
     }
 
-    /// The figure as a PNG file, two pixels per SVG user unit.
+    /// Writes the picture that pages in Markdown show.
     ///
     /// # Errors
-    /// [`ReportError::Figure`].
-    pub fn png(&self) -> Result<Vec<u8>, ReportError> {
-        png_file::encode(&self.name, &self.pixels(PNG_SCALE)?)
+    /// [`ReportError::Write`]; [`ReportError::Figure`].
+    pub(crate) fn write_for_page(&self, folder: &Path) -> Result<PathBuf, ReportError> {
+        #[cfg(feature = "png")]
+        let picture = &self.png()?;
+        #[cfg(not(feature = "png"))]
+        let picture = self.svg.as_bytes();
+        replace_file(folder, &format!("{}.{IN_PAGES}", self.name), picture)
     }
-
-    /// The figure on white, at a number of pixels per SVG user unit.
-    pub(crate) fn pixels(&self, scale: f32) -> Result<Pixmap, ReportError> {
-        let tree = tree(&self.name, &self.svg)?;
-        let size = tree
-            .size()
-            .to_int_size()
-            .scale_by(scale)
-            .ok_or_else(|| failure(&self.name, "it has no area".to_owned()))?;
-        let mut pixels = Pixmap::new(size.width(), size.height())
-            .ok_or_else(|| failure(&self.name, "it is too large".to_owned()))?;
-        pixels.fill(Color::WHITE);
-        resvg::render(
-            &tree,
-            Transform::from_scale(scale, scale),
-            &mut pixels.as_mut(),
-        );
-        Ok(pixels)
-    }
-}
-
-/// Draws an SVG over what is there.
-pub(crate) fn draw_over(pixels: &mut Pixmap, svg: &str, scale: f32) -> Result<(), ReportError> {
-    let tree = tree("overlay", svg)?;
-    resvg::render(
-        &tree,
-        Transform::from_scale(scale, scale),
-        &mut pixels.as_mut(),
-    );
-    Ok(())
-}
-
-fn tree(name: &str, svg: &str) -> Result<Tree, ReportError> {
-    let options = Options {
-        fontdb: fonts(),
-        font_family: "DejaVu Sans".to_owned(),
-        ..Options::default()
-    };
-    Tree::from_str(svg, &options).map_err(|error| failure(name, error.to_string()))
-}
-
-fn failure(name: &str, reason: String) -> ReportError {
-    ReportError::Figure {
-        name: name.to_owned(),
-        reason,
-    }
-}
-
-/// The built-in fonts, read once.
-fn fonts() -> Arc<Database> {
-    static FONTS: OnceLock<Arc<Database>> = OnceLock::new();
-    FONTS
-        .get_or_init(|| {
-            let mut fonts = Database::new();
-            fonts.load_font_data(dejavu::sans::regular().to_vec());
-            fonts.load_font_data(dejavu::sans::bold().to_vec());
-            fonts.set_sans_serif_family("DejaVu Sans");
-            Arc::new(fonts)
-        })
-        .clone()
 }

@@ -36,7 +36,7 @@ pub fn write_histories(folder: &Path, result: &RunResult) -> Result<Vec<PathBuf>
 ///
 /// # Errors
 /// [`ReportError::NoHistory`] when the run kept no history; [`ReportError::Table`].
-pub fn history_files(result: &RunResult) -> Result<[(&'static str, Vec<u8>); 4], ReportError> {
+pub fn history_files(result: &RunResult) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
     let history = history_of(result)?;
     let samples = sample_columns();
     let elements = element_columns();
@@ -51,15 +51,11 @@ pub fn history_files(result: &RunResult) -> Result<[(&'static str, Vec<u8>); 4],
     let parquet = "history.parquet";
     let profiles = "profiles.parquet";
     let end = "final-profile.csv";
-    Ok([
-        (csv, column::csv(csv, &samples, &history.samples)?),
-        (
-            parquet,
-            column::parquet(parquet, &samples, &history.samples)?,
-        ),
-        (profiles, column::parquet(profiles, &elements, &all)?),
-        (end, column::csv(end, &elements, &last)?),
-    ])
+    let mut files = vec![(csv, column::csv(csv, &samples, &history.samples)?)];
+    files.extend(column::parquet(parquet, &samples, &history.samples)?);
+    files.extend(column::parquet(profiles, &elements, &all)?);
+    files.push((end, column::csv(end, &elements, &last)?));
+    Ok(files)
 }
 
 /// An element at a time.

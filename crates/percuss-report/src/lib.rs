@@ -16,13 +16,16 @@
 //!
 //! let folder = std::env::temp_dir().join("percuss-report-example");
 //! for figure in percuss_report::run_figures(&scenario, &result)? {
-//!     let [svg, _png] = figure.write(&folder)?;
-//!     println!("{}: {}", svg.display(), figure.title);
+//!     let files = figure.write(&folder)?;
+//!     println!("{}: {}", files[0].display(), figure.title);
 //! }
 //! percuss_report::write_histories(&folder, &result)?;
 //! # std::fs::remove_dir_all(folder)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+
+// What Parquet files and pictures read has no other reader.
+#![cfg_attr(not(all(feature = "parquet", feature = "png")), allow(dead_code))]
 
 mod area_chart;
 mod axial_figures;
@@ -54,6 +57,9 @@ mod measured;
 mod page;
 pub mod palette;
 pub mod paper;
+#[cfg(feature = "png")]
+mod pixels;
+#[cfg(feature = "png")]
 mod png_file;
 mod primitives;
 mod replace_file;
@@ -63,6 +69,7 @@ mod run_figures;
 mod series;
 mod shape_figure;
 mod stress_grid;
+#[cfg(feature = "parquet")]
 pub mod sweep;
 mod time_figures;
 mod uncertainty;
@@ -78,7 +85,9 @@ pub use compare_figure::{compare_chart, compare_figure};
 pub use compare_files::{comparison_files, write_comparison};
 pub use convergence_figure::{convergence_chart, convergence_figure};
 pub use error::ReportError;
-pub use field::{FieldQuantity, FieldSeries, FinalField, animate};
+#[cfg(feature = "png")]
+pub use field::animate;
+pub use field::{FieldQuantity, FieldSeries, FinalField};
 pub use figure::Figure;
 pub use fragment_files::write_fragments;
 pub use heat_map::HeatMap;

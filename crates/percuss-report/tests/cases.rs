@@ -148,7 +148,9 @@ fn figures_are_written_as_svg_and_png_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path().join("made/on/demand");
     for _ in 0..2 {
-        let [svg, png] = figure.write(&folder).unwrap();
+        let [svg, png] = &figure.write(&folder).unwrap()[..] else {
+            panic!("two files")
+        };
         assert_eq!(std::fs::read_to_string(svg).unwrap(), figure.svg);
         assert_eq!(std::fs::read(png).unwrap(), figure.png().unwrap());
     }

@@ -1,22 +1,26 @@
 //! Scripts and styles of the page, built beforehand and part of the program.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 use axum::{
     extract::Path,
     http::{HeaderMap, HeaderValue, StatusCode, header},
     response::{IntoResponse, Response},
 };
-use rust_embed::{EmbeddedFile, RustEmbed};
 
 use crate::{http, problem::Problem};
 
-#[derive(RustEmbed)]
-#[folder = "web/dist"]
-struct Assets;
+/// Names and contents of the files in `web/dist`.
+const FILES: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/page.rs"));
+
+fn file(name: &str) -> Option<&'static [u8]> {
+    let found = FILES.iter().find(|(known, _)| *known == name);
+    found.map(|(_, content)| *content)
+}
 
 /// The page before its data are put in.
 pub(crate) fn template() -> String {
-    let page = Assets::get("index.html").map(|file| file.data.into_owned());
-    String::from_utf8(page.unwrap_or_default()).unwrap_or_default()
+    String::from_utf8_lossy(file("index.html").unwrap_or_default()).into_owned()
 }
 
 /// `GET /assets/{name}`.
@@ -27,26 +31,22 @@ pub(crate) async fn get(Path(name): Path<String>, headers: HeaderMap) -> Respons
         Some("svg") => "image/svg+xml",
         _ => return missing().into_response(),
     };
-    match Assets::get(&name) {
-        Some(file) => asset(kind, file, &headers),
+    match file(&name) {
+        Some(content) => asset(kind, content, &headers),
         None => missing().into_response(),
     }
 }
 
-fn asset(kind: &'static str, file: EmbeddedFile, headers: &HeaderMap) -> Response {
-    let hash = file.metadata.sha256_hash();
-    let tag: String = hash
-        .iter()
-        .take(12)
-        .map(|byte| format!("{byte:02x}"))
-        .collect();
-    let tag = format!("\"{tag}\"");
+fn asset(kind: &'static str, content: &'static [u8], headers: &HeaderMap) -> Response {
+    let mut hash = DefaultHasher::new();
+    content.hash(&mut hash);
+    let tag = format!("\"{:016x}\"", hash.finish());
     let known = headers
         .get(header::IF_NONE_MATCH)
         .map(HeaderValue::as_bytes);
     let mut response = match known == Some(tag.as_bytes()) {
         true => http::respond(StatusCode::NOT_MODIFIED, kind, ""),
-        false => http::respond(StatusCode::OK, kind, file.data.into_owned()),
+        false => http::respond(StatusCode::OK, kind, content),
     };
     let headers = response.headers_mut();
     headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-cache"));

@@ -1,14 +1,11 @@
 //! Ready cases: those of the project's folder `cases`, as part of the program.
 
-use rust_embed::RustEmbed;
 use serde::Serialize;
 
 use crate::StartCase;
 
-#[derive(RustEmbed)]
-#[folder = "../../cases"]
-#[include = "*/scenario.toml"]
-struct Cases;
+/// Names of the cases and texts of their files.
+const CASES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/cases.rs"));
 
 /// The case that the page opens on, unless another one is given.
 const FIRST: &str = "paper-table1";
@@ -34,20 +31,18 @@ impl ReadyCase {
 
 /// All ready cases, the one that the page opens on first.
 pub(crate) fn all() -> Vec<ReadyCase> {
-    let mut cases: Vec<ReadyCase> = Cases::iter().filter_map(|path| read(&path)).collect();
+    let mut cases: Vec<ReadyCase> = CASES.iter().filter_map(read).collect();
     cases.sort_by(|a, b| (a.name != FIRST, &a.name).cmp(&(b.name != FIRST, &b.name)));
     cases
 }
 
-fn read(path: &str) -> Option<ReadyCase> {
-    let name = path.strip_suffix("/scenario.toml")?;
-    let text = String::from_utf8(Cases::get(path)?.data.into_owned()).ok()?;
+fn read((name, text): &(&str, &str)) -> Option<ReadyCase> {
     let table: toml::Table = text.parse().ok()?;
     let title = table.get("title").and_then(toml::Value::as_str);
     Some(ReadyCase {
-        name: name.to_owned(),
+        name: (*name).to_owned(),
         title: title.unwrap_or(name).to_owned(),
-        text,
+        text: (*text).to_owned(),
     })
 }
 

@@ -4,8 +4,8 @@ import { join, resolve } from "node:path";
 
 export const root = resolve(import.meta.dirname, "../../..");
 const target = process.env.CARGO_TARGET_DIR ?? join(root, "target");
-// The program to test: that of the development build unless PERCUSS names another one.
-export const program = process.env.PERCUSS ? resolve(root, process.env.PERCUSS) : join(target, "debug/percuss");
+// The program to test: that of the release build unless PERCUSS names another one.
+export const program = process.env.PERCUSS ? resolve(root, process.env.PERCUSS) : join(target, "release/percuss");
 
 // Serves on a free port; the first line says where.
 export async function serve(...options) {

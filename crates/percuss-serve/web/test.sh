@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Tests the page in a real browser. Installs what it needs: the npm packages of the lock file and, where it is missing, Debian's
 # chromium. With SCREENSHOTS=DIR the pictures of the page are written there. PERCUSS=PROGRAM tests that program, otherwise the
-# development build is made and tested.
+# release build is made and tested.
 set -euo pipefail
 cd "$(dirname "$0")"
 root="$(cd ../../.. && pwd)"
@@ -30,7 +30,7 @@ node build.mjs "$fresh"
 diff -r dist "$fresh" || { echo "web/dist is not what its sources give: run \`npm run build\`" >&2; exit 1; }
 
 if [ -z "${PERCUSS:-}" ]; then
-    cargo build --manifest-path "$root/Cargo.toml" -p percuss-cli --locked
+    cargo build --manifest-path "$root/Cargo.toml" --release --locked
 fi
 node --test --test-concurrency=2 test/*.test.mjs
 # Many clients at once, for a short time; docs/serve.md has the long one.

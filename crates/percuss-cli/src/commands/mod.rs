@@ -5,6 +5,8 @@ mod compare;
 mod completions;
 mod converge;
 mod judge;
+#[cfg(not(all(feature = "parquet", feature = "png", feature = "serve")))]
+mod left_out;
 mod limit;
 mod man;
 mod materials;
@@ -13,7 +15,9 @@ mod new;
 mod reproduce;
 mod run;
 mod schema;
+#[cfg(feature = "serve")]
 mod serve;
+#[cfg(feature = "parquet")]
 mod sweep;
 mod uncertainty;
 mod validate;
@@ -23,6 +27,10 @@ pub use compare::Compare;
 pub use completions::Completions;
 pub use converge::Converge;
 pub use judge::Judge;
+#[cfg(not(feature = "serve"))]
+pub use left_out::Serve;
+#[cfg(not(feature = "parquet"))]
+pub use left_out::Sweep;
 pub use limit::Limit;
 pub use man::Man;
 pub use materials::Materials;
@@ -31,7 +39,9 @@ pub use new::New;
 pub use reproduce::Reproduce;
 pub use run::Run;
 pub use schema::Schema;
+#[cfg(feature = "serve")]
 pub use serve::Serve;
+#[cfg(feature = "parquet")]
 pub use sweep::Sweep;
 pub use uncertainty::Uncertainty;
 pub use validate::Validate;

@@ -122,6 +122,6 @@ def judge(
     Examples
     --------
     >>> percuss.judge().findings[0]  # doctest: +SKIP
-    '71 shots have a reference that passes its convergence check: 42 rest on two meshes and are provisional, 43 are known within 10 %.'
+    '71 shots have a reference that passes its convergence check on three meshes: 65 are known within 10 %.'
     """
     return Judgement(native_answer("judge", reference=reference, study=study, compute=compute, cells=cells, out=out, progress=progress))

@@ -29,8 +29,9 @@ pub fn write(folder: &Path, calibration: &Calibration) -> Result<Vec<PathBuf>, R
         .collect::<Result<Vec<_>, _>>()?;
     if let Some(states) = states(calibration) {
         let name = "sample.parquet";
-        let table = column::parquet(name, &state_columns(calibration), &states)?;
-        written.push(replace_file(folder, name, &table)?);
+        if let Some((_, table)) = column::parquet(name, &state_columns(calibration), &states)? {
+            written.push(replace_file(folder, name, &table)?);
+        }
     }
     Ok(written)
 }

@@ -1,39 +1,34 @@
 //! Fields of a run in two dimensions: files for ParaView, a picture, and on request a series of both and an animation.
 
+#[cfg(feature = "png")]
 mod animation;
+#[cfg(feature = "png")]
 mod colors;
+#[cfg(feature = "png")]
+mod drawing;
+#[cfg(feature = "png")]
 mod layer;
+#[cfg(feature = "png")]
 mod picture;
 mod quantity;
+#[cfg(feature = "png")]
 mod raster;
 mod series;
 mod vtp;
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    sync::Mutex,
-};
+use std::path::{Path, PathBuf};
 
-use percuss::{Scenario, frames::Frame, scenario::TargetBody};
-use rayon::prelude::*;
+use percuss::{Scenario, frames::Frame};
 
-use self::{animation::Palette, colors::Colors, picture::Canvas, raster::View, vtp::Points};
-use crate::{ReportError, caption::caption, png_file, replace_file::replace_file};
+use crate::{ReportError, replace_file::replace_file};
 
+#[cfg(feature = "png")]
+pub use drawing::animate;
 pub use quantity::FieldQuantity;
 pub use series::FieldSeries;
 
-/// Pixels of the picture at the end and of those of an animation per SVG user unit.
-const PICTURE_SCALE: f32 = 1.5;
-const ANIMATION_SCALE: f32 = 1.0;
-/// Name of the picture and of the field at the end.
-const PICTURE: &str = "field.png";
+/// Name of the field at the end.
 const FIELD: &str = "field.vtp";
-/// Folder of the pictures of an animation.
-const FOLDER: &str = "frames";
-/// Part of the values of a frame that may lie beyond the ends of the colours.
-const BEYOND: f64 = 1e-3;
 
 /// The field at the end of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,198 +44,24 @@ impl FinalField {
         }
     }
 
-    /// Writes it for ParaView as `field.vtp`, and a picture of one quantity as `field.png`; returns both files.
+    /// Writes it for ParaView as `field.vtp` and, in a build with the feature `png`, a picture of one quantity as `field.png`; returns the
+    /// files.
     ///
     /// # Errors
     /// [`ReportError::Write`]; [`ReportError::Figure`].
+    #[cfg_attr(not(feature = "png"), expect(unused_variables))]
     pub fn write(
         &self,
         folder: &Path,
         scenario: &Scenario,
         quantity: FieldQuantity,
-    ) -> Result<[PathBuf; 2], ReportError> {
-        let field = replace_file(folder, FIELD, &self.file)?;
-        let points = points(&self.file, &field, quantity)?;
-        let (canvas, _) = canvas(scenario, quantity, &Span::of(&points));
-        let base = canvas.base(PICTURE_SCALE)?;
-        let picture = canvas.picture(&points, &base, PICTURE_SCALE)?;
-        let picture = png_file::encode(PICTURE, &picture)?;
-        Ok([field, replace_file(folder, PICTURE, &picture)?])
-    }
-}
-
-/// Draws every frame of a series as `frames/frame-NNNNN.png`, and all of them as `animation.gif`. `progress` hears the part done, 0 to
-/// 1. Returns the folder of the pictures and the animation; nothing for a series without frames.
-///
-/// # Errors
-/// [`ReportError::Read`] when a file of the series is missing or damaged; [`ReportError::Write`]; [`ReportError::Figure`].
-pub fn animate(
-    folder: &Path,
-    scenario: &Scenario,
-    series: &FieldSeries,
-    quantity: FieldQuantity,
-    progress: &mut (dyn FnMut(f64) + Send),
-) -> Result<Vec<PathBuf>, ReportError> {
-    let files = series.files();
-    let spans: Vec<Span> = files
-        .par_iter()
-        .map(|(_, file)| Ok(Span::of(&read(file, quantity)?)))
-        .collect::<Result<_, ReportError>>()?;
-    let Some(span) = spans.into_iter().reduce(Span::with) else {
-        return Ok(Vec::new());
-    };
-    let (canvas, palette) = canvas(scenario, quantity, &span);
-    let base = canvas.base(ANIMATION_SCALE)?;
-    let pictures = folder.join(FOLDER);
-    clear(&pictures);
-    let progress = Mutex::new((0, progress));
-    let indexed: Vec<_> = files
-        .par_iter()
-        .map(|(number, file)| {
-            let picture = canvas.picture(&read(file, quantity)?, &base, ANIMATION_SCALE)?;
-            let name = format!("frame-{number:05}.png");
-            let png = png_file::encode(&name, &picture)?;
-            replace_file(&pictures, &name, &png)?;
-            let indexed = palette.index(&picture);
-            if let Ok(mut progress) = progress.lock() {
-                progress.0 += 1;
-                let part = f64::from(progress.0) / files.len() as f64;
-                (progress.1)(part);
-            }
-            Ok(indexed)
-        })
-        .collect::<Result<_, ReportError>>()?;
-    let animation = animation::encode(&palette, &indexed)?;
-    let animation = replace_file(folder, "animation.gif", &animation)?;
-    Ok(vec![pictures, animation])
-}
-
-/// What all pictures of frames that reach a span have in common, and the colours in them.
-fn canvas(scenario: &Scenario, quantity: FieldQuantity, span: &Span) -> (Canvas, Palette) {
-    let wall = scenario.target == TargetBody::RigidWall;
-    let (_, _, unit) = quantity.source();
-    let (least, most) = span.values;
-    let values = (f64::from(least) / unit, f64::from(most) / unit);
-    let colors = Colors::new(quantity, values, wall);
-    let palette = Palette::new(&colors.all());
-    let bodies = if wall {
-        ""
-    } else {
-        " in projectile and target"
-    };
-    let canvas = Canvas::new(
-        &format!("{}{bodies}", label(quantity)),
-        &caption(scenario, Some(scenario.impact_speed)),
-        colors,
-        view(scenario, span),
-    );
-    (canvas, palette)
-}
-
-fn label(quantity: FieldQuantity) -> String {
-    let label = quantity.label();
-    let words = label.split(" [").next().unwrap_or(label);
-    let mut letters = words.chars();
-    match letters.next() {
-        Some(first) => first.to_uppercase().chain(letters).collect(),
-        None => String::new(),
-    }
-}
-
-/// Removes pictures of an earlier run.
-fn clear(folder: &Path) {
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
-        if name.starts_with("frame-") && name.ends_with(".png") {
-            // One too many does no harm.
-            let _ = fs::remove_file(entry.path());
-        }
-    }
-}
-
-fn read(file: &Path, quantity: FieldQuantity) -> Result<Points, ReportError> {
-    let bytes = fs::read(file).map_err(|error| ReportError::Read {
-        path: file.to_owned(),
-        reason: error.to_string(),
-    })?;
-    points(&bytes, file, quantity)
-}
-
-/// The points in the bytes of a file.
-fn points(bytes: &[u8], file: &Path, quantity: FieldQuantity) -> Result<Points, ReportError> {
-    let (array, components, _) = quantity.source();
-    vtp::decode(bytes, array, components).ok_or_else(|| ReportError::Read {
-        path: file.to_owned(),
-        reason: "it is damaged or of another program".to_owned(),
-    })
-}
-
-/// What frames reach.
-#[derive(Debug, Clone, Copy)]
-struct Span {
-    values: (f32, f32),
-    /// Largest radius and range of depths of the projectile [m].
-    rod: (f32, (f32, f32)),
-    /// Largest depth of material of the target near the axis, and of the crater floor [m].
-    target: f32,
-    depth: f64,
-}
-
-impl Span {
-    fn of(points: &Points) -> Self {
-        let mut values = points.values.clone();
-        values.sort_unstable_by(f32::total_cmp);
-        let beyond = (BEYOND * values.len() as f64) as usize;
-        let at = |index: usize| values.get(index).copied().unwrap_or(0.0);
-        let most = at(values.len().saturating_sub(1 + beyond));
-        let mut span = Self {
-            values: (at(beyond), most),
-            rod: (0.0, (0.0, 0.0)),
-            target: 0.0,
-            depth: points.depth,
+    ) -> Result<Vec<PathBuf>, ReportError> {
+        let written = vec![replace_file(folder, FIELD, &self.file)?];
+        #[cfg(feature = "png")]
+        let written = {
+            let picture = drawing::write(folder, &self.file, scenario, quantity)?;
+            [written, vec![picture]].concat()
         };
-        for (&[radius, depth], &body) in points.places.iter().zip(&points.bodies) {
-            if body == 0 {
-                let (widest, (back, front)) = span.rod;
-                span.rod = (widest.max(radius), (back.min(depth), front.max(depth)));
-            } else {
-                span.target = span.target.max(depth);
-            }
-        }
-        span
-    }
-
-    fn with(self, other: Self) -> Self {
-        let range = |a: (f32, f32), b: (f32, f32)| (a.0.min(b.0), a.1.max(b.1));
-        Self {
-            values: range(self.values, other.values),
-            rod: (self.rod.0.max(other.rod.0), range(self.rod.1, other.rod.1)),
-            target: self.target.max(other.target),
-            depth: self.depth.max(other.depth),
-        }
-    }
-}
-
-/// What pictures show: the projectile at all times, and of the target what the shot changes.
-fn view(scenario: &Scenario, span: &Span) -> View {
-    let radius = 0.5 * scenario.projectile.diameter;
-    let (widest, (back, front)) = span.rod;
-    let (back, front) = (f64::from(back) - radius, f64::from(front));
-    if scenario.target == TargetBody::RigidWall {
-        return View {
-            radius: f64::from(widest).max(2.0 * radius) + radius,
-            depth: (back, 0.8 * radius),
-        };
-    }
-    let shown = (span.depth + 5.0 * radius).max(6.0 * radius);
-    // Where a plate ends there is something to be seen of what is behind it.
-    let end = match scenario.target_thickness() {
-        Some(_) => f64::from(span.target) + radius,
-        None => f64::from(span.target),
-    };
-    View {
-        radius: (f64::from(widest) + radius).max(6.0 * radius),
-        depth: (back, end.min(shown).max(front + radius)),
+        Ok(written)
     }
 }

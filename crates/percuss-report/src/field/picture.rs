@@ -19,8 +19,8 @@ use super::{
 use crate::{
     Axis, Figure, ReportError,
     caption::significant,
-    figure::draw_over,
     frame::{Frame, WIDTH, tick_label},
+    pixels::draw_over,
     primitives::text,
 };
 

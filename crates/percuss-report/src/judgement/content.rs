@@ -1,9 +1,6 @@
 //! What the report says, in which order.
 
-use percuss::{
-    judge::{self, Grouping, study},
-    units::significant,
-};
+use percuss::judge::{self, Estimate, Grouping, study};
 
 use super::{Judgement, Origin, figures::Drawn, tables};
 use crate::page::Block;
@@ -86,11 +83,7 @@ fn paper_case<'a>(judgement: &Judgement) -> Vec<Block<'a>> {
     if !judgement.study.is_empty() {
         let depths = study::SPEEDS.iter().filter_map(|&speed| {
             let estimate = study::depth(&judgement.study, speed)?;
-            Some(format!(
-                "{} ± {} mm at {speed} m/s",
-                significant(estimate.depth_mm, 3),
-                significant(estimate.uncertainty_mm, 2)
-            ))
+            Some(format!("{} at {speed} m/s", with_uncertainty(&estimate)))
         });
         let depths: Vec<String> = depths.collect();
         blocks.extend([
@@ -106,4 +99,39 @@ fn paper_case<'a>(judgement: &Judgement) -> Vec<Block<'a>> {
         ]);
     }
     blocks
+}
+
+/// A depth to three digits, and its uncertainty rounded up to the last of them.
+fn with_uncertainty(estimate: &Estimate) -> String {
+    let before = estimate.depth_mm.log10().floor().max(0.0) as usize;
+    let leading_zeros = (-estimate.depth_mm.log10()).ceil().max(0.0) as usize;
+    let decimals = (2 + leading_zeros).saturating_sub(before);
+    let unit = 10_f64.powi(-(decimals as i32));
+    let uncertainty = (estimate.uncertainty_mm / unit).ceil() * unit;
+    format!(
+        "{:.decimals$} ± {uncertainty:.decimals$} mm",
+        estimate.depth_mm
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_uncertainty_is_rounded_up_to_the_last_digit_of_the_depth() {
+        for (depth_mm, uncertainty_mm, words) in [
+            (0.21733, 0.01045, "0.217 ± 0.011 mm"),
+            (2.2111, 0.0167, "2.21 ± 0.02 mm"),
+            (12.34, 0.51, "12.3 ± 0.6 mm"),
+            (0.0512, 0.001, "0.0512 ± 0.0010 mm"),
+            (345.6, 3.2, "346 ± 4 mm"),
+        ] {
+            let estimate = Estimate {
+                depth_mm,
+                uncertainty_mm,
+            };
+            assert_eq!(with_uncertainty(&estimate), words);
+        }
+    }
 }

@@ -82,8 +82,7 @@ pub fn write(
         replace_file(folder, "judgement.md", markdown::render(&page).as_bytes())?,
     ];
     for figure in figures.in_markdown() {
-        let name = format!("{}.png", figure.name);
-        written.push(replace_file(folder, &name, &figure.png()?)?);
+        written.push(figure.write_for_page(folder)?);
     }
     for (name, content) in numbers::files(judgement)? {
         written.push(replace_file(folder, name, &content)?);

@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// Names and contents of the files.
-pub(super) fn files(judgement: &Judgement) -> Result<[(&'static str, Vec<u8>); 8], ReportError> {
+pub(super) fn files(judgement: &Judgement) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
     let verdicts = judge::to_csv(&judgement.verdicts).map_err(|source| ReportError::Table {
         table: "verdicts.csv".to_owned(),
         source: source.into(),
@@ -29,16 +29,17 @@ pub(super) fn files(judgement: &Judgement) -> Result<[(&'static str, Vec<u8>); 8
     ];
     let (of_verdict, of_group, of_line) = (verdict_columns(), group_columns(), line_columns());
     let of_reference = reference_columns();
-    Ok([
-        ("verdicts.csv", verdicts),
-        (a, column::parquet(a, &of_verdict, &judgement.verdicts)?),
-        (b, column::csv(b, &of_group, &groups)?),
-        (c, column::parquet(c, &of_group, &groups)?),
-        (d, column::csv(d, &of_line, &judgement.ablation)?),
-        (e, column::parquet(e, &of_line, &judgement.ablation)?),
-        (f, column::csv(f, &of_reference, &judgement.references)?),
-        (g, column::parquet(g, &of_reference, &judgement.references)?),
-    ])
+    let files = [
+        Some(("verdicts.csv", verdicts)),
+        column::parquet(a, &of_verdict, &judgement.verdicts)?,
+        Some((b, column::csv(b, &of_group, &groups)?)),
+        column::parquet(c, &of_group, &groups)?,
+        Some((d, column::csv(d, &of_line, &judgement.ablation)?)),
+        column::parquet(e, &of_line, &judgement.ablation)?,
+        Some((f, column::csv(f, &of_reference, &judgement.references)?)),
+        column::parquet(g, &of_reference, &judgement.references)?,
+    ];
+    Ok(files.into_iter().flatten().collect())
 }
 
 fn verdict_columns() -> Vec<Column<Verdict>> {

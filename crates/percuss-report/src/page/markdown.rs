@@ -1,6 +1,7 @@
 //! A page as Markdown.
 
 use super::{Block, Table};
+use crate::figure::IN_PAGES;
 
 pub(crate) fn render(page: &[Block<'_>]) -> String {
     let parts: Vec<String> = page.iter().filter_map(block).collect();
@@ -28,7 +29,7 @@ fn block(block: &Block<'_>) -> Option<String> {
         }
         Block::Table(table) => self::table(table),
         Block::Figure(figure) => format!(
-            "![{0}]({1}.png)\n\n*{0}*",
+            "![{0}]({1}.{IN_PAGES})\n\n*{0}*",
             escape(&figure.title),
             figure.name
         ),

@@ -14,7 +14,7 @@ use std::{
 use percuss::Error;
 use serde::Serialize;
 
-use crate::{Figure, ReportError, replace_file::replace_file};
+use crate::{Figure, ReportError, figure::IN_PAGES, replace_file::replace_file};
 
 /// What became of one statement of the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -130,7 +130,7 @@ impl Reproduction {
         for figure in &self.figures {
             let _ = write!(
                 page,
-                "\n![{0}]({1}.png)\n\n*{0}*\n",
+                "\n![{0}]({1}.{IN_PAGES})\n\n*{0}*\n",
                 figure.title, figure.name
             );
         }

@@ -45,8 +45,7 @@ pub fn write(
         replace_file(folder, "validation.md", markdown::render(&page).as_bytes())?,
     ];
     for figure in figures.iter().map(|figure| &figure.drawing) {
-        let name = format!("{}.png", figure.name);
-        written.push(replace_file(folder, &name, &figure.png()?)?);
+        written.push(figure.write_for_page(folder)?);
     }
     for (name, content) in numbers::files(validation)? {
         written.push(replace_file(folder, name, &content)?);

@@ -8,7 +8,7 @@ use crate::{
 };
 
 /// Names and contents of the files.
-pub(super) fn files(validation: &Validation) -> Result<[(&'static str, Vec<u8>); 4], ReportError> {
+pub(super) fn files(validation: &Validation) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
     let (predictions, groups) = (validation.records(), validation.all_statistics());
     let (of_prediction, of_group) = (prediction_columns(), group_columns());
     let [a, b, c, d] = [
@@ -17,12 +17,13 @@ pub(super) fn files(validation: &Validation) -> Result<[(&'static str, Vec<u8>);
         "statistics.csv",
         "statistics.parquet",
     ];
-    Ok([
-        (a, column::csv(a, &of_prediction, &predictions)?),
-        (b, column::parquet(b, &of_prediction, &predictions)?),
-        (c, column::csv(c, &of_group, &groups)?),
-        (d, column::parquet(d, &of_group, &groups)?),
-    ])
+    let files = [
+        Some((a, column::csv(a, &of_prediction, &predictions)?)),
+        column::parquet(b, &of_prediction, &predictions)?,
+        Some((c, column::csv(c, &of_group, &groups)?)),
+        column::parquet(d, &of_group, &groups)?,
+    ];
+    Ok(files.into_iter().flatten().collect())
 }
 
 fn prediction_columns() -> Vec<Column<PredictionRecord>> {

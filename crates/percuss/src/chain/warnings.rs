@@ -97,42 +97,6 @@ pub(super) fn warnings_of_cavity(
     warnings
 }
 
-/// Error of a peak contact force that is mentioned.
-const NOTABLE_PEAK_ERROR: f64 = 0.05;
-
-/// How far the forces of an expanding cavity may be relied on: a peak at the first contact beside the force of a plane impact [N], and the
-/// force on a fixed rear face beside that of `axi`.
-pub(super) fn warning_of_forces(
-    scenario: &Scenario,
-    peak: f64,
-    plane_impact: Option<f64>,
-) -> Option<String> {
-    let kn = |force: f64| significant(force * 1e-3, 3);
-    let peak = plane_impact
-        .filter(|plane| (peak / plane - 1.0).abs() > NOTABLE_PEAK_ERROR)
-        .map(|plane| {
-            format!(
-                "the peak contact force belongs to the first contact and depends on the mesh: {} kN here, {} kN on fine meshes (plane \
-                 impact)",
-                kn(peak),
-                kn(plane)
-            )
-        });
-    let rear = matches!(
-        &scenario.target,
-        TargetBody::Layers { layers, back_face: BackFace::Fixed, .. } if layers.iter().all(|plate| plate.thickness.is_some())
-    );
-    let rear = rear.then(|| {
-        "the force on the fixed rear face is that of a plate of infinite width, above that of `axi` by 8 to 31 % at 5 projectile diameters of \
-         thickness and by 57 to 84 % at one"
-            .to_owned()
-    });
-    match (peak, rear) {
-        (Some(peak), Some(rear)) => Some(format!("{peak}; {rear}")),
-        (peak, rear) => peak.or(rear),
-    }
-}
-
 /// What an expanding cavity leaves out of a rear face that is near.
 fn warning_of_rear_face(scenario: &Scenario, depth: f64) -> Option<String> {
     let thickness = scenario.target_thickness()?;

@@ -206,6 +206,8 @@ impl Fields<'_> {
         let Some(series) = self.series.take() else {
             return Ok(files);
         };
+        // Without pictures the option is refused.
+        #[cfg(feature = "png")]
         if options.animation {
             let mut report = |part: f64| report(part, "drawing the animation");
             files.extend(percuss_report::animate(
@@ -235,6 +237,15 @@ fn check_use(options: &Run, model: &dyn Model) -> Result<(), Failure> {
         ("--checkpoint", options.checkpoint.is_some()),
         ("--resume", options.resume),
     ];
+    #[cfg(not(feature = "png"))]
+    for (option, given) in [
+        ("`--animation`", options.animation),
+        ("`--field`", options.field.is_some()),
+    ] {
+        if given {
+            return Err(crate::commands::left_out::refuse(option, "png"));
+        }
+    }
     if let Some((option, _)) = given.iter().find(|(_, given)| *given)
         && !model.has_fields()
     {

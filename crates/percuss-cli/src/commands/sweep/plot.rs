@@ -67,17 +67,18 @@ struct Drawn {
 impl Plot {
     pub fn run(&self) -> Result<(), Failure> {
         let (title, files) = self.draw()?;
-        let [svg, png] = files.map(|file| file.display().to_string());
-        output::print(&format!("{title}\nwrote {svg} and {png}\n"))
+        let files = files.iter().map(|file| file.display().to_string());
+        let files = files.collect::<Vec<_>>().join(" and ");
+        output::print(&format!("{title}\nwrote {files}\n"))
     }
 
     /// Its title, and the files.
     pub fn answer(&self) -> Result<Answer, Failure> {
         let (title, files) = self.draw()?;
-        Answer::json_of(&Drawn { title }, files.into())
+        Answer::json_of(&Drawn { title }, files)
     }
 
-    fn draw(&self) -> Result<(String, [PathBuf; 2]), Failure> {
+    fn draw(&self) -> Result<(String, Vec<PathBuf>), Failure> {
         let request = PlotRequest {
             quantity: self.quantity.clone(),
             style: self.style.map(|style| match style {

@@ -6,6 +6,7 @@
 mod block;
 mod delay_line;
 mod floor;
+mod forces;
 mod ground;
 mod node;
 mod plane_impact;

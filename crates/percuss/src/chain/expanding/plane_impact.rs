@@ -1,12 +1,17 @@
 //! Force of a plane impact: that of the first contact, before a wave from the edge of the projectile arrives.
 //!
 //! Behind an elastic precursor and a bulk wave the stress is `σ = Z_e u` up to the Hugoniot elastic limit and `σ_e + Z_b (u − u_e)` beyond
-//! it, in both bodies, whose changes of velocity add up to the impact velocity. Linear waves: below pressures of a tenth of the bulk modulus.
+//! it, in both bodies, whose changes of velocity add up to the impact velocity.
+//!
+//! The waves are linear, which underestimates the stress: by 5 % at 9 % of the bulk modulus (copper on aluminium at 600 m/s).
 
 use crate::material::Material;
 
 /// Halvings of the interval of the interface velocity: to 1e-12 of it.
 const HALVINGS: u32 = 40;
+
+/// Largest stress over the bulk modulus at which waves are taken as linear.
+const LINEAR: f64 = 0.1;
 
 /// Stress behind a plane wave that changes the velocity by some amount.
 struct PlaneWave {
@@ -42,8 +47,13 @@ impl PlaneWave {
     }
 }
 
-/// Force [N] on an area [m2] of two bodies that meet at a velocity [m/s].
-pub(super) fn force(projectile: &Material, target: &Material, velocity: f64, area: f64) -> f64 {
+/// Force [N] on an area [m2] of two bodies that meet at a velocity [m/s]; `None` where the waves are not linear.
+pub(super) fn force(
+    projectile: &Material,
+    target: &Material,
+    velocity: f64,
+    area: f64,
+) -> Option<f64> {
     let waves = [projectile, target].map(PlaneWave::new);
     let (mut low, mut high) = (0.0, velocity);
     for _ in 0..HALVINGS {
@@ -54,7 +64,9 @@ pub(super) fn force(projectile: &Material, target: &Material, velocity: f64, are
             high = middle;
         }
     }
-    area * waves[1].stress(target, 0.5 * (low + high))
+    let stress = waves[1].stress(target, 0.5 * (low + high));
+    let softer = projectile.bulk_modulus().min(target.bulk_modulus());
+    (stress <= LINEAR * softer).then_some(area * stress)
 }
 
 #[cfg(test)]
@@ -74,7 +86,7 @@ mod tests {
         let metal = material("100 GPa", 2700.0);
         // Plane modulus: 1.2 times Young's at a Poisson's ratio of a quarter.
         let exact = (84e9_f64 * 2700.0).sqrt() * 50.0 * 2e-6;
-        assert!((force(&metal, &metal, 100.0, 2e-6) / exact - 1.0).abs() < 1e-9);
+        assert!((force(&metal, &metal, 100.0, 2e-6).unwrap() / exact - 1.0).abs() < 1e-9);
     }
 
     #[test]
@@ -84,10 +96,11 @@ mod tests {
         let limit = 280e6 * 1.5;
         let [elastic, bulk] = [84e9_f64, 140e9 / 3.0].map(|modulus| (modulus * 2700.0).sqrt());
         let exact = limit + bulk * (100.0 - limit / elastic);
-        assert!((force(&metal, &metal, 200.0, 1.0) / exact - 1.0).abs() < 1e-9);
+        assert!((force(&metal, &metal, 200.0, 1.0).unwrap() / exact - 1.0).abs() < 1e-9);
         // A body of nine times the density has three times the impedance, and takes a quarter of the velocity.
         let [light, heavy] = [2700.0, 24300.0].map(|density| material("100 GPa", density));
         let exact = (84e9_f64 * 2700.0).sqrt() * 75.0;
-        assert!((force(&light, &heavy, 100.0, 1.0) / exact - 1.0).abs() < 1e-9);
+        assert_eq!(force(&light, &heavy, 1000.0, 1.0), None);
+        assert!((force(&light, &heavy, 100.0, 1.0).unwrap() / exact - 1.0).abs() < 1e-9);
     }
 }

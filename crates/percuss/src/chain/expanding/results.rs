@@ -4,16 +4,16 @@ use super::{
     super::{
         between::Residuals,
         results::of_cracks,
-        warnings::{Reached, warning_of_forces, warnings_of_cavity},
+        warnings::{Reached, warnings_of_cavity},
     },
-    parted, plane_impact,
+    forces, parted,
     slice::Slice,
     state::State,
 };
 use crate::{
     history::{ElementState, Profile, Recorder, Sample},
     outcome::{Detail, Numerics, Outcome, PLANE_IMPACT, RunResult, Termination},
-    scenario::{Scenario, TargetBody},
+    scenario::Scenario,
     units::significant,
 };
 
@@ -186,7 +186,7 @@ pub(super) fn sum_up(
     result.history = recorder.map(|recorder| recorder.finish(sample(state), profile(state)));
     result.fragments = state.rod.fragments();
     result.details = of_cracks(state.cracks.len(), state.cracks.first().copied());
-    let plane_impact = plane_impact_force(scenario);
+    let plane_impact = forces::plane_impact_force(scenario);
     if let Some(force) = plane_impact {
         result.details.push(Detail {
             name: PLANE_IMPACT,
@@ -195,31 +195,13 @@ pub(super) fn sum_up(
         });
     }
     result.warnings = warnings_of_cavity(scenario, &result, &reached, erosion_strain);
-    let at_first_contact = plane_impact.filter(|_| watch.peak_time < edge_wave_time(scenario));
-    result.warnings.extend(warning_of_forces(
-        scenario,
-        watch.peak_force,
-        at_first_contact,
-    ));
+    let first_contact =
+        (watch.peak_time < forces::edge_wave_time(scenario)).then_some(watch.peak_force);
+    let warning = forces::warning(scenario, first_contact, plane_impact);
+    result.warnings.extend(warning);
     result.warnings.extend(warning_of_target_failure(state));
     result.warnings.splice(0..0, remnant.warning());
     result
-}
-
-/// Force of a plane impact of the projectile on the target [N].
-fn plane_impact_force(scenario: &Scenario) -> Option<f64> {
-    let TargetBody::Layers { layers, .. } = &scenario.target else {
-        return None;
-    };
-    let (rod, target) = (&scenario.projectile, &layers.first()?.material);
-    (scenario.impact_speed > 0.0)
-        .then(|| plane_impact::force(&rod.material, target, scenario.impact_speed, rod.area()))
-}
-
-/// Time in which a wave from the edge of the struck face reaches the axis [s].
-fn edge_wave_time(scenario: &Scenario) -> f64 {
-    let rod = &scenario.projectile;
-    0.5 * rod.diameter / rod.material.bar_wave_speed()
 }
 
 /// Logarithmic stretch beyond which a slice counts as parted: it takes 63 % of a bar's area, about what metals have lost at fracture.

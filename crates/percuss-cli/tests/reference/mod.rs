@@ -1,0 +1,28 @@
+//! The reference pages of `docs/reference/` are what the schema and the help of the program say.
+//!
+//! `REWRITE_REFERENCES=1 cargo test -p percuss-cli --test all reference::` writes them again.
+
+mod case_file;
+mod commands;
+
+use std::{env, fs, path::Path};
+
+#[test]
+fn reference_pages_are_those_of_the_program() {
+    for (place, text) in [
+        ("docs/reference/case-file.md", case_file::page()),
+        ("docs/reference/commands.md", commands::page()),
+    ] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../..")
+            .join(place);
+        if env::var_os("REWRITE_REFERENCES").is_some() {
+            fs::write(&path, &text).unwrap();
+        }
+        let kept = fs::read_to_string(&path).unwrap_or_default();
+        assert!(
+            kept == text,
+            "{place} is out of date; write it with `REWRITE_REFERENCES=1 cargo test -p percuss-cli --test all reference::`"
+        );
+    }
+}

@@ -1,0 +1,83 @@
+//! Figures in pixels.
+
+use std::sync::{Arc, OnceLock};
+
+use resvg::{
+    tiny_skia::{Color, Pixmap, Transform},
+    usvg::{Options, Tree, fontdb::Database},
+};
+
+use crate::{Figure, ReportError, png_file};
+
+/// Pixels of a PNG per SVG user unit.
+const PNG_SCALE: f32 = 2.0;
+
+impl Figure {
+    /// The figure as a PNG file, two pixels per SVG user unit.
+    ///
+    /// # Errors
+    /// [`ReportError::Figure`].
+    pub fn png(&self) -> Result<Vec<u8>, ReportError> {
+        png_file::encode(&self.name, &self.pixels(PNG_SCALE)?)
+    }
+
+    /// The figure on white, at a number of pixels per SVG user unit.
+    pub(crate) fn pixels(&self, scale: f32) -> Result<Pixmap, ReportError> {
+        let tree = tree(&self.name, &self.svg)?;
+        let size = tree
+            .size()
+            .to_int_size()
+            .scale_by(scale)
+            .ok_or_else(|| failure(&self.name, "it has no area".to_owned()))?;
+        let mut pixels = Pixmap::new(size.width(), size.height())
+            .ok_or_else(|| failure(&self.name, "it is too large".to_owned()))?;
+        pixels.fill(Color::WHITE);
+        resvg::render(
+            &tree,
+            Transform::from_scale(scale, scale),
+            &mut pixels.as_mut(),
+        );
+        Ok(pixels)
+    }
+}
+
+/// Draws an SVG over what is there.
+pub(crate) fn draw_over(pixels: &mut Pixmap, svg: &str, scale: f32) -> Result<(), ReportError> {
+    let tree = tree("overlay", svg)?;
+    resvg::render(
+        &tree,
+        Transform::from_scale(scale, scale),
+        &mut pixels.as_mut(),
+    );
+    Ok(())
+}
+
+fn tree(name: &str, svg: &str) -> Result<Tree, ReportError> {
+    let options = Options {
+        fontdb: fonts(),
+        font_family: "DejaVu Sans".to_owned(),
+        ..Options::default()
+    };
+    Tree::from_str(svg, &options).map_err(|error| failure(name, error.to_string()))
+}
+
+fn failure(name: &str, reason: String) -> ReportError {
+    ReportError::Figure {
+        name: name.to_owned(),
+        reason,
+    }
+}
+
+/// The built-in fonts, read once.
+fn fonts() -> Arc<Database> {
+    static FONTS: OnceLock<Arc<Database>> = OnceLock::new();
+    FONTS
+        .get_or_init(|| {
+            let mut fonts = Database::new();
+            fonts.load_font_data(dejavu::sans::regular().to_vec());
+            fonts.load_font_data(dejavu::sans::bold().to_vec());
+            fonts.set_sans_serif_family("DejaVu Sans");
+            Arc::new(fonts)
+        })
+        .clone()
+}
