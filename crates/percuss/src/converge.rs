@@ -247,8 +247,8 @@ pub fn study(
     let mut results = Vec::new();
     for level in 0..levels {
         let refined = model.refined(scenario, REFINEMENT.saturating_pow(level));
-        let result = run(model, &refined, control)?;
-        let Some(numerics) = &result.numerics else {
+        let result = run(model, refined.as_ref().unwrap_or(scenario), control)?;
+        let (Some(_), Some(numerics)) = (&refined, &result.numerics) else {
             return Err(Error::NotApplicable {
                 model: model.name(),
                 reason: "it has no mesh to refine".to_owned(),

@@ -79,11 +79,11 @@ impl Model for Axi {
         run::not_applicable(scenario)
     }
 
-    fn refined(&self, scenario: &Scenario, factor: u32) -> Scenario {
+    fn refined(&self, scenario: &Scenario, factor: u32) -> Option<Scenario> {
         let mut refined = scenario.clone();
         let options = &mut refined.options.axi;
         options.cells_per_radius = Some(options.cells_per_radius().saturating_mul(factor));
-        refined
+        Some(refined)
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {

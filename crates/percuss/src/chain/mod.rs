@@ -125,7 +125,7 @@ impl Model for Chain {
         }
     }
 
-    fn refined(&self, scenario: &Scenario, factor: u32) -> Scenario {
+    fn refined(&self, scenario: &Scenario, factor: u32) -> Option<Scenario> {
         let finer = |elements: usize| {
             let elements = u32::try_from(elements).unwrap_or(u32::MAX);
             Some(elements.saturating_mul(factor))
@@ -134,7 +134,7 @@ impl Model for Chain {
         let options = &mut refined.options.chain;
         options.projectile_elements = finer(options.projectile_elements());
         options.target_elements = finer(options.target_elements());
-        refined
+        Some(refined)
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {

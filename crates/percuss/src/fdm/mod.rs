@@ -59,13 +59,13 @@ impl Model for Fdm {
         }
     }
 
-    fn refined(&self, scenario: &Scenario, factor: u32) -> Scenario {
+    fn refined(&self, scenario: &Scenario, factor: u32) -> Option<Scenario> {
         let (projectile, target) = elements(scenario);
         let mut refined = scenario.clone();
         let options = &mut refined.options.fdm;
         options.projectile_elements = Some(projectile.saturating_mul(factor));
         options.target_elements = Some(target.saturating_mul(factor));
-        refined
+        Some(refined)
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {

@@ -50,9 +50,9 @@ pub trait Model: Sync {
         None
     }
 
-    /// The same case on a mesh that is `factor` times finer; the case itself for a model without a mesh.
-    fn refined(&self, scenario: &Scenario, _factor: u32) -> Scenario {
-        scenario.clone()
+    /// The same case on a mesh that is `factor` times finer; `None` from a model without a mesh.
+    fn refined(&self, _scenario: &Scenario, _factor: u32) -> Option<Scenario> {
+        None
     }
 
     /// Computes a case to which the model applies.
