@@ -19,6 +19,7 @@ projectile,target,length_to_diameter,impact_velocity_m_s,cells_per_radius,depth_
 projectile_final_length_mm,projectile_final_diameter_mm,outcome,energy_residual,transfer_loss,steps,particles
 copper-woodward,aluminium-2024-t351-woodward,1.0,600.0,4,1.8,1.9,3.0,8.0,rebounded,0.002,0.05,1000,6000
 copper-woodward,aluminium-2024-t351-woodward,1.0,600.0,8,1.9,1.9,3.0,8.0,rebounded,0.002,0.05,2000,24000
+copper-woodward,aluminium-2024-t351-woodward,1.0,600.0,16,1.95,1.96,3.0,8.0,rebounded,0.002,0.05,4000,96000
 """
 Call = Callable[[Path, Path], Any]
 
