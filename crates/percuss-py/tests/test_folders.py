@@ -13,7 +13,7 @@ from conftest import ROOT, Program, content
 
 TAYLOR = "cases/taylor-copper-wilkins/scenario.toml"
 PLATE = "cases/weldox-460e-12mm-blunt/scenario.toml"
-# Two shots of the design with depths made up, one of them on two meshes.
+# A shot of the design with depths made up.
 REFERENCE = """\
 projectile,target,length_to_diameter,impact_velocity_m_s,cells_per_radius,depth_of_penetration_mm,largest_depth_mm,\
 projectile_final_length_mm,projectile_final_diameter_mm,outcome,energy_residual,transfer_loss,steps,particles
