@@ -37,9 +37,9 @@ fn unchanged(shot: [&str; 2], model: &str, head: &str, defaults: &[&str]) {
 
 #[test]
 fn of_formulae() {
-    let ogive = "material = '4340', length = '40 mm', diameter = '8 mm', velocity = '400 m/s', nose = { ogive = { crh = 3.0 } }";
-    let thick = "material = 'aluminium-2024-t351', thickness = '200 mm'";
-    let plate = "material = 'aluminium-2024-t351', thickness = '26 mm'";
+    let ogive = "material = '4340-johnson-cook', length = '40 mm', diameter = '8 mm', velocity = '150 m/s', nose = { ogive = { crh = 3.0 } }";
+    let thick = "material = '6061-t6-lesuer', thickness = '200 mm'";
+    let plate = "material = '6061-t6-lesuer', thickness = '12 mm'";
     let concrete = "material = 'concrete-35-forrestal', thickness = 'semi-infinite'";
     for (shot, model, defaults) in [
         (
