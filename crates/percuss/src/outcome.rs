@@ -241,7 +241,7 @@ impl BandQuantity {
     }
 }
 
-/// Name of the detail that holds the force of a plane impact, which the peak contact force approaches on fine meshes.
+/// Name of the detail that holds the force of a plane impact: that of the first contact, before a wave from the edge arrives.
 pub const PLANE_IMPACT: &str = "force of a plane impact";
 
 /// A number that one model alone has.

@@ -1,4 +1,4 @@
-//! Forces of a run that need a word: the peak at the first contact, and the force on a fixed rear face.
+//! Warnings about forces: the peak at the first contact, and the force on a fixed rear face.
 
 use super::plane_impact;
 use crate::{
@@ -7,14 +7,14 @@ use crate::{
     units::significant,
 };
 
-/// Force of a plane impact of the projectile on the target [N].
+/// Force of a plane impact of the projectile on the target [N]; `None` with a resistance law of the caller's own, to which it does not belong.
 pub(super) fn plane_impact_force(scenario: &Scenario) -> Option<f64> {
     let TargetBody::Layers { layers, .. } = &scenario.target else {
         return None;
     };
     let (rod, target) = (&scenario.projectile, &layers.first()?.material);
     let speed = scenario.impact_speed;
-    if speed > 0.0 {
+    if speed > 0.0 && scenario.resistance.is_none() {
         plane_impact::force(&rod.material, target, speed, rod.area())
     } else {
         None
@@ -43,7 +43,7 @@ pub(super) fn warning(
         match plane_impact {
             Some(plane) if (peak / plane - 1.0).abs() <= NOTABLE_PEAK_ERROR => None,
             Some(plane) => Some(format!(
-                "{words}: {} kN here, {} kN by a plane impact, the limit of fine meshes",
+                "{words}: {} kN here, {} kN by the theory of a plane impact",
                 kn(peak),
                 kn(plane)
             )),
@@ -55,8 +55,8 @@ pub(super) fn warning(
         TargetBody::Layers { layers, back_face: BackFace::Fixed, .. } if layers.iter().all(|plate| plate.thickness.is_some())
     );
     let rear = rear.then(|| {
-        "the force on the fixed rear face is that of a plate of infinite width, above that of `axi` by 8 to 31 % at 5 projectile diameters of \
-         thickness and by 57 to 84 % at one"
+        "the force on the fixed rear face is that of a plate of infinite width: in the seed paper's case 8 to 31 % above that of `axi` at 5 \
+         projectile diameters of thickness, and 57 to 84 % at one"
             .to_owned()
     });
     match (peak, rear) {

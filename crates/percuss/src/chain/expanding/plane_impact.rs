@@ -3,7 +3,7 @@
 //! Behind an elastic precursor and a bulk wave the stress is `σ = Z_e u` up to the Hugoniot elastic limit and `σ_e + Z_b (u − u_e)` beyond
 //! it, in both bodies, whose changes of velocity add up to the impact velocity.
 //!
-//! The waves are linear, which underestimates the stress: by 5 % at 9 % of the bulk modulus (copper on aluminium at 600 m/s).
+//! Flow stresses are slow ones at room temperature. The waves are linear, which underestimates the stress: by 5 % at 9 % of the bulk modulus (copper on aluminium at 600 m/s).
 
 use crate::material::Material;
 
