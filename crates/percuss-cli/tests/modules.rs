@@ -19,7 +19,6 @@ const LAYERS: &[(&str, &[&str])] = &[
         "core",
         &[
             "check",
-            "courant_retry",
             "document",
             "error",
             "fragments",

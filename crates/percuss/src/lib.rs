@@ -25,7 +25,6 @@ pub mod chain;
 pub mod check;
 pub mod compare;
 pub mod converge;
-mod courant_retry;
 pub mod document;
 mod error;
 pub mod fdm;

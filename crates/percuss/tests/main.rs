@@ -3,6 +3,7 @@
 mod axi;
 mod axi_output;
 mod cases;
+mod checkpoints;
 mod common;
 mod consistency;
 mod constant_pressure;

@@ -1,7 +1,7 @@
 //! Model `fdm`: one-dimensional finite differences on a staggered grid, stresses in cells and velocities at nodes.
 
+mod audit;
 mod grid;
-mod numerics;
 pub mod planar;
 mod rod;
 mod viscosity;
@@ -9,7 +9,6 @@ mod warnings;
 
 pub use crate::options::{FdmOptions, Geometry};
 pub use planar::StateEquation;
-pub use rod::Rod;
 
 use crate::{
     Error, Scenario,
@@ -52,6 +51,10 @@ impl Model for Fdm {
         }
     }
 
+    fn has_fields(&self) -> bool {
+        true
+    }
+
     fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
         match scenario.options.fdm.geometry {
             Geometry::Rod => erodes(scenario),
@@ -71,12 +74,12 @@ impl Model for Fdm {
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
         match scenario.options.fdm.geometry {
             Geometry::Rod => {
-                let mut result = Rod::new(scenario).run(control)?;
+                let mut result = rod::RodRun::new(scenario)?.run(control)?;
                 result.warnings.extend(Range::COLUMN.finding(scenario));
                 result.warnings.extend(fixed_rear_face_warning(scenario));
                 Ok(result)
             }
-            Geometry::Planar => planar::run(scenario, control),
+            Geometry::Planar => planar::PlanarRun::new(scenario)?.run(control),
         }
     }
 }

@@ -1,9 +1,14 @@
 //! Model interface: what every model offers, how a run of one is started, watched, interrupted and resumed.
 
+pub(crate) mod archive;
 pub mod checkpoint;
 mod control;
+mod courant_retry;
+pub(crate) mod driver;
 pub mod frames;
 mod input_limit;
+pub(crate) mod limits;
+pub(crate) mod monitor;
 mod particle;
 
 use crate::{
@@ -15,6 +20,7 @@ use crate::{
 
 pub(crate) use control::go_on;
 pub use control::{Checkpoints, Control, OnFrame, Progress};
+pub(crate) use courant_retry::AttemptError;
 pub use input_limit::InputLimit;
 pub use particle::Particle;
 pub(crate) use particle::{equivalent, kinetic_energy};
@@ -35,8 +41,13 @@ pub trait Model: Sync {
         false
     }
 
-    /// Whether it computes fields in two dimensions, which [`Control::frames`] gets, and can go on from a checkpoint.
+    /// Whether it steps through time: then [`Control::frames`] gets its fields, and a run continues from a checkpoint.
     fn has_fields(&self) -> bool {
+        false
+    }
+
+    /// Whether its fields are two-dimensional.
+    fn is_two_dimensional(&self) -> bool {
         false
     }
 

@@ -18,7 +18,7 @@ use super::{
     boundary::Supports,
     contact::Contact,
     law::{Law, Pressure},
-    solver::{Books, Pending, Solver},
+    solver::{Books, Grid, Pending},
 };
 use crate::{
     case::ArtificialViscosity,
@@ -178,14 +178,14 @@ fn spherical_shell(inner: f64, outer: f64, spacing: f64) -> Vec<([f64; 2], f64)>
 const ALL_ROWS: isize = isize::MIN;
 
 /// Bodies without supports, ready to move.
-fn solver(bodies: Vec<Body>, cell: f64) -> Solver {
+fn solver(bodies: Vec<Body>, cell: f64) -> Grid {
     let supports = vec![Supports::NONE; bodies.len()];
     supported(bodies, supports, cell)
 }
 
 /// Bodies with supports, ready to move.
-fn supported(bodies: Vec<Body>, supports: Vec<Supports>, cell: f64) -> Solver {
-    let mut solver = Solver {
+fn supported(bodies: Vec<Body>, supports: Vec<Supports>, cell: f64) -> Grid {
+    let mut solver = Grid {
         bodies,
         supports,
         contact: Contact::Frictional(0.0),

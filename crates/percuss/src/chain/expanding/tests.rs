@@ -2,7 +2,7 @@
 
 use std::{f64::consts::PI, sync::Arc};
 
-use super::{Expanding, StepControl, resistance::Resistance, rod::Rod, slice::Metal};
+use super::{CavityRun, StepControl, resistance::Resistance, rod::Rod, slice::Metal};
 use crate::{
     Scenario,
     case::{self, TargetClosure},
@@ -21,7 +21,10 @@ fn scenario(projectile: &str, target: &str, length: f64, speed: f64, more: &str)
 }
 
 fn run(scenario: &Scenario) -> RunResult {
-    Expanding::run(scenario, &mut Control::default()).unwrap()
+    CavityRun::new(scenario)
+        .unwrap()
+        .run(&mut Control::default())
+        .unwrap()
 }
 
 const RADIUS: f64 = 2.5e-3;
