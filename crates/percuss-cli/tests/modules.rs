@@ -30,6 +30,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "outcome",
             "power",
             "problem",
+            "refusal",
             "regime",
             "resistance",
             "richardson",

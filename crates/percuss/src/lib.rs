@@ -41,6 +41,7 @@ pub mod options;
 pub mod outcome;
 pub mod power;
 pub mod problem;
+mod refusal;
 pub mod regime;
 pub mod resistance;
 pub mod richardson;
@@ -56,6 +57,7 @@ pub mod v50;
 pub mod validate;
 
 pub use error::{Error, InputError, NumericalError, Subject};
+pub use refusal::Refusal;
 pub use scenario::Scenario;
 pub use solver::{checkpoint, frames};
 

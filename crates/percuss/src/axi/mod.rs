@@ -25,7 +25,7 @@ pub use crate::options::{AxiOptions, ContactKind, Edge, Eos};
 pub use crate::solver::Particle;
 
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::Guard,
     outcome::RunResult,
     regime::TargetKind,
@@ -78,7 +78,7 @@ impl Model for Axi {
         true
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         run::not_applicable(scenario)
     }
 

@@ -4,7 +4,7 @@ use std::iter;
 
 use super::{axial, crater, end::Window, results, setup::build, solver::Grid};
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     error::NumericalError,
     history::{Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
@@ -46,7 +46,7 @@ pub(crate) struct Axisymmetric<'a> {
 pub(super) type AxiRun<'a> = Drive<'a, Axisymmetric<'a>>;
 
 /// Why a case that the guard lets pass gets no number, if it does not.
-pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
+pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     let options = &scenario.options.axi;
     let materials: Vec<(&Material, &str)> = materials(scenario).collect();
     if options.equation_of_state == Some(Eos::MieGruneisen) {
@@ -54,23 +54,22 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
             .iter()
             .find(|(m, _)| m.equation_of_state.is_none());
         if let Some((_, id)) = lacking {
-            return Some(format!(
+            return Some(Refusal::new(format!(
                 "`axi.equation_of_state = \"mie-gruneisen\"` needs an equation of state, and the material `{id}` has none"
-            ));
+            )));
         }
     }
     if options.damage == Some(true) && materials.iter().all(|(m, _)| m.damage.is_none()) {
         return Some(
             "`axi.damage = true` needs a material that has a `damage` table, and none has one"
-                .to_owned(),
+                .into(),
         );
     }
     let spalls = options.spalls() && options.spall_strength.is_none();
     if spalls && materials.iter().all(|(m, _)| m.spall_strength.is_none()) {
-        return Some(
-            "`axi.spall = true` needs a material that has a `spall_strength`, and none has one: give one, or `axi.spall_strength`"
-                .to_owned(),
-        );
+        let reason =
+            "`axi.spall = true` needs a material that has a `spall_strength`, and none has one";
+        return Some(Refusal::new(reason).with_remedy("give one, or `axi.spall_strength`"));
     }
     None
 }

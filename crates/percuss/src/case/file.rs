@@ -53,7 +53,7 @@ macro_rules! case_with_model_options {
         }
 
         impl Case {
-            /// A shot with the default options of every model.
+            /// A case with the default options of every model; [`Case::scenario`] makes it ready to run.
             pub fn new(projectile: Projectile, target: Target) -> Self {
                 Self {
                     title: String::new(),

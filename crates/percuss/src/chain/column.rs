@@ -134,10 +134,12 @@ impl<'a> Solver<'a> for Column<'a> {
 
     fn is_at_rest(&self) -> bool {
         let state = &self.state;
+        if state.tip_segment().is_none() {
+            return false;
+        }
         // The tail is the last to hear of the impact: no need to sum up before it slows down.
         let tail = state.segments[0].first_node;
-        state.tip_segment().is_some()
-            && state.nodes[tail].velocity < 0.5 * self.scenario.impact_speed
+        state.nodes[tail].velocity < 0.5 * self.scenario.impact_speed
             && state.projectile_motion().1 <= 0.0
     }
 

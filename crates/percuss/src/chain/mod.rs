@@ -49,7 +49,7 @@ use std::sync::atomic::AtomicBool;
 pub(crate) use batch::Stopped;
 
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{FirstChoice, Guard, NoseKind, Range},
     material::MaterialClass,
     options::{BorderShearLaw, Scheme, TargetClosure},
@@ -110,15 +110,16 @@ impl Model for Chain {
         true
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         match scenario.options.chain.scheme {
             Scheme::Conservative if is_expanding(scenario) => {
                 expanding::not_applicable(scenario).or_else(|| fracture::not_applicable(scenario))
             }
             _ if scenario.resistance.is_some() => Some(
-                "a resistance law takes the place of the target's in the closure `expanding-cavity` alone; set \
-                 chain.target_closure = \"expanding-cavity\""
-                    .to_owned(),
+                Refusal::new(
+                    "a resistance law replaces the target's in the closure `expanding-cavity` only",
+                )
+                .with_remedy("set `chain.target_closure = \"expanding-cavity\"`"),
             ),
             Scheme::Conservative => {
                 fracture::not_applicable(scenario).or_else(|| plug::band_laws(scenario).err())

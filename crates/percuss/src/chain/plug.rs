@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::{band_law::BandLaw, dishing::Dishing, part::Role, shear_band::Bands, state::State};
 use crate::{
-    Error,
+    Error, Refusal,
     options::BorderShearLaw,
     outcome::Detail,
     scenario::{Scenario, TargetBody},
@@ -39,8 +39,8 @@ impl Hold {
 /// The laws of the bands of every layer; `None` where border shear is friction.
 ///
 /// # Errors
-/// In words, why a material does not give what the options leave to it.
-pub(super) fn band_laws(scenario: &Scenario) -> Result<Option<Vec<BandLaw>>, String> {
+/// Why a material does not give what the options leave to it.
+pub(super) fn band_laws(scenario: &Scenario) -> Result<Option<Vec<BandLaw>>, Refusal> {
     let options = &scenario.options.chain;
     let TargetBody::Layers {
         layers,

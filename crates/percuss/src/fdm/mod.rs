@@ -11,7 +11,7 @@ pub use crate::options::{FdmOptions, Geometry};
 pub use planar::StateEquation;
 
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{Guard, NoseKind, Range, fixed_rear_face_warning},
     options::ErosionStrain,
     outcome::RunResult,
@@ -55,7 +55,7 @@ impl Model for Fdm {
         true
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         match scenario.options.fdm.geometry {
             Geometry::Rod => erodes(scenario),
             Geometry::Planar => planar::not_applicable(scenario),
@@ -85,17 +85,18 @@ impl Model for Fdm {
 }
 
 /// Why a rod that erodes gets no number: its cells are crushed instead, to nothing and at the cost of any number of time steps.
-fn erodes(scenario: &Scenario) -> Option<String> {
+fn erodes(scenario: &Scenario) -> Option<Refusal> {
     let regime = Regime::of(scenario);
     let asked = scenario.options.chain.erosion_strain == Some(ErosionStrain::Never);
     let sharply = regime.projectile == ProjectileRegime::Eroding
         && regime.neighbour != Some(ProjectileRegime::Deforming);
     (sharply && !asked).then(|| {
-        format!(
-            "geometry `rod` has no erosion, and this rod erodes: {}; for a comparison without erosion give \
-             `chain.erosion_strain = \"never\"`",
+        let reason = format!(
+            "geometry `rod` has no erosion, and this rod erodes: {}",
             regime.because
-        )
+        );
+        Refusal::new(reason)
+            .with_remedy("for a comparison without erosion give `chain.erosion_strain = \"never\"`")
     })
 }
 

@@ -39,7 +39,7 @@ use super::{
     solver::StepControl,
 };
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     error::NumericalError,
     history::{Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
@@ -63,11 +63,9 @@ const SMALLEST_COURANT: f64 = 0.05;
 const AUDIT_INTERVAL: u64 = 64;
 
 /// Why a case cannot be run with this closure, if it cannot.
-pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
+pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     let Some(plate) = struck(scenario) else {
-        return Some(
-            "the target closure `expanding-cavity` needs a target of one material".to_owned(),
-        );
+        return Some("the target closure `expanding-cavity` needs a target of one material".into());
     };
     if scenario.resistance.is_some() {
         return None;
@@ -79,7 +77,7 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
         .initial_yield_stress(&plate.material);
     yields
         .is_none()
-        .then(|| "the target closure `expanding-cavity` needs a target that yields".to_owned())
+        .then(|| "the target closure `expanding-cavity` needs a target that yields".into())
 }
 
 fn struck(scenario: &Scenario) -> Option<&Plate> {
@@ -104,10 +102,8 @@ pub(super) type CavityRun<'a> = Drive<'a, Cavity<'a>>;
 
 impl<'a> Cavity<'a> {
     fn new(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
-        let refuse = || Error::NotApplicable {
-            model: "chain",
-            reason: not_applicable(scenario).unwrap_or_default(),
-        };
+        let refuse =
+            || Error::not_applicable("chain", not_applicable(scenario).unwrap_or_default());
         let plate = struck(scenario).ok_or_else(refuse)?;
         let options = &scenario.options.chain;
         let projectile = &scenario.projectile;

@@ -391,7 +391,7 @@ fn where_nothing_takes_a_law_of_resistance_it_is_refused() {
     }
     shot.resistance = Some(OwnResistance(Arc::new(Never)));
     for name in ["fdm", "tate", "axi"] {
-        assert!(refused(&shot, name).contains("`chain` does"));
+        assert!(refused(&shot, name).contains("use the model `chain`"));
     }
     shot.options.chain.target_closure = Some(TargetClosure::Column);
     assert!(refused(&shot, "chain").contains("expanding-cavity"));

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 use super::friction::rub;
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     error::NumericalError,
     history::{Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
@@ -59,20 +59,20 @@ pub struct Published<'a> {
 }
 
 impl<'a> Published<'a> {
-    pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
+    pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
         let Some((plate, _, _)) = single_plate(scenario) else {
             return Some(
                 "scheme `published` has one plate of finite thickness with a fixed back face"
-                    .to_owned(),
+                    .into(),
             );
         };
         for material in [&scenario.projectile.material, &plate.material] {
             if law(material, 1.0, 1.0).is_none() {
-                return Some(format!(
+                return Some(Refusal::new(format!(
                     "scheme `published` has the strength laws power_law and elastic, and {} has {}",
                     material.name,
                     material.strength.key()
-                ));
+                )));
             }
         }
         None
@@ -83,17 +83,13 @@ impl<'a> Published<'a> {
     /// # Errors
     /// [`Error::NotApplicable`] for anything but one plate with a fixed back face and power-law or elastic materials.
     pub fn new(scenario: &'a Scenario) -> Result<Self, Error> {
-        let not_applicable = |reason: String| Error::NotApplicable {
-            model: "chain",
-            reason,
-        };
-        if let Some(reason) = Self::not_applicable(scenario) {
-            return Err(not_applicable(reason));
+        if let Some(refusal) = Self::not_applicable(scenario) {
+            return Err(Error::not_applicable("chain", refusal));
         }
         let (Some((plate, thickness, column)), options) =
             (single_plate(scenario), scenario.options.chain.published())
         else {
-            return Err(not_applicable("no plate".to_owned()));
+            return Err(Error::not_applicable("chain", "no plate"));
         };
         let chain = &scenario.options.chain;
         let body = &scenario.projectile;

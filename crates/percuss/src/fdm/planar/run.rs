@@ -7,7 +7,7 @@ use super::{
     results,
 };
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     error::NumericalError,
     fdm::{
         audit::{self, AUDIT, DEFAULT_COURANT},
@@ -51,12 +51,12 @@ impl BackFaceMotion {
 }
 
 /// Why the geometry does not apply to a case, if it does not.
-pub(in crate::fdm) fn not_applicable(scenario: &Scenario) -> Option<String> {
+pub(in crate::fdm) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     let rod = &scenario.projectile;
     let mut materials = vec![("projectile", &rod.material_id, &rod.material)];
     match &scenario.target {
         TargetBody::ConstantPressure(_) => {
-            return Some("geometry `planar` takes layers or a rigid wall, and this target is a constant pressure".to_owned());
+            return Some("geometry `planar` takes layers or a rigid wall, and this target is a constant pressure".into());
         }
         TargetBody::RigidWall => {}
         TargetBody::Layers { layers, .. } => {
@@ -68,24 +68,26 @@ pub(in crate::fdm) fn not_applicable(scenario: &Scenario) -> Option<String> {
     }
     for (what, id, material) in materials {
         if material.equation_of_state.is_none() {
-            return Some(format!(
-                "geometry `planar` needs a shock equation of state, and the {what}'s material `{id}` has none: add \
-                 `[materials.NAME.equation_of_state]` with sound_speed, slope and gruneisen, or take one of {}",
+            let reason = format!(
+                "geometry `planar` needs a shock equation of state, and the {what}'s material `{id}` has none"
+            );
+            return Some(Refusal::new(reason).with_remedy(format!(
+                "add `[materials.NAME.equation_of_state]` with sound_speed, slope and gruneisen, or take one of {}",
                 with_equation_of_state().join(", ")
-            ));
+            )));
         }
     }
     let law = law(&rod.material, scenario)?;
     let ratio = rod.length / rod.diameter;
     (ratio > 0.5).then(|| {
         let speed = law.wave_speed_at_rest();
-        format!(
+        Refusal::new(format!(
             "geometry `planar` is uniaxial strain, and this projectile is {ratio:.2} diameters long: release from its edge \
              reaches the axis after {:.2} us, before a wave has gone through it once ({:.2} us); uniaxial strain needs a \
              projectile shorter than half its diameter",
             0.5 * rod.diameter / speed * 1e6,
             rod.length / speed * 1e6
-        )
+        ))
     })
 }
 
@@ -205,10 +207,7 @@ impl<'a> Solver<'a> for PlanarImpact<'a> {
     const AUDIT: Audit = AUDIT;
 
     fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
-        let refuse = || Error::NotApplicable {
-            model: "fdm",
-            reason: not_applicable(scenario).unwrap_or_default(),
-        };
+        let refuse = || Error::not_applicable("fdm", not_applicable(scenario).unwrap_or_default());
         let (grid, passage, interface) = build(scenario).ok_or_else(refuse)?;
         let options = &scenario.options.fdm;
         let mut limits = Limits::new(scenario, options.end_time, options.max_steps);
