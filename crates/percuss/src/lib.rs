@@ -16,6 +16,10 @@
 //! assert!(result.numerics().energy_residual < 1e-3 && result.numerics().momentum_residual < 1e-12);
 //! # Ok::<(), percuss::Error>(())
 //! ```
+//!
+//! A case is also built without a text: [`case::Case::scenario`]. A model, a strength law, a failure law or a resistance law of your own
+//! implements [`model::Model`], [`material::StrengthLaw`], [`material::FailureLaw`] or [`resistance::ResistanceLaw`]; the options of
+//! such a model stand in the case under `extensions`. The folder `examples/own-model` of the repository has one of each.
 
 pub mod analytic;
 pub mod axi;

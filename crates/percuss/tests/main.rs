@@ -2,6 +2,7 @@
 
 mod axi;
 mod axi_output;
+mod built_in_code;
 mod cases;
 mod checkpoints;
 mod common;
