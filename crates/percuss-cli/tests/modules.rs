@@ -24,6 +24,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "fragments",
             "guard",
             "history",
+            "lanes",
             "ledger",
             "material",
             "options",

@@ -37,6 +37,7 @@ pub mod guard;
 pub mod history;
 pub mod inputs;
 pub mod judge;
+mod lanes;
 pub mod ledger;
 pub mod limit;
 pub mod material;

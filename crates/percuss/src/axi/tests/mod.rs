@@ -22,6 +22,7 @@ use super::{
 };
 use crate::{
     case::ArtificialViscosity,
+    lanes::Lanes,
     material::{FlowState, FlowStress, PreparedStrength},
     solver::Particle,
 };
@@ -126,7 +127,14 @@ fn deform(law: &Law, particle: &mut Particle, hoop_rate: f64) -> [f64; 3] {
     let members = Members::next(particles, &mut 0).unwrap();
     let mut block = Block::of(particles, &members);
     block.keep_motion(particles, &members);
-    let work = law.deform(particles, &members, &mut block, [hoop_rate; _], 1.0, 1.0);
+    let work = law.deform(
+        particles,
+        &members,
+        &mut block,
+        Lanes::all(hoop_rate),
+        1.0,
+        1.0,
+    );
     [work.total, work.plastic, work.failure].map(|lane| lane[0])
 }
 

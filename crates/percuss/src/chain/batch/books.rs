@@ -1,10 +1,10 @@
 //! The books of every lane: `State::energy` and `State::momentum`.
 
-use super::{
-    bundle::Bundle,
+use super::bundle::Bundle;
+use crate::{
     lanes::{LANES, Lanes},
+    {chain::column::ColumnRun, solver::AttemptError},
 };
-use crate::{chain::column::ColumnRun, solver::AttemptError};
 
 /// Energy and momentum of projectile and target in every lane.
 #[derive(Default)]

@@ -1,7 +1,10 @@
 //! Lanes in which elements have eroded: what is left of their bodies, and what is between the pieces.
 
-use super::{bundle::Bundle, joints::Joint, lanes::LANES};
-use crate::chain::{column::ColumnRun, state::State};
+use super::{bundle::Bundle, joints::Joint};
+use crate::{
+    chain::{column::ColumnRun, state::State},
+    lanes::LANES,
+};
 
 impl Bundle {
     /// Takes the elements out of a lane that have eroded in the single run, which has just been let out; false when too little is

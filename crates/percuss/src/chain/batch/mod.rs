@@ -17,7 +17,6 @@ mod exchange;
 mod flow;
 mod joints;
 mod kick;
-mod lanes;
 mod spring;
 mod step;
 #[cfg(test)]
@@ -37,11 +36,11 @@ pub(crate) use accepts::accepts;
 use books::Sums;
 use bundle::{Bundle, Mesh};
 pub(in crate::chain) use flow::Start;
-pub(in crate::chain) use lanes::LANES;
 
 use super::column::{AUDIT_INTERVAL, ColumnRun};
 use crate::{
     Error, Scenario,
+    lanes::LANES,
     options::constraint_factor,
     outcome::RunResult,
     scenario::TargetBody,

@@ -1,7 +1,7 @@
 use std::sync::atomic::AtomicBool;
 
-use super::{LANES, accepts, run};
-use crate::{Error, Scenario, case, chain::column::ColumnRun, model::Control};
+use super::{accepts, run};
+use crate::{Error, Scenario, case, chain::column::ColumnRun, lanes::LANES, model::Control};
 
 /// A shot of the paper's rod and plate with other numbers.
 fn shot(rod: &str, target: &str, velocity: f64, options: &str) -> Scenario {

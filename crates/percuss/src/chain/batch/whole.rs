@@ -1,7 +1,9 @@
 //! What there is one of in every shot, and how it gets into a lane and out of it again.
 
-use super::lanes::Lanes;
-use crate::chain::{column::ColumnRun, state::End};
+use crate::{
+    chain::{column::ColumnRun, state::End},
+    lanes::Lanes,
+};
 
 /// What there is one of in every shot.
 #[derive(Debug, Clone, Copy, Default)]
