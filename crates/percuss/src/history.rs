@@ -32,9 +32,9 @@ pub struct Sample {
     pub contact_force: f64,
     /// Force on the back face [N].
     pub back_force: f64,
-    /// Energy book.
+    /// Energy balance.
     pub energy: EnergyLedger,
-    /// Momentum book.
+    /// Momentum balance.
     pub momentum: MomentumLedger,
 }
 

@@ -1,4 +1,4 @@
-//! Energy and momentum books: every joule and every newton-second of a run has a line.
+//! Energy and momentum balances: every joule and every newton-second of a run has a line.
 
 /// Where the energy of a run is [J].
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]

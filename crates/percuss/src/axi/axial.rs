@@ -30,8 +30,8 @@ pub(super) fn sample(solver: &Grid, depth: f64) -> Sample {
         tip_position: tip,
         depth,
         projectile_length: tip - tail,
-        contact_force: solver.pending.contact_force,
-        back_force: solver.pending.support_impulse / solver.time_step,
+        contact_force: solver.deferred.contact_force,
+        back_force: solver.deferred.support_impulse / solver.time_step,
         energy: solver.energy(),
         momentum: solver.momentum(),
     }

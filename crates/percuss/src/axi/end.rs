@@ -42,9 +42,12 @@ impl Window {
             return None;
         }
         let speed = projectile.momentum / projectile.mass;
-        let books = &grid.books;
-        let dissipation = books.work[0][1] + books.work[1][1] + books.transfer + books.contact;
-        let flow = (dissipation - self.dissipation) / books.initial_energy;
+        let accumulated = &grid.accumulated;
+        let dissipation = accumulated.work[0][1]
+            + accumulated.work[1][1]
+            + accumulated.transfer
+            + accumulated.contact;
+        let flow = (dissipation - self.dissipation) / accumulated.initial_energy;
         let deepening = monitor.largest_depth > self.depth * (1.0 + 1e-3);
         let slowing = (self.speed - speed).abs() / scenario.impact_speed;
         self.start = grid.time;

@@ -1,9 +1,9 @@
 //! Model `axi`: axisymmetric continuum mechanics by the material point method, the reference of the one-dimensional models.
 
 mod axial;
+mod balance;
 mod block;
 mod body;
-mod books;
 mod boundary;
 mod contact;
 mod crater;

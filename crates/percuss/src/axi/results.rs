@@ -65,14 +65,14 @@ pub(super) fn extremes(solver: &Grid) -> Extremes {
             .iter()
             .enumerate()
             .filter(|(index, _)| (*index > 0) == target);
-        let lost = solver.books.lost[usize::from(target)];
+        let lost = solver.accumulated.lost[usize::from(target)];
         let present =
             |body: &super::body::Body| body.particles.iter().filter(|p| p.mass > 0.0).count();
         lost + bodies.map(|(_, body)| present(body)).sum::<usize>()
     };
     Extremes {
         elements: (particles(false), particles(true)),
-        eroded_elements: (solver.books.lost[0], solver.books.lost[1]),
+        eroded_elements: (solver.accumulated.lost[0], solver.accumulated.lost[1]),
         largest_plastic_strain: (
             most(false, |p| p.plastic_strain),
             most(true, |p| p.plastic_strain),

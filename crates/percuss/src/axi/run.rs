@@ -105,7 +105,7 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
         let grid = build(scenario, courant);
         Ok(Self {
             scenario,
-            touches: grid.pending.contact_force > 0.0,
+            touches: grid.deferred.contact_force > 0.0,
             grid,
             window: Window::default(),
             depth: 0.0,
@@ -155,7 +155,7 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
         }
         // Debris of an eroding rod flies back while the rod goes on: its floor must have stopped too.
         self.floor_stopped = self.depth <= before;
-        let force = grid.pending.contact_force;
+        let force = grid.deferred.contact_force;
         let touched = self.touches;
         self.touches = force > TOUCHING_FRACTION * monitor.peak_force.max(force);
         Probe {

@@ -7,7 +7,7 @@ use super::{
     boundary::{Support, Supports},
     contact::Contact,
     law::{Law, Pressure},
-    solver::{Books, Grid, Pending},
+    solver::{Accumulators, DeferredWork, Grid},
 };
 use crate::{
     Scenario,
@@ -310,8 +310,8 @@ pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
         time: 0.0,
         time_step: 0.0,
         sums: Vec::new(),
-        books: Books::default(),
-        pending: Pending::default(),
+        accumulated: Accumulators::default(),
+        deferred: DeferredWork::default(),
     };
     solver.start();
     solver

@@ -25,15 +25,15 @@ pub(super) struct Grid {
     pub(super) time_step: f64,
     /// Sums over the particles of each body after the last step.
     pub(super) sums: Vec<Sums>,
-    /// Books as of the particles' last step.
-    pub(super) books: Books,
+    /// Accumulators as of the particles' last step.
+    pub(super) accumulated: Accumulators,
     /// What the nodes did since, which the particles have yet to take over.
-    pub(super) pending: Pending,
+    pub(super) deferred: DeferredWork,
 }
 
 /// What has passed since the start.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub(super) struct Books {
+pub(super) struct Accumulators {
     pub(super) initial_energy: f64,
     pub(super) initial_momentum: f64,
     /// Work done in the projectile and in the target [J]: all, plastic, viscous, failure. Velocities stand half a step behind
@@ -51,9 +51,9 @@ pub(super) struct Books {
     pub(super) lost: [usize; 2],
 }
 
-/// What a motion of the nodes adds to the books.
+/// What a motion of the nodes adds to the accumulated.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub(super) struct Pending {
+pub(super) struct DeferredWork {
     pub(super) transfer: f64,
     pub(super) contact: f64,
     pub(super) boundary: f64,
@@ -89,8 +89,8 @@ impl Grid {
         archive.item(&mut self.time)?;
         archive.item(&mut self.time_step)?;
         archive.item(&mut self.sums)?;
-        archive.item(&mut self.books)?;
-        archive.item(&mut self.pending)?;
+        archive.item(&mut self.accumulated)?;
+        archive.item(&mut self.deferred)?;
         for (body, supports) in self.bodies.iter_mut().zip(&mut self.supports) {
             archive.item(&mut body.particles)?;
             archive.item(&mut body.strips)?;
@@ -109,8 +109,8 @@ impl Grid {
         self.time_step = 0.0;
         self.pass();
         let (energy, momentum) = self.motion();
-        self.books.initial_energy = energy;
-        self.books.initial_momentum = momentum;
+        self.accumulated.initial_energy = energy;
+        self.accumulated.initial_momentum = momentum;
         self.move_nodes();
     }
 
@@ -136,19 +136,20 @@ impl Grid {
                 body.put_in_order(self.cell);
             }
         }
-        let pending = self.pending;
+        let deferred = self.deferred;
         self.pass();
         self.step += 1;
         self.time += self.time_step;
-        let books = &mut self.books;
+        let accumulated = &mut self.accumulated;
         let stresses: f64 = self.sums.iter().map(|sums| sums.work.power_at_start).sum();
-        books.transfer += pending.transfer + pending.nodal - 0.5 * self.time_step * stresses;
-        books.contact += pending.contact;
-        books.boundary += pending.boundary;
-        books.support_impulse += pending.support_impulse;
+        accumulated.transfer +=
+            deferred.transfer + deferred.nodal - 0.5 * self.time_step * stresses;
+        accumulated.contact += deferred.contact;
+        accumulated.boundary += deferred.boundary;
+        accumulated.support_impulse += deferred.support_impulse;
         for role in 0..2 {
             for k in 0..4 {
-                books.work[role][k] += std::mem::take(&mut books.half_work[role][k]);
+                accumulated.work[role][k] += std::mem::take(&mut accumulated.half_work[role][k]);
             }
         }
         for (index, sums) in self.sums.iter().enumerate() {
@@ -160,13 +161,13 @@ impl Grid {
                 sums.work.failure,
             ];
             for (k, work) in work.into_iter().enumerate() {
-                books.work[role][k] += 0.5 * work;
-                books.half_work[role][k] += 0.5 * work;
+                accumulated.work[role][k] += 0.5 * work;
+                accumulated.half_work[role][k] += 0.5 * work;
             }
-            books.lost[role] += sums.lost.0;
-            books.lost_momentum += sums.lost.1;
-            books.lost_energy += sums.lost.2;
-            books.transfer -= sums.kinetic + sums.lost.2;
+            accumulated.lost[role] += sums.lost.0;
+            accumulated.lost_momentum += sums.lost.1;
+            accumulated.lost_energy += sums.lost.2;
+            accumulated.transfer -= sums.kinetic + sums.lost.2;
         }
         !self.sums.iter().any(|sums| sums.broken)
     }
@@ -257,7 +258,7 @@ impl Grid {
         }
         let (particles, _) = self.motion();
         let [came, walled, held] = total.kinetic;
-        let mut pending = Pending {
+        let mut deferred = DeferredWork {
             transfer: particles - came,
             contact: came - walled + total.contact,
             boundary: total.boundary,
@@ -268,8 +269,8 @@ impl Grid {
         // Nodal forces work on velocities that the way from particles to nodes has smoothed; on the particles' own strain rates,
         // before and after, the stresses would have done half the work each. The second half is known after the next step.
         let stresses: f64 = self.sums.iter().map(|sums| sums.work.power_at_end).sum();
-        pending.transfer -= 0.5 * time_step * (total.power + stresses);
-        self.pending = pending;
+        deferred.transfer -= 0.5 * time_step * (total.power + stresses);
+        self.deferred = deferred;
         for (body, supports) in self.bodies.iter().zip(&mut self.supports) {
             supports.follow(&body.field, time_step);
         }
@@ -303,7 +304,7 @@ fn add_up(strips: &[Strip], row: isize, nodes: &mut [Node]) {
     }
 }
 
-/// Moves a row of nodes by a step: their velocities after forces and supports, and what that adds to the books.
+/// Moves a row of nodes by a step: their velocities after forces and supports, and what that adds to the accumulated.
 fn move_row(
     field: &Field,
     supports: &Supports,

@@ -85,10 +85,10 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
             ));
         }
     }
-    if run.grid.books.lost != [0, 0] {
+    if run.grid.accumulated.lost != [0, 0] {
         warnings.push(format!(
-            "{} particles of the projectile and {} of the target eroded or left the modelled space; the books have them",
-            run.grid.books.lost[0], run.grid.books.lost[1]
+            "{} particles of the projectile and {} of the target eroded or left the modelled space; the balances include them",
+            run.grid.accumulated.lost[0], run.grid.accumulated.lost[1]
         ));
     }
     warnings

@@ -14,8 +14,8 @@ impl State {
                 node.damping = against(fraction, node.force, node.velocity);
             }
         }
-        for s in 0..self.joints.len() {
-            if !self.joints[s].closed {
+        for s in 0..self.interfaces.len() {
+            if !self.interfaces[s].closed {
                 continue;
             }
             let (a, b) = (self.segments[s].last_node, self.segments[s + 1].first_node);
@@ -43,12 +43,12 @@ impl State {
         }
     }
 
-    /// Books work and impulse of the damping forces over a kick.
-    pub(super) fn book_local_damping(&mut self, kick: f64) {
+    /// Accumulators work and impulse of the damping forces over a kick.
+    pub(super) fn account_for_local_damping(&mut self, kick: f64) {
         for node in &self.nodes {
             let impulse = -node.damping * kick;
-            self.books.damping_impulse += impulse;
-            self.books.viscous_work += impulse * 0.5 * (node.velocity_before + node.velocity);
+            self.accumulated.damping_impulse += impulse;
+            self.accumulated.viscous_work += impulse * 0.5 * (node.velocity_before + node.velocity);
         }
     }
 }

@@ -63,7 +63,7 @@ impl Found {
 
 /// An element that flows, or flowed in the last step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Working {
+pub(super) struct YieldingElement {
     /// Its place in its segment.
     element: usize,
     /// Plastic strain of the last step.
@@ -161,7 +161,7 @@ impl State {
             let step_before = element.stretch(part, length);
             let flows = !element.yield_point.holds(element.stress.abs());
             if law.is_some() && (flows || step_before != 0.0) {
-                working.push(Working {
+                working.push(YieldingElement {
                     element: i,
                     step_before,
                     flows,
@@ -186,7 +186,7 @@ impl State {
             plastic_work += element.volume * element.settle(part, working.step_before);
             found.allow(element.stable_step(part));
         }
-        self.books.plastic[part.role as usize] += plastic_work;
+        self.accumulated.plastic[part.role as usize] += plastic_work;
         Ok(())
     }
 }
@@ -195,7 +195,7 @@ impl State {
 #[inline(always)]
 fn flow_together(
     elements: &mut [Element],
-    working: &[Working],
+    working: &[YieldingElement],
     part: &Part,
     law: Hardening,
     time_step: f64,

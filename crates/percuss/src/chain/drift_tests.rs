@@ -43,7 +43,7 @@ fn elements_that_flow_side_by_side_do_so_to_the_bits_of_each_by_itself() {
             let step_before = one.stretch(part, length);
             other.stretch(part, length);
             let flows = !one.yield_point.holds(one.stress.abs());
-            working.push(Working {
+            working.push(YieldingElement {
                 element: i,
                 step_before,
                 flows,

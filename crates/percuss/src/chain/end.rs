@@ -47,7 +47,8 @@ impl Window {
         let Some(tip) = state.tip_segment() else {
             return false;
         };
-        let touches = state.tip_friction > 0.0 || state.joints.get(tip).is_some_and(|j| j.closed);
+        let touches =
+            state.tip_friction > 0.0 || state.interfaces.get(tip).is_some_and(|j| j.closed);
         self.touched |= touches;
         touches
     }
@@ -69,10 +70,10 @@ impl Window {
         if !self.is_quiet(state, scenario, monitor, end_time) {
             return None;
         }
-        let tip = state.tip_segment().map(|tip| state.joints.get(tip));
+        let tip = state.tip_segment().map(|tip| state.interfaces.get(tip));
         Some(match tip {
             Some(_) if state.left_the_plate() => Termination::PlugFree,
-            Some(Some(joint)) if !joint.closed => Termination::Parted,
+            Some(Some(interface)) if !interface.closed => Termination::Parted,
             Some(_) => Termination::Quiescent,
             None => Termination::ProjectileConsumed,
         })
@@ -88,15 +89,15 @@ impl Window {
         if state.time < self.end_time(scenario) {
             return false;
         }
-        let books = &state.books;
-        let dissipation = books.plastic[0]
-            + books.plastic[1]
-            + books.friction_work
-            + books.viscous_work
-            + books.fracture_work
-            + books.eroded_energy
+        let accumulated = &state.accumulated;
+        let dissipation = accumulated.plastic[0]
+            + accumulated.plastic[1]
+            + accumulated.friction_work
+            + accumulated.viscous_work
+            + accumulated.fracture_work
+            + accumulated.eroded_energy
             + state.plug_dissipation();
-        let flow = (dissipation - self.dissipation) / books.initial_energy;
+        let flow = (dissipation - self.dissipation) / accumulated.initial_energy;
         let deepening = monitor.largest_depth > self.depth * (1.0 + 1e-9);
         // Where the target is free to fly, its pieces count as well.
         let met = state.end == End::Free && state.meetings != self.meetings;
@@ -122,7 +123,7 @@ impl Window {
             let [tip_speed, face_speed] =
                 [tip, face].map(|s| state.mean_velocity(state.segments[s]));
             let together = (tip_speed - face_speed).abs() <= REST_FRACTION * scenario.impact_speed;
-            let parted = !state.joints[tip].closed && !meets(0);
+            let parted = !state.interfaces[tip].closed && !meets(0);
             return flow <= PARTED_FRACTION && (parted || together && !meets(face));
         }
         // A projectile that is still being pushed back has not got its rebound speed yet.
@@ -208,37 +209,41 @@ impl Window {
     }
 }
 
-/// Whether pieces in free flight will meet within a time at one of the joints from a given one on.
+/// Whether pieces in free flight will meet within a time at one of the interfaces from a given one on.
 ///
 /// A target whose back face is held rings without end: there only layers that approach by a hundredth of the impact speed count.
 fn approaches(state: &State, from: usize, horizon: f64, impact_speed: f64) -> bool {
     let Some(tip) = state.tip_segment() else {
         return false;
     };
-    let joints = state.joints.iter().enumerate().skip(from);
-    joints.filter(|(_, joint)| !joint.closed).any(|(s, _)| {
-        let (behind, ahead) = (state.segments[s], state.segments[s + 1]);
-        let gap = state.nodes[ahead.first_node].position - state.nodes[behind.last_node].position;
-        // A target that is held vibrates about its place; anything else flies at its mean speed.
-        let back_is_held = state.end != End::Free;
-        let is_held = back_is_held || state.plug_is_held();
-        if is_held && s > tip && behind.part == ahead.part {
-            return false;
-        }
-        let ahead_is_held = is_held && s == tip || back_is_held && s + 2 == state.segments.len();
-        let away = if ahead_is_held {
-            0.0
-        } else {
-            state.mean_velocity(ahead)
-        };
-        let least = if is_held && s > tip {
-            REST_FRACTION * impact_speed
-        } else {
-            0.0
-        };
-        let approach = state.mean_velocity(behind) - away;
-        approach > least && gap < approach * horizon
-    })
+    let interfaces = state.interfaces.iter().enumerate().skip(from);
+    interfaces
+        .filter(|(_, interface)| !interface.closed)
+        .any(|(s, _)| {
+            let (behind, ahead) = (state.segments[s], state.segments[s + 1]);
+            let gap =
+                state.nodes[ahead.first_node].position - state.nodes[behind.last_node].position;
+            // A target that is held vibrates about its place; anything else flies at its mean speed.
+            let back_is_held = state.end != End::Free;
+            let is_held = back_is_held || state.plug_is_held();
+            if is_held && s > tip && behind.part == ahead.part {
+                return false;
+            }
+            let ahead_is_held =
+                is_held && s == tip || back_is_held && s + 2 == state.segments.len();
+            let away = if ahead_is_held {
+                0.0
+            } else {
+                state.mean_velocity(ahead)
+            };
+            let least = if is_held && s > tip {
+                REST_FRACTION * impact_speed
+            } else {
+                0.0
+            };
+            let approach = state.mean_velocity(behind) - away;
+            approach > least && gap < approach * horizon
+        })
 }
 
 impl State {
@@ -284,7 +289,7 @@ impl State {
 
     /// Whether the target was held by border shear, friction or a band, and flies free now: a plug.
     pub(super) fn left_the_plate(&self) -> bool {
-        let rubbed = || self.parts.iter().any(|part| part.friction_per_length > 0.0);
-        (self.hold.is_some() || rubbed()) && self.flies_free()
+        let lost_impulse = || self.parts.iter().any(|part| part.friction_per_length > 0.0);
+        (self.hold.is_some() || lost_impulse()) && self.flies_free()
     }
 }

@@ -1,7 +1,7 @@
 //! Erosion: elements that leave the chain, with everything that leaves with them.
 
 use super::{
-    joint::Joint,
+    interface::Interface,
     part::Role,
     state::{End, Segment, State},
 };
@@ -11,7 +11,7 @@ use super::{
 const SPREADING_ENDURANCE: f64 = 2.0;
 
 impl State {
-    /// Takes out the elements whose strain has passed the limit, booking what leaves with them.
+    /// Takes out the elements whose strain has passed the limit, accounting for what leaves with them.
     pub(super) fn erode(&mut self, limit: f64) {
         let mut s = 0;
         while s < self.segments.len() {
@@ -44,7 +44,7 @@ impl State {
         let part = &self.parts[segment.part];
         let masses = self.elements[e].end_masses;
         let half_friction = 0.5 * part.friction_per_length * self.elements[e].rest_length;
-        self.books.eroded_energy += self.elastic_energy(e, part);
+        self.accumulated.eroded_energy += self.elastic_energy(e, part);
         let left = e + segment.shift;
         // The closure of Tate has a column: both halves are alike.
         let leaving = self.leave_tip(s, left, masses[0]);
@@ -53,8 +53,8 @@ impl State {
                 Some((tip, velocity)) if tip == i => velocity,
                 _ => self.nodes[i].velocity,
             };
-            self.books.eroded_energy += 0.5 * mass * velocity * velocity;
-            self.books.eroded_momentum += mass * velocity;
+            self.accumulated.eroded_energy += 0.5 * mass * velocity * velocity;
+            self.accumulated.eroded_momentum += mass * velocity;
             self.nodes[i].mass -= mass;
             self.nodes[i].friction = (self.nodes[i].friction - half_friction).max(0.0);
             if let Some(hold) = &mut self.hold {
@@ -78,7 +78,7 @@ impl State {
             .filter(|piece| !piece.elements().is_empty())
             .collect();
         match kept.len() {
-            2 => self.joints.insert(s, Joint::OPEN),
+            2 => self.interfaces.insert(s, Interface::OPEN),
             1 => {
                 // The contact on the side of the lost node is open now.
                 let lost_front = before.elements().is_empty();
@@ -87,8 +87,8 @@ impl State {
                 } else {
                     Some(s)
                 };
-                if let Some(contact) = contact.filter(|&c| c < self.joints.len()) {
-                    self.joints[contact] = Joint::OPEN;
+                if let Some(contact) = contact.filter(|&c| c < self.interfaces.len()) {
+                    self.interfaces[contact] = Interface::OPEN;
                 }
                 if !lost_front && is_last {
                     self.end = End::Free;
@@ -97,12 +97,12 @@ impl State {
             _ => {
                 // The whole segment is gone: its two contacts become one, open.
                 if is_last {
-                    self.joints.pop();
+                    self.interfaces.pop();
                     self.end = End::Free;
                 } else {
-                    self.joints.remove(s);
+                    self.interfaces.remove(s);
                     if s > 0 {
-                        self.joints[s - 1] = Joint::OPEN;
+                        self.interfaces[s - 1] = Interface::OPEN;
                     }
                 }
             }

@@ -4,7 +4,7 @@
 //! until the next kick pulls them apart. An element parts from one of its neighbours only.
 
 use super::{
-    joint::{Bond, Joint},
+    interface::{CohesiveLaw, Interface},
     state::{Element, Parting, Segment, State},
 };
 use crate::{
@@ -59,13 +59,13 @@ impl State {
     /// Parts segments and bonded interfaces where elements have failed and something pulls.
     ///
     /// One node a segment and step, the one whose two elements are damaged most: the new ends unload their neighbours.
-    pub(super) fn part_where_failed(&mut self) {
-        for s in 0..self.joints.len() {
-            if self.joints[s].bond == Bond::Unbroken {
+    pub(super) fn split_failed_interfaces(&mut self) {
+        for s in 0..self.interfaces.len() {
+            if self.interfaces[s].bond == CohesiveLaw::Unbroken {
                 let ahead = self.segments[s + 1].elements().start;
                 let behind = self.segments[s].elements().end;
                 if behind > self.segments[s].elements().start && self.fails(behind - 1, ahead) {
-                    self.joints[s].bond = self.part(s, behind - 1, ahead);
+                    self.interfaces[s].bond = self.part(s, behind - 1, ahead);
                 }
             }
         }
@@ -106,8 +106,8 @@ impl State {
             })
     }
 
-    /// Books a parting between two elements and returns the crack that opens there.
-    fn part(&mut self, s: usize, behind: usize, ahead: usize) -> Bond {
+    /// Accumulators a parting between two elements and returns the crack that opens there.
+    fn part(&mut self, s: usize, behind: usize, ahead: usize) -> CohesiveLaw {
         let after = &self.elements[ahead];
         self.partings.push(Parting {
             position: after.initial_position - 0.5 * after.rest_length,
@@ -120,7 +120,7 @@ impl State {
         let (behind, ahead) = (&self.elements[behind], &self.elements[ahead]);
         let strength = -0.5 * (behind.axial_force + ahead.axial_force);
         let area = behind.rest_area.min(ahead.rest_area);
-        Bond::crack(strength, part.fracture_energy * area)
+        CohesiveLaw::crack(strength, part.fracture_energy * area)
     }
 
     /// Parts segment `s` before an element.
@@ -155,7 +155,7 @@ impl State {
                 ..segment
             },
         );
-        self.joints.insert(s, Joint::new(true, bond));
+        self.interfaces.insert(s, Interface::new(true, bond));
     }
 }
 

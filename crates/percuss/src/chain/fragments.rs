@@ -12,7 +12,7 @@ impl State {
     pub(super) fn fragments(&self) -> Vec<Fragment> {
         let mut pieces: Vec<Vec<Segment>> = Vec::new();
         for (s, &segment) in self.segments.iter().enumerate() {
-            let joined = s > 0 && self.joints[s - 1].bond.holds() > 0.0;
+            let joined = s > 0 && self.interfaces[s - 1].bond.holds() > 0.0;
             match pieces.last_mut().filter(|_| joined) {
                 Some(piece) => piece.push(segment),
                 None => pieces.push(vec![segment]),

@@ -6,7 +6,7 @@
 /// step is followed exactly: friction slows, holds the node if it can, and opposes the motion that starts afresh.
 // Every case is worked out and one is chosen, so that a loop over many nodes becomes vector instructions.
 #[inline(always)]
-pub(super) fn rub(before: f64, change: f64, limit: f64) -> f64 {
+pub(super) fn dry_friction(before: f64, change: f64, limit: f64) -> f64 {
     let free = before + change;
     let is_held = change.abs() <= limit;
     let starts = if is_held {
@@ -24,13 +24,13 @@ pub(super) fn rub(before: f64, change: f64, limit: f64) -> f64 {
     let pushes = (turned - before - change) * (before + turned) > 0.0;
     let turned = if pushes { free } else { turned };
     let moves = if slides_on { slides } else { turned };
-    let rubbed = if before == 0.0 { starts } else { moves };
-    if limit == 0.0 { free } else { rubbed }
+    let lost_impulse = if before == 0.0 { starts } else { moves };
+    if limit == 0.0 { free } else { lost_impulse }
 }
 
 /// The same for one node by itself, to the same bits: the usual cases first, so that little is worked out in vain.
 #[inline(always)]
-pub(super) fn rub_one(before: f64, change: f64, limit: f64) -> f64 {
+pub(super) fn dry_friction_one(before: f64, change: f64, limit: f64) -> f64 {
     if before == 0.0 {
         return if change.abs() <= limit {
             0.0
@@ -43,26 +43,29 @@ pub(super) fn rub_one(before: f64, change: f64, limit: f64) -> f64 {
     if loss <= 0.0 || before.abs() >= loss {
         before + change - sign * limit
     } else {
-        rub(before, change, limit)
+        dry_friction(before, change, limit)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{rub, rub_one};
+    use super::{dry_friction, dry_friction_one};
 
     #[test]
     fn friction_holds_slows_and_never_pushes() {
-        assert_eq!(rub(0.0, 0.5, 1.0), 0.0);
-        assert_eq!(rub(0.0, 1.5, 1.0), 0.5);
-        assert_eq!(rub(3.0, -0.5, 1.0), 1.5);
-        assert_eq!(rub(0.5, -0.2, 1.0), 0.0);
+        assert_eq!(dry_friction(0.0, 0.5, 1.0), 0.0);
+        assert_eq!(dry_friction(0.0, 1.5, 1.0), 0.5);
+        assert_eq!(dry_friction(3.0, -0.5, 1.0), 1.5);
+        assert_eq!(dry_friction(0.5, -0.2, 1.0), 0.0);
         for i in 0..200 {
             for j in 0..200 {
                 let (before, change) = (i as f64 * 0.05 - 5.0, j as f64 * 0.05 - 5.0);
                 for limit in [0.1, 1.0, 3.0] {
-                    let after = rub(before, change, limit);
-                    assert_eq!(rub_one(before, change, limit).to_bits(), after.to_bits());
+                    let after = dry_friction(before, change, limit);
+                    assert_eq!(
+                        dry_friction_one(before, change, limit).to_bits(),
+                        after.to_bits()
+                    );
                     let friction = after - before - change;
                     assert!(friction.abs() <= limit + 1e-12);
                     assert!(

@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use super::{
     cone::{Cone, Grading},
-    joint::Joint,
+    interface::Interface,
     part::{Part, Role},
     solver::LARGEST_STRAIN_STEP,
-    state::{Books, Element, End, Node, Segment, State},
+    state::{Accumulators, Element, End, Node, Segment, State},
 };
 use crate::{
     material::{FlowState, YieldPoint},
@@ -64,7 +64,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     }
     let mut parts = vec![projectile];
     let mut lengths = vec![rod.length];
-    let mut joints = vec![Before::TOUCHING];
+    let mut interfaces = vec![Before::TOUCHING];
     let mut cone = None;
     let mut struck_material = None;
     let mut end = End::Free;
@@ -104,7 +104,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
                 }
                 parts.push(part);
                 lengths.push(modelled_thickness(plate, scenario));
-                joints.push(Before {
+                interfaces.push(Before {
                     gap: plate.gap,
                     bonded: plate.interface == LayerInterface::Bonded,
                 });
@@ -128,13 +128,13 @@ pub(super) fn build(scenario: &Scenario) -> State {
         }
         TargetBody::RigidWall => {
             parts.push(Part::new(Role::Target, &rod.material, 0.0, 0, 1.0, options));
-            joints.push(Before::TOUCHING);
+            interfaces.push(Before::TOUCHING);
             lengths.push(0.0);
             end = End::Fixed;
         }
         TargetBody::ConstantPressure(_) => {}
     }
-    let mut state = assemble(parts, &lengths, &joints, end, cone);
+    let mut state = assemble(parts, &lengths, &interfaces, end, cone);
     if let TargetBody::ConstantPressure(pressure) = scenario.target {
         state.tip_friction = pressure * state.parts[0].area;
         state.nodes[rod_elements].friction = state.tip_friction;
@@ -147,7 +147,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     {
         state.let_penetrate(material);
     }
-    state.hold_plug(scenario);
+    state.constrain_plug(scenario);
     for node in &mut state.nodes[..=rod_elements] {
         node.velocity = scenario.impact_speed;
     }
@@ -158,8 +158,8 @@ pub(super) fn build(scenario: &Scenario) -> State {
         let first_step = LARGEST_STRAIN_STEP * smallest / scenario.impact_speed;
         state.stable_step = state.stable_step.min(first_step);
     }
-    state.books.initial_energy = state.energy().kinetic_projectile;
-    state.books.initial_momentum = state.momentum().projectile;
+    state.accumulated.initial_energy = state.energy().kinetic_projectile;
+    state.accumulated.initial_momentum = state.momentum().projectile;
     state
 }
 
@@ -177,13 +177,13 @@ impl Before {
         bonded: false,
     };
 
-    fn joint(&self) -> Joint {
+    fn interface(&self) -> Interface {
         if self.bonded {
-            Joint::BONDED
+            Interface::BONDED
         } else if self.gap > 0.0 {
-            Joint::OPEN
+            Interface::OPEN
         } else {
-            Joint::TOUCHING
+            Interface::TOUCHING
         }
     }
 }
@@ -200,7 +200,7 @@ fn assemble(
     let nodes = elements + parts.len();
     let mut state = State {
         segments: Vec::new(),
-        joints: before[1..].iter().map(Before::joint).collect(),
+        interfaces: before[1..].iter().map(Before::interface).collect(),
         end,
         tip_friction: 0.0,
         tip: None,
@@ -219,7 +219,7 @@ fn assemble(
         meetings: 0,
         contact_force: 0.0,
         back_force: 0.0,
-        books: Books::default(),
+        accumulated: Accumulators::default(),
         parts,
     };
     let mut first_element = 0;

@@ -20,7 +20,7 @@ mod explain;
 mod fracture;
 mod fragments;
 mod friction;
-mod joint;
+mod interface;
 mod mesh;
 mod part;
 mod penetration;
@@ -90,7 +90,7 @@ impl Model for Chain {
                     ],
                     noses: &[NoseKind::Flat],
                     target_material: MaterialClass::Metal,
-                    because: "it follows the deformation of the projectile and balances its books",
+                    because: "it follows the deformation of the projectile and reports its energy and momentum balance",
                 }],
                 notes: &[
                     "normal impact of a flat-ended rod",

@@ -73,7 +73,10 @@ impl State {
     /// It presses with the flow stress of the tip. What a tip that upsets brings to rest on the axis, `½ρ_p w²`, is part of the
     /// same force and not spread; once the projectile erodes, that part arrives element by element and comes on top of it.
     fn spread_load(&self, penetration: &Penetration) -> f64 {
-        let Some(tip) = self.tip_segment().filter(|&tip| self.joints[tip].closed) else {
+        let Some(tip) = self
+            .tip_segment()
+            .filter(|&tip| self.interfaces[tip].closed)
+        else {
             return 0.0;
         };
         let segment = self.segments[tip];
@@ -97,7 +100,7 @@ impl State {
     ///
     /// What it meets first piles up on it and moves with it from then on, until that is the added mass of the flow; the rest is
     /// turned aside.
-    pub(super) fn meet_target(&mut self) {
+    pub(super) fn apply_target_reaction(&mut self) {
         self.drag = 0.0;
         let (Some(mut penetration), Some(face)) = (self.penetration, self.face_segment()) else {
             return;
@@ -115,9 +118,9 @@ impl State {
             let node = self.nodes[i];
             // It is taken up at rest, as by a plastic impact.
             let jump = -node.velocity * mass / (node.mass + mass);
-            self.book_jump(i, jump, -self.time_step);
+            self.account_for_jump(i, jump, -self.time_step);
             let after = node.velocity + jump;
-            self.books.contact_loss -= 0.5 * mass * after * after;
+            self.accumulated.contact_loss -= 0.5 * mass * after * after;
             self.nodes[i].mass += mass;
             self.nodes[i].velocity = after;
             self.nodes[i].velocity_before = after;
@@ -128,15 +131,15 @@ impl State {
         }
     }
 
-    /// Books what the target that was turned aside took with it.
-    pub(super) fn book_target_turned_aside(&mut self, kick: f64) {
+    /// Accumulators what the target that was turned aside took with it.
+    pub(super) fn account_for_target_turned_aside(&mut self, kick: f64) {
         let Some(face) = self.face_segment().filter(|_| self.drag > 0.0) else {
             return;
         };
         let node = &self.nodes[self.segments[face].first_node];
         let impulse = self.drag * kick;
-        self.books.eroded_momentum += impulse;
-        self.books.eroded_energy += impulse * 0.5 * (node.velocity_before + node.velocity);
+        self.accumulated.eroded_momentum += impulse;
+        self.accumulated.eroded_energy += impulse * 0.5 * (node.velocity_before + node.velocity);
     }
 
     /// Whether the pressure that brings the tail to rest, `½ρ_p V² + Y`, is more than the target's resistance: the threshold of

@@ -1,4 +1,4 @@
-//! The plug and the plate around it in the chain: where shear bands and dishing meet nodes, books and steps.
+//! The plug and the plate around it in the chain: where shear bands and dishing meet nodes, balances and steps.
 
 use std::f64::consts::PI;
 
@@ -17,7 +17,7 @@ pub(super) const DISHING: &str = "largest dishing of plate";
 
 /// What holds a plug.
 #[derive(Debug)]
-pub(super) struct Hold {
+pub(super) struct PlugConstraint {
     pub(super) bands: Bands,
     /// The plate around it; `None` where it does not move.
     pub(super) plate: Option<Dishing>,
@@ -25,7 +25,7 @@ pub(super) struct Hold {
     force: f64,
 }
 
-impl Hold {
+impl PlugConstraint {
     /// Everything that a step changes.
     pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
         self.bands.archive(archive)?;
@@ -63,7 +63,7 @@ pub(super) fn band_laws(scenario: &Scenario) -> Result<Option<Vec<BandLaw>>, Ref
 
 impl State {
     /// Puts bands in the place of friction, and the plate around them.
-    pub(super) fn hold_plug(&mut self, scenario: &Scenario) {
+    pub(super) fn constrain_plug(&mut self, scenario: &Scenario) {
         let (
             Ok(Some(laws)),
             TargetBody::Layers {
@@ -118,7 +118,7 @@ impl State {
             }
             _ => None,
         };
-        self.hold = Some(Hold {
+        self.hold = Some(PlugConstraint {
             bands,
             plate,
             force: 0.0,
@@ -138,13 +138,13 @@ impl State {
             Some(plate) if hold.bands.hold_any() => plate.plastic_work,
             _ => 0.0,
         };
-        hold.bands.books.work + bending
+        hold.bands.accumulated.work + bending
     }
 
     /// Time since which the plug has been free [s].
     pub(super) fn plug_free_since(&self) -> Option<f64> {
         let bands = &self.hold.as_ref()?.bands;
-        bands.books.last_end.filter(|_| !bands.hold_any())
+        bands.accumulated.last_end.filter(|_| !bands.hold_any())
     }
 
     /// Mass and velocity of what is left of the target.
@@ -167,7 +167,7 @@ impl State {
             return Vec::new();
         };
         let detail = |name, unit, value| Some(Detail { name, unit, value });
-        let (bands, books) = (&hold.bands, &hold.bands.books);
+        let (bands, so_far) = (&hold.bands, &hold.bands.accumulated);
         let law = bands.laws.first();
         let plate = hold.plate.as_ref();
         let details = [
@@ -179,14 +179,18 @@ impl State {
                     strain,
                 )
             }),
-            detail("largest slip of shear band", "mm", books.largest_slip * 1e3),
-            detail("work of shear band", "J", books.work),
+            detail(
+                "largest slip of shear band",
+                "mm",
+                so_far.largest_slip * 1e3,
+            ),
+            detail("work of shear band", "J", so_far.work),
             detail(
                 "largest temperature of shear band",
                 "K",
-                books.largest_temperature,
+                so_far.largest_temperature,
             ),
-            books
+            so_far
                 .last_end
                 .filter(|_| !bands.hold_any())
                 .and_then(|time| detail("plug free", "us", time * 1e6)),
@@ -212,7 +216,7 @@ impl State {
     /// Hands the plate what the bands took.
     pub(super) fn kick_plate(&mut self, kick: f64) {
         if let Some(hold) = &mut self.hold {
-            hold.bands.books.impulse += hold.force * kick;
+            hold.bands.accumulated.impulse += hold.force * kick;
             if let Some(plate) = &mut hold.plate {
                 plate.kick(hold.force, kick);
             }

@@ -50,7 +50,7 @@ const LAYERS: &str = r#"
     { material = "brittle", thickness = "3 mm", interface = "bonded" },
     { material = "copper", thickness = "6 mm", gap = "0.1 mm" }"#;
 
-/// How often ends had met, bodies had parted and elements had eroded when a time was over; the books are looked at in every step.
+/// How often ends had met, bodies had parted and elements had eroded when a time was over; the balances are checked in every step.
 fn run(scenario: &Scenario, control: &StepControl, until: f64) -> (State, usize) {
     let mut state = mesh::build(scenario);
     let mass: f64 = state.nodes.iter().map(|node| node.mass).sum();

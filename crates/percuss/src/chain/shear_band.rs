@@ -12,7 +12,7 @@ use crate::{Error, solver::archive::Archive};
 
 /// Extremes and sums of all bands, for results.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(super) struct BandBooks {
+pub(super) struct BandAccumulators {
     /// Plastic work and what was stored in bands that ended [J].
     pub(super) work: f64,
     /// Impulse on the plate around the plug [N s].
@@ -32,14 +32,14 @@ pub(super) struct Bands {
     perimeter: f64,
     /// Position of the back of the plate before the impact [m].
     back: f64,
-    pub(super) books: BandBooks,
+    pub(super) accumulated: BandAccumulators,
 }
 
 impl Bands {
     /// Everything that a step changes.
     pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
         archive.item(&mut self.bands)?;
-        archive.item(&mut self.books)
+        archive.item(&mut self.accumulated)
     }
 
     pub(super) fn new(laws: Vec<BandLaw>, perimeter: f64, back: f64) -> Self {
@@ -48,7 +48,7 @@ impl Bands {
             bands: Vec::new(),
             perimeter,
             back,
-            books: BandBooks::default(),
+            accumulated: BandAccumulators::default(),
         }
     }
 
@@ -91,10 +91,10 @@ impl Bands {
             let node = &nodes[band.node];
             let slip = node.position - band.rest_position - deflection;
             let work = band.deform(law, slip, time_step);
-            self.books.work += self.perimeter * band.held * work;
-            let books = &mut self.books;
-            books.largest_temperature = books.largest_temperature.max(band.temperature);
-            books.largest_slip = books.largest_slip.max(slip.abs());
+            self.accumulated.work += self.perimeter * band.held * work;
+            let accumulated = &mut self.accumulated;
+            accumulated.largest_temperature = accumulated.largest_temperature.max(band.temperature);
+            accumulated.largest_slip = accumulated.largest_slip.max(slip.abs());
             let middle = node.position + band.offset - deflection;
             let inside = (self.back - middle + 0.5 * band.length).clamp(0.0, band.length);
             let held = match band.has_failed(law) {
@@ -102,9 +102,9 @@ impl Bands {
                 false => inside.min(band.held),
             };
             if held < band.held {
-                books.work += band.release(held, self.perimeter);
+                accumulated.work += band.release(held, self.perimeter);
                 if held == 0.0 {
-                    books.last_end = Some(time);
+                    accumulated.last_end = Some(time);
                 }
             }
         }
@@ -113,8 +113,8 @@ impl Bands {
     /// Ends every band that still holds.
     pub(super) fn end(&mut self, time: f64) {
         for band in self.bands.iter_mut().filter(|band| band.held > 0.0) {
-            self.books.work += band.release(0.0, self.perimeter);
-            self.books.last_end = Some(time);
+            self.accumulated.work += band.release(0.0, self.perimeter);
+            self.accumulated.last_end = Some(time);
         }
     }
 
@@ -149,7 +149,7 @@ impl Bands {
             let left = (band.held - length).max(0.0);
             // What is less than rounding of a length is none.
             let left = if left < 1e-9 * band.length { 0.0 } else { left };
-            self.books.work += band.release(left, self.perimeter);
+            self.accumulated.work += band.release(left, self.perimeter);
         }
     }
 

@@ -79,11 +79,11 @@ fn its_energy_is_the_integral_of_its_stress_over_slip_and_area() {
             .sum();
         println!(
             "{chain}: {:.5} J, integral {integral:.5}, by force {work:.5}",
-            bands.books.work
+            bands.accumulated.work
         );
-        assert!((bands.books.work / integral - 1.0).abs() < 1e-3);
+        assert!((bands.accumulated.work / integral - 1.0).abs() < 1e-3);
         assert!((work / integral - 1.0).abs() < 1e-3);
-        assert!(bands.books.last_end.is_some());
+        assert!(bands.accumulated.last_end.is_some());
     }
 }
 
@@ -122,7 +122,7 @@ fn a_zone_slips_as_its_rim_strains() {
     let slip = SQRT_3 * strain * law.spread.mean_width();
     let (bands, _, curve) = slide(law, 0.1);
     let largest = curve.iter().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
-    let last = bands.books.largest_slip;
+    let last = bands.accumulated.largest_slip;
     // The elastic slip comes on top, and the maximum is flat.
     assert!((last / slip - 1.0).abs() < 0.03, "{last} {slip}");
     assert!(largest[0] > 0.9 * last, "{largest:?} {last}");
@@ -139,7 +139,10 @@ fn a_constant_strength_takes_its_work() {
         let (bands, ..) = slide(law(&chain).unwrap(), 0.1);
         let exact = 400e6 * PERIMETER * LENGTH * 1.5 * width;
         // What the band stores before it fails comes on top.
-        assert!((bands.books.work / exact - 1.0).abs() < 5e-3, "{width}");
+        assert!(
+            (bands.accumulated.work / exact - 1.0).abs() < 5e-3,
+            "{width}"
+        );
     }
 }
 
@@ -159,7 +162,7 @@ fn a_band_is_shared_where_the_plug_parts() {
     // Energy is that between two steps.
     bands.update(&nodes, 0.0, 1e-6, 1e-6);
     bands.update(&nodes, 0.0, 1e-6, 2e-6);
-    let (energy, work) = (bands.elastic_energy(), bands.books.work);
+    let (energy, work) = (bands.elastic_energy(), bands.accumulated.work);
     let force = bands.pull(&mut nodes);
     bands.part(4);
     nodes.insert(5, nodes[4]);
@@ -178,5 +181,5 @@ fn a_band_is_shared_where_the_plug_parts() {
     bands.update(&nodes, 0.0, 1e-6, 3e-6);
     assert!(close(bands.bands[1].held + bands.bands[2].held, 0.0011));
     assert!(close(bands.bands[2].held, 0.0006));
-    assert!(bands.books.work >= work);
+    assert!(bands.accumulated.work >= work);
 }

@@ -1,9 +1,9 @@
-//! One step of explicit central differences, with the books kept so that only integration error is left in them.
+//! One step of explicit central differences, with an energy balance that only the integration error is left in.
 
 use std::ops::Range;
 
 use super::{
-    friction::rub_one,
+    friction::dry_friction_one,
     part::Part,
     state::{Element, End, Node, Segment, State},
 };
@@ -116,7 +116,7 @@ impl Node {
         let change = self.force * ratio;
         let before = self.velocity;
         if self.friction > 0.0 {
-            self.velocity = rub_one(before, change, self.friction * ratio);
+            self.velocity = dry_friction_one(before, change, self.friction * ratio);
             self.mass * (before + change - self.velocity)
         } else {
             self.velocity = before + change;
@@ -135,8 +135,8 @@ impl State {
         );
         self.collect_forces();
         self.collect_band_forces();
-        self.pull_gaps();
-        self.meet_target();
+        self.apply_cohesive_traction();
+        self.apply_target_reaction();
         if control.local_damping > 0.0 {
             self.damp_locally(control.local_damping);
         }
@@ -144,9 +144,9 @@ impl State {
         let kick = 0.5 * (previous + time_step);
         self.kick(kick, control.is_viscous());
         if control.local_damping > 0.0 {
-            self.book_local_damping(kick);
+            self.account_for_local_damping(kick);
         }
-        self.close_gaps(time_step);
+        self.close_contacts(time_step);
         self.drift(control, time_step)?;
         self.drift_plate(time_step);
         self.time += time_step;
@@ -155,7 +155,7 @@ impl State {
         self.erode(control.erosion_strain);
         if control.fails {
             self.damage(time_step);
-            self.part_where_failed();
+            self.split_failed_interfaces();
         }
         Ok(())
     }
@@ -190,7 +190,7 @@ impl State {
                 ..
             } = self.segments[s];
             let from = first_node + usize::from(joined_ahead);
-            let joined_behind = s < last_segment && self.joints[s].closed;
+            let joined_behind = s < last_segment && self.interfaces[s].closed;
             let is_boundary = s == last_segment && self.end != End::Free;
             let to = last_node + 1 - usize::from(joined_behind || is_boundary);
             // A wall is one node that stands: it has none that are free.
@@ -204,14 +204,14 @@ impl State {
             joined_ahead = joined_behind;
         }
         if viscous {
-            self.book_viscous_work(kick);
+            self.account_for_viscous_work(kick);
         }
-        self.book_fracture(kick);
-        self.book_target_turned_aside(kick);
+        self.account_for_fracture(kick);
+        self.account_for_target_turned_aside(kick);
         self.kick_plate(kick);
     }
 
-    fn book_viscous_work(&mut self, kick: f64) {
+    fn account_for_viscous_work(&mut self, kick: f64) {
         let mut work = 0.0;
         for segment in &self.segments {
             for e in segment.elements() {
@@ -221,7 +221,7 @@ impl State {
                 work += self.elements[e].viscous_force * 0.5 * (before + after) * kick;
             }
         }
-        self.books.viscous_work += work;
+        self.accumulated.viscous_work += work;
     }
 
     /// Kicks nodes that touch nothing.
@@ -232,7 +232,10 @@ impl State {
             }
             return;
         }
-        let (mut impulse, mut work) = (self.books.friction_impulse, self.books.friction_work);
+        let (mut impulse, mut work) = (
+            self.accumulated.friction_impulse,
+            self.accumulated.friction_work,
+        );
         let (mut mass, mut ratio) = (f64::NAN, f64::NAN);
         for node in &mut self.nodes[nodes] {
             // Neighbours mostly have one mass, and a division takes long.
@@ -241,14 +244,14 @@ impl State {
                 ratio = kick / mass;
             }
             let before = node.velocity;
-            let rubbed = node.kick(ratio);
+            let lost_impulse = node.kick(ratio);
             if node.friction > 0.0 {
-                impulse += rubbed;
-                work += rubbed * 0.5 * (before + node.velocity);
+                impulse += lost_impulse;
+                work += lost_impulse * 0.5 * (before + node.velocity);
             }
         }
-        self.books.friction_impulse = impulse;
-        self.books.friction_work = work;
+        self.accumulated.friction_impulse = impulse;
+        self.accumulated.friction_work = work;
     }
 
     pub(super) fn kick_free(&mut self, i: usize, kick: f64) {
@@ -256,8 +259,8 @@ impl State {
         let before = node.velocity;
         let impulse = node.kick(kick / node.mass);
         if node.friction > 0.0 {
-            self.books.friction_impulse += impulse;
-            self.books.friction_work += impulse * 0.5 * (before + node.velocity);
+            self.accumulated.friction_impulse += impulse;
+            self.accumulated.friction_work += impulse * 0.5 * (before + node.velocity);
             if self.tip_friction > 0.0 {
                 // A constant-pressure target has no other friction.
                 self.contact_force = impulse / kick;
@@ -265,11 +268,17 @@ impl State {
         }
     }
 
-    /// Books what friction took and returns its impulse.
-    pub(super) fn book_friction(&mut self, mass: f64, before: f64, change: f64, after: f64) -> f64 {
+    /// Accumulators what friction took and returns its impulse.
+    pub(super) fn account_for_friction(
+        &mut self,
+        mass: f64,
+        before: f64,
+        change: f64,
+        after: f64,
+    ) -> f64 {
         let impulse = mass * (before + change - after);
-        self.books.friction_impulse += impulse;
-        self.books.friction_work += impulse * 0.5 * (before + after);
+        self.accumulated.friction_impulse += impulse;
+        self.accumulated.friction_work += impulse * 0.5 * (before + after);
         impulse
     }
 
@@ -278,7 +287,7 @@ impl State {
             End::Free => self.kick_free(i, kick),
             End::Fixed => {
                 self.nodes[i].velocity = 0.0;
-                self.books.support_impulse += self.nodes[i].force * kick;
+                self.accumulated.support_impulse += self.nodes[i].force * kick;
                 self.back_force = self.nodes[i].force;
             }
             End::Open {
@@ -293,8 +302,8 @@ impl State {
                 let mean = 0.5 * (before + after);
                 self.nodes[i].velocity = after;
                 self.back_force = impedance * mean + spring;
-                self.books.support_impulse += self.back_force * kick;
-                self.books.boundary_work += self.back_force * mean * kick;
+                self.accumulated.support_impulse += self.back_force * kick;
+                self.accumulated.boundary_work += self.back_force * mean * kick;
             }
         }
     }

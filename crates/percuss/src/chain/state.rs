@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     dishing::Dishing,
-    drift::Working,
-    joint::Joint,
+    drift::YieldingElement,
+    interface::Interface,
     part::{Part, Role},
     penetration::Penetration,
-    plug::Hold,
+    plug::PlugConstraint,
     shear_band::Bands,
     tate::Tip,
 };
@@ -123,7 +123,7 @@ pub(super) struct Parting {
 
 /// Work and impulse that have gone where the state itself does not show them.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(super) struct Books {
+pub(super) struct Accumulators {
     pub(super) initial_energy: f64,
     pub(super) initial_momentum: f64,
     pub(super) plastic: [f64; 2],
@@ -139,14 +139,14 @@ pub(super) struct Books {
     pub(super) damping_impulse: f64,
 }
 
-/// Nodes, elements and books at one time. Node velocities stand half a step behind the positions.
+/// Nodes, elements and accumulated work at one time. Node velocities stand half a step behind the positions.
 #[derive(Debug)]
 pub(super) struct State {
     pub(super) parts: Vec<Part>,
     /// From the projectile's tail to the target's back.
     pub(super) segments: Vec<Segment>,
-    /// `joints[s]`: what is between segments `s` and `s + 1`.
-    pub(super) joints: Vec<Joint>,
+    /// `interfaces[s]`: what is between segments `s` and `s + 1`.
+    pub(super) interfaces: Vec<Interface>,
     pub(super) end: End,
     /// Force of a constant-pressure target on the projectile's tip [N]; 0 with any other target.
     pub(super) tip_friction: f64,
@@ -155,7 +155,7 @@ pub(super) struct State {
     /// What the tip has to overcome to penetrate a cone.
     pub(super) penetration: Option<Penetration>,
     /// What holds a plug, in the place of friction.
-    pub(super) hold: Option<Hold>,
+    pub(super) hold: Option<PlugConstraint>,
     /// Force of the target that is turned aside on the tip [N].
     pub(super) drag: f64,
     /// Initial position of the last node [m].
@@ -166,7 +166,7 @@ pub(super) struct State {
     pub(super) elements: Vec<Element>,
 
     /// Elements that flow in a step or flowed in the one before: kept for its memory.
-    pub(super) working: Vec<Working>,
+    pub(super) working: Vec<YieldingElement>,
 
     pub(super) time: f64,
     pub(super) step: u64,
@@ -179,14 +179,14 @@ pub(super) struct State {
     pub(super) meetings: u64,
     pub(super) contact_force: f64,
     pub(super) back_force: f64,
-    pub(super) books: Books,
+    pub(super) accumulated: Accumulators,
 }
 
 impl State {
     /// Everything that a step changes; the parts and the end are those of the case.
     pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
         archive.item(&mut self.segments)?;
-        archive.item(&mut self.joints)?;
+        archive.item(&mut self.interfaces)?;
         archive.item(&mut self.tip_friction)?;
         archive.item(&mut self.tip)?;
         archive.item(&mut self.penetration)?;
@@ -204,7 +204,7 @@ impl State {
         archive.item(&mut self.meetings)?;
         archive.item(&mut self.contact_force)?;
         archive.item(&mut self.back_force)?;
-        archive.item(&mut self.books)
+        archive.item(&mut self.accumulated)
     }
 
     /// Part and node range of the projectile's frontmost segment; `None` when all of it has eroded.
@@ -286,25 +286,26 @@ impl State {
         self.energy_ledger(kinetic, elastic)
     }
 
-    /// The energy book of a state with these energies of projectile and target.
+    /// The energy balance of a state with these energies of projectile and target.
     pub(super) fn energy_ledger(&self, kinetic: [f64; 2], elastic: [f64; 2]) -> EnergyLedger {
-        let books = &self.books;
+        let accumulated = &self.accumulated;
         let bands = self.hold.as_ref().map(|hold| &hold.bands);
         let plate = self.hold.as_ref().and_then(|hold| hold.plate.as_ref());
         EnergyLedger {
-            initial: books.initial_energy,
+            initial: accumulated.initial_energy,
             kinetic_projectile: kinetic[0],
             kinetic_target: kinetic[1],
             elastic_projectile: elastic[0],
             elastic_target: elastic[1] + bands.map_or(0.0, Bands::elastic_energy),
-            plastic_projectile: books.plastic[0],
-            plastic_target: books.plastic[1],
-            border_shear: books.friction_work + bands.map_or(0.0, |bands| bands.books.work),
-            viscous: books.viscous_work,
-            contact: books.contact_loss,
-            boundary: books.boundary_work,
-            eroded: books.eroded_energy,
-            fracture: books.fracture_work,
+            plastic_projectile: accumulated.plastic[0],
+            plastic_target: accumulated.plastic[1],
+            border_shear: accumulated.friction_work
+                + bands.map_or(0.0, |bands| bands.accumulated.work),
+            viscous: accumulated.viscous_work,
+            contact: accumulated.contact_loss,
+            boundary: accumulated.boundary_work,
+            eroded: accumulated.eroded_energy,
+            fracture: accumulated.fracture_work,
             transfer: 0.0,
             kinetic_plate: plate.map_or(0.0, Dishing::kinetic_energy),
             elastic_plate: plate.map_or(0.0, Dishing::elastic_energy),
@@ -323,24 +324,24 @@ impl State {
         self.momentum_ledger(momentum)
     }
 
-    /// The momentum book of a state with these momenta of projectile and target.
+    /// The momentum balance of a state with these momenta of projectile and target.
     pub(super) fn momentum_ledger(&self, momentum: [f64; 2]) -> MomentumLedger {
-        let books = &self.books;
+        let accumulated = &self.accumulated;
         let plate = self.hold.as_ref().and_then(|hold| hold.plate.as_ref());
         // A plate that does not move hands the impulse of the bands on; one that does keeps what its support does not take.
         let held_still = match (&self.hold, plate) {
-            (Some(hold), None) => hold.bands.books.impulse,
+            (Some(hold), None) => hold.bands.accumulated.impulse,
             _ => 0.0,
         };
         MomentumLedger {
-            initial: books.initial_momentum,
+            initial: accumulated.initial_momentum,
             projectile: momentum[0],
             target: momentum[1],
-            support: books.support_impulse + plate.map_or(0.0, |plate| plate.support_impulse),
-            border_shear: books.friction_impulse + held_still,
-            eroded: books.eroded_momentum,
+            support: accumulated.support_impulse + plate.map_or(0.0, |plate| plate.support_impulse),
+            border_shear: accumulated.friction_impulse + held_still,
+            eroded: accumulated.eroded_momentum,
             plate: plate.map_or(0.0, Dishing::momentum),
-            damping: books.damping_impulse,
+            damping: accumulated.damping_impulse,
         }
     }
 }

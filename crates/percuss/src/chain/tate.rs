@@ -75,10 +75,13 @@ impl State {
             return None;
         }
         let (node, other, partner) = if left + 1 == segment.last_node
-            && self.joints.get(s).is_some_and(|joint| joint.closed)
+            && self
+                .interfaces
+                .get(s)
+                .is_some_and(|interface| interface.closed)
         {
             (left + 1, left, self.segments[s + 1].first_node)
-        } else if left == segment.first_node && s > 0 && self.joints[s - 1].closed {
+        } else if left == segment.first_node && s > 0 && self.interfaces[s - 1].closed {
             (left, left + 1, self.segments[s - 1].last_node)
         } else {
             return None;
@@ -98,7 +101,7 @@ impl State {
         self.nodes[node].velocity = after;
         self.nodes[partner].velocity = after;
         let kinetic = |mass: f64, velocity: f64| 0.5 * mass * velocity * velocity;
-        self.books.contact_loss += pair.iter().map(|&(m, v)| kinetic(m, v)).sum::<f64>()
+        self.accumulated.contact_loss += pair.iter().map(|&(m, v)| kinetic(m, v)).sum::<f64>()
             - kinetic(rest, after)
             - kinetic(mass, leaving);
         Some((node, leaving))
@@ -121,8 +124,8 @@ impl State {
         let energy = 0.5 * momentum * self.nodes[tip.node].velocity;
         self.nodes[tip.node].mass -= tip.mass;
         let Some(across) = across else {
-            self.books.eroded_momentum += momentum;
-            self.books.eroded_energy += energy;
+            self.accumulated.eroded_momentum += momentum;
+            self.accumulated.eroded_energy += energy;
             self.tip = None;
             return;
         };
@@ -131,7 +134,7 @@ impl State {
         let before = 0.5 * node.mass * node.velocity * node.velocity + energy;
         node.velocity = (node.mass * node.velocity + momentum) / (node.mass + tip.mass);
         node.mass += tip.mass;
-        self.books.contact_loss += before - 0.5 * node.mass * node.velocity * node.velocity;
+        self.accumulated.contact_loss += before - 0.5 * node.mass * node.velocity * node.velocity;
         self.tip = Some(Tip {
             node: across,
             ..tip

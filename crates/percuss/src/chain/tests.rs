@@ -43,7 +43,7 @@ const CONTROL: StepControl = StepControl {
 /// The same state seen in a mirror at the struck face.
 fn mirror(mut state: State) -> State {
     state.parts.reverse();
-    state.joints.reverse();
+    state.interfaces.reverse();
     state.nodes.reverse();
     state.elements.reverse();
     for node in &mut state.nodes {
@@ -136,7 +136,7 @@ fn the_share_of_border_shear_on_the_face_explains_the_coarse_meshes() {
     }
 }
 
-/// Depth [mm] when the gap that an eroded element leaves is closed at once by moving ends, which no book balances.
+/// Depth [mm] when the gap that an eroded element leaves is closed at once by moving ends, which no balance accounts for.
 fn depth_closing_gaps(velocity: f64, close: fn(&mut State, usize, usize)) -> f64 {
     const INVISCID: StepControl = StepControl {
         viscosity: ArtificialViscosity {
@@ -169,7 +169,7 @@ fn depth_closing_gaps(velocity: f64, close: fn(&mut State, usize, usize)) -> f64
             );
             if touching.is_some_and(|before| before != ends) {
                 close(&mut state, ends.0, ends.1);
-                state.joints[tip].closed = true;
+                state.interfaces[tip].closed = true;
             }
             touching = Some(ends);
             if state.projectile_motion().1 <= 0.0 {

@@ -69,7 +69,7 @@ pub trait Model: Sync {
     /// Computes a case to which the model applies.
     ///
     /// # Errors
-    /// [`Error::Numerical`] when the solution fails or its books do not balance; [`Error::Cancelled`].
+    /// [`Error::Numerical`] when the solution fails or its balances do not close; [`Error::Cancelled`].
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error>;
 
     /// Adds to a result what its own choices are worth, for people; a model without choices has nothing to add.

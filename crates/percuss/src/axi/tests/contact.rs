@@ -59,7 +59,7 @@ fn equal_bars_exchange_their_velocities_and_part_after_the_round_trip_of_a_wave(
     let (mut opened, mut pushed) = (0.0, 0.0);
     while solver.time < 1.5 * trip() {
         assert!(solver.advance());
-        let force = solver.pending.contact_force;
+        let force = solver.deferred.contact_force;
         if force > 0.5 * plateau {
             opened = solver.time;
         }

@@ -103,7 +103,7 @@ fn torn(erode_failed: bool) -> Grid {
 fn a_torn_bar_flies_off_in_halves_and_its_books_close() {
     for erode in [false, true] {
         let solver = torn(erode);
-        let (energy, lost) = (solver.energy(), solver.books.lost[0]);
+        let (energy, lost) = (solver.energy(), solver.accumulated.lost[0]);
         let particles = &solver.bodies[0].particles;
         let failed = particles
             .iter()

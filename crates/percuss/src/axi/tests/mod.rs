@@ -18,7 +18,7 @@ use super::{
     boundary::Supports,
     contact::Contact,
     law::{Law, Pressure},
-    solver::{Books, Grid, Pending},
+    solver::{Accumulators, DeferredWork, Grid},
 };
 use crate::{
     case::ArtificialViscosity,
@@ -208,8 +208,8 @@ fn supported(bodies: Vec<Body>, supports: Vec<Supports>, cell: f64) -> Grid {
         time: 0.0,
         time_step: 0.0,
         sums: Vec::new(),
-        books: Books::default(),
-        pending: Pending::default(),
+        accumulated: Accumulators::default(),
+        deferred: DeferredWork::default(),
     };
     solver.start();
     solver

@@ -94,7 +94,7 @@ fn a_spinning_block_keeps_its_momenta_and_its_shape() {
     }
     let after = momenta(&solver);
     let growth = inertia(&solver) / inertia_before - 1.0;
-    let kinetic = solver.sums[0].kinetic / solver.books.initial_energy - 1.0;
+    let kinetic = solver.sums[0].kinetic / solver.accumulated.initial_energy - 1.0;
     let residual = solver.energy().residual();
     println!(
         "one turn, {} steps: inertia {growth:+.1e}, kinetic {kinetic:+.1e}, residual {residual:.1e}",

@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use super::{joints::Joint, whole::Whole};
+use super::{interfaces::Interface, scalars::LaneScalars};
 use crate::{
     lanes::{LANES, Lanes},
     problem::BackFace,
     scenario::{Scenario, TargetBody},
 };
 
-/// What shots must have in common to ride together.
+/// What shots must have in common to scheduler together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Mesh {
     /// Elements of projectile and target.
@@ -163,12 +163,12 @@ pub(super) struct Bundle {
     /// Masses of the nodes, and largest friction on them.
     pub(super) masses: Vec<Lanes>,
     pub(super) frictions: Vec<Lanes>,
-    /// Lanes in which a joint kicks and moves a node.
-    pub(super) tied: Vec<u8>,
+    /// Lanes in which a interface kicks and moves a node.
+    pub(super) in_contact: Vec<u8>,
     /// Nodes between the ends of a body that are not like the others, in their order.
-    pub(super) odd: Vec<usize>,
+    pub(super) irregular: Vec<usize>,
     /// What is between the pieces of eroded bodies, from tail to back.
-    pub(super) joints: Vec<Joint>,
+    pub(super) interfaces: Vec<Interface>,
     /// Lanes in which projectile and target meet at other nodes than those of whole bodies.
     pub(super) displaced: u8,
     /// Tail of the projectile and face of the target in every lane.
@@ -183,7 +183,7 @@ pub(super) struct Bundle {
     /// Where single lanes of elements flow: elements and lanes.
     pub(super) gathered: Vec<(u32, u32)>,
     pub(super) bodies: [Body; 2],
-    pub(super) whole: Whole,
+    pub(super) scalars: LaneScalars,
     /// Which of the two stresses of an element is the one after the last step.
     pub(super) now: usize,
 }
@@ -199,9 +199,9 @@ impl Bundle {
             moves: vec![false; elements + 2],
             masses: vec![Lanes::default(); elements + 2],
             frictions: vec![Lanes::default(); elements + 2],
-            tied: vec![0; elements + 2],
-            odd: Vec::new(),
-            joints: Vec::new(),
+            in_contact: vec![0; elements + 2],
+            irregular: Vec::new(),
+            interfaces: Vec::new(),
             displaced: 0,
             tails: [0; LANES],
             faces: [mesh.elements[0] + 1; LANES],
@@ -210,11 +210,11 @@ impl Bundle {
             working: vec![0; elements],
             gathered: vec![(0, 0); (elements + 1) * LANES],
             bodies: [Body::default(); 2],
-            whole: Whole::default(),
+            scalars: LaneScalars::default(),
             now: 0,
         };
         for lane in 0..LANES {
-            bundle.park(lane);
+            bundle.clear_lane(lane);
         }
         bundle
     }

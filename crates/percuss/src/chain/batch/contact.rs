@@ -1,8 +1,8 @@
-//! Contact of two ends: `State::kick_contact` and `State::close_gaps`, of tip and face in every lane at once.
+//! Contact of two ends: `State::kick_contact` and `State::close_contacts`, of tip and face in every lane at once.
 
 use super::{bundle::Bundle, step::Step};
 use crate::{
-    chain::friction::rub,
+    chain::friction::dry_friction,
     lanes::{LANES, Lanes, larger},
 };
 
@@ -17,7 +17,7 @@ pub(super) struct Pair {
     pub(super) closed: bool,
 }
 
-/// What contact changes in the books.
+/// What contact changes in the accumulated.
 #[derive(Clone, Copy)]
 pub(super) struct Account {
     pub(super) loss: f64,
@@ -57,7 +57,7 @@ impl Pair {
         } else {
             friction_b
         };
-        let together = rub(common, change, friction * kick / mass);
+        let together = dry_friction(common, change, friction * kick / mass);
         let mut on_a = force_a;
         if BOTH_RUB && friction != 0.0 {
             on_a += mass * (together - common - change) / kick * friction_a / friction;
@@ -70,18 +70,18 @@ impl Pair {
         let (mut alone_a, mut rubbed_a) = (start_a + force_a * (kick / mass_a), 0.0);
         if BOTH_RUB {
             let (ratio, free) = (kick / mass_a, alone_a);
-            alone_a = rub(start_a, force_a * ratio, friction_a * ratio);
+            alone_a = dry_friction(start_a, force_a * ratio, friction_a * ratio);
             rubbed_a = mass_a * (free - alone_a);
         }
         let ratio = kick / mass_b;
         let change_b = force_b * ratio;
-        let alone_b = rub(start_b, change_b, friction_b * ratio);
+        let alone_b = dry_friction(start_b, change_b, friction_b * ratio);
         let (mut work, mut impulse) = (account.work, account.impulse);
         if BOTH_RUB && !stays {
             impulse += rubbed_a;
             work += rubbed_a * 0.5 * (start_a + alone_a);
         }
-        let rubbed = if stays {
+        let lost_impulse = if stays {
             mass * (common + change - together)
         } else {
             mass_b * (start_b + change_b - alone_b)
@@ -100,8 +100,8 @@ impl Pair {
             push: if stays { push } else { 0.0 },
             account: Account {
                 loss: if self.closed { lost } else { account.loss },
-                work: work + rubbed * mean,
-                impulse: impulse + rubbed,
+                work: work + lost_impulse * mean,
+                impulse: impulse + lost_impulse,
             },
         }
     }
@@ -117,7 +117,7 @@ impl Pair {
         for i in 0..2 {
             let after = velocity[i] + jumps[i];
             let of = (self.mass[i], velocity[i], after);
-            lost -= booked(of.0, of.1, of.2, time_step, self.force[i], jumps[i]);
+            lost -= jump_energy(of.0, of.1, of.2, time_step, self.force[i], jumps[i]);
             velocity[i] = after;
         }
         (velocity, lost)
@@ -141,11 +141,11 @@ impl Bundle {
         let (mass_a, mass_b) = (self.bodies[0].end_mass.0, self.bodies[1].end_mass.0);
         let friction = self.bodies[1].first_friction.0;
         let (before_a, before_b) = (self.nodes[a].velocity.0, self.nodes[b].velocity.0);
-        let whole = &mut self.whole;
-        let closed = whole.closed.0;
-        let loss = whole.contact_loss.0;
-        let work = whole.friction_work.0;
-        let impulse = whole.friction_impulse.0;
+        let scalars = &mut self.scalars;
+        let closed = scalars.closed.0;
+        let loss = scalars.contact_loss.0;
+        let work = scalars.friction_work.0;
+        let impulse = scalars.friction_impulse.0;
         let (kick, drift) = (step.kick.0, step.before.0);
         let mut velocity_a = [0.0; LANES];
         let mut velocity_b = [0.0; LANES];
@@ -186,11 +186,11 @@ impl Bundle {
             next_impulse[l] = impulse[l];
             contact_force[l] = 0.0;
         }
-        whole.closed = Lanes(next_closed);
-        whole.contact_loss = Lanes(next_loss);
-        whole.friction_work = Lanes(next_work);
-        whole.friction_impulse = Lanes(next_impulse);
-        whole.contact_force = Lanes(contact_force);
+        scalars.closed = Lanes(next_closed);
+        scalars.contact_loss = Lanes(next_loss);
+        scalars.friction_work = Lanes(next_work);
+        scalars.friction_impulse = Lanes(next_impulse);
+        scalars.contact_force = Lanes(contact_force);
         self.nodes[a].velocity = Lanes(velocity_a);
         self.nodes[b].velocity = Lanes(velocity_b);
     }
@@ -200,7 +200,7 @@ impl Bundle {
     pub(super) fn close_contact(&mut self, step: &Step) {
         let projectile = self.mesh.elements[0];
         let [a, b] = [projectile, projectile + 1].map(|node| self.nodes[node]);
-        let closed = self.whole.closed.0;
+        let closed = self.scalars.closed.0;
         let mut meets = 0;
         for l in 0..LANES {
             let gap = b.position.0[l] - a.position.0[l];
@@ -223,14 +223,14 @@ impl Bundle {
             let nodes = [projectile, projectile + 1];
             let [a, b] = nodes.map(|node| self.nodes[node].position.0[l]);
             let pair = self.pair(nodes, l, false);
-            let lost = self.whole.contact_loss.0[l];
+            let lost = self.scalars.contact_loss.0[l];
             let (velocity, lost) = pair.meet(b - a, step.length.0[l], lost);
             for (node, velocity) in nodes.into_iter().zip(velocity) {
                 self.nodes[node].velocity.0[l] = velocity;
             }
-            self.whole.contact_loss.0[l] = lost;
-            self.whole.closed.0[l] = 1.0;
-            self.whole.meetings.0[l] += 1.0;
+            self.scalars.contact_loss.0[l] = lost;
+            self.scalars.closed.0[l] = 1.0;
+            self.scalars.meetings.0[l] += 1.0;
         }
     }
 
@@ -256,14 +256,14 @@ impl Bundle {
     }
 }
 
-/// What a sudden change of velocity before the kick takes: `State::book_jump`.
+/// What a sudden change of velocity before the kick takes: `State::account_for_jump`.
 #[inline(always)]
 fn jump_loss(mass: f64, before: f64, after: f64, drift: f64, force: f64) -> f64 {
     let jump = after - before;
-    booked(mass, before, before + jump, drift, force, jump)
+    jump_energy(mass, before, before + jump, drift, force, jump)
 }
 
 #[inline(always)]
-fn booked(mass: f64, before: f64, after: f64, drift: f64, force: f64, jump: f64) -> f64 {
+fn jump_energy(mass: f64, before: f64, after: f64, drift: f64, force: f64, jump: f64) -> f64 {
     0.5 * mass * (after * after - before * before) - 0.5 * drift * force * jump
 }

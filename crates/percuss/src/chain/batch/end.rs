@@ -2,7 +2,7 @@
 
 use super::{
     bundle::{Back, Bundle},
-    step::{Found, Step},
+    step::{Step, StepEstimate},
 };
 use crate::{
     chain::solver::LARGEST_STRAIN_STEP,
@@ -12,7 +12,7 @@ use crate::{
 impl Bundle {
     /// Ends the step and finds the lanes that the single run has to look at.
     #[inline(always)]
-    pub(super) fn end(&mut self, step: &Step, found: &Found) -> [bool; LANES] {
+    pub(super) fn end(&mut self, step: &Step, estimate: &StepEstimate) -> [bool; LANES] {
         let [projectile, target] = self.mesh.elements;
         let back = self.nodes[projectile + 1 + target].position.0;
         let (mut face, mut tail) = ([0.0; LANES], [0.0; LANES]);
@@ -22,48 +22,48 @@ impl Bundle {
         }
         let is_open = self.mesh.back == Back::Open;
         let mut depth = [0.0; LANES];
-        let mut calls = [false; LANES];
+        let mut needs_scalar = [false; LANES];
         let mut may_rest = false;
-        let erodes = match found.erodes {
+        let erodes = match estimate.erodes {
             true => self.eroding(),
             false => [false; LANES],
         };
-        let whole = &mut self.whole;
+        let scalars = &mut self.scalars;
         for l in 0..LANES {
-            whole.time_step.0[l] = step.length.0[l];
-            whole.time.0[l] += step.length.0[l];
-            whole.step.0[l] += 1.0;
-            let of_approach = LARGEST_STRAIN_STEP / found.fastest.0[l];
-            whole.stable_step.0[l] = smaller(of_approach, found.stable_step.0[l]);
-            let drift = back[l] - whole.back_position.0[l];
+            scalars.time_step.0[l] = step.length.0[l];
+            scalars.time.0[l] += step.length.0[l];
+            scalars.step.0[l] += 1.0;
+            let of_approach = LARGEST_STRAIN_STEP / estimate.fastest.0[l];
+            scalars.stable_step.0[l] = smaller(of_approach, estimate.stable_step.0[l]);
+            let drift = back[l] - scalars.back_position.0[l];
             depth[l] = if is_open { face[l] - drift } else { face[l] };
-            calls[l] = erodes[l]
-                | (depth[l] >= whole.perforated.0[l])
-                | (whole.time.0[l] >= whole.next_look.0[l])
-                | (whole.step.0[l] >= whole.most_steps.0[l]);
-            may_rest |= tail[l] < whole.slow_tail.0[l];
+            needs_scalar[l] = erodes[l]
+                | (depth[l] >= scalars.perforated.0[l])
+                | (scalars.time.0[l] >= scalars.next_check.0[l])
+                | (scalars.step.0[l] >= scalars.most_steps.0[l]);
+            may_rest |= tail[l] < scalars.slow_tail.0[l];
         }
         if may_rest {
             let momentum = self.projectile_momentum();
             for l in 0..LANES {
-                calls[l] |= (tail[l] < self.whole.slow_tail.0[l]) & (momentum.0[l] <= 0.0);
+                needs_scalar[l] |= (tail[l] < self.scalars.slow_tail.0[l]) & (momentum.0[l] <= 0.0);
             }
         }
-        let whole = &mut self.whole;
+        let scalars = &mut self.scalars;
         for l in 0..LANES {
-            if calls[l] {
+            if needs_scalar[l] {
                 continue;
             }
-            whole.largest_depth.0[l] = larger(depth[l], whole.largest_depth.0[l]);
-            whole.peak_force.0[l] = larger(whole.contact_force.0[l], whole.peak_force.0[l]);
-            whole.smallest_time_step.0[l] =
-                smaller(whole.time_step.0[l], whole.smallest_time_step.0[l]);
-            if whole.closed.0[l] > 0.0 {
-                whole.contact_time.0[l] += whole.time_step.0[l];
-                whole.touched.0[l] = 1.0;
+            scalars.largest_depth.0[l] = larger(depth[l], scalars.largest_depth.0[l]);
+            scalars.peak_force.0[l] = larger(scalars.contact_force.0[l], scalars.peak_force.0[l]);
+            scalars.smallest_time_step.0[l] =
+                smaller(scalars.time_step.0[l], scalars.smallest_time_step.0[l]);
+            if scalars.closed.0[l] > 0.0 {
+                scalars.contact_time.0[l] += scalars.time_step.0[l];
+                scalars.touched.0[l] = 1.0;
             }
         }
-        calls
+        needs_scalar
     }
 
     /// Lanes in which an element is about to erode.

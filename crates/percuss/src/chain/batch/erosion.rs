@@ -1,6 +1,6 @@
 //! Lanes in which elements have eroded: what is left of their bodies, and what is between the pieces.
 
-use super::{bundle::Bundle, joints::Joint};
+use super::{bundle::Bundle, interfaces::Interface};
 use crate::{
     chain::{column::ColumnRun, state::State},
     lanes::LANES,
@@ -46,7 +46,7 @@ impl Bundle {
             }
         }
         self.set_joints(lane, state, tip);
-        self.find_odd_nodes();
+        self.find_irregular_nodes();
         self.unsettle();
         true
     }
@@ -54,7 +54,7 @@ impl Bundle {
     fn set_joints(&mut self, lane: usize, state: &State, tip: usize) {
         self.remove_joints(lane);
         let projectile = self.mesh.elements[0];
-        for (place, joint) in state.joints.iter().enumerate() {
+        for (place, interface) in state.interfaces.iter().enumerate() {
             let behind = state.segments[place].last_node;
             let ahead = state.segments[place + 1].first_node;
             let is_contact = place == tip;
@@ -63,27 +63,27 @@ impl Bundle {
             }
             self.displaced |= u8::from(is_contact) << lane;
             for node in [behind, ahead] {
-                self.tied[node] |= 1 << lane;
+                self.in_contact[node] |= 1 << lane;
             }
-            self.joints.push(Joint {
+            self.interfaces.push(Interface {
                 ahead,
                 behind,
                 lane,
                 place,
                 is_contact,
-                closed: joint.closed,
+                closed: interface.closed,
             });
         }
-        self.joints.sort_unstable();
+        self.interfaces.sort_unstable();
     }
 
     fn remove_joints(&mut self, lane: usize) {
         let bit = 1 << lane;
         self.displaced &= !bit;
-        for tied in &mut self.tied {
-            *tied &= !bit;
+        for in_contact in &mut self.in_contact {
+            *in_contact &= !bit;
         }
-        self.joints.retain(|joint| joint.lane != lane);
+        self.interfaces.retain(|interface| interface.lane != lane);
     }
 
     /// Makes the bodies of a lane whole again.
@@ -94,12 +94,12 @@ impl Bundle {
             mark.gone &= !(1 << lane);
         }
         self.remove_joints(lane);
-        self.find_odd_nodes();
+        self.find_irregular_nodes();
     }
 
     /// Finds the nodes between the ends of a body that are not like the others in every lane.
-    fn find_odd_nodes(&mut self) {
-        self.odd.clear();
+    fn find_irregular_nodes(&mut self) {
+        self.irregular.clear();
         let [projectile, target] = self.mesh.elements;
         let back = projectile + 1 + target;
         for i in (0..projectile).chain(projectile + 2..back) {
@@ -108,8 +108,8 @@ impl Bundle {
             let (masses, frictions) = (self.masses[i], self.frictions[i]);
             let is_odd =
                 |l: usize| masses.0[l] != mass.0[l] || frictions.0[l] != body.friction.0[l];
-            if self.tied[i] != 0 || (0..LANES).any(is_odd) {
-                self.odd.push(i);
+            if self.in_contact[i] != 0 || (0..LANES).any(is_odd) {
+                self.irregular.push(i);
             }
         }
     }

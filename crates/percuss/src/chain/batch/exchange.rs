@@ -12,7 +12,7 @@ const CLOSE: f64 = 1.0 + 1e-9;
 
 impl Bundle {
     /// Puts a shot at the moment of impact into a lane.
-    pub(super) fn take_in(&mut self, lane: usize, run: &ColumnRun<'_>) {
+    pub(super) fn load_lane(&mut self, lane: usize, run: &ColumnRun<'_>) {
         let state = &run.solver.state;
         for (i, from) in state.nodes.iter().enumerate() {
             self.nodes[i].position.0[lane] = from.position;
@@ -22,12 +22,12 @@ impl Bundle {
         }
         let elements = self.springs.iter_mut().zip(&mut self.flows);
         for ((spring, flow), from) in elements.zip(&state.elements) {
-            spring.take_in(lane, from);
-            flow.take_in(lane, from);
+            spring.load_lane(lane, from);
+            flow.load_lane(lane, from);
         }
         let [projectile, _] = self.mesh.elements;
         for (body, part) in self.bodies.iter_mut().zip(&state.parts) {
-            body.take_in(lane, part);
+            body.load_lane(lane, part);
         }
         for (b, (first, count)) in [(0, projectile), (projectile, self.mesh.elements[1])]
             .into_iter()
@@ -48,7 +48,7 @@ impl Bundle {
             body.shortest.0[lane] = length / stretch * CLOSE;
             body.longest.0[lane] = length * stretch / CLOSE;
         }
-        self.whole.take_in(lane, run);
+        self.scalars.load_lane(lane, run);
         self.unsettle();
     }
 
@@ -61,11 +61,11 @@ impl Bundle {
 
     /// Keeps up what the single run has done with a lane that was let out.
     pub(super) fn follow(&mut self, lane: usize, run: &ColumnRun<'_>) {
-        self.whole.follow(lane, run);
+        self.scalars.follow(lane, run);
     }
 
     /// Puts a lane into the state of its shot; false when an element has no length any more.
-    pub(super) fn let_out(&self, lane: usize, run: &mut ColumnRun<'_>) -> bool {
+    pub(super) fn store_lane(&self, lane: usize, run: &mut ColumnRun<'_>) -> bool {
         let state = &mut run.solver.state;
         let mut is_sound = true;
         for segment in &state.segments {
@@ -78,22 +78,26 @@ impl Bundle {
                 let to = &mut state.elements[e];
                 to.length = state.nodes[node + 1].position - state.nodes[node].position;
                 is_sound &= to.length > 0.0;
-                self.springs[e].let_out(lane, to, self.now);
-                self.flows[e].let_out(lane, to, self.springs[e].yield_stress.0[lane]);
+                self.springs[e].store_lane(lane, to, self.now);
+                self.flows[e].store_lane(lane, to, self.springs[e].yield_stress.0[lane]);
             }
         }
         if let Some(tip) = state.tip_segment() {
-            state.joints[tip].closed = self.whole.closed.0[lane] > 0.0;
+            state.interfaces[tip].closed = self.scalars.closed.0[lane] > 0.0;
         }
-        for joint in self.joints.iter().filter(|joint| joint.lane == lane) {
-            state.joints[joint.place].closed = joint.closed;
+        for interface in self
+            .interfaces
+            .iter()
+            .filter(|interface| interface.lane == lane)
+        {
+            state.interfaces[interface.place].closed = interface.closed;
         }
-        self.whole.let_out(lane, run);
+        self.scalars.store_lane(lane, run);
         is_sound
     }
 
     /// Leaves a lane to a chain on which nothing ever happens.
-    pub(super) fn park(&mut self, lane: usize) {
+    pub(super) fn clear_lane(&mut self, lane: usize) {
         let [projectile, _] = self.mesh.elements;
         for (i, node) in self.nodes.iter_mut().enumerate() {
             // Tip and face stand in one place.
@@ -142,14 +146,14 @@ impl Bundle {
             }
             body.longest.0[lane] = f64::INFINITY;
         }
-        self.whole.park(lane);
+        self.scalars.clear_lane(lane);
         self.mend(lane);
         self.unsettle();
     }
 }
 
 impl Spring {
-    fn take_in(&mut self, lane: usize, from: &Element) {
+    fn load_lane(&mut self, lane: usize, from: &Element) {
         self.unloaded_length.0[lane] = from.unloaded_length;
         self.yield_stress.0[lane] = from.yield_point.stress();
         self.force.0[lane] = from.axial_force;
@@ -159,7 +163,7 @@ impl Spring {
         }
     }
 
-    fn let_out(&self, lane: usize, to: &mut Element, now: usize) {
+    fn store_lane(&self, lane: usize, to: &mut Element, now: usize) {
         to.unloaded_length = self.unloaded_length.0[lane];
         to.axial_force = self.force.0[lane];
         to.stress = self.stress[now].0[lane];
@@ -168,7 +172,7 @@ impl Spring {
 }
 
 impl Flow {
-    fn take_in(&mut self, lane: usize, from: &Element) {
+    fn load_lane(&mut self, lane: usize, from: &Element) {
         self.plastic_step.0[lane] = from.plastic_step;
         self.step_before.0[lane] = from.plastic_step;
         self.plastic_strain.0[lane] = from.plastic_strain;
@@ -178,7 +182,7 @@ impl Flow {
         self.largest_rate.0[lane] = from.largest_rate;
     }
 
-    fn let_out(&self, lane: usize, to: &mut Element, yield_stress: f64) {
+    fn store_lane(&self, lane: usize, to: &mut Element, yield_stress: f64) {
         to.plastic_step = self.plastic_step.0[lane];
         to.plastic_strain = self.plastic_strain.0[lane];
         to.plastic_axial = self.plastic_axial.0[lane];
@@ -190,7 +194,7 @@ impl Flow {
 }
 
 impl Body {
-    fn take_in(&mut self, lane: usize, part: &Part) {
+    fn load_lane(&mut self, lane: usize, part: &Part) {
         let law = part.strength.hardening().unwrap_or(Hardening::none(0.0));
         self.modulus.0[lane] = part.modulus;
         self.compliance.0[lane] = part.compliance;

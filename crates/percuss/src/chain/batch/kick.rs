@@ -7,7 +7,7 @@ use super::{
     step::Step,
 };
 use crate::{
-    chain::friction::rub,
+    chain::friction::dry_friction,
     lanes::{LANES, Lanes},
 };
 
@@ -18,12 +18,12 @@ impl Bundle {
         let tip = self.mesh.elements[0];
         let mut from = 0;
         while from < tip {
-            let odd = self.next_odd(from, tip);
-            self.kick_rod(from..odd, step);
-            if odd < tip {
-                self.kick_odd(odd, step);
+            let irregular = self.next_irregular(from, tip);
+            self.kick_rod(from..irregular, step);
+            if irregular < tip {
+                self.kick_irregular(irregular, step);
             }
-            from = odd + 1;
+            from = irregular + 1;
         }
         self.springs[tip - 1].force
     }
@@ -71,12 +71,12 @@ impl Bundle {
         let back = projectile + 1 + count;
         let mut from = projectile + 2;
         while from < back {
-            let odd = self.next_odd(from, back);
-            self.kick_column(from..odd, step);
-            if odd < back {
-                self.kick_odd(odd, step);
+            let irregular = self.next_irregular(from, back);
+            self.kick_column(from..irregular, step);
+            if irregular < back {
+                self.kick_irregular(irregular, step);
             }
-            from = odd + 1;
+            from = irregular + 1;
         }
         self.kick_back(back, self.springs[back - 2].force, step);
     }
@@ -88,8 +88,8 @@ impl Bundle {
             return;
         }
         let body = self.bodies[1];
-        let mut work = self.whole.friction_work;
-        let mut impulse = self.whole.friction_impulse;
+        let mut work = self.scalars.friction_work;
+        let mut impulse = self.scalars.friction_impulse;
         let mut ratio = Lanes::all(0.0);
         let mut limit = Lanes::all(0.0);
         for l in 0..LANES {
@@ -127,15 +127,15 @@ impl Bundle {
             }
             if !is_sliding {
                 for l in 0..LANES {
-                    after[l] = rub(velocity[l], change[l], limit.0[l]);
+                    after[l] = dry_friction(velocity[l], change[l], limit.0[l]);
                 }
             }
             let mut next_position = [0.0; LANES];
             let mut moves = false;
             for l in 0..LANES {
-                let rubbed = body.mass.0[l] * (velocity[l] + change[l] - after[l]);
-                impulse.0[l] += rubbed;
-                work.0[l] += rubbed * 0.5 * (velocity[l] + after[l]);
+                let lost_impulse = body.mass.0[l] * (velocity[l] + change[l] - after[l]);
+                impulse.0[l] += lost_impulse;
+                work.0[l] += lost_impulse * 0.5 * (velocity[l] + after[l]);
                 next_position[l] = position[l] + after[l] * step.length.0[l];
                 moves |= after[l] != 0.0;
             }
@@ -143,20 +143,20 @@ impl Bundle {
             node.position = Lanes(next_position);
             *is_moving = moves;
         }
-        self.whole.friction_work = work;
-        self.whole.friction_impulse = impulse;
+        self.scalars.friction_work = work;
+        self.scalars.friction_impulse = impulse;
     }
 
     /// The next node from one on that is not like the others of its body in every lane, or else the end.
     #[inline(always)]
-    fn next_odd(&self, from: usize, end: usize) -> usize {
-        let odd = self.odd.iter().copied().find(|&node| node >= from);
-        odd.map_or(end, |node| node.min(end))
+    fn next_irregular(&self, from: usize, end: usize) -> usize {
+        let irregular = self.irregular.iter().copied().find(|&node| node >= from);
+        irregular.map_or(end, |node| node.min(end))
     }
 
-    /// Kicks and moves a node that is not like the others of its body, and the joints behind it.
+    /// Kicks and moves a node that is not like the others of its body, and the interfaces behind it.
     #[inline(always)]
-    fn kick_odd(&mut self, i: usize, step: &Step) {
+    fn kick_irregular(&mut self, i: usize, step: &Step) {
         let body = usize::from(i > self.mesh.elements[0]);
         let (mass, friction) = (self.masses[i].0, self.frictions[i].0);
         let behind = match i {
@@ -164,8 +164,8 @@ impl Bundle {
             _ => self.springs[i - 1 - body].force,
         };
         let ahead = self.springs[i - body].force;
-        let tied = self.tied[i];
-        let whole = &mut self.whole;
+        let in_contact = self.in_contact[i];
+        let scalars = &mut self.scalars;
         let node = &mut self.nodes[i];
         let (velocity, position) = (node.velocity.0, node.position.0);
         let mut after = velocity;
@@ -173,12 +173,12 @@ impl Bundle {
         for l in 0..LANES {
             let ratio = step.kick.0[l] / mass[l];
             let change = (behind.0[l] - ahead.0[l]) * ratio;
-            let next = rub(velocity[l], change, friction[l] * ratio);
-            let rubbed = mass[l] * (velocity[l] + change - next);
-            let is_free = tied >> l & 1 == 0;
-            let rubbed = if is_free { rubbed } else { 0.0 };
-            whole.friction_impulse.0[l] += rubbed;
-            whole.friction_work.0[l] += rubbed * 0.5 * (velocity[l] + next);
+            let next = dry_friction(velocity[l], change, friction[l] * ratio);
+            let lost_impulse = mass[l] * (velocity[l] + change - next);
+            let is_free = in_contact >> l & 1 == 0;
+            let lost_impulse = if is_free { lost_impulse } else { 0.0 };
+            scalars.friction_impulse.0[l] += lost_impulse;
+            scalars.friction_work.0[l] += lost_impulse * 0.5 * (velocity[l] + next);
             let moved = position[l] + next * step.length.0[l];
             after[l] = if is_free { next } else { velocity[l] };
             next_position[l] = if is_free { moved } else { position[l] };
@@ -193,35 +193,35 @@ impl Bundle {
     #[inline(always)]
     fn kick_back(&mut self, node: usize, force: Lanes, step: &Step) {
         let body = self.bodies[1];
-        let whole = &mut self.whole;
+        let scalars = &mut self.scalars;
         let before = self.nodes[node].velocity.0;
         let mut velocity = [0.0; LANES];
         match self.mesh.back {
             Back::Fixed => {
                 for l in 0..LANES {
-                    whole.support_impulse.0[l] += force.0[l] * step.kick.0[l];
+                    scalars.support_impulse.0[l] += force.0[l] * step.kick.0[l];
                 }
             }
             Back::Free => {
                 for l in 0..LANES {
                     let ratio = step.kick.0[l] / body.end_mass.0[l];
                     let change = force.0[l] * ratio;
-                    velocity[l] = rub(before[l], change, body.last_friction.0[l] * ratio);
-                    let rubbed = body.end_mass.0[l] * (before[l] + change - velocity[l]);
-                    whole.friction_impulse.0[l] += rubbed;
-                    whole.friction_work.0[l] += rubbed * 0.5 * (before[l] + velocity[l]);
+                    velocity[l] = dry_friction(before[l], change, body.last_friction.0[l] * ratio);
+                    let lost_impulse = body.end_mass.0[l] * (before[l] + change - velocity[l]);
+                    scalars.friction_impulse.0[l] += lost_impulse;
+                    scalars.friction_work.0[l] += lost_impulse * 0.5 * (before[l] + velocity[l]);
                 }
             }
             Back::Open => {
                 for l in 0..LANES {
                     let kick = step.kick.0[l];
-                    let half = 0.5 * whole.impedance.0[l];
+                    let half = 0.5 * scalars.impedance.0[l];
                     let inertia = body.end_mass.0[l] / kick;
                     velocity[l] = ((inertia - half) * before[l] + force.0[l]) / (inertia + half);
                     let mean = 0.5 * (before[l] + velocity[l]);
-                    let back_force = whole.impedance.0[l] * mean;
-                    whole.support_impulse.0[l] += back_force * kick;
-                    whole.boundary_work.0[l] += back_force * mean * kick;
+                    let back_force = scalars.impedance.0[l] * mean;
+                    scalars.support_impulse.0[l] += back_force * kick;
+                    scalars.boundary_work.0[l] += back_force * mean * kick;
                 }
             }
         }

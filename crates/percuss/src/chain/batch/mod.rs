@@ -8,21 +8,21 @@
 #![allow(clippy::needless_range_loop)]
 
 mod accepts;
-mod books;
+mod balance;
 mod bundle;
 mod contact;
 mod end;
 mod erosion;
 mod exchange;
 mod flow;
-mod joints;
+mod interfaces;
 mod kick;
+mod scalars;
 mod spring;
 mod step;
 #[cfg(test)]
 mod tests;
 mod update;
-mod whole;
 
 use std::{
     collections::BTreeMap,
@@ -33,7 +33,7 @@ use std::{
 use pulp::{Arch, NullaryFnOnce};
 
 pub(crate) use accepts::accepts;
-use books::Sums;
+use balance::Sums;
 use bundle::{Bundle, Mesh};
 pub(in crate::chain) use flow::Start;
 
@@ -49,14 +49,14 @@ use crate::{
 
 /// Stages of [`AUDIT_INTERVAL`] steps that an empty lane waits for others to end: shots that start together have their waves in
 /// the same places.
-const PATIENCE: u32 = 4;
+const REFILL_DELAY: u32 = 4;
 
 /// The caller stopped the batch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Stopped;
 
 /// A shot in a lane.
-struct Passenger<'a> {
+struct LaneRun<'a> {
     /// Its place among the shots.
     shot: usize,
     run: ColumnRun<'a>,
@@ -83,14 +83,14 @@ pub(crate) fn run(
             let by_reach = reach(a).total_cmp(&reach(b));
             by_reach.then(a.impact_speed.total_cmp(&b.impact_speed))
         });
-        let mut ride = Ride {
+        let mut scheduler = BatchScheduler {
             bundle: Bundle::new(mesh),
             lanes: [const { None }; LANES],
             scenarios,
             results: &mut results,
             stop,
         };
-        ride.run(shots)?;
+        scheduler.run(shots)?;
     }
     let results = results.into_iter();
     // Every shot is in one of the lists and leaves its lane with a result.
@@ -107,41 +107,41 @@ fn reach(scenario: &Scenario) -> f64 {
     constraint_factor(options.constraint_factor(), &layers[0].material) / options.border_shear()
 }
 
-struct Ride<'a, 'b> {
+struct BatchScheduler<'a, 'b> {
     bundle: Bundle,
-    lanes: [Option<Passenger<'a>>; LANES],
+    lanes: [Option<LaneRun<'a>>; LANES],
     scenarios: &'b [&'a Scenario],
     results: &'b mut [Option<Result<RunResult, Error>>],
     stop: &'b AtomicBool,
 }
 
-impl Ride<'_, '_> {
+impl BatchScheduler<'_, '_> {
     fn run(&mut self, mut waiting: Vec<usize>) -> Result<(), Stopped> {
         let arch = Arch::new();
-        let mut patience = 0;
+        let mut delay = 0;
         loop {
             let empty = self.lanes.iter().filter(|lane| lane.is_none()).count();
             if empty == LANES && waiting.is_empty() {
                 return Ok(());
             }
-            if empty == LANES || patience == 0 {
-                self.board(&mut waiting);
-                patience = PATIENCE;
+            if empty == LANES || delay == 0 {
+                self.fill_lanes(&mut waiting);
+                delay = REFILL_DELAY;
             } else if empty > 0 {
-                patience -= 1;
+                delay -= 1;
             }
-            // Lanes change passengers between these stages, so that the books of all are due at the same time.
+            // Lanes change runs between these stages, so that the audits of all are due at the same time.
             let mut left = AUDIT_INTERVAL;
             while left > 0 {
                 let bundle = &mut self.bundle;
-                let calls = arch.dispatch(Advance {
+                let needs_scalar = arch.dispatch(Advance {
                     bundle,
                     left: &mut left,
                 });
                 let sums = (left == 0).then(|| arch.dispatch(Sum(&self.bundle)));
-                for (lane, calls) in calls.into_iter().enumerate() {
+                for (lane, needs_scalar) in needs_scalar.into_iter().enumerate() {
                     match &sums {
-                        _ if calls => self.attend(lane)?,
+                        _ if needs_scalar => self.service_lane(lane)?,
                         Some(sums) => self.audit(lane, sums)?,
                         None => {}
                     }
@@ -154,15 +154,15 @@ impl Ride<'_, '_> {
     }
 
     /// Fills the empty lanes.
-    fn board(&mut self, waiting: &mut Vec<usize>) {
+    fn fill_lanes(&mut self, waiting: &mut Vec<usize>) {
         for (lane, seat) in self.lanes.iter_mut().enumerate() {
             if seat.is_none()
                 && let Some(shot) = waiting.pop()
             {
                 match ColumnRun::new(self.scenarios[shot]) {
                     Ok(run) => {
-                        self.bundle.take_in(lane, &run);
-                        *seat = Some(Passenger { shot, run });
+                        self.bundle.load_lane(lane, &run);
+                        *seat = Some(LaneRun { shot, run });
                     }
                     Err(error) => self.results[shot] = Some(Err(error)),
                 }
@@ -170,30 +170,30 @@ impl Ride<'_, '_> {
         }
     }
 
-    /// Lets the single run look at the books of a lane.
+    /// Lets the single run audit a lane.
     fn audit(&mut self, lane: usize, sums: &Sums) -> Result<(), Stopped> {
-        let Some(passenger) = &mut self.lanes[lane] else {
+        let Some(occupant) = &mut self.lanes[lane] else {
             return Ok(());
         };
-        match self.bundle.audit(lane, sums, &mut passenger.run) {
+        match self.bundle.audit(lane, sums, &mut occupant.run) {
             Ok(()) => Ok(()),
-            Err(_) => self.leave(lane, None),
+            Err(_) => self.retire(lane, None),
         }
     }
 
     /// Lets the single run look at a lane after a step.
-    fn attend(&mut self, lane: usize) -> Result<(), Stopped> {
-        let Some(passenger) = &mut self.lanes[lane] else {
+    fn service_lane(&mut self, lane: usize) -> Result<(), Stopped> {
+        let Some(occupant) = &mut self.lanes[lane] else {
             return Ok(());
         };
-        let run = &mut passenger.run;
+        let run = &mut occupant.run;
         let mut watch = listen(self.stop);
         let mut control = Control {
             progress: Some(&mut watch),
             ..Control::default()
         };
-        if !self.bundle.let_out(lane, run) {
-            return self.leave(lane, None);
+        if !self.bundle.store_lane(lane, run) {
+            return self.retire(lane, None);
         }
         let left = |run: &ColumnRun<'_>| -> usize {
             let segments = run.solver.state.segments.iter();
@@ -214,19 +214,19 @@ impl Ride<'_, '_> {
             Ok(Some(termination)) => run.finish(termination).ok().map(Ok),
             Err(_) => None,
         };
-        self.leave(lane, result)
+        self.retire(lane, result)
     }
 
     /// Empties a lane. What fails there does so in the single run too, which knows what comes next.
-    fn leave(
+    fn retire(
         &mut self,
         lane: usize,
         result: Option<Result<RunResult, Error>>,
     ) -> Result<(), Stopped> {
-        let Some(Passenger { shot, .. }) = self.lanes[lane].take() else {
+        let Some(LaneRun { shot, .. }) = self.lanes[lane].take() else {
             return Ok(());
         };
-        self.bundle.park(lane);
+        self.bundle.clear_lane(lane);
         let alone = || {
             let mut watch = listen(self.stop);
             let mut control = Control {
@@ -252,7 +252,7 @@ fn listen(stop: &AtomicBool) -> impl FnMut(Progress) -> ControlFlow<()> {
     }
 }
 
-/// Steps until a lane calls or none are left, compiled once for every instruction set.
+/// Steps until a lane needs_scalar or none are left, compiled once for every instruction set.
 struct Advance<'b> {
     bundle: &'b mut Bundle,
     left: &'b mut u64,

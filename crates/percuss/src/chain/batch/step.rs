@@ -18,7 +18,7 @@ pub(super) struct Step {
 }
 
 /// What a step finds out about the elements.
-pub(super) struct Found {
+pub(super) struct StepEstimate {
     pub(super) stable_step: Lanes,
     /// Largest rate of approach, as a part of the length.
     pub(super) fastest: Lanes,
@@ -27,14 +27,14 @@ pub(super) struct Found {
 }
 
 impl Bundle {
-    /// Takes steps until a lane calls for the single run or none are left; says which ones do.
+    /// Takes steps until a lane needs_scalar for the single run or none are left; says which ones do.
     #[inline(always)]
     pub(super) fn advance(&mut self, left: &mut u64) -> [bool; LANES] {
         while *left > 0 {
             *left -= 1;
-            let calls = self.step();
-            if calls.iter().any(|&calls| calls) {
-                return calls;
+            let needs_scalar = self.step();
+            if needs_scalar.iter().any(|&needs_scalar| needs_scalar) {
+                return needs_scalar;
             }
         }
         [false; LANES]
@@ -53,18 +53,18 @@ impl Bundle {
         for end in [tip, face, face + target] {
             self.drift(end, &step);
         }
-        let found = self.update(&step);
+        let estimate = self.update(&step);
         self.now = 1 - self.now;
-        self.end(&step, &found)
+        self.end(&step, &estimate)
     }
 
     /// Chooses the time steps.
     #[inline(always)]
     fn begin(&self) -> Step {
         let (before, stable, courant) = (
-            self.whole.time_step.0,
-            self.whole.stable_step.0,
-            self.whole.courant.0,
+            self.scalars.time_step.0,
+            self.scalars.stable_step.0,
+            self.scalars.courant.0,
         );
         let mut length = [0.0; LANES];
         let mut kick = [0.0; LANES];

@@ -5,8 +5,8 @@ use std::ops::Range;
 use super::{
     bundle::{Bundle, LIMITS_AT_ONCE},
     flow::{flow_gathered, flow_in_place},
-    joints::Joint,
-    step::{Found, Step},
+    interfaces::Interface,
+    step::{Step, StepEstimate},
 };
 use crate::lanes::{LANES, Lanes, larger, smaller};
 
@@ -34,24 +34,24 @@ const MANY: u32 = 3;
 impl Bundle {
     /// Updates the elements: first all of them as if elastic, then those that flow. Nothing has to be guessed that way.
     #[inline(always)]
-    pub(super) fn update(&mut self, step: &Step) -> Found {
-        let mut found = Found {
+    pub(super) fn update(&mut self, step: &Step) -> StepEstimate {
+        let mut estimate = StepEstimate {
             stable_step: Lanes::all(0.0),
             fastest: Lanes::all(0.0),
             erodes: false,
         };
         for b in 0..self.bodies.len() {
             let elements = self.mesh.elements_of(b);
-            let working = self.respond(b, elements, &mut found);
+            let working = self.respond(b, elements, &mut estimate);
             self.flow(b, working, step);
         }
-        found.stable_step = self.stable_step();
-        found
+        estimate.stable_step = self.stable_step();
+        estimate
     }
 
     /// Updates the elements of a body as if nothing flowed; returns how many flow, or flowed in the last step.
     #[inline(always)]
-    fn respond(&mut self, b: usize, elements: Range<usize>, found: &mut Found) -> usize {
+    fn respond(&mut self, b: usize, elements: Range<usize>, estimate: &mut StepEstimate) -> usize {
         let body = self.bodies[b].elastic();
         let now = self.now;
         let of_nodes = elements.start + b..elements.end + b + 1;
@@ -60,7 +60,7 @@ impl Bundle {
         let ends = ends.zip(moves.iter().zip(&moves[1..]));
         let springs = self.springs[elements.clone()].iter_mut();
         let springs = springs.zip(&mut self.limits[elements.clone()]);
-        let mut fastest = found.fastest;
+        let mut fastest = estimate.fastest;
         let mut erodes = false;
         let mut working = 0;
         for (e, (((spring, limit), mark), (ends, moves))) in elements
@@ -87,8 +87,8 @@ impl Bundle {
             self.working[working] = e;
             working += usize::from(works);
         }
-        found.fastest = fastest;
-        found.erodes |= erodes;
+        estimate.fastest = fastest;
+        estimate.erodes |= erodes;
         working
     }
 
@@ -123,13 +123,13 @@ impl Bundle {
         flow_gathered(&mut self.gathered, gathered, chain, body, &step.rate, now);
         let elastic = body.elastic();
         let mut work = Lanes::all(0.0);
-        let total = &mut self.whole.plastic_work[b];
-        let of_body = |joint: &&Joint| self.mesh.holds(b, joint.ahead);
-        let mut joints = self.joints.iter().filter(of_body).peekable();
+        let total = &mut self.scalars.plastic_work[b];
+        let of_body = |interface: &&Interface| self.mesh.holds(b, interface.ahead);
+        let mut interfaces = self.interfaces.iter().filter(of_body).peekable();
         for &e in &self.working[..working] {
             // The work of every piece is a sum of its own.
-            while let Some(joint) = joints.next_if(|joint| joint.ahead <= e + b) {
-                let l = joint.lane;
+            while let Some(interface) = interfaces.next_if(|interface| interface.ahead <= e + b) {
+                let l = interface.lane;
                 total.0[l] += work.0[l];
                 work.0[l] = 0.0;
             }

@@ -4,10 +4,10 @@
 //! It has a solver of its own: no part of the column is left in it.
 
 mod block;
+mod crater_floor;
 mod delay_line;
-mod floor;
+mod far_field;
 mod forces;
-mod ground;
 mod node;
 mod plane_impact;
 #[cfg(test)]
@@ -23,15 +23,15 @@ mod state;
 mod tests;
 
 use self::{
-    floor::{Contact, Floor, Opposition},
-    ground::Ground,
+    crater_floor::{Contact, CraterFloor, TargetResistance},
+    far_field::FarField,
     projectile::{Failure, Projectile},
     rear_face::RearFace,
     resistance::Resistance,
     results::Window,
     rod::Rod,
     slice::Metal,
-    state::{Books, State, TargetFailure},
+    state::{Accumulators, State, TargetFailure},
 };
 use super::{
     column::{DEFAULT_EROSION_STRAIN, TOLERANCE},
@@ -131,15 +131,15 @@ impl<'a> Cavity<'a> {
         let free_rear_face = plate
             .thickness
             .filter(|_| rear_face(scenario) == BackFace::Free);
-        let opposition = match &scenario.resistance {
-            Some(own) => Opposition::Own(own.clone()),
-            None => Opposition::Cavity(
+        let resistance_law = match &scenario.resistance {
+            Some(own) => TargetResistance::Own(own.clone()),
+            None => TargetResistance::Cavity(
                 Resistance::new(&plate.material, radius, rate, heat, free_rear_face)
                     .ok_or_else(refuse)?,
             ),
         };
-        let floor = Floor::new(opposition, area, plate.material.density.si());
-        let (ground, rear_face, ground_step) = ground(scenario, plate, area, count);
+        let floor = CraterFloor::new(resistance_law, area, plate.material.density.si());
+        let (far_field, rear_face, far_field_step) = far_field(scenario, plate, area, count);
         let of_case = options.failure.as_ref();
         let failure = of_case.and_then(|failure| failure.law().prepare(&projectile.material));
         let target_failure = of_case.and_then(|failure| failure.law().prepare(&plate.material));
@@ -158,13 +158,13 @@ impl<'a> Cavity<'a> {
                 first: None,
             }),
             floor,
-            ground,
+            far_field,
             rear_face,
-            books: Books::default(),
+            accumulated: Accumulators::default(),
             time: 0.0,
             step: 0,
             time_step: 0.0,
-            ground_step,
+            far_field_step,
             contact_force: 0.0,
             eroded: 0,
         };
@@ -174,10 +174,10 @@ impl<'a> Cavity<'a> {
             None => DEFAULT_EROSION_STRAIN,
         };
         let mut control = StepControl::new(options, courant, erosion_strain, f64::INFINITY);
-        let slowness = state.rod.front.metal.slowness.max(state.ground.slowness);
+        let slowness = state.rod.front.metal.slowness.max(state.far_field.slowness);
         control.courant *= control.step_factor(speed, slowness);
-        state.books.initial_energy = state.energy().kinetic_projectile;
-        state.books.initial_momentum = state.momentum().projectile;
+        state.accumulated.initial_energy = state.energy().kinetic_projectile;
+        state.accumulated.initial_momentum = state.momentum().projectile;
         Ok(Self {
             scenario,
             plate,
@@ -284,7 +284,7 @@ impl<'a> Solver<'a> for Cavity<'a> {
             elements: (options.projectile_elements(), options.target_elements()),
             eroded_elements: (state.eroded, 0),
             largest_plastic_strain: (plastic_strain, 0.0),
-            largest_temperature: (temperature, state.ground.temperature),
+            largest_temperature: (temperature, state.far_field.temperature),
         }
     }
 
@@ -293,13 +293,13 @@ impl<'a> Solver<'a> for Cavity<'a> {
     }
 }
 
-/// The ground, its rear face, and their largest stable step [s].
-fn ground(
+/// The far_field, its rear face, and their largest stable step [s].
+fn far_field(
     scenario: &Scenario,
     plate: &Plate,
     area: f64,
     rod_elements: usize,
-) -> (Ground, Option<RearFace>, f64) {
+) -> (FarField, Option<RearFace>, f64) {
     let material = &plate.material;
     let thickness = modelled_thickness(plate, scenario);
     let cone = Cone::under_disc(area, material.poissons_ratio);
@@ -313,7 +313,7 @@ fn ground(
     ];
     let density = material.density.si();
     let constants = [density, modulus, material.room_temperature.si()];
-    let ground = Ground::new(cone, grading, thickness, count, constants, beyond);
+    let far_field = FarField::new(cone, grading, thickness, count, constants, beyond);
     let plane_modulus = material.bulk_modulus() + material.shear_modulus() / 0.75;
     let speeds = [material.bar_wave_speed(), (plane_modulus / density).sqrt()];
     let rear_face = RearFace::new(rear_face(scenario), cone, thickness, speeds);
@@ -321,7 +321,7 @@ fn ground(
     let smallest = smallest.windows(2).map(|pair| pair[1] - pair[0]);
     let step = smallest.fold(f64::INFINITY, f64::min) / material.bar_wave_speed();
     let longest = rear_face.as_ref().map_or(step, RearFace::longest_step);
-    (ground, rear_face, step.min(longest))
+    (far_field, rear_face, step.min(longest))
 }
 
 /// What holds the rear face of the target.

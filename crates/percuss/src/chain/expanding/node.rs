@@ -53,7 +53,7 @@ impl Node {
 
     /// Changes its velocity at once and returns the energy that this takes out of it.
     ///
-    /// Springs do their work at the velocities of the two drifts around a kick: a jump between leaves half a drift's work to book.
+    /// Springs do their work at the velocities of the two drifts around a kick: a jump between leaves half a drift's work to account for.
     /// `drift` is the length of the drift on the jump's side of the kick, negative when the jump comes before it.
     pub(super) fn jump(&mut self, change: f64, drift: f64) -> f64 {
         let before = self.kinetic_energy();

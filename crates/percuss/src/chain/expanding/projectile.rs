@@ -8,7 +8,7 @@ use super::{
 use crate::{
     Error,
     chain::{
-        joint::{Bond, Joint},
+        interface::{CohesiveLaw, Interface},
         solver::StepControl,
     },
     fragments::Fragment,
@@ -33,7 +33,7 @@ pub(super) struct Projectile {
 #[derive(Debug)]
 struct Piece {
     rod: Rod,
-    joint: Joint,
+    interface: Interface,
 }
 
 /// When the projectile parts, and the energy per area that a crack takes [J/m2].
@@ -56,14 +56,15 @@ impl Projectile {
 
     /// Everything that a step changes.
     pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
-        let mut joints: Vec<Joint> = self.behind.iter().map(|piece| piece.joint).collect();
-        archive.item(&mut joints)?;
+        let mut interfaces: Vec<Interface> =
+            self.behind.iter().map(|piece| piece.interface).collect();
+        archive.item(&mut interfaces)?;
         if archive.is_read() {
-            let piece = |joint| Piece {
+            let piece = |interface| Piece {
                 rod: self.front.of_same_metal(),
-                joint,
+                interface,
             };
-            self.behind = joints.into_iter().map(piece).collect();
+            self.behind = interfaces.into_iter().map(piece).collect();
         }
         for rod in self.rods_mut() {
             rod.archive(archive)?;
@@ -104,7 +105,7 @@ impl Projectile {
         }
         for i in 0..self.behind.len() {
             let gap = self.gap(i);
-            let pull = self.behind[i].joint.pull_at(gap);
+            let pull = self.behind[i].interface.pull_at(gap);
             if let Some((behind, ahead)) = self.ends(i) {
                 behind.damping += pull;
                 ahead.damping -= pull;
@@ -136,7 +137,7 @@ impl Projectile {
     pub(super) fn meet(&mut self, kick: f64, time_step: f64) {
         for i in 0..self.behind.len() {
             let gap = self.gap(i).max(0.0);
-            let Joint { closed, bond, pull } = self.behind[i].joint;
+            let Interface { closed, bond, pull } = self.behind[i].interface;
             let Some((behind, ahead)) = self.ends(i) else {
                 continue;
             };
@@ -157,7 +158,7 @@ impl Projectile {
             // What the bond does over the drift is work of fracture, the rest of what it did in the kick went into the collision.
             self.fracture_work += pull * drifts;
             self.contact_loss += pull * (opening * kick - drifts);
-            self.behind[i].joint.closed = touches;
+            self.behind[i].interface.closed = touches;
         }
     }
 
@@ -173,7 +174,7 @@ impl Projectile {
         }
     }
 
-    /// The two nodes at the joint ahead of a piece.
+    /// The two nodes at the interface ahead of a piece.
     fn ends(&mut self, i: usize) -> Option<(&mut Node, &mut Node)> {
         let mut rods = self.rods_mut().skip(i);
         let (behind, ahead) = (rods.next()?, rods.next()?);
@@ -193,7 +194,7 @@ impl Projectile {
 
     /// Brings damage up to the end of a step and parts rods where slices have failed and something pulls: one place a rod and step, where
     /// the two slices are damaged most, as the new ends unload their neighbours. Gives the initial positions [m] of the new cracks.
-    pub(super) fn part_where_failed(&mut self, time_step: f64) -> Vec<f64> {
+    pub(super) fn split_failed_interfaces(&mut self, time_step: f64) -> Vec<f64> {
         let Some(failure) = &self.failure else {
             return Vec::new();
         };
@@ -211,8 +212,9 @@ impl Projectile {
                 let (strength, area) = rod.pull_at(node);
                 let (rod, energy) = rod.split(node);
                 self.contact_loss += energy;
-                let joint = Joint::new(true, Bond::crack(strength, failure.energy * area));
-                self.behind.insert(i, Piece { rod, joint });
+                let interface =
+                    Interface::new(true, CohesiveLaw::crack(strength, failure.energy * area));
+                self.behind.insert(i, Piece { rod, interface });
                 i += 1;
             }
             i += 1;
@@ -274,7 +276,7 @@ impl Projectile {
             .iter()
             .zip(speeds.windows(2))
             .any(|(piece, pair)| {
-                let is_loose = !piece.joint.closed && piece.joint.bond.holds() == 0.0;
+                let is_loose = !piece.interface.closed && piece.interface.bond.holds() == 0.0;
                 is_loose && pair[0] - pair[1] > least
             })
     }

@@ -227,10 +227,10 @@ pub(super) fn sample(state: &State) -> Sample {
         step: state.step,
         tip_velocity: velocity(tip),
         tail_velocity: velocity(tail),
-        interface_velocity: state.ground_velocity() + state.floor.speed,
+        interface_velocity: state.far_field_velocity() + state.floor.speed,
         back_velocity: match &state.rear_face {
             Some(face) => face.velocity_of_face(state.time),
-            None => velocity(state.ground.nodes.last()),
+            None => velocity(state.far_field.nodes.last()),
         },
         mean_velocity: momentum / mass,
         tip_position: place(tip) + state.floor.lost_length,
@@ -259,7 +259,7 @@ pub(super) fn profile(state: &State) -> Profile {
         diameter: 2.0 * slice.radius,
         temperature: slice.temperature,
     });
-    let ground = state.ground.strained().map(|mut spring| {
+    let far_field = state.far_field.strained().map(|mut spring| {
         if let Some(face) = &state.rear_face {
             spring.superpose(face.reflected(spring.middle, state.time));
         }
@@ -272,11 +272,11 @@ pub(super) fn profile(state: &State) -> Profile {
             strain: spring.strain,
             plastic_strain: 0.0,
             diameter: 2.0 * (spring.area / std::f64::consts::PI).sqrt(),
-            temperature: state.ground.temperature,
+            temperature: state.far_field.temperature,
         }
     });
     Profile {
         time: state.time,
-        elements: rod.chain(ground).collect(),
+        elements: rod.chain(far_field).collect(),
     }
 }

@@ -1,10 +1,10 @@
-//! One step of the projectile, the crater floor and the ground, with books.
+//! One step of the projectile, the crater floor and the far_field, with accumulated.
 
 use serde::{Deserialize, Serialize};
 
 use super::{
-    floor::{Contact, Floor, Tip},
-    ground::Ground,
+    crater_floor::{Contact, CraterFloor, Tip},
+    far_field::FarField,
     projectile::Projectile,
     rear_face::RearFace,
 };
@@ -25,7 +25,7 @@ const LARGEST_STRAIN_STEP: f64 = 0.02;
 
 /// Work and impulse that have gone where the state itself does not show them.
 #[derive(Debug, Default, Serialize, Deserialize)]
-pub(super) struct Books {
+pub(super) struct Accumulators {
     pub(super) initial_energy: f64,
     pub(super) initial_momentum: f64,
     pub(super) plastic: [f64; 2],
@@ -44,16 +44,16 @@ pub(super) struct Books {
 #[derive(Debug)]
 pub(super) struct State {
     pub(super) rod: Projectile,
-    pub(super) floor: Floor,
-    pub(super) ground: Ground,
+    pub(super) floor: CraterFloor,
+    pub(super) far_field: FarField,
     /// A rear face that sends waves back.
     pub(super) rear_face: Option<RearFace>,
-    pub(super) books: Books,
+    pub(super) accumulated: Accumulators,
     pub(super) time: f64,
     pub(super) step: u64,
     pub(super) time_step: f64,
     /// Largest stable step of the ground [s].
-    pub(super) ground_step: f64,
+    pub(super) far_field_step: f64,
     pub(super) contact_force: f64,
     pub(super) eroded: usize,
     /// Initial position [m] and time [s] of every crack.
@@ -76,11 +76,11 @@ impl State {
     pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
         self.rod.archive(archive)?;
         self.floor.archive(archive)?;
-        self.ground.archive(archive)?;
+        self.far_field.archive(archive)?;
         if let Some(face) = &mut self.rear_face {
             face.archive(archive)?;
         }
-        archive.item(&mut self.books)?;
+        archive.item(&mut self.accumulated)?;
         archive.item(&mut self.time)?;
         archive.item(&mut self.step)?;
         archive.item(&mut self.time_step)?;
@@ -100,22 +100,22 @@ impl State {
         let stable = self
             .rod
             .stable_step(LARGEST_STRAIN_STEP)
-            .min(self.ground_step);
+            .min(self.far_field_step);
         let time_step = choose_time_step(
             previous,
             (control.courant * stable).min(control.longest_step),
         );
         let kick = 0.5 * (previous + time_step);
         self.rod.collect();
-        self.ground.collect();
+        self.far_field.collect();
         self.meet(0.0, -previous);
         if control.is_damped() {
             let force = self.contact_force;
             self.rod.damp(control, -force);
-            self.ground.damp(control, force);
+            self.far_field.damp(control, force);
         }
         self.rod.kick(kick);
-        self.ground.kick(kick);
+        self.far_field.kick(kick);
         let gain = self
             .rear_face
             .as_mut()
@@ -127,22 +127,27 @@ impl State {
         }
         self.close(time_step);
         let drifted = self.rod.drift(time_step);
-        self.ground.drift(time_step);
+        self.far_field.drift(time_step);
         self.floor.depth += self.floor.speed * time_step;
         self.time += time_step;
         self.time_step = time_step;
         self.step += 1;
         if let Some(face) = &mut self.rear_face {
-            let outgoing = self.ground.nodes[0].position;
-            face.end_step(self.time, time_step, outgoing, self.books.contact_impulse);
+            let outgoing = self.far_field.nodes[0].position;
+            face.end_step(
+                self.time,
+                time_step,
+                outgoing,
+                self.accumulated.contact_impulse,
+            );
         }
         match drifted {
-            Ok(work) => self.books.plastic[Role::Projectile as usize] += work,
+            Ok(work) => self.accumulated.plastic[Role::Projectile as usize] += work,
             Err(slice) => return Err(self.crushed(slice)),
         }
         self.erode(control.erosion_strain);
         if control.fails {
-            let cracks = self.rod.part_where_failed(time_step);
+            let cracks = self.rod.split_failed_interfaces(time_step);
             let time = self.time;
             self.cracks
                 .extend(cracks.into_iter().map(|place| (place, time)));
@@ -155,7 +160,7 @@ impl State {
         let Some(failure) = self.target_failure.as_mut().filter(|f| f.first.is_none()) else {
             return;
         };
-        for (damage, mut spring) in failure.damage.iter_mut().zip(self.ground.strained()) {
+        for (damage, mut spring) in failure.damage.iter_mut().zip(self.far_field.strained()) {
             if let Some(face) = &self.rear_face {
                 spring.superpose(face.reflected(spring.middle, self.time));
             }
@@ -163,7 +168,7 @@ impl State {
                 tension: -spring.stress,
                 triaxiality: (-spring.stress).signum() / 3.0,
                 plastic_strain_increment: 0.0,
-                temperature: self.ground.temperature,
+                temperature: self.far_field.temperature,
             };
             *damage = failure.law.damage(*damage, &state, time_step);
             if *damage >= 1.0 {
@@ -174,10 +179,10 @@ impl State {
     }
 
     fn account_for_damping(&mut self, kick: f64) {
-        for node in self.rod.nodes().chain(&self.ground.nodes) {
+        for node in self.rod.nodes().chain(&self.far_field.nodes) {
             let [impulse, work] = node.taken_by_damping(kick);
-            self.books.damping_impulse += impulse;
-            self.books.damping_work += work;
+            self.accumulated.damping_impulse += impulse;
+            self.accumulated.damping_work += work;
         }
     }
 
@@ -197,12 +202,12 @@ impl State {
     /// Speed at which the tip comes closer to the floor [m/s].
     fn approach(&self) -> f64 {
         let tip = self.rod.front.tip().map_or(0.0, |node| node.velocity);
-        tip - self.ground_velocity() - self.floor.speed
+        tip - self.far_field_velocity() - self.floor.speed
     }
 
     /// Velocity of the ground under the floor [m/s].
-    pub(super) fn ground_velocity(&self) -> f64 {
-        self.ground.nodes[0].velocity + self.echo_velocity()
+    pub(super) fn far_field_velocity(&self) -> f64 {
+        self.far_field.nodes[0].velocity + self.echo_velocity()
     }
 
     /// Part of it that reflected waves bring along [m/s].
@@ -221,15 +226,15 @@ impl State {
         let Some(tip) = self.rod.front.nodes.last_mut() else {
             return;
         };
-        let ground = &mut self.ground.nodes[0];
-        let impulse = change / (1.0 / tip.mass + 1.0 / ground.mass + mobility);
+        let far_field = &mut self.far_field.nodes[0];
+        let impulse = change / (1.0 / tip.mass + 1.0 / far_field.mass + mobility);
         let mut loss = tip.jump(-impulse / tip.mass, drift);
-        loss += ground.jump(impulse / ground.mass, drift);
+        loss += far_field.jump(impulse / far_field.mass, drift);
         self.floor.speed = (self.floor.speed + impulse * mobility).max(0.0);
         let reflected = impulse * self.echo_velocity();
-        self.books.contact_impulse += impulse;
-        self.books.reflected_work += reflected;
-        self.books.contact_loss += loss + before - self.floor.kinetic_energy() - reflected;
+        self.accumulated.contact_impulse += impulse;
+        self.accumulated.reflected_work += reflected;
+        self.accumulated.contact_loss += loss + before - self.floor.kinetic_energy() - reflected;
     }
 
     /// New velocities of the tip, the floor and the ground under it, whose velocity gains something by reflected waves [m/s].
@@ -240,22 +245,22 @@ impl State {
         let resisting = self.floor.resistance(self.tip());
         let tip = self.rod.front.tip();
         let (tip_force, tip_mass) = tip.map_or((0.0, 0.0), |n| (n.whole_force(), n.mass));
-        let ground = self.ground.nodes[0];
-        let ground_force = ground.whole_force();
+        let far_field = self.far_field.nodes[0];
+        let far_field_force = far_field.whole_force();
         let force = match self.floor.contact {
             Contact::Open => None,
             Contact::Closed => {
-                let together =
-                    (tip_force + ground_force + ground.mass * echo_pull) / (tip_mass + ground.mass);
+                let together = (tip_force + far_field_force + far_field.mass * echo_pull)
+                    / (tip_mass + far_field.mass);
                 let held = tip_force - tip_mass * together;
                 if self.floor.speed == 0.0 && held <= resisting {
                     Some((held, 0.0))
                 } else {
                     let added = self.floor.added_mass();
                     let pull = (tip_force - resisting) / tip_mass
-                        - (resisting + ground_force) / ground.mass
+                        - (resisting + far_field_force) / far_field.mass
                         - echo_pull;
-                    let gain = pull / (1.0 + added * (1.0 / tip_mass + 1.0 / ground.mass));
+                    let gain = pull / (1.0 + added * (1.0 / tip_mass + 1.0 / far_field.mass));
                     Some((resisting + added * gain, gain))
                 }
             }
@@ -263,48 +268,53 @@ impl State {
         let Some((force, gain)) = force.filter(|(force, _)| *force >= 0.0) else {
             self.floor.contact = Contact::Open;
             self.contact_force = 0.0;
-            self.books.plastic[Role::Target as usize] += self.floor.coast(kick);
+            self.accumulated.plastic[Role::Target as usize] += self.floor.coast(kick);
             if let Some(tip) = self.rod.front.nodes.last_mut() {
                 tip.kick(tip_force * kick);
             }
-            self.ground.nodes[0].kick(ground_force * kick);
+            self.far_field.nodes[0].kick(far_field_force * kick);
             return;
         };
         self.contact_force = force;
         let before = self.floor.speed;
         let after = before + gain * kick;
-        let (Some(tip), ground) = (self.rod.front.nodes.last_mut(), &mut self.ground.nodes[0])
-        else {
+        let (Some(tip), far_field) = (
+            self.rod.front.nodes.last_mut(),
+            &mut self.far_field.nodes[0],
+        ) else {
             return;
         };
         if after >= 0.0 {
             tip.kick((tip_force - force) * kick);
-            ground.kick((ground_force + force) * kick);
+            far_field.kick((far_field_force + force) * kick);
             self.floor.speed = after;
-            self.books.contact_impulse += force * kick;
-            self.books.reflected_work += force * kick * echo_mean;
+            self.accumulated.contact_impulse += force * kick;
+            self.accumulated.reflected_work += force * kick * echo_mean;
             let work = resisting * 0.5 * (before + after) * kick;
-            self.books.plastic[Role::Target as usize] += if gain == 0.0 { 0.0 } else { work };
+            self.accumulated.plastic[Role::Target as usize] += if gain == 0.0 { 0.0 } else { work };
             return;
         }
         // The floor comes to rest on the way: tip and ground go on together, and the target has taken what they lose.
-        let kinetic = tip.kinetic_energy() + ground.kinetic_energy() + self.floor.kinetic_energy();
+        let kinetic =
+            tip.kinetic_energy() + far_field.kinetic_energy() + self.floor.kinetic_energy();
         let momentum = tip.mass * tip.velocity
-            + ground.mass * ground.velocity
-            + (tip_force + ground_force) * kick;
-        let common = (momentum + ground.mass * echo) / (tip.mass + ground.mass);
+            + far_field.mass * far_field.velocity
+            + (tip_force + far_field_force) * kick;
+        let common = (momentum + far_field.mass * echo) / (tip.mass + far_field.mass);
         let below = common - echo;
         let work = kick
             * 0.5
-            * (tip_force * (tip.velocity + common) + ground_force * (ground.velocity + below));
-        let impulse = ground.mass * (below - ground.velocity) - ground_force * kick;
+            * (tip_force * (tip.velocity + common)
+                + far_field_force * (far_field.velocity + below));
+        let impulse = far_field.mass * (below - far_field.velocity) - far_field_force * kick;
         tip.velocity = common;
-        ground.velocity = below;
+        far_field.velocity = below;
         self.floor.speed = 0.0;
-        let left = tip.kinetic_energy() + ground.kinetic_energy();
-        self.books.contact_impulse += impulse;
-        self.books.reflected_work += impulse * echo_mean;
-        self.books.plastic[Role::Target as usize] += kinetic + work - left - impulse * echo_mean;
+        let left = tip.kinetic_energy() + far_field.kinetic_energy();
+        self.accumulated.contact_impulse += impulse;
+        self.accumulated.reflected_work += impulse * echo_mean;
+        self.accumulated.plastic[Role::Target as usize] +=
+            kinetic + work - left - impulse * echo_mean;
     }
 
     /// Brings a tip that would pass the floor within the step to touch it at the end of the step.
@@ -332,8 +342,8 @@ impl State {
             .is_some_and(|slice| slice.strain() >= limit)
         {
             let loss = self.rod.erode_tip();
-            self.books.eroded_energy += loss.energy;
-            self.books.eroded_momentum += loss.momentum;
+            self.accumulated.eroded_energy += loss.energy;
+            self.accumulated.eroded_momentum += loss.momentum;
             self.floor.lost_length += loss.length;
             self.eroded += 1;
         }
@@ -348,53 +358,53 @@ impl State {
             .rear_face
             .as_ref()
             .map_or(0.0, |face| face.displacement);
-        self.ground.nodes[0].position + echo + self.floor.depth
+        self.far_field.nodes[0].position + echo + self.floor.depth
     }
 
     /// Force on what holds the rear face [N].
     pub(super) fn support_force(&self) -> f64 {
         match &self.rear_face {
             Some(face) => face.support_force,
-            None => self.ground.passing_force,
+            None => self.far_field.passing_force,
         }
     }
 
     pub(super) fn energy(&self) -> EnergyLedger {
         let [kinetic_projectile, elastic_projectile] = self.rod.energies();
-        let [kinetic_target, elastic_target] = self.ground.energies();
+        let [kinetic_target, elastic_target] = self.far_field.energies();
         EnergyLedger {
-            initial: self.books.initial_energy,
+            initial: self.accumulated.initial_energy,
             kinetic_projectile,
             kinetic_target: kinetic_target + self.floor.kinetic_energy(),
             elastic_projectile,
             elastic_target,
-            plastic_projectile: self.books.plastic[Role::Projectile as usize],
-            plastic_target: self.books.plastic[Role::Target as usize],
+            plastic_projectile: self.accumulated.plastic[Role::Projectile as usize],
+            plastic_target: self.accumulated.plastic[Role::Target as usize],
             border_shear: 0.0,
-            viscous: self.books.damping_work - self.rod.fracture_work,
+            viscous: self.accumulated.damping_work - self.rod.fracture_work,
             fracture: self.rod.fracture_work,
-            contact: self.books.contact_loss + self.rod.contact_loss,
-            boundary: self.ground.passed_work + self.books.reflected_work,
-            eroded: self.books.eroded_energy,
+            contact: self.accumulated.contact_loss + self.rod.contact_loss,
+            boundary: self.far_field.passed_work + self.accumulated.reflected_work,
+            eroded: self.accumulated.eroded_energy,
             ..EnergyLedger::default()
         }
     }
 
     pub(super) fn momentum(&self) -> MomentumLedger {
         // Waves that left through the last node are in the plate still, but for what its support has taken.
-        let passed = self.ground.passed_impulse;
+        let passed = self.far_field.passed_impulse;
         let support = match &self.rear_face {
             Some(face) => face.support_impulse,
             None => passed,
         };
         MomentumLedger {
-            initial: self.books.initial_momentum,
+            initial: self.accumulated.initial_momentum,
             projectile: self.rod.motion().1,
-            target: self.ground.momentum() + (passed - support),
+            target: self.far_field.momentum() + (passed - support),
             support,
             border_shear: 0.0,
-            damping: self.books.damping_impulse,
-            eroded: self.books.eroded_momentum,
+            damping: self.accumulated.damping_impulse,
+            eroded: self.accumulated.eroded_momentum,
             ..MomentumLedger::default()
         }
     }

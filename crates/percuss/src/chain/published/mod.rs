@@ -8,7 +8,7 @@ mod springs;
 
 use std::f64::consts::PI;
 
-use super::friction::rub;
+use super::friction::dry_friction;
 use crate::{
     Error, Refusal, Scenario,
     error::NumericalError,
@@ -237,7 +237,7 @@ impl<'a> Published<'a> {
             self.back_force = self.target_force[last];
             self.support_impulse += self.target_force[last] * self.time_step;
         }
-        self.book_springs(&rod_before, &target_before);
+        self.account_for_springs(&rod_before, &target_before);
         for (x, v) in self.rod_displacement.iter_mut().zip(&self.rod_velocity) {
             *x += v * self.time_step;
         }
@@ -312,7 +312,7 @@ impl<'a> Published<'a> {
             PublishedBorderShear::Constant if moves => before + change - limit,
             PublishedBorderShear::Constant => before + change,
             PublishedBorderShear::Friction | PublishedBorderShear::FrictionAndPenetrator => {
-                rub(before, change, limit)
+                dry_friction(before, change, limit)
             }
         };
         let impulse = mass * (before + change - after);
@@ -322,7 +322,7 @@ impl<'a> Published<'a> {
     }
 
     /// Work done on the springs: force times the mean of the velocities before and after the kick.
-    fn book_springs(&mut self, rod_before: &[f64], target_before: &[f64]) {
+    fn account_for_springs(&mut self, rod_before: &[f64], target_before: &[f64]) {
         let power = |force: &[f64], before: &[f64], after: &[f64]| -> f64 {
             force
                 .iter()

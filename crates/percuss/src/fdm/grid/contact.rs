@@ -1,6 +1,6 @@
 //! Contact between segments: one shared node while they press on each other, two when they do not.
 
-use super::{End, Grid, Law, kick::rub};
+use super::{End, Grid, Law, kick::dry_friction};
 
 impl<L: Law> Grid<L> {
     /// Moves the shared node of a closed contact, or lets it split when it would have to pull.
@@ -16,8 +16,8 @@ impl<L: Law> Grid<L> {
             }
             node.velocity = velocity;
             self.nodes[b].velocity = velocity;
-            self.books.support_impulse += impulse;
-            self.books.boundary_work += impulse * velocity;
+            self.accumulated.support_impulse += impulse;
+            self.accumulated.boundary_work += impulse * velocity;
             self.back_force = impulse / time_step;
             self.note_contact(s, impulse / time_step);
             return;
@@ -26,7 +26,7 @@ impl<L: Law> Grid<L> {
         let mass = back.mass + front.mass;
         let limit = back.friction + front.friction;
         let change = (back.force + front.force) * time_step / mass;
-        let (velocity, taken) = rub(back.velocity, change, limit * time_step / mass);
+        let (velocity, taken) = dry_friction(back.velocity, change, limit * time_step / mass);
         let share = if limit > 0.0 {
             back.friction / limit
         } else {
@@ -40,8 +40,8 @@ impl<L: Law> Grid<L> {
         }
         self.nodes[a].velocity = velocity;
         self.nodes[b].velocity = velocity;
-        self.nodes[a].rubbed = own;
-        self.nodes[b].rubbed = mass * taken - own;
+        self.nodes[a].lost_impulse = own;
+        self.nodes[b].lost_impulse = mass * taken - own;
         self.note_contact(s, impulse / time_step);
     }
 
@@ -98,16 +98,16 @@ impl<L: Law> Grid<L> {
                 // the jump now; the one behind will differ from it by the jump when the next step begins.
                 for node in &mut self.nodes[a..=a + 1] {
                     node.jump = node.velocity - node.before;
-                    self.books.contact_loss += 0.25 * node.force * node.jump * self.time_step;
+                    self.accumulated.contact_loss += 0.25 * node.force * node.jump * self.time_step;
                 }
             }
         }
     }
 
-    /// Completes the books of the jumps of the last step, now that the load ahead of them is known.
-    pub(super) fn book_jumps(&mut self, time_step: f64) {
+    /// Completes the account of the jumps of the last step, now that the load ahead of them is known.
+    pub(super) fn account_for_jumps(&mut self, time_step: f64) {
         for node in self.nodes.iter_mut().filter(|node| node.jump != 0.0) {
-            self.books.contact_loss -= 0.25 * node.force * node.jump * time_step;
+            self.accumulated.contact_loss -= 0.25 * node.force * node.jump * time_step;
             node.jump = 0.0;
         }
     }
@@ -122,7 +122,7 @@ impl<L: Law> Grid<L> {
         }
     }
 
-    /// Takes `change` [m/s] off the approach of the nodes `a` and `a + 1`, conserving momentum, and books the loss.
+    /// Takes `change` [m/s] off the approach of the nodes `a` and `a + 1`, conserving momentum, and accounts for the loss.
     fn push_apart(&mut self, a: usize, change: f64) {
         let b = a + 1;
         let driven = matches!(self.hold(b), End::Driven(_));
@@ -136,13 +136,13 @@ impl<L: Law> Grid<L> {
         let work_back = impulse * 0.5 * (back.before + self.nodes[a].velocity);
         let work_front = if driven {
             let work = impulse * front.velocity;
-            self.books.support_impulse += impulse;
-            self.books.boundary_work += work;
+            self.accumulated.support_impulse += impulse;
+            self.accumulated.boundary_work += work;
             work
         } else {
             self.nodes[b].velocity += impulse / front.mass;
             impulse * 0.5 * (front.before + self.nodes[b].velocity)
         };
-        self.books.contact_loss += work_back - work_front;
+        self.accumulated.contact_loss += work_back - work_front;
     }
 }

@@ -7,16 +7,16 @@ use super::{End, Grid, Law, Node};
 /// Friction opposes the velocity after the kick and holds the node still when it can. Where the velocity turns within the
 /// step it could push on average: it may not, and the node is left to the force alone.
 fn kick(node: &mut Node, time_step: f64) {
-    (node.velocity, node.rubbed) = rub(
+    (node.velocity, node.lost_impulse) = dry_friction(
         node.velocity,
         node.force * time_step / node.mass,
         node.friction * time_step / node.mass,
     );
-    node.rubbed *= node.mass;
+    node.lost_impulse *= node.mass;
 }
 
 /// Velocity after a change by forces and one of at most `limit` by friction, and what friction took.
-pub(super) fn rub(before: f64, change: f64, limit: f64) -> (f64, f64) {
+pub(super) fn dry_friction(before: f64, change: f64, limit: f64) -> (f64, f64) {
     let free = before + change;
     if limit == 0.0 {
         return (free, 0.0);
@@ -40,7 +40,7 @@ impl<L: Law> Grid<L> {
         self.back_force = 0.0;
         for node in &mut self.nodes {
             node.before = node.velocity;
-            node.rubbed = 0.0;
+            node.lost_impulse = 0.0;
         }
         let segments = self.segments.len();
         let mut joined_ahead = false;
@@ -59,7 +59,7 @@ impl<L: Law> Grid<L> {
             joined_ahead = joined_behind;
         }
         if self.tip_pressure > 0.0 {
-            self.contact_force = self.nodes[self.nodes.len() - 1].rubbed / time_step;
+            self.contact_force = self.nodes[self.nodes.len() - 1].lost_impulse / time_step;
         }
     }
 
@@ -87,8 +87,8 @@ impl<L: Law> Grid<L> {
         // What the end took follows from what the node did not gain.
         let impulse = node.force * time_step - node.mass * (node.velocity - node.before);
         let work = impulse * 0.5 * (node.before + node.velocity);
-        self.books.support_impulse += impulse;
-        self.books.boundary_work += work;
+        self.accumulated.support_impulse += impulse;
+        self.accumulated.boundary_work += work;
         if i + 1 == self.nodes.len() {
             self.back_force = impulse / time_step;
         }
@@ -97,18 +97,18 @@ impl<L: Law> Grid<L> {
 
 #[cfg(test)]
 mod tests {
-    use super::rub;
+    use super::dry_friction;
 
     #[test]
     fn friction_holds_slows_and_never_pushes() {
-        assert_eq!(rub(0.0, 0.5, 1.0), (0.0, 0.5));
-        assert_eq!(rub(0.0, 1.5, 1.0), (0.5, 1.0));
-        assert_eq!(rub(3.0, -0.5, 1.0), (1.5, 1.0));
+        assert_eq!(dry_friction(0.0, 0.5, 1.0), (0.0, 0.5));
+        assert_eq!(dry_friction(0.0, 1.5, 1.0), (0.5, 1.0));
+        assert_eq!(dry_friction(3.0, -0.5, 1.0), (1.5, 1.0));
         for i in 0..200 {
             for j in 0..200 {
                 let (before, change) = (i as f64 * 0.05 - 5.0, j as f64 * 0.05 - 5.0);
                 for limit in [0.1, 1.0, 3.0] {
-                    let (after, taken) = rub(before, change, limit);
+                    let (after, taken) = dry_friction(before, change, limit);
                     assert!(taken.abs() <= limit + before.abs() + 1e-12);
                     assert!(taken * (before + after) >= -1e-12);
                 }

@@ -5,7 +5,7 @@
 //! velocities before and after the kick times the step, so the work of a force is exactly what it adds to the kinetic
 //! energy. Position is measured from the struck face, positive into the target; force and stress are positive in compression.
 
-mod books;
+mod balance;
 mod contact;
 mod kick;
 mod law;
@@ -22,7 +22,7 @@ use crate::{
     solver::{archive::Archive, monitor::Clock},
 };
 
-pub(in crate::fdm) use books::Books;
+pub(in crate::fdm) use balance::Accumulators;
 pub(in crate::fdm) use law::{Law, Motion, Stored, View};
 pub(in crate::fdm) use spall::Spall;
 
@@ -56,8 +56,8 @@ pub(in crate::fdm) struct Node {
     /// Force of the cells [N].
     force: f64,
     /// Impulse that friction took in this step [N s].
-    rubbed: f64,
-    /// Jump of velocity at the end of the last step, not yet booked to the end [m/s].
+    lost_impulse: f64,
+    /// Jump of velocity at the end of the last step, not yet accounted for to the end [m/s].
     jump: f64,
 }
 
@@ -68,7 +68,7 @@ pub(in crate::fdm) struct Segment {
     pub(in crate::fdm) cells: Range<usize>,
 }
 
-/// Nodes, cells and books at one time.
+/// Nodes, cells and accumulated work at one time.
 #[derive(Debug)]
 pub(in crate::fdm) struct Grid<L: Law> {
     pub(in crate::fdm) bodies: Vec<L>,
@@ -91,7 +91,7 @@ pub(in crate::fdm) struct Grid<L: Law> {
     pub(in crate::fdm) tip_pressure: f64,
     /// Initial position of the last node [m].
     pub(in crate::fdm) back_position: f64,
-    pub(in crate::fdm) books: Books,
+    pub(in crate::fdm) accumulated: Accumulators,
     pub(in crate::fdm) spalls: Vec<Spall>,
 }
 
@@ -127,7 +127,7 @@ impl<L: Law> Grid<L> {
             back_force: 0.0,
             tip_pressure: 0.0,
             back_position: 0.0,
-            books: Books::default(),
+            accumulated: Accumulators::default(),
             spalls: Vec::new(),
         };
         for (body, slab) in slabs.into_iter().enumerate() {
@@ -141,8 +141,8 @@ impl<L: Law> Grid<L> {
         if let [_, End::Driven(velocity)] = grid.ends {
             grid.nodes[last].velocity = velocity;
         }
-        grid.books.initial_energy = grid.energy().total();
-        grid.books.initial_momentum = grid.momentum().residual();
+        grid.accumulated.initial_energy = grid.energy().total();
+        grid.accumulated.initial_momentum = grid.momentum().residual();
         grid.join_moving();
         grid.join_met();
         grid.stable_step = grid.limit();
@@ -190,7 +190,7 @@ impl<L: Law> Grid<L> {
         archive.item(&mut self.stable_step)?;
         archive.item(&mut self.contact_force)?;
         archive.item(&mut self.back_force)?;
-        archive.item(&mut self.books)?;
+        archive.item(&mut self.accumulated)?;
         archive.item(&mut self.spalls)
     }
 
@@ -222,7 +222,7 @@ impl<L: Law> Grid<L> {
             _ => (nominal, 0.5 * nominal),
         };
         self.load(nominal, lead)?;
-        self.book_jumps(time_step);
+        self.account_for_jumps(time_step);
         self.kick(time_step);
         self.close_gaps(time_step);
         self.drift(time_step)?;
@@ -285,8 +285,8 @@ impl<L: Law> Grid<L> {
         for node in &mut self.nodes {
             let mean = 0.5 * (node.before + node.velocity);
             node.position += mean * time_step;
-            self.books.friction_impulse += node.rubbed;
-            self.books.friction_work += node.rubbed * mean;
+            self.accumulated.friction_impulse += node.lost_impulse;
+            self.accumulated.friction_work += node.lost_impulse * mean;
         }
         let mut stable = f64::INFINITY;
         for (s, segment) in self.segments.iter().enumerate() {

@@ -221,12 +221,12 @@ impl Column {
         spalls.map(|spall| (spall.position, spall.time)).collect()
     }
 
-    /// Energy book [J]; the first layer counts as the projectile.
+    /// Energy balance [J]; the first layer counts as the projectile.
     pub fn energy(&self) -> EnergyLedger {
         self.grid.energy()
     }
 
-    /// Momentum book [N s].
+    /// Momentum balance [N s].
     pub fn momentum(&self) -> MomentumLedger {
         self.grid.momentum()
     }

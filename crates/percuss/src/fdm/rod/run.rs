@@ -65,12 +65,12 @@ impl Rod<'_> {
             return false;
         }
         let [projectile, target] = self.grid.stored();
-        let books = &self.grid.books;
+        let accumulated = &self.grid.accumulated;
         let dissipation = projectile.plastic
             + target.plastic
             + projectile.viscous
             + target.viscous
-            + books.friction_work;
+            + accumulated.friction_work;
         let before = std::mem::replace(
             &mut self.window,
             Window {
@@ -80,7 +80,7 @@ impl Rod<'_> {
                 touched: false,
             },
         );
-        let flow = (dissipation - before.dissipation) / books.initial_energy;
+        let flow = (dissipation - before.dissipation) / accumulated.initial_energy;
         if !before.touched {
             let remaining = self.limits.end_time - self.grid.time;
             return flow <= PARTED_FRACTION && !self.will_meet(remaining);

@@ -1,4 +1,4 @@
-//! The books of every lane: `State::energy` and `State::momentum`.
+//! The balances of every lane: `State::energy` and `State::momentum`.
 
 use super::bundle::Bundle;
 use crate::{
@@ -45,14 +45,14 @@ impl Bundle {
         sums
     }
 
-    /// Has the single run look at the books of a lane.
+    /// Has the single run audit a lane.
     pub(super) fn audit(
         &self,
         lane: usize,
         sums: &Sums,
         run: &mut ColumnRun<'_>,
     ) -> Result<(), AttemptError> {
-        self.whole.let_out(lane, run);
+        self.scalars.store_lane(lane, run);
         let of = |sums: [Lanes; 2]| sums.map(|sum| sum.0[lane]);
         let energy = run
             .solver

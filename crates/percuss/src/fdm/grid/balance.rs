@@ -1,4 +1,4 @@
-//! Energy and momentum books of a grid.
+//! Energy and momentum balances of a grid.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +7,7 @@ use crate::ledger::{EnergyLedger, MomentumLedger};
 
 /// Work and impulse that have gone where the state itself does not show them.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(in crate::fdm) struct Books {
+pub(in crate::fdm) struct Accumulators {
     pub(in crate::fdm) initial_energy: f64,
     pub(in crate::fdm) initial_momentum: f64,
     pub(in crate::fdm) friction_work: f64,
@@ -54,7 +54,7 @@ impl<L: Law> Grid<L> {
         sums
     }
 
-    /// Energy book.
+    /// Energy balance.
     pub(in crate::fdm) fn energy(&self) -> EnergyLedger {
         let mut kinetic = [0.0; 2];
         for (s, segment) in self.segments.iter().enumerate() {
@@ -65,17 +65,17 @@ impl<L: Law> Grid<L> {
         }
         let [projectile, target] = self.stored();
         EnergyLedger {
-            initial: self.books.initial_energy,
+            initial: self.accumulated.initial_energy,
             kinetic_projectile: kinetic[0],
             kinetic_target: kinetic[1],
             elastic_projectile: projectile.elastic,
             elastic_target: target.elastic,
             plastic_projectile: projectile.plastic,
             plastic_target: target.plastic,
-            border_shear: self.books.friction_work,
+            border_shear: self.accumulated.friction_work,
             viscous: projectile.viscous + target.viscous,
-            contact: self.books.contact_loss,
-            boundary: self.books.boundary_work,
+            contact: self.accumulated.contact_loss,
+            boundary: self.accumulated.boundary_work,
             ..EnergyLedger::default()
         }
     }
@@ -95,14 +95,14 @@ impl<L: Law> Grid<L> {
         sums
     }
 
-    /// Momentum book.
+    /// Momentum balance.
     pub(in crate::fdm) fn momentum(&self) -> MomentumLedger {
         MomentumLedger {
-            initial: self.books.initial_momentum,
+            initial: self.accumulated.initial_momentum,
             projectile: self.motion(0).1,
             target: self.motion(1).1,
-            support: self.books.support_impulse,
-            border_shear: self.books.friction_impulse,
+            support: self.accumulated.support_impulse,
+            border_shear: self.accumulated.friction_impulse,
             ..MomentumLedger::default()
         }
     }

@@ -15,7 +15,7 @@ use crate::{
 /// From the crater floor to the rear face; positions are displacements in waves that leave the crater. What is behind takes those waves
 /// up as the cone beyond would: [`RearFace`](super::rear_face::RearFace) sends them back.
 #[derive(Debug)]
-pub(super) struct Ground {
+pub(super) struct FarField {
     pub(super) nodes: Vec<Node>,
     springs: Vec<Spring>,
     /// Of the cone beyond the last node: impedance [kg/s] and static stiffness [N/m].
@@ -64,7 +64,7 @@ impl Strained {
     }
 }
 
-impl Ground {
+impl FarField {
     /// Everything that a step changes.
     pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
         archive.item(&mut self.nodes)?;

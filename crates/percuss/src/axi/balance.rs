@@ -1,12 +1,12 @@
-//! Energy and momentum books of the bodies.
+//! Energy and momentum balances of the bodies.
 
 use super::solver::Grid;
 use crate::ledger::{EnergyLedger, MomentumLedger};
 
 impl Grid {
-    /// Energy book [J].
+    /// Energy balance [J].
     pub(super) fn energy(&self) -> EnergyLedger {
-        let books = &self.books;
+        let accumulated = &self.accumulated;
         let kinetic = |target: bool| -> f64 {
             let own = self
                 .sums
@@ -16,34 +16,34 @@ impl Grid {
             own.map(|(_, sums)| sums.kinetic).sum()
         };
         let elastic = |role: usize| {
-            let [total, plastic, viscous, failure] = books.work[role];
+            let [total, plastic, viscous, failure] = accumulated.work[role];
             total - plastic - viscous - failure
         };
         EnergyLedger {
-            initial: books.initial_energy,
+            initial: accumulated.initial_energy,
             kinetic_projectile: kinetic(false),
             kinetic_target: kinetic(true),
             elastic_projectile: elastic(0),
             elastic_target: elastic(1),
-            plastic_projectile: books.work[0][1],
-            plastic_target: books.work[1][1],
-            viscous: books.work[0][2] + books.work[1][2],
-            contact: books.contact,
-            boundary: books.boundary,
-            eroded: books.lost_energy + books.work[0][3] + books.work[1][3],
-            transfer: books.transfer,
+            plastic_projectile: accumulated.work[0][1],
+            plastic_target: accumulated.work[1][1],
+            viscous: accumulated.work[0][2] + accumulated.work[1][2],
+            contact: accumulated.contact,
+            boundary: accumulated.boundary,
+            eroded: accumulated.lost_energy + accumulated.work[0][3] + accumulated.work[1][3],
+            transfer: accumulated.transfer,
             ..EnergyLedger::default()
         }
     }
 
-    /// Momentum book [N s].
+    /// Momentum balance [N s].
     pub(super) fn momentum(&self) -> MomentumLedger {
         MomentumLedger {
-            initial: self.books.initial_momentum,
+            initial: self.accumulated.initial_momentum,
             projectile: self.sums[0].momentum,
             target: self.sums[1..].iter().map(|sums| sums.momentum).sum(),
-            support: self.books.support_impulse,
-            eroded: self.books.lost_momentum,
+            support: self.accumulated.support_impulse,
+            eroded: self.accumulated.lost_momentum,
             ..MomentumLedger::default()
         }
     }

@@ -1,4 +1,4 @@
-//! The crater floor: what goes on between the tip of the projectile and the ground.
+//! The crater floor: what goes on between the tip of the projectile and the far_field.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,14 +17,14 @@ pub(super) enum Contact {
 
 /// What pushes back on the floor.
 #[derive(Debug)]
-pub(super) enum Opposition {
+pub(super) enum TargetResistance {
     /// The pressure of an expanding cavity, and that which turns the target aside.
     Cavity(Resistance),
     /// A law of the caller's own.
     Own(OwnResistance),
 }
 
-impl Opposition {
+impl TargetResistance {
     /// Pressure on a floor [Pa] and the largest one that what lies beside it can press with, at a depth [m], a speed [m/s] and a
     /// density of the target [kg/m3].
     fn pressures(&self, depth: f64, speed: f64, density: f64) -> (f64, f64) {
@@ -43,15 +43,15 @@ impl Opposition {
 
 /// The floor has a permanent depth below the ground that carries it.
 #[derive(Debug)]
-pub(super) struct Floor {
-    opposition: Opposition,
+pub(super) struct CraterFloor {
+    resistance_law: TargetResistance,
     /// Area of the undeformed projectile [m2].
     area: f64,
     /// Density of the target [kg/m3].
     density: f64,
     pub(super) contact: Contact,
     pub(super) depth: f64,
-    /// Speed at which it advances into the ground, never negative [m/s].
+    /// Speed at which it advances into the far_field, never negative [m/s].
     pub(super) speed: f64,
     /// Lengths of what eroded, which stands between the tip and the floor no more [m].
     pub(super) lost_length: f64,
@@ -67,7 +67,7 @@ pub(super) struct Tip {
     pub(super) closing: f64,
 }
 
-impl Floor {
+impl CraterFloor {
     /// Everything that a step changes.
     pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
         archive.item(&mut self.contact)?;
@@ -76,9 +76,9 @@ impl Floor {
         archive.item(&mut self.lost_length)
     }
 
-    pub(super) fn new(opposition: Opposition, area: f64, density: f64) -> Self {
+    pub(super) fn new(resistance_law: TargetResistance, area: f64, density: f64) -> Self {
         Self {
-            opposition,
+            resistance_law,
             area,
             density,
             contact: Contact::Closed,
@@ -108,9 +108,9 @@ impl Floor {
     /// The spread part flows outwards and presses with its own flow stress. Of it, `½ρ_p w²` on the undeformed area belongs to the
     /// stagnation on the axis, as in the equation of Alekseevskii and Tate, and presses on the floor.
     pub(super) fn resistance(&self, tip: Tip) -> f64 {
-        let (pressure, largest) = self
-            .opposition
-            .pressures(self.depth, self.speed, self.density);
+        let (pressure, largest) =
+            self.resistance_law
+                .pressures(self.depth, self.speed, self.density);
         let pressing = tip.flow_stress.min(largest);
         let stagnation = 0.5 * tip.density * self.area * tip.closing * tip.closing;
         let spread = (tip.area - self.area).max(0.0) * pressing - stagnation;

@@ -7,7 +7,7 @@ use crate::{
 
 /// What there is one of in every shot.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Whole {
+pub(super) struct LaneScalars {
     pub(super) courant: Lanes,
     pub(super) time: Lanes,
     pub(super) step: Lanes,
@@ -34,18 +34,18 @@ pub(super) struct Whole {
     /// Depth and step at which a shot is over, time at which it is looked at.
     pub(super) perforated: Lanes,
     pub(super) most_steps: Lanes,
-    pub(super) next_look: Lanes,
+    pub(super) next_check: Lanes,
     /// Speed of the tail below which the projectile may be at rest; −∞ once it has been.
     pub(super) slow_tail: Lanes,
 }
 
-impl Whole {
-    pub(super) fn take_in(&mut self, lane: usize, run: &ColumnRun<'_>) {
-        self.park(lane);
+impl LaneScalars {
+    pub(super) fn load_lane(&mut self, lane: usize, run: &ColumnRun<'_>) {
+        self.clear_lane(lane);
         let state = &run.solver.state;
         self.courant.0[lane] = run.solver.control.courant;
         self.stable_step.0[lane] = state.stable_step;
-        self.closed.0[lane] = f64::from(state.joints[0].closed);
+        self.closed.0[lane] = f64::from(state.interfaces[0].closed);
         if let End::Open { impedance, .. } = state.end {
             self.impedance.0[lane] = impedance;
         }
@@ -55,10 +55,10 @@ impl Whole {
             self.perforated.0[lane] = state.back_position;
         }
         // The single run looks at the first step.
-        self.next_look.0[lane] = 0.0;
+        self.next_check.0[lane] = 0.0;
     }
 
-    pub(super) fn let_out(&self, lane: usize, run: &mut ColumnRun<'_>) {
+    pub(super) fn store_lane(&self, lane: usize, run: &mut ColumnRun<'_>) {
         let state = &mut run.solver.state;
         state.time = self.time.0[lane];
         state.step = self.step.0[lane] as u64;
@@ -66,13 +66,13 @@ impl Whole {
         state.stable_step = self.stable_step.0[lane];
         state.contact_force = self.contact_force.0[lane];
         state.meetings = self.meetings.0[lane] as u64;
-        let books = &mut state.books;
-        books.plastic = self.plastic_work.map(|work| work.0[lane]);
-        books.friction_work = self.friction_work.0[lane];
-        books.friction_impulse = self.friction_impulse.0[lane];
-        books.contact_loss = self.contact_loss.0[lane];
-        books.support_impulse = self.support_impulse.0[lane];
-        books.boundary_work = self.boundary_work.0[lane];
+        let accumulated = &mut state.accumulated;
+        accumulated.plastic = self.plastic_work.map(|work| work.0[lane]);
+        accumulated.friction_work = self.friction_work.0[lane];
+        accumulated.friction_impulse = self.friction_impulse.0[lane];
+        accumulated.contact_loss = self.contact_loss.0[lane];
+        accumulated.support_impulse = self.support_impulse.0[lane];
+        accumulated.boundary_work = self.boundary_work.0[lane];
         let monitor = &mut run.monitor;
         monitor.largest_depth = self.largest_depth.0[lane];
         monitor.peak_force = self.peak_force.0[lane];
@@ -88,7 +88,7 @@ impl Whole {
         self.smallest_time_step.0[lane] = monitor.smallest_time_step;
         self.contact_time.0[lane] = monitor.contact_time;
         self.touched.0[lane] = f64::from(window.touched);
-        self.next_look.0[lane] = window
+        self.next_check.0[lane] = window
             .end_time(run.solver.scenario)
             .min(run.limits.end_time);
         self.slow_tail.0[lane] = match monitor.at_rest {
@@ -97,7 +97,7 @@ impl Whole {
         };
     }
 
-    pub(super) fn park(&mut self, lane: usize) {
+    pub(super) fn clear_lane(&mut self, lane: usize) {
         for of in [
             &mut self.time,
             &mut self.step,
@@ -129,7 +129,7 @@ impl Whole {
         for of in [
             &mut self.perforated,
             &mut self.most_steps,
-            &mut self.next_look,
+            &mut self.next_check,
         ] {
             of.0[lane] = f64::INFINITY;
         }

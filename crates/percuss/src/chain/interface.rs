@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 
 /// Two neighbouring ends of segments.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct Joint {
+pub(super) struct Interface {
     /// Whether they touch and move as one.
     pub(super) closed: bool,
     /// What keeps them from parting.
-    pub(super) bond: Bond,
+    pub(super) bond: CohesiveLaw,
     /// Force with which the bond of a gap pulls in this step [N].
     pub(super) pull: f64,
 }
@@ -19,7 +19,7 @@ pub(super) struct Joint {
 /// opening it for good takes the fracture energy, whatever the mesh [hillerborg1976]. It pulls with that tension however far it
 /// has closed again: nothing of the work is stored.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) enum Bond {
+pub(super) enum CohesiveLaw {
     /// Nothing: the ends part as soon as they are pulled.
     None,
     /// Material, or an interface that is bonded.
@@ -35,7 +35,7 @@ pub(super) enum Bond {
     },
 }
 
-impl Bond {
+impl CohesiveLaw {
     /// A fresh crack that broke at a tension [N] and takes an energy [J] to open.
     pub(super) fn crack(strength: f64, energy: f64) -> Self {
         if energy == 0.0 || strength <= 0.0 {
@@ -69,15 +69,15 @@ impl Bond {
     }
 }
 
-impl Joint {
+impl Interface {
     /// Free ends apart.
-    pub(super) const OPEN: Self = Self::new(false, Bond::None);
+    pub(super) const OPEN: Self = Self::new(false, CohesiveLaw::None);
     /// Ends that touch and hold on to each other by nothing.
-    pub(super) const TOUCHING: Self = Self::new(true, Bond::None);
+    pub(super) const TOUCHING: Self = Self::new(true, CohesiveLaw::None);
     /// Ends that are bonded.
-    pub(super) const BONDED: Self = Self::new(true, Bond::Unbroken);
+    pub(super) const BONDED: Self = Self::new(true, CohesiveLaw::Unbroken);
 
-    pub(super) const fn new(closed: bool, bond: Bond) -> Self {
+    pub(super) const fn new(closed: bool, bond: CohesiveLaw) -> Self {
         Self {
             closed,
             bond,
@@ -85,7 +85,7 @@ impl Joint {
         }
     }
 
-    /// Force with which the joint pulls its ends together across a gap [N].
+    /// Force with which the interface pulls its ends together across a gap [N].
     pub(super) fn pull_at(&mut self, gap: f64) -> f64 {
         self.bond.open_to(gap);
         self.pull = if self.closed { 0.0 } else { self.bond.holds() };
@@ -107,12 +107,12 @@ mod tests {
     #[test]
     fn opening_a_crack_takes_its_energy() {
         let (strength, energy) = (1500.0, 0.3);
-        let mut joint = Joint::new(false, Bond::crack(strength, energy));
+        let mut interface = Interface::new(false, CohesiveLaw::crack(strength, energy));
         let step = 1e-8;
         let mut work = 0.0;
         let mut gap = 0.0;
-        while joint.pull_at(gap + 0.5 * step) > 0.0 {
-            work += joint.pull * step;
+        while interface.pull_at(gap + 0.5 * step) > 0.0 {
+            work += interface.pull * step;
             gap += step;
         }
         assert!((work / energy - 1.0).abs() < 1e-4, "{work}");
@@ -124,8 +124,8 @@ mod tests {
 
     #[test]
     fn without_an_energy_nothing_holds_and_an_unbroken_bond_holds_anything() {
-        assert_eq!(Bond::crack(1500.0, 0.0), Bond::None);
-        assert_eq!(Joint::TOUCHING.bond.holds(), 0.0);
-        assert_eq!(Joint::BONDED.bond.holds(), f64::INFINITY);
+        assert_eq!(CohesiveLaw::crack(1500.0, 0.0), CohesiveLaw::None);
+        assert_eq!(Interface::TOUCHING.bond.holds(), 0.0);
+        assert_eq!(Interface::BONDED.bond.holds(), f64::INFINITY);
     }
 }
