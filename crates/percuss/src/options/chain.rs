@@ -19,12 +19,12 @@ use crate::{
     units::{EnergyPerArea, Time},
 };
 
-/// Options of the model `chain`; a key that is not given has the default that the scheme states.
+/// Options of the model `chain`; the schema has the defaults.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[schemars(transform = super::chain_defaults::chain_in_schema)]
 pub struct ChainOptions {
-    /// Scheme.
+    /// Numerical scheme.
     pub scheme: Scheme,
     /// Elements along the projectile.
     pub projectile_elements: Option<u32>,

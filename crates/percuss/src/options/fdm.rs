@@ -22,7 +22,7 @@ use crate::{
 #[serde(deny_unknown_fields, default)]
 #[schemars(transform = fdm_in_schema)]
 pub struct FdmOptions {
-    /// Geometry.
+    /// Geometry of the impact.
     pub geometry: Geometry,
     /// Cells along the projectile.
     pub projectile_elements: Option<u32>,
