@@ -1,4 +1,4 @@
-//! Names, units and descriptions of results and histories, as Python is told of them.
+//! Names, units and descriptions of results and histories for Python.
 
 use percuss::{
     history::{ELEMENT_COLUMNS, HistoryColumn, Read, SAMPLE_COLUMNS},
@@ -47,7 +47,7 @@ pub fn element_columns() -> Vec<Field> {
     ELEMENT_COLUMNS.iter().map(column).collect()
 }
 
-/// Ends of names, and the units that they stand for.
+/// Ends of names, each with its unit.
 #[pyfunction]
 pub fn units() -> Vec<(&'static str, &'static str)> {
     let named = ResultUnit::NAMED.iter();

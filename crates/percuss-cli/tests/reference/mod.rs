@@ -1,4 +1,4 @@
-//! The reference pages of `docs/reference/` are what the schema, the help and the lists of the program say.
+//! The reference pages of `docs/reference/` are written from the schema, the help and the lists of the program.
 //!
 //! `REWRITE_REFERENCES=1 cargo test -p percuss-cli --test all reference::` writes them again.
 

@@ -19,7 +19,7 @@ def described(fields: Iterable[_percuss.Field]) -> str:
 
 
 def document(kind: type, fields: Iterable[_percuss.Field]) -> None:
-    """Puts the description of values into the docstring of a class, where it says ``{fields}``."""
+    """Puts the description of values into the docstring of a class, at ``{fields}``."""
     kind.__doc__ = (kind.__doc__ or "").replace("    {fields}", described(fields))
 
 

@@ -43,7 +43,7 @@ impl ResultField {
     }
 }
 
-/// A scalar result: what tables, sweeps, studies and Python need to know of it.
+/// A scalar result, with what tables, sweeps, studies and Python need of it.
 #[derive(Clone, Copy)]
 pub struct ResultNumber {
     /// Its name, which ends with the unit.
@@ -127,14 +127,14 @@ impl ResultNumber {
 
     /// Its value for statistics over many runs; none where it is not finite.
     pub fn for_statistics(&self, record: &ResultRecord) -> Option<f64> {
-        let perforated = record.outcome.perforated();
-        let value = self.of(record).filter(|value| value.is_finite())?;
-        match self.in_statistics {
-            InStatistics::Every => Some(value),
-            InStatistics::NotPerforated => (record.outcome != Outcome::Perforated).then_some(value),
-            InStatistics::ZeroWhereStopped if perforated == Some(false) => Some(0.0),
-            InStatistics::ZeroWhereStopped => Some(value),
-        }
+        let outcome = record.outcome;
+        let value = self.of(record)?;
+        let value = match self.in_statistics {
+            InStatistics::NotPerforated if outcome == Outcome::Perforated => return None,
+            InStatistics::ZeroWhereStopped if outcome.perforated() == Some(false) => 0.0,
+            _ => value,
+        };
+        value.is_finite().then_some(value)
     }
 }
 
