@@ -78,6 +78,7 @@ def test_the_values_of_a_run_are_those_of_the_library(records: dict[type[Record]
             kinds = tuple(types[word.split()[0]] for word in field.kind.split(" or "))
             assert isinstance(getattr(run, field.name), kinds), field.name
     described = percuss.RunResult.__doc__ or ""
+    assert set(typing.get_type_hints(percuss.RunResult)) >= names
     added = {name for name, value in vars(percuss.RunResult).items() if isinstance(value, cached_property)}
     assert added == names
     for field in fields:

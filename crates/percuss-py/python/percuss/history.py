@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy
 
 from . import _percuss, fields
+from .values import ElementColumns, SampleColumns
 
 if TYPE_CHECKING:
     import pandas
@@ -108,7 +109,7 @@ class SiColumns(_Columns):
         return self._rows._memory(name)
 
 
-class Profile(_Rows):
+class Profile(ElementColumns, _Rows):
     """State along the axis at one moment: a value per element, from the projectile's tail to the target's rear face.
 
     Attributes
@@ -144,7 +145,7 @@ class Profile(_Rows):
         return f"<Profile at {self.time_us:.4g} us, {len(self.part)} elements>"
 
 
-class History(_Rows):
+class History(SampleColumns, _Rows):
     """Scalars against time. A long run thins its history out, so the steps between moments are not all alike.
 
     Names and units are those of the files ``history.csv`` and ``history.parquet``. ``history.si`` has the columns in SI units.

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 from . import _percuss, fields, plots
 from .history import History
 from .record import Record, Result, shown, table_html, written
+from .values import ResultValues
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class RunResult(Result):
+class RunResult(ResultValues, Result):
     """The result of a run: the values of ``percuss run --json`` and the histories.
 
     A number that the model does not give is ``None``. The table has one row; ``history.to_pandas()`` gives the histories.
