@@ -1,4 +1,4 @@
-"""Writes the reference of the package, docs/reference/python.md, from its docstrings.
+"""Writes the reference of the package, docs/reference/python.md, from its docstrings, and the types of results, values.py, from the library.
 
 python crates/percuss-py/reference.py
 """
@@ -6,11 +6,16 @@ python crates/percuss-py/reference.py
 from __future__ import annotations
 
 import inspect
+from collections.abc import Iterable
 from pathlib import Path
 
 import percuss
+from percuss import _percuss
 
 PAGE = Path(__file__).resolve().parents[2] / "docs/reference/python.md"
+TYPES = Path(__file__).resolve().parent / "python/percuss/values.py"
+#: Kinds of values, and their types.
+KINDS = {"array": "Array", "array of int": "Array", "list of str": "list[str]", "list of Record": "list[Record]"}
 
 
 def signature(name: str, function: object) -> str:
@@ -77,6 +82,27 @@ def page() -> str:
     return text
 
 
+def typed(name: str, text: str, fields: Iterable[_percuss.Field]) -> str:
+    """A class whose attributes have the types of values."""
+    lines = [f"    {field.name}: {KINDS.get(field.kind, field.kind.replace(' or ', ' | '))}" for field in fields]
+    return f'\n\nclass {name}:\n    """{text}"""\n\n' + "\n".join(lines) + "\n"
+
+
+def types() -> str:
+    return (
+        '"""Types of the values of results and histories, for editors and type checkers. Written by reference.py."""\n\n'
+        "from __future__ import annotations\n\n"
+        "from typing import Any\n\n"
+        "from numpy.typing import NDArray\n\n"
+        "from .record import Record\n\n"
+        "Array = NDArray[Any]\n"
+        + typed("ResultValues", "Values of the result of a run.", _percuss.result_fields())
+        + typed("SampleColumns", "Columns of a history.", _percuss.sample_columns())
+        + typed("ElementColumns", "Columns of a state along the axis.", _percuss.element_columns())
+    )
+
+
 if __name__ == "__main__":
-    PAGE.write_text(page(), encoding="utf-8")
-    print(f"wrote {PAGE}")
+    for path, text in ((PAGE, page()), (TYPES, types())):
+        path.write_text(text, encoding="utf-8")
+        print(f"wrote {path}")

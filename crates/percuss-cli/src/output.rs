@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use percuss::summary::{ResultRecord, Role, result_numbers};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -25,4 +26,14 @@ pub fn json(value: &impl Serialize) -> Result<String, Failure> {
     serde_json::to_string_pretty(value)
         .map(|text| text + "\n")
         .map_err(|error| Failure::Output(error.into()))
+}
+
+/// The main results as NAME=VALUE, `null` for what the model does not give.
+pub fn main_numbers(record: &ResultRecord) -> String {
+    let main = result_numbers().filter(|number| number.role == Role::Main);
+    let pairs = main.map(|number| match number.of(record) {
+        Some(value) => format!("{}={value}", number.name),
+        None => format!("{}=null", number.name),
+    });
+    pairs.collect::<Vec<_>>().join(" ")
 }

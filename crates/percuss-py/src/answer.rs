@@ -5,7 +5,7 @@ use std::{collections::HashMap, ffi::OsString, path::PathBuf, sync::Arc};
 use percuss::{
     calibrate::Calibration,
     case::Document,
-    uncertainty::{QUANTITIES, Uncertainty},
+    uncertainty::{self, Uncertainty},
 };
 use percuss_cli::{Answer as Answered, AtHand, Found};
 use pyo3::prelude::*;
@@ -114,7 +114,7 @@ fn of_draws(found: &Uncertainty) -> Numbers {
             (input.column.clone(), values.collect())
         })
         .collect();
-    for quantity in QUANTITIES {
+    for quantity in uncertainty::quantities() {
         let values = || draws.iter().map(|draw| draw.value(quantity));
         if values().any(|value| value.is_some()) {
             let column = values().map(|value| value.unwrap_or(f64::NAN)).collect();

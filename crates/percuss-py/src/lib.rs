@@ -6,6 +6,7 @@ mod answer;
 mod case;
 mod command;
 mod errors;
+mod field;
 mod first_error;
 mod history;
 mod law;
@@ -24,6 +25,7 @@ mod _percuss {
         answer::{Answer, answer},
         case::Case,
         command::command,
+        field::{Field, element_columns, result_fields, sample_columns, units},
         history::Column,
         run::{RunResult, run},
         sweep::{Sweep, SweepFolder, compute_sweep},

@@ -15,13 +15,7 @@ use percuss::{
 use percuss_cli::{Failure, Ran};
 use pyo3::{exceptions::PyValueError, prelude::*};
 
-use crate::{
-    case::Case,
-    errors::raise,
-    history::{self, Column},
-    law::Laws,
-    watch::Asker,
-};
+use crate::{case::Case, errors::raise, history::Column, law::Laws, watch::Asker};
 
 /// The result of a run.
 #[pyclass(frozen, module = "percuss._percuss")]
@@ -125,25 +119,13 @@ impl RunResult {
         Some(history.profiles.get(index)?.time)
     }
 
-    /// Names of the columns of the history, which end with the unit.
-    #[staticmethod]
-    fn sample_names() -> Vec<&'static str> {
-        history::SAMPLE.iter().map(|field| field.name).collect()
+    /// A column of the history by its name in SI units.
+    fn sample_column(&self, si_name: &str) -> Option<Column> {
+        Column::of_samples(&self.result, si_name)
     }
 
-    /// Names of the columns of a state along the axis.
-    #[staticmethod]
-    fn element_names() -> Vec<&'static str> {
-        history::ELEMENT.iter().map(|field| field.name).collect()
-    }
-
-    /// A column of the history.
-    fn sample_column(&self, name: &str) -> Option<Column> {
-        Column::of_samples(&self.result, name)
-    }
-
-    /// A column of a state along the axis.
-    fn element_column(&self, index: usize, name: &str) -> Option<Column> {
-        Column::of_elements(&self.result, index, name)
+    /// A column of a state along the axis by its name in SI units.
+    fn element_column(&self, index: usize, si_name: &str) -> Option<Column> {
+        Column::of_elements(&self.result, index, si_name)
     }
 }

@@ -59,7 +59,8 @@ def test_the_examples_of_a_module_run(module: str) -> None:
 
 def test_the_reference_is_what_the_docstrings_say() -> None:
     program = runpy.run_path(str(ROOT / "crates/percuss-py/reference.py"))
-    assert program["PAGE"].read_text(encoding="utf-8") == program["page"](), "run `python crates/percuss-py/reference.py`"
+    for path, text in (("PAGE", "page"), ("TYPES", "types")):
+        assert program[path].read_text(encoding="utf-8") == program[text](), "run `python crates/percuss-py/reference.py`"
 
 
 def test_every_function_has_an_example() -> None:

@@ -100,7 +100,7 @@ def test_every_command_gives_the_answer_of_the_program(program: Program, tmp_pat
     assert percuss.reproduce("paper").to_dict() == answer(program, "reproduce", "paper")
 
 
-def test_histories_are_those_of_the_program_and_no_copies(program: Program, tmp_path: Path) -> None:
+def test_histories_are_those_of_the_program(program: Program, tmp_path: Path) -> None:
     import pyarrow.parquet
 
     case = "cases/paper-table1/scenario.toml"
@@ -108,29 +108,52 @@ def test_histories_are_those_of_the_program_and_no_copies(program: Program, tmp_
     written = pyarrow.parquet.read_table(tmp_path / "history.parquet")
     result = percuss.run(case)
     history = result.history
-    # In the order of the program, whose columns are in the units of the field and these in SI units.
-    factors = {"_us": 1e6, "_mm": 1e3, "_kn": 1e-3}
-    assert len(history.names()) == written.num_columns
+    assert history.names() == written.column_names
     for name, column in zip(history.names(), written.columns, strict=True):
-        theirs = written.column_names[history.names().index(name)]
-        factor = next((f for end, f in factors.items() if theirs.endswith(end)), None)
-        array = history[name]
-        assert not array.flags.owndata and not array.flags.writeable
-        expected = column.to_numpy()
-        assert numpy.array_equal(array if factor is None else array * factor, expected, equal_nan=True), name
-    # Two arrays of one column are the same memory, and neither is a copy of the other.
-    again = numpy.asarray(result._native.sample_column("depth_m"))
-    assert numpy.shares_memory(history.depth_m, again)
+        assert not history[name].flags.writeable
+        assert numpy.array_equal(history[name], column.to_numpy(), equal_nan=True), name
 
     profile = history.profiles[-1]
     elements = pyarrow.parquet.read_table(tmp_path / "profiles.parquet").to_pandas()
-    last = elements[elements["time_us"] == profile.time_s * 1e6]
-    assert numpy.array_equal(profile.stress_pa * 1e-6, last["stress_mpa"])
-    assert numpy.array_equal(profile.part, last["part"])
+    assert ["time_us", *profile.names()] == list(elements.columns)
+    last = elements[elements["time_us"] == profile.time_us]
+    for name in profile.names():
+        assert numpy.array_equal(profile[name], last[name]), name
+
+
+def test_columns_in_si_units_are_the_memory_of_the_result() -> None:
+    result = percuss.run("cases/paper-table1/scenario.toml")
+    history = result.history
+    # Factors written by hand, from the SI unit of each name.
+    factors = {"_us": ("_s", 1e6), "_mm": ("_m", 1e3), "_kn": ("_n", 1e-3), "_mpa": ("_pa", 1e-6)}
+    for rows in (history, history.profiles[-1]):
+        for name, si_name in zip(rows.names(), rows.si.names(), strict=True):
+            end = next((end for end in factors if name.endswith(end)), None)
+            si_end, factor = factors[end] if end else ("", 1.0)
+            assert si_name == name.removesuffix(end or "") + si_end
+            array = rows.si[si_name]
+            assert not array.flags.owndata and not array.flags.writeable
+            assert numpy.array_equal(array * factor, rows[name], equal_nan=True), name
+    assert list(history.si.to_pandas().columns) == history.si.names()
+    # Two arrays of one column are the same memory, and neither is a copy of the other.
+    again = numpy.asarray(result._native.sample_column("depth_m"))
+    assert numpy.shares_memory(history.si.depth_m, again)
+
+
+def test_a_column_by_its_name_in_si_units_names_the_new_one() -> None:
+    history = percuss.run("cases/paper-table1/scenario.toml").history
+    with pytest.raises(AttributeError, match="`depth_mm` is in mm, and `si.depth_m` in SI units"):
+        _ = history.depth_m
+    with pytest.raises(KeyError, match="`contact_force_kn` is in kN"):
+        _ = history["contact_force_n"]
+    with pytest.raises(AttributeError, match="`stress_mpa` is in MPa"):
+        _ = history.profiles[0].stress_pa
+    with pytest.raises(AttributeError, match="`time_us` is in us"):
+        _ = history.profiles[0].time_s
 
 
 def test_arrays_outlive_their_result() -> None:
-    depth = percuss.run("cases/paper-table1/scenario.toml").history.depth_m
+    depth = percuss.run("cases/paper-table1/scenario.toml").history.si.depth_m
     expected = depth.copy()
     for _ in range(20):
         percuss.run("cases/paper-table1/scenario.toml")

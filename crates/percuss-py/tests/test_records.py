@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import typing
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ import percuss
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from percuss import _percuss
 from percuss.record import Record
 from test_folders import REFERENCE
 
@@ -63,9 +65,26 @@ def test_types_know_the_names_of_the_program(records: dict[type[Record], list[Re
         for record in all_of_kind:
             missing = typed - set(record.keys())
             assert not missing, f"{kind.__name__} promises {missing}"
-    # Of a run all names are typed: a new one in the program asks for a line in results.py.
-    untyped = set(records[percuss.RunResult][0].keys()) - set(typing.get_type_hints(percuss.RunResult))
-    assert not untyped, untyped
+
+
+def test_the_values_of_a_run_are_those_of_the_library(records: dict[type[Record], list[Record]]) -> None:
+    fields = _percuss.result_fields()
+    names = {field.name for field in fields}
+    types = {"str": str, "float": float, "int": int, "list": list, "Record": Record, "None": type(None)}
+    assert len(names) == len(fields) > 40
+    for run in records[percuss.RunResult]:
+        assert set(run.keys()) == names | {"case", "percuss_version"}
+        for field in fields:
+            kinds = tuple(types[word.split()[0]] for word in field.kind.split(" or "))
+            assert isinstance(getattr(run, field.name), kinds), field.name
+    described = percuss.RunResult.__doc__ or ""
+    assert set(typing.get_type_hints(percuss.RunResult)) >= names
+    added = {name for name, value in vars(percuss.RunResult).items() if isinstance(value, cached_property)}
+    assert added == names
+    for field in fields:
+        assert field.description in (vars(percuss.RunResult)[field.name].__doc__ or "")
+        assert f"\n    {field.name} : {field.kind}\n" in described
+    assert "{" not in described
 
 
 def test_records_become_tables(records: dict[type[Record], list[Record]]) -> None:
@@ -78,8 +97,8 @@ def test_records_become_tables(records: dict[type[Record], list[Record]]) -> Non
     (run, _) = records[percuss.RunResult]
     assert run.to_pandas()["depth_of_penetration_mm"].tolist() == [run.depth_of_penetration_mm]
     history = run.history
-    assert history.to_pandas()["depth_m"].tolist() == history.to_arrow()["depth_m"].to_pylist() == history.depth_m.tolist()
-    assert len(history) == len(history.time_s)
+    assert history.to_pandas()["depth_mm"].tolist() == history.to_arrow()["depth_mm"].to_pylist() == history.depth_mm.tolist()
+    assert len(history) == len(history.time_us)
 
 
 def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], tmp_path: Path) -> None:
@@ -94,7 +113,7 @@ def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], 
                 save(axes, tmp_path / f"{type(record).__name__}-{i}.png")
     (run, _) = records[percuss.RunResult]
     assert isinstance(run, percuss.RunResult)
-    assert run.plot("contact_force_n").get_ylabel() == "contact force [kN]"
+    assert run.plot("contact_force_kn").get_ylabel() == "contact force [kN]"
     assert run.plot_stress().get_ylabel() == "time [us]"
     (spread,) = records[percuss.Uncertainty]
     assert isinstance(spread, percuss.Uncertainty)
@@ -161,8 +180,8 @@ def test_a_misspelt_name_says_which_there_are() -> None:
     run = percuss.run(CASE, history=True)
     with pytest.raises(AttributeError, match="depth_of_penetration_mm"):
         _ = run.depth_of_penetration
-    with pytest.raises(AttributeError, match="columns: time_s, step"):
+    with pytest.raises(AttributeError, match="columns: time_us, step"):
         _ = run.history.depth
     with pytest.raises(KeyError, match="no column"):
         _ = run.history["depth"]
-    assert "outcome" in dir(run) and "depth_m" in dir(run.history)
+    assert "outcome" in dir(run) and "depth_mm" in dir(run.history)

@@ -3,9 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use percuss::{
-    history::{ElementState, Profile, Sample},
-    ledger::{EnergyLedger, MomentumLedger},
+    history::{
+        ELEMENT_COLUMNS, ElementState, HistoryColumn, Profile, Read, SAMPLE_COLUMNS, Sample,
+    },
     outcome::RunResult,
+    units::ResultUnit as Unit,
 };
 
 use crate::{
@@ -17,7 +19,7 @@ use crate::{
 
 /// Writes the history of a run to a folder, which is made if it does not exist. Files of these names are replaced:
 ///
-/// - `history.csv` and `history.parquet`: velocities, positions, forces and both books, a row a sample;
+/// - `history.csv` and `history.parquet`: velocities, positions, forces and both balances, one row per sample;
 /// - `profiles.parquet`: the state along the axis, a row for each element at each recorded time;
 /// - `final-profile.csv`: that state at the end.
 ///
@@ -65,54 +67,23 @@ struct Place {
 }
 
 fn sample_columns() -> Vec<Column<Sample>> {
-    let mut columns: Vec<Column<Sample>> = vec![
-        Column::float("time_us", |s: &Sample| s.time * 1e6),
-        Column::integer("step", |s: &Sample| s.step as i64),
-        Column::float("tip_velocity_m_s", |s: &Sample| s.tip_velocity),
-        Column::float("tail_velocity_m_s", |s: &Sample| s.tail_velocity),
-        Column::float("interface_velocity_m_s", |s: &Sample| s.interface_velocity),
-        Column::float("back_velocity_m_s", |s: &Sample| s.back_velocity),
-        Column::float("mean_velocity_m_s", |s: &Sample| s.mean_velocity),
-        Column::float("tip_position_mm", |s: &Sample| s.tip_position * 1e3),
-        Column::float("depth_mm", |s: &Sample| s.depth * 1e3),
-        Column::float("projectile_length_mm", |s: &Sample| {
-            s.projectile_length * 1e3
-        }),
-        Column::float("contact_force_kn", |s: &Sample| s.contact_force * 1e-3),
-        Column::float("back_force_kn", |s: &Sample| s.back_force * 1e-3),
-        Column::float("energy_initial_j", |s: &Sample| s.energy.initial),
-    ];
-    for (line, (label, _)) in EnergyLedger::default().lines().into_iter().enumerate() {
-        let name = format!("energy_{}_j", label.replace(", ", "_").replace(' ', "_"));
-        columns.push(Column::float(name, move |s: &Sample| {
-            s.energy.lines()[line].1
-        }));
-    }
-    columns.push(Column::float("momentum_initial_n_s", |s: &Sample| {
-        s.momentum.initial
-    }));
-    for (line, (label, _)) in MomentumLedger::default().lines().into_iter().enumerate() {
-        let name = format!("momentum_{}_n_s", label.replace(' ', "_"));
-        columns.push(Column::float(name, move |s: &Sample| {
-            s.momentum.lines()[line].1
-        }));
-    }
-    columns
+    let columns = SAMPLE_COLUMNS.iter();
+    columns.map(|of| column(of, |sample| sample)).collect()
 }
 
 fn element_columns() -> Vec<Column<Place>> {
-    vec![
-        Column::float("time_us", |p: &Place| p.time * 1e6),
-        Column::integer("part", |p: &Place| p.state.part as i64),
-        Column::float("initial_position_mm", |p: &Place| {
-            p.state.initial_position * 1e3
-        }),
-        Column::float("position_mm", |p: &Place| p.state.position * 1e3),
-        Column::float("length_mm", |p: &Place| p.state.length * 1e3),
-        Column::float("stress_mpa", |p: &Place| p.state.stress * 1e-6),
-        Column::float("strain", |p: &Place| p.state.strain),
-        Column::float("plastic_strain", |p: &Place| p.state.plastic_strain),
-        Column::float("diameter_mm", |p: &Place| p.state.diameter * 1e3),
-        Column::float("temperature_k", |p: &Place| p.state.temperature),
-    ]
+    let time = Column::float("time_us", |place: &Place| Unit::US.of_si(place.time));
+    let columns = ELEMENT_COLUMNS.iter();
+    let columns = columns.map(|of| column(of, |place: &Place| &place.state));
+    std::iter::once(time).chain(columns).collect()
+}
+
+/// A column of a file, in the unit of its name.
+fn column<P: 'static, R>(of: &'static HistoryColumn<R>, row: fn(&P) -> &R) -> Column<P> {
+    let name = of.name();
+    match of.read {
+        Read::Number(read) => Column::float(name, move |place| of.unit.of_si(read(row(place)))),
+        Read::Whole(read) => Column::integer(name, move |place| read(row(place)) as i64),
+        Read::Size(read) => Column::integer(name, move |place| read(row(place)) as i64),
+    }
 }

@@ -3,7 +3,7 @@
 use percuss::{
     Scenario,
     outcome::{Detail, Numerics, RunResult},
-    summary::ResultRecord,
+    summary::{RESULT_FIELDS, ResultNumber, ResultRecord},
     units::significant,
 };
 
@@ -19,7 +19,7 @@ impl Rows {
     }
 }
 
-/// How the shot ended and what is left.
+/// The outcome and every result number that tables show, in the order of the record.
 pub fn outcome_rows(scenario: &Scenario, result: &RunResult, record: &ResultRecord) -> Vec<Row> {
     let mut rows = Rows::default();
     rows.add("outcome", result.outcome.in_words());
@@ -27,89 +27,71 @@ pub fn outcome_rows(scenario: &Scenario, result: &RunResult, record: &ResultReco
         rows.add("told by", criterion.as_str());
     }
     rows.add("run ended because", result.termination.in_words());
-    let mut present = |label: &str, value: Option<f64>, unit: &str| {
-        if let Some(value) = value {
-            rows.add(label, number(value, unit));
+    for field in RESULT_FIELDS {
+        match (&field.number, field.name) {
+            (Some(result_number), _) if result_number.role.is_result() => {
+                if let Some(value) = in_table(result_number, scenario, result, record) {
+                    rows.add(result_number.label, value);
+                }
+            }
+            (None, "expected_error") => rows.0.extend(expected_error(record)),
+            (None, "band") => rows.0.extend(band(record)),
+            _ => (),
         }
-    };
-    present("depth of penetration", record.depth_of_penetration_mm, "mm");
-    if let Some(expected) = &record.expected_error {
-        let words = format!(
-            "{} against the axisymmetric reference, over the {} most similar shots of the judgement",
-            expected.in_words(),
-            expected.shots
-        );
-        rows.add("its expected error", words);
-    }
-    let mut present = |label: &str, value: Option<f64>, unit: &str| {
-        if let Some(value) = value {
-            rows.add(label, number(value, unit));
-        }
-    };
-    present("largest depth", record.largest_depth_mm, "mm");
-    present("permanent depth", record.permanent_depth_mm, "mm");
-    present("ballistic limit", record.ballistic_limit_m_s, "m/s");
-    if let Some(band) = &record.band {
-        let range = format!(
-            "{} to {} ({})",
-            significant(band.low, 4),
-            number(band.high, band.quantity.unit()),
-            band.basis
-        );
-        rows.add(&format!("range of {}", band.quantity.in_words()), range);
-    }
-    if let Some(time) = record.time_to_rest_us {
-        rows.add("time to rest", number(time, "us"));
-    } else if result.numerics.is_some() {
-        rows.add("time to rest", "not reached");
-    }
-    if let Some(velocity) = record.residual_velocity_m_s {
-        let direction = match velocity {
-            v if v < 0.0 => " (backwards)",
-            v if v > 0.0 => " (forward)",
-            _ => "",
-        };
-        rows.add("residual velocity", number(velocity, "m/s") + direction);
-    }
-    if let (Some(mass), Some(velocity)) = (record.plug_mass_g, record.plug_velocity_m_s) {
-        let flight = format!("{} at {}", number(mass, "g"), number(velocity, "m/s"));
-        rows.add("plug", flight);
-    }
-    let rod = &scenario.projectile;
-    let remains = [
-        (
-            "final projectile length",
-            record.projectile_final_length_mm,
-            rod.length * 1e3,
-            "mm",
-        ),
-        (
-            "final projectile diameter",
-            record.projectile_final_diameter_mm,
-            rod.diameter * 1e3,
-            "mm",
-        ),
-        (
-            "final projectile mass",
-            record.projectile_final_mass_g,
-            rod.mass * 1e3,
-            "g",
-        ),
-    ];
-    for (label, value, initial, unit) in remains {
-        if let Some(value) = value {
-            rows.add(label, of_initial(value, initial, unit));
-        } else if result.numerics.is_some() {
-            rows.add(label, "none");
-        }
-    }
-    if let Some(force) = record.peak_force_kn {
-        rows.add("peak force", number(force, "kN"));
-    }
-    if let Some(time) = record.contact_time_us {
-        rows.add("contact time", number(time, "us"));
     }
     rows.0
+}
+
+/// A number as the table shows it; `None` where the model does not give it.
+fn in_table(
+    of: &ResultNumber,
+    scenario: &Scenario,
+    result: &RunResult,
+    record: &ResultRecord,
+) -> Option<String> {
+    let rod = &scenario.projectile;
+    let initial = match of.name {
+        "projectile_final_length_mm" => Some(rod.length),
+        "projectile_final_diameter_mm" => Some(rod.diameter),
+        "projectile_final_mass_g" => Some(rod.mass),
+        _ => None,
+    };
+    let Some(value) = of.of(record) else {
+        // A model that steps through time would have had them.
+        result.numerics.as_ref()?;
+        return match of.name {
+            "time_to_rest_us" => Some("not reached".to_owned()),
+            _ => initial.map(|_| "none".to_owned()),
+        };
+    };
+    let unit = of.unit.symbol;
+    Some(match (initial, of.name) {
+        (Some(initial), _) => of_initial(value, of.unit.of_si(initial), unit),
+        (None, "residual_velocity_m_s") if value < 0.0 => number(value, unit) + " (backwards)",
+        (None, "residual_velocity_m_s") if value > 0.0 => number(value, unit) + " (forward)",
+        _ => number(value, unit),
+    })
+}
+
+fn expected_error(record: &ResultRecord) -> Option<Row> {
+    let expected = record.expected_error.as_ref()?;
+    let words = format!(
+        "{} against the axisymmetric reference, over the {} most similar shots of the judgement",
+        expected.in_words(),
+        expected.shots
+    );
+    Some(("its expected error".to_owned(), words))
+}
+
+fn band(record: &ResultRecord) -> Option<Row> {
+    let band = record.band.as_ref()?;
+    let range = format!(
+        "{} to {} ({})",
+        significant(band.low, 4),
+        number(band.high, band.quantity.unit()),
+        band.basis
+    );
+    Some((format!("range of {}", band.quantity.in_words()), range))
 }
 
 /// Numbers that a model alone has.

@@ -41,6 +41,8 @@ pub(crate) struct Field {
     key: String,
     /// What it means, with its unit and its default.
     help: String,
+    /// Its default as TOML writes it, where it is one number or word.
+    default: Option<String>,
     #[serde(flatten)]
     kind: Kind,
     common: bool,
@@ -173,15 +175,11 @@ fn add(
         return;
     }
     let common = COMMON.iter().find(|(common, _)| *common == key);
-    let description = property["description"]
-        .as_str()
-        .or(definition["description"].as_str());
+    let default = default(property);
     fields.push(Field {
         key: key.to_owned(),
-        help: description
-            .unwrap_or_default()
-            .replace("\\[", "[")
-            .replace("\\]", "]"),
+        help: help(property, definition, default.as_deref()),
+        default,
         kind: kind(schema, key, property),
         common: common.is_some(),
         nested,
@@ -196,6 +194,25 @@ fn add(
             }
         }
     }
+}
+
+fn default(property: &Value) -> Option<String> {
+    let default = toml::Value::try_from(property.get("default")?).ok()?;
+    Some(default.to_string())
+}
+
+/// What a key means, and its default.
+fn help(property: &Value, definition: &Value, default: Option<&str>) -> String {
+    let description = property["description"].as_str();
+    let description = description.or(definition["description"].as_str());
+    let mut help = description
+        .unwrap_or_default()
+        .replace("\\[", "[")
+        .replace("\\]", "]");
+    if let Some(default) = default {
+        help += &format!(" Default: {default}.");
+    }
+    help
 }
 
 fn kind(schema: &Value, key: &str, property: &Value) -> Kind {

@@ -7,6 +7,8 @@ use crate::{
     model::{Control, Model, run},
     outcome::RunResult,
     richardson::{CREDIBLE_ORDERS, OnMesh, Trend, extrapolate, trend},
+    summary::result_number,
+    units::ResultUnit,
 };
 
 /// Factor between the numbers of elements of two meshes.
@@ -261,35 +263,30 @@ pub fn study(
         });
         results.push(result);
     }
-    Ok((Study::new(meshes, &results), results))
+    Ok((Study::new(scenario, meshes, &results), results))
 }
 
-type Reader = fn(&RunResult) -> Option<f64>;
-
-const QUANTITIES: &[(&str, &str, Reader)] = &[
-    ("depth_of_penetration", "mm", |r| {
-        r.depth_of_penetration.map(|x| x * 1e3)
-    }),
-    ("permanent_depth", "mm", |r| {
-        r.permanent_depth.map(|x| x * 1e3)
-    }),
-    ("projectile_final_length", "mm", |r| {
-        r.projectile_final_length.map(|x| x * 1e3)
-    }),
-    ("time_to_rest", "us", |r| r.time_to_rest.map(|t| t * 1e6)),
-    ("residual_velocity", "m/s", |r| r.residual_velocity),
+/// The result numbers whose convergence is evaluated.
+const QUANTITIES: [&str; 5] = [
+    "depth_of_penetration_mm",
+    "permanent_depth_mm",
+    "projectile_final_length_mm",
+    "time_to_rest_us",
+    "residual_velocity_m_s",
 ];
 
 impl Study {
-    /// The study of results on meshes from coarse to fine.
-    pub fn new(meshes: Vec<Mesh>, results: &[RunResult]) -> Self {
+    /// The study of a case's results on meshes from coarse to fine.
+    pub fn new(scenario: &Scenario, meshes: Vec<Mesh>, results: &[RunResult]) -> Self {
         let quantities = QUANTITIES
             .iter()
-            .filter_map(|&(name, unit, read)| {
-                let values: Vec<f64> = results.iter().map(read).collect::<Option<_>>()?;
+            .filter_map(|name| {
+                let number = result_number(name)?;
+                let values = results.iter().map(|run| number.of_run(scenario, run));
+                let values: Vec<f64> = values.collect::<Option<_>>()?;
                 Some(Quantity {
-                    name,
-                    unit,
+                    name: ResultUnit::split(number.name).0,
+                    unit: number.unit.symbol,
                     verdict: Verdict::of(&values)?,
                     values,
                 })

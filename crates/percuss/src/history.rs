@@ -1,6 +1,10 @@
 //! Time histories of a run, thinned as it grows so that memory stays flat.
 
+mod columns;
+
 use serde::{Deserialize, Serialize};
+
+pub use columns::{ELEMENT_COLUMNS, HistoryColumn, Read, SAMPLE_COLUMNS};
 
 use crate::ledger::{EnergyLedger, MomentumLedger};
 

@@ -7,10 +7,11 @@ use crate::{
     history::History,
     ledger::{EnergyLedger, MomentumLedger},
     shapes::Shapes,
+    units::ResultUnit,
 };
 
 /// How a shot ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// The projectile stopped: its mean speed is within 1 % of the impact speed around zero.
@@ -25,6 +26,7 @@ pub enum Outcome {
     /// Nothing of the projectile is left.
     ProjectileEroded,
     /// The run ended before the shot did.
+    #[default]
     OutOfTime,
     /// The model does not apply.
     NotApplicable,
@@ -58,7 +60,7 @@ impl Outcome {
 }
 
 /// Why a run was ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Termination {
     /// The tip has stopped and neither depth nor dissipated energy grew over a round trip of a wave in the projectile.
@@ -80,6 +82,7 @@ pub enum Termination {
     /// The answer is a formula.
     ClosedForm,
     /// `end_time` was reached.
+    #[default]
     EndTime,
     /// `max_steps` was reached.
     StepLimit,
@@ -112,7 +115,7 @@ impl Termination {
 }
 
 /// The result of one model on one case; a number that the model does not give is `None`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct RunResult {
     /// Name of the model.
@@ -217,10 +220,7 @@ impl BandQuantity {
 
     /// A value in SI units as one in the quantity's own unit.
     pub fn in_unit(self, si: f64) -> f64 {
-        match self {
-            Self::DepthOfPenetration | Self::ProjectileFinalLength => si * 1e3,
-            Self::ResidualVelocity | Self::BallisticLimit => si,
-        }
+        self.result_unit().of_si(si)
     }
 
     /// Its name in words.
@@ -235,9 +235,13 @@ impl BandQuantity {
 
     /// Its unit.
     pub fn unit(self) -> &'static str {
+        self.result_unit().symbol
+    }
+
+    fn result_unit(self) -> ResultUnit {
         match self {
-            Self::DepthOfPenetration | Self::ProjectileFinalLength => "mm",
-            Self::ResidualVelocity | Self::BallisticLimit => "m/s",
+            Self::DepthOfPenetration | Self::ProjectileFinalLength => ResultUnit::MM,
+            Self::ResidualVelocity | Self::BallisticLimit => ResultUnit::M_S,
         }
     }
 }
@@ -295,32 +299,9 @@ impl RunResult {
         Self {
             model,
             scheme,
-            model_choice: None,
-            target_closure_choice: None,
             outcome,
-            criterion: String::new(),
             termination,
-            depth_of_penetration: None,
-            largest_depth: None,
-            permanent_depth: None,
-            residual_velocity: None,
-            ballistic_limit: None,
-            band: None,
-            projectile_final_length: None,
-            projectile_final_diameter: None,
-            projectile_final_mass: None,
-            plug_mass: None,
-            plug_velocity: None,
-            time_to_rest: None,
-            peak_force: None,
-            contact_time: None,
-            end_time: None,
-            fragments: Vec::new(),
-            details: Vec::new(),
-            numerics: None,
-            shapes: None,
-            warnings: Vec::new(),
-            history: None,
+            ..Self::default()
         }
     }
 

@@ -55,7 +55,12 @@ impl Reference<'_> {
             for (key, property) in in_order(properties, required) {
                 let value = self.value(property);
                 let mark = if required(key) { "*required.* " } else { "" };
-                let meaning = cell(&description(property));
+                // A table of the file that is left out is one of defaults.
+                let default = match schema.get("$defs") {
+                    Some(_) => String::new(),
+                    None => default(property),
+                };
+                let meaning = cell(&(description(property) + &default));
                 let _ = writeln!(text, "| `{key}` | {} | {mark}{meaning} |", cell(&value));
             }
         }
@@ -149,6 +154,15 @@ fn choices(schema: &Value) -> impl Iterator<Item = &Value> {
 fn description(schema: &Value) -> String {
     let text = schema["description"].as_str().unwrap_or_default();
     text.replace("\\[", "[").replace("\\]", "]")
+}
+
+/// The default of a key as the last sentence of its meaning.
+fn default(property: &Value) -> String {
+    match property.get("default") {
+        None => String::new(),
+        Some(Value::Array(items)) if items.is_empty() => String::new(),
+        Some(default) => format!(" Default: `{}`.", toml::Value::try_from(default).unwrap()),
+    }
 }
 
 fn described(schema: &Value) -> String {

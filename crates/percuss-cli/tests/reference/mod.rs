@@ -1,9 +1,10 @@
-//! The reference pages of `docs/reference/` are what the schema and the help of the program say.
+//! The reference pages of `docs/reference/` are written from the schema, the help and the lists of the program.
 //!
 //! `REWRITE_REFERENCES=1 cargo test -p percuss-cli --test all reference::` writes them again.
 
 mod case_file;
 mod commands;
+mod results;
 
 use std::{env, fs, path::Path};
 
@@ -12,6 +13,7 @@ fn reference_pages_are_those_of_the_program() {
     for (place, text) in [
         ("docs/reference/case-file.md", case_file::page()),
         ("docs/reference/commands.md", commands::page()),
+        ("docs/reference/results.md", results::page()),
     ] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("../..")

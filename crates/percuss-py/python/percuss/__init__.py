@@ -30,7 +30,7 @@ from .errors import (
     UsageError,
     WriteError,
 )
-from .history import History, Profile
+from .history import History, Profile, SiColumns
 from .judgement import Judgement, judge
 from .library import Material, Model, material, materials, model, models, new, schema
 from .progress import Progress
@@ -68,6 +68,7 @@ __all__ = [
     "Result",
     "RunResult",
     "Sample",
+    "SiColumns",
     "StrengthLaw",
     "SweepResult",
     "Uncertainty",

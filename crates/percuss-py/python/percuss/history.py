@@ -1,4 +1,4 @@
-"""Histories of a run: arrays that look at the memory of the result."""
+"""Histories of a run as arrays."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy
 
-from . import _percuss
+from . import _percuss, fields
+from .values import ElementColumns, SampleColumns
 
 if TYPE_CHECKING:
     import pandas
@@ -17,13 +18,13 @@ if TYPE_CHECKING:
 
 
 class _Columns:
-    """Arrays by name: attributes, made when they are asked for, without a copy and read-only."""
+    """Arrays by name: attributes, made when they are asked for, and read-only."""
 
     def names(self) -> list[str]:
         """Names of the columns, which end with the unit."""
         raise NotImplementedError
 
-    def _column(self, name: str) -> _percuss.Column | None:
+    def _column(self, name: str) -> _percuss.Column | Array | None:
         raise NotImplementedError
 
     def __getattr__(self, name: str) -> Array:
@@ -57,106 +58,116 @@ class _Columns:
         return pyarrow.table({name: numpy.ascontiguousarray(self[name]) for name in self.names()})
 
 
-class Profile(_Columns):
-    """State along the axis at one moment: a value an element, from the projectile's tail to the target's back face.
+class _Rows(_Columns):
+    """Columns of a result's memory, in the units that files have too."""
+
+    _fields: dict[str, _percuss.Field]
+
+    def names(self) -> list[str]:
+        return list(self._fields)
+
+    def _memory(self, si_name: str) -> _percuss.Column | None:
+        raise NotImplementedError
+
+    def _column(self, name: str) -> _percuss.Column | Array | None:
+        field = self._fields.get(name)
+        if field is None:
+            self._refuse_si_name(name)
+            return None
+        column = self._memory(field.si_name)
+        if column is None or field.per_si == 1.0:
+            return column
+        array: Array = numpy.asarray(column) * field.per_si
+        array.setflags(write=False)
+        return array
+
+    def _refuse_si_name(self, name: str) -> None:
+        """Names the new column of a name that stood for SI units."""
+        for field in self._fields.values():
+            if field.si_name == name:
+                raise AttributeError(f"no column is named `{name}`: `{field.name}` is in {field.unit}, and `si.{name}` in SI units")
+
+    @property
+    def si(self) -> SiColumns:
+        """The same columns in SI units: the memory of the result, without a copy."""
+        return SiColumns(self)
+
+
+class SiColumns(_Columns):
+    """The columns of a :class:`History` or :class:`Profile` in SI units: ``history.si.depth_m``, ``history.si.to_pandas()``.
+
+    The arrays are views of the memory of the result: nothing is copied.
+    """
+
+    def __init__(self, rows: _Rows) -> None:
+        self._rows = rows
+
+    def names(self) -> list[str]:
+        return [field.si_name for field in self._rows._fields.values()]
+
+    def _column(self, name: str) -> _percuss.Column | None:
+        return self._rows._memory(name)
+
+
+class Profile(ElementColumns, _Rows):
+    """State along the axis at one moment: a value per element, from the projectile's tail to the target's rear face.
 
     Attributes
     ----------
-    part : array of int
-        0 for the projectile, 1 for the first layer of the target.
-    initial_position_m, position_m : array
-        Initial and current position of the element's middle, depth positive [m].
-    length_m, diameter_m : array
-        Current length and diameter [m].
-    stress_pa : array
-        Axial stress, compression positive [Pa].
-    strain, plastic_strain : array
-        Axial strain, compression positive; equivalent plastic strain.
-    temperature_k : array
-        Temperature [K].
+    {fields}
     """
 
-    part: Array
-    initial_position_m: Array
-    position_m: Array
-    length_m: Array
-    stress_pa: Array
-    strain: Array
-    plastic_strain: Array
-    diameter_m: Array
-    temperature_k: Array
+    _fields = {field.name: field for field in _percuss.element_columns()}
 
     def __init__(self, native: _percuss.RunResult, index: int) -> None:
         self._native = native
         self._index = index
 
     @property
-    def time_s(self) -> float:
-        """Time [s]."""
+    def time_us(self) -> float:
+        """Time [us]."""
+        return self._time_s() * _TIME.per_si
+
+    def _time_s(self) -> float:
         time = self._native.profile_time(self._index)
         assert time is not None
         return time
 
-    def names(self) -> list[str]:
-        return _percuss.RunResult.element_names()
+    def _refuse_si_name(self, name: str) -> None:
+        if name == _TIME.si_name:
+            raise AttributeError(f"no value is named `{name}`: `{_TIME.name}` is in {_TIME.unit}")
+        super()._refuse_si_name(name)
 
-    def _column(self, name: str) -> _percuss.Column | None:
-        return self._native.element_column(self._index, name)
+    def _memory(self, si_name: str) -> _percuss.Column | None:
+        return self._native.element_column(self._index, si_name)
 
     def __repr__(self) -> str:
-        return f"<Profile at {self.time_s:.4g} s, {len(self.part)} elements>"
+        return f"<Profile at {self.time_us:.4g} us, {len(self.part)} elements>"
 
 
-class History(_Columns):
-    """Scalars against time, in SI units. A long run thins its history out, so the steps between moments are not all alike.
+class History(SampleColumns, _Rows):
+    """Scalars against time. A long run thins its history out, so the steps between moments are not all alike.
+
+    Names and units are those of the files ``history.csv`` and ``history.parquet``. ``history.si`` has the columns in SI units.
 
     Attributes
     ----------
-    time_s : array
-        Time [s].
-    step : array of int
-        Time step.
-    tip_velocity_m_s, tail_velocity_m_s, mean_velocity_m_s : array
-        Speed of the projectile's front end, of its rear end, and of all of it [m/s].
-    interface_velocity_m_s, back_velocity_m_s : array
-        Speed of the crater floor and of the target's back face [m/s]; not a number where there is none.
-    tip_position_m, depth_m : array
-        Position of the projectile's front end and of the crater floor below the original face [m].
-    projectile_length_m : array
-        Current length of the projectile [m].
-    contact_force_n, back_force_n : array
-        Force between projectile and target, and on the back face [N].
-    energy_*_j, momentum_*_n_s : array
-        The lines of the books of energy [J] and momentum [N s]; :meth:`names` lists them.
+    {fields}
 
     Examples
     --------
     >>> history = percuss.run("cases/paper-table1/scenario.toml").history
-    >>> bool(history.depth_m.max() > 0.2e-3), history.depth_m.flags.owndata, history.depth_m.flags.writeable
-    (True, False, False)
+    >>> bool(history.depth_mm.max() > 0.2), bool((history.depth_mm == history.si.depth_m * 1e3).all())
+    (True, True)
     """
 
-    time_s: Array
-    step: Array
-    tip_velocity_m_s: Array
-    tail_velocity_m_s: Array
-    interface_velocity_m_s: Array
-    back_velocity_m_s: Array
-    mean_velocity_m_s: Array
-    tip_position_m: Array
-    depth_m: Array
-    projectile_length_m: Array
-    contact_force_n: Array
-    back_force_n: Array
+    _fields = {field.name: field for field in _percuss.sample_columns()}
 
     def __init__(self, native: _percuss.RunResult) -> None:
         self._native = native
 
-    def names(self) -> list[str]:
-        return _percuss.RunResult.sample_names()
-
-    def _column(self, name: str) -> _percuss.Column | None:
-        return self._native.sample_column(name)
+    def _memory(self, si_name: str) -> _percuss.Column | None:
+        return self._native.sample_column(si_name)
 
     def __len__(self) -> int:
         return self._native.samples() or 0
@@ -168,3 +179,9 @@ class History(_Columns):
 
     def __repr__(self) -> str:
         return f"<History of {len(self)} moments, {self._native.profiles()} profiles>"
+
+
+_TIME = History._fields["time_us"]
+
+for _kind in (Profile, History):
+    fields.document(_kind, _kind._fields.values())

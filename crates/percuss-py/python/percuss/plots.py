@@ -6,41 +6,26 @@ import math
 
 from typing import TYPE_CHECKING, Any
 
+from . import _percuss
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from .results import Comparison, Convergence, Limits, RunResult, Validation
     from .sweeps import SweepResult
 
-#: How a number in SI units is drawn: the end of its name, the factor and the unit.
-_UNITS = [
-    ("_m_s", 1.0, "m/s"),
-    ("_n_s", 1.0, "N s"),
-    ("_mm", 1.0, "mm"),
-    ("_us", 1.0, "us"),
-    ("_kn", 1.0, "kN"),
-    ("_pa", 1e-6, "MPa"),
-    ("_m", 1e3, "mm"),
-    ("_n", 1e-3, "kN"),
-    ("_j", 1.0, "J"),
-    ("_g", 1.0, "g"),
-    ("_k", 1.0, "K"),
-    ("_s", 1e6, "us"),
-]
-
-
-def label(name: str) -> tuple[str, float]:
-    """A name in words with the unit that it is drawn in, and the factor to that unit.
+def label(name: str) -> str:
+    """A name in words with the unit that it ends with.
 
     Examples
     --------
-    >>> label("depth_m"), label("residual_velocity_m_s"), label("strain")
-    (('depth [mm]', 1000.0), ('residual velocity [m/s]', 1.0), ('strain', 1.0))
+    >>> label("depth_mm"), label("residual_velocity_m_s"), label("strain")
+    ('depth [mm]', 'residual velocity [m/s]', 'strain')
     """
-    for end, factor, unit in _UNITS:
+    for end, unit in _percuss.units():
         if name.endswith(end):
-            return f"{name.removesuffix(end).replace('_', ' ')} [{unit}]", factor
-    return name.replace("_", " "), 1.0
+            return f"{name.removesuffix(end).replace('_', ' ')} [{unit}]"
+    return name.replace("_", " ")
 
 
 def new_axes(ax: Axes | None, size: tuple[float, float] | None = None) -> Axes:
@@ -61,11 +46,10 @@ def plain_logarithmic(ax: Axes) -> None:
 
 def history(result: RunResult, what: str, ax: Axes | None, **style: Any) -> Axes:
     history = result.history
-    words, factor = label(what)
     ax = new_axes(ax)
     style.setdefault("label", result.model)
-    ax.plot(history.time_s * 1e6, history[what] * factor, **style)
-    ax.set(xlabel="time [us]", ylabel=words, title=result.case)
+    ax.plot(history.time_us, history[what], **style)
+    ax.set(xlabel="time [us]", ylabel=label(what), title=result.case)
     return ax
 
 
@@ -74,7 +58,7 @@ def stress(result: RunResult, ax: Axes | None) -> Axes:
 
     ax = new_axes(ax)
     profiles = result.history.profiles
-    every = numpy.concatenate([p.stress_pa for p in profiles]) * 1e-6
+    every = numpy.concatenate([p.stress_mpa for p in profiles])
     # The largest stresses belong to a few elements under the contact: the waves are what a figure is to show.
     top = float(numpy.percentile(numpy.abs(every), 99.5)) or 1.0
     drawn: Any = None
@@ -82,9 +66,9 @@ def stress(result: RunResult, ax: Axes | None) -> Axes:
     for part in numpy.unique(numpy.concatenate([p.part for p in profiles])):
         rows = [(p, p.part == part) for p in profiles]
         counts = {int(chosen.sum()) for _, chosen in rows}
-        position = [p.position_m[chosen] * 1e3 for p, chosen in rows]
-        value = [p.stress_pa[chosen] * 1e-6 for p, chosen in rows]
-        time = [numpy.full(len(at), p.time_s * 1e6) for at, (p, _) in zip(position, rows, strict=True)]
+        position = [p.position_mm[chosen] for p, chosen in rows]
+        value = [p.stress_mpa[chosen] for p, chosen in rows]
+        time = [numpy.full(len(at), p.time_us) for at, (p, _) in zip(position, rows, strict=True)]
         style: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -top, "vmax": top}
         if len(counts) == 1 and min(counts) > 1:
             drawn = ax.pcolormesh(numpy.array(position), numpy.array(time), numpy.array(value), shading="nearest", rasterized=True, **style)
@@ -100,14 +84,14 @@ def stress(result: RunResult, ax: Axes | None) -> Axes:
 def comparison(comparison: Comparison, ax: Axes | None) -> Axes:
     ax = new_axes(ax)
     quantity = comparison.quantities[0]
-    words, factor = label(quantity)
+    words = label(quantity)
     chosen = {choice.model for at in comparison.recommended for choice in at.models}
     given = [r for r in comparison.results if r[quantity] is not None]
     names = list(dict.fromkeys(r.model for r in given))
     measured = [e for e in comparison.experiments if e.quantity == quantity]
     title = f"{comparison.case} (★ recommended)"
     if len(comparison.regime) == 1:
-        values = [r[quantity] * factor for r in given]
+        values = [r[quantity] for r in given]
         colours = ["C0" if r.model in chosen else "0.7" for r in given]
         ax.barh([f"{r.model} ★" if r.model in chosen else r.model for r in given], values, color=colours)
         ax.invert_yaxis()
@@ -118,7 +102,7 @@ def comparison(comparison: Comparison, ax: Axes | None) -> Axes:
         ax.set(xlabel=words, title=title)
         return ax
     for name in names:
-        points = [(r.impact_velocity_m_s, r[quantity] * factor) for r in given if r.model == name]
+        points = [(r.impact_velocity_m_s, r[quantity]) for r in given if r.model == name]
         star = " ★" if name in chosen else ""
         ax.plot(*zip(*points, strict=True), label=name + star, linewidth=2 if star else 1)
     shots = [(e.impact_velocity_m_s, e.value) for e in measured if e.impact_velocity_m_s is not None]

@@ -5,92 +5,29 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from . import _percuss, plots
+from . import _percuss, fields, plots
 from .history import History
 from .record import Record, Result, shown, table_html, written
+from .values import ResultValues
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class RunResult(Result):
+class RunResult(ResultValues, Result):
     """The result of a run: the values of ``percuss run --json`` and the histories.
 
     A number that the model does not give is ``None``. The table has one row; ``history.to_pandas()`` gives the histories.
 
     Attributes
     ----------
-    case, model, scheme : str
-        Names of the case, the model and its scheme.
-    model_choice : str or None
-        Why it is this model, where none was named and ``chain`` does not apply.
-    target_closure, target_closure_choice : str or None
-        Target resistance model of ``chain``, and why it is not the usual one where the case names none.
-    outcome, criterion, termination : str
-        How the shot ended, what that was told by, and why the run was ended.
-    impact_velocity_m_s, residual_velocity_m_s, ballistic_limit_m_s, plug_velocity_m_s : float or None
-        Speeds [m/s].
-    depth_of_penetration_mm, largest_depth_mm, permanent_depth_mm : float or None
-        Depth when the projectile's momentum is used up, at its largest, and once the load is gone [mm].
-    expected_error : Record or None
-        Error to expect of the depth against the axisymmetric reference.
-    projectile_final_length_mm, projectile_final_diameter_mm : float or None
-        What is left of the projectile [mm].
-    projectile_final_mass_g, plug_mass_g : float or None
-        Masses [g].
-    time_to_rest_us, contact_time_us, end_time_us : float or None
-        Times [us].
-    peak_force_kn : float or None
-        Largest force between projectile and target [kN].
-    energy_residual, momentum_residual : float or None
-        Largest part of the initial energy and momentum that no line of the books accounted for.
-    warnings : list of str
-        What to know before relying on the numbers.
+    case, percuss_version : str
+        Name of the case and version of the program.
+    {fields}
     """
 
     case: str
     percuss_version: str
-    model: str
-    scheme: str
-    model_choice: str | None
-    target_closure: str | None
-    target_closure_choice: str | None
-    outcome: str
-    criterion: str | None
-    termination: str | None
-    reason: str | None
-    impact_velocity_m_s: float
-    depth_of_penetration_mm: float | None
-    expected_error: Record | None
-    largest_depth_mm: float | None
-    permanent_depth_mm: float | None
-    residual_velocity_m_s: float | None
-    ballistic_limit_m_s: float | None
-    band: Record | None
-    projectile_final_length_mm: float | None
-    projectile_final_diameter_mm: float | None
-    projectile_final_mass_g: float | None
-    plug_mass_g: float | None
-    plug_velocity_m_s: float | None
-    time_to_rest_us: float | None
-    peak_force_kn: float | None
-    contact_time_us: float | None
-    end_time_us: float | None
-    steps: int | None
-    time_step_ns: float | None
-    smallest_time_step_ns: float | None
-    eroded_projectile_elements: int | None
-    eroded_target_elements: int | None
-    projectile_plastic_strain: float | None
-    target_plastic_strain: float | None
-    projectile_temperature_k: float | None
-    target_temperature_k: float | None
-    impact_energy_j: float
-    energy_residual: float | None
-    momentum_residual: float | None
-    fragments: list[Record]
-    details: list[Record]
-    warnings: list[str]
 
     _native: _percuss.RunResult
 
@@ -123,13 +60,13 @@ class RunResult(Result):
     def _rows(self) -> list[dict[str, Any]]:
         return [self._data]
 
-    def plot(self, what: str = "depth_m", ax: Axes | None = None, **style: Any) -> Axes:
+    def plot(self, what: str = "depth_mm", ax: Axes | None = None, **style: Any) -> Axes:
         """Draws a column of the history against time [us].
 
         Parameters
         ----------
         what : str
-            Name of the column, such as ``depth_m``, ``tip_velocity_m_s`` or ``contact_force_n``.
+            Name of the column, such as ``depth_mm``, ``tip_velocity_m_s`` or ``contact_force_kn``.
         ax : matplotlib axes, optional
             Where to draw; new axes when not given.
         **style
@@ -149,6 +86,10 @@ class RunResult(Result):
             rows.append(["expected error of the depth", f"median {100 * error.median:+.0f} %, {ends}"])
         rows += [["warning", warning] for warning in self.warnings]
         return table_html(["", ""], rows, f"{self.case}, model {self.model}")
+
+
+# Each value of the program's JSON is an attribute.
+fields.add_values(RunResult, _percuss.result_fields())
 
 
 class Comparison(Result):

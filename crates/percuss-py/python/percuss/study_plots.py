@@ -43,8 +43,8 @@ def short(key: str) -> str:
 def histogram(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
     ax = new_axes(ax)
     of = found.quantity(quantity)
-    words, factor = label(of.quantity)
-    values = found.draws[of.quantity] * factor
+    words = label(of.quantity)
+    values = found.draws[of.quantity]
     ax.hist(values[~numpy.isnan(values)], bins="auto", color="0.8", edgecolor="white")
     statistics = of.statistics
     marks = [
@@ -55,7 +55,7 @@ def histogram(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes
     if of.nominal is not None:
         marks.append(("all at median", of.nominal, "C3", "--"))
     for name, value, colour, style in marks:
-        ax.axvline(value * factor, color=colour, linestyle=style, label=f"{name}: {value * factor:.4g}")
+        ax.axvline(value, color=colour, linestyle=style, label=f"{name}: {value:.4g}")
     # Room for the legend above the bars.
     ax.set(xlabel=words, ylabel="shots", title=f"{found.case}, model {found.model}", ylim=(0, 1.5 * ax.get_ylim()[1]))
     ax.legend(fontsize="small")
@@ -65,11 +65,11 @@ def histogram(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes
 def tornado(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
     ax = new_axes(ax)
     of = found.quantity(quantity)
-    words, factor = label(of.quantity)
-    middle = factor * (percentile(of.statistics, 50) if of.nominal is None else of.nominal)
+    words = label(of.quantity)
+    middle = percentile(of.statistics, 50) if of.nominal is None else of.nominal
     names = [short(bar.key) for bar in of.tornado]
     for end, colour in (("at_low", "C0"), ("at_high", "C1")):
-        ends = [middle if bar[end] is None else factor * bar[end] for bar in of.tornado]
+        ends = [middle if bar[end] is None else bar[end] for bar in of.tornado]
         part = "5th" if end == "at_low" else "95th"
         ax.barh(names, [value - middle for value in ends], left=middle, color=colour, label=f"at its {part} percentile")
     ax.axvline(middle, color="k", linewidth=1)
@@ -93,7 +93,7 @@ def indices(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
         words = "alone (first order)" if name == "first_order" else "with others as well (total)"
         ax.barh(places, values, height=0.38, xerr=beyond, label=words, error_kw={"linewidth": 1})
     ax.set_yticks(range(len(rows)), [short(row.key) for row in rows])
-    words, _ = label(of.quantity)
+    words = label(of.quantity)
     ax.set(xlabel=f"part of the variance of {words}", title=found.case)
     ax.legend()
     return ax
@@ -101,14 +101,14 @@ def indices(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
 
 def bands(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
     name = found.quantity(quantity).quantity
-    words, factor = label(name)
+    words = label(name)
     at = [(band.velocity_m_s, q.statistics) for band in found.bands for q in band.quantities if q.quantity == name]
     given = [(speed, statistics) for speed, statistics in at if statistics is not None]
     if not given:
         raise ValueError("the study has no bands: give it a `velocity`")
     ax = new_axes(ax)
     speed = [speed for speed, _ in given]
-    line = {percent: [factor * percentile(s, percent) for _, s in given] for percent in (5, 25, 50, 75, 95)}
+    line = {percent: [percentile(s, percent) for _, s in given] for percent in (5, 25, 50, 75, 95)}
     ax.fill_between(speed, line[5], line[95], color="C0", alpha=0.2, linewidth=0, label="90 % of the shots")
     ax.fill_between(speed, line[25], line[75], color="C0", alpha=0.35, linewidth=0, label="50 %")
     ax.plot(speed, line[50], color="C0", label="median")

@@ -1,12 +1,16 @@
 //! The columns of a sweep: inputs, outcome, every scalar result, warnings and errors.
 
-use percuss::{summary::ResultRecord, sweep::Row, sweep::Sweep};
+use percuss::{
+    judge::Expectation,
+    summary::{ResultRecord, Role, result_numbers},
+    sweep::{Row, Sweep},
+};
 use serde::Serialize;
 
 use crate::column::Column;
 
-/// How a number that a result may lack is read off it.
-type ReadNumber = fn(&ResultRecord) -> Option<f64>;
+/// The result number that the ends of ranges and the estimated error follow.
+const BEFORE_RANGES: &str = "ballistic_limit_m_s";
 
 /// The columns of a sweep's rows. A number that a shot does not have is null, a text empty.
 pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
@@ -28,58 +32,14 @@ pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
         |r| r.criterion.clone().unwrap_or_default(),
         "",
     ));
-    let numbers: [(&str, ReadNumber); 32] = [
-        ("impact_velocity_m_s", |r| Some(r.impact_velocity_m_s)),
-        ("impact_energy_j", |r| Some(r.impact_energy_j)),
-        ("depth_of_penetration_mm", |r| r.depth_of_penetration_mm),
-        ("largest_depth_mm", |r| r.largest_depth_mm),
-        ("permanent_depth_mm", |r| r.permanent_depth_mm),
-        ("residual_velocity_m_s", |r| r.residual_velocity_m_s),
-        ("ballistic_limit_m_s", |r| r.ballistic_limit_m_s),
-        ("band_low", |r| r.band.as_ref().map(|band| band.low)),
-        ("band_high", |r| r.band.as_ref().map(|band| band.high)),
-        ("expected_error", |r| {
-            r.expected_error.as_ref().map(|e| e.median)
-        }),
-        ("expected_error_low", |r| {
-            r.expected_error.as_ref().map(|e| e.low)
-        }),
-        ("expected_error_high", |r| {
-            r.expected_error.as_ref().map(|e| e.high)
-        }),
-        ("projectile_final_length_mm", |r| {
-            r.projectile_final_length_mm
-        }),
-        ("projectile_final_diameter_mm", |r| {
-            r.projectile_final_diameter_mm
-        }),
-        ("projectile_final_mass_g", |r| r.projectile_final_mass_g),
-        ("plug_mass_g", |r| r.plug_mass_g),
-        ("plug_velocity_m_s", |r| r.plug_velocity_m_s),
-        ("time_to_rest_us", |r| r.time_to_rest_us),
-        ("peak_force_kn", |r| r.peak_force_kn),
-        ("contact_time_us", |r| r.contact_time_us),
-        ("end_time_us", |r| r.end_time_us),
-        ("steps", |r| r.steps.map(|steps| steps as f64)),
-        ("time_step_ns", |r| r.time_step_ns),
-        ("smallest_time_step_ns", |r| r.smallest_time_step_ns),
-        ("eroded_projectile_elements", |r| {
-            r.eroded_projectile_elements.map(|n| n as f64)
-        }),
-        ("eroded_target_elements", |r| {
-            r.eroded_target_elements.map(|n| n as f64)
-        }),
-        ("projectile_plastic_strain", |r| r.projectile_plastic_strain),
-        ("target_plastic_strain", |r| r.target_plastic_strain),
-        ("projectile_temperature_k", |r| r.projectile_temperature_k),
-        ("target_temperature_k", |r| r.target_temperature_k),
-        ("energy_residual", |r| r.energy_residual),
-        ("momentum_residual", |r| r.momentum_residual),
-    ];
-    for (name, read) in numbers {
-        columns.push(Column::optional(name, move |row: &Row| {
-            row.record.as_ref().ok().and_then(read)
-        }));
+    // What the case gives stands before what comes of it.
+    let given = result_numbers().filter(|number| number.role == Role::Input);
+    let computed = result_numbers().filter(|number| number.role != Role::Input);
+    for result in given.chain(computed) {
+        columns.push(number(result.name, |r| result.of(r)));
+        if result.name == BEFORE_RANGES {
+            columns.extend(ranges());
+        }
     }
     let band = |r: &ResultRecord| {
         r.band
@@ -94,6 +54,27 @@ pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
         Err(reason) => reason.clone(),
     }));
     columns
+}
+
+/// The ends of the range that a model gives, and the estimated error of the depth.
+fn ranges() -> [Column<Row>; 5] {
+    let error = |name, read: fn(&Expectation) -> f64| {
+        number(name, move |r| r.expected_error.as_ref().map(read))
+    };
+    [
+        number("band_low", |r| r.band.as_ref().map(|band| band.low)),
+        number("band_high", |r| r.band.as_ref().map(|band| band.high)),
+        error("expected_error", |e| e.median),
+        error("expected_error_low", |e| e.low),
+        error("expected_error_high", |e| e.high),
+    ]
+}
+
+/// A number of the result, null where there is none.
+fn number(name: &str, read: impl Fn(&ResultRecord) -> Option<f64> + 'static) -> Column<Row> {
+    Column::optional(name, move |row: &Row| {
+        row.record.as_ref().ok().and_then(&read)
+    })
 }
 
 /// A text of the result; `without` stands where there is no case to compute.
@@ -120,10 +101,11 @@ fn json(value: &impl Serialize) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use percuss::{
-        case::{self, Document},
-        model::{self, Control},
-        summary::ResultRecord,
+        case::Document,
+        summary::{RESULT_FIELDS, result_numbers},
         sweep::Sweep,
     };
 
@@ -132,12 +114,19 @@ mod tests {
     const CASE: &str = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }\n\
                         target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n";
 
-    /// Results that are no scalar, and the columns that hold them.
-    const NOT_SCALAR: [(&str, &[&str]); 8] = [
+    /// Results that are no number, and the columns that hold them.
+    const NO_NUMBERS: [(&str, &[&str]); 14] = [
         // The same in every row: the manifest has it.
         ("model", &[]),
+        ("scheme", &["scheme"]),
+        // A sweep names its model.
+        ("model_choice", &[]),
+        ("target_closure", &["target_closure"]),
+        ("target_closure_choice", &[]),
+        ("outcome", &["outcome"]),
+        ("criterion", &["criterion"]),
+        ("termination", &["termination"]),
         ("reason", &["error"]),
-        ("band", &["band_of", "band_low", "band_high"]),
         (
             "expected_error",
             &[
@@ -146,42 +135,33 @@ mod tests {
                 "expected_error_high",
             ],
         ),
+        ("band", &["band_of", "band_low", "band_high"]),
+        // A list of tables of any number has no place in a row.
+        ("fragments", &[]),
         ("details", &["details"]),
-        // A sweep names its model.
-        ("model_choice", &[]),
-        ("target_closure_choice", &["target_closure"]),
         ("warnings", &["warnings"]),
     ];
 
     #[test]
-    fn every_scalar_result_is_a_column() {
-        let scenario = case::load_str("case", CASE).unwrap();
-        let chain = model::model("chain").unwrap();
-        let result = model::run(chain, &scenario, &mut Control::default()).unwrap();
-        let record = serde_json::to_value(ResultRecord::new(&scenario, &result)).unwrap();
+    fn columns_are_the_fields_of_a_result_and_nothing_else() {
         let file = "title = 'speeds'\nbase = 'case.toml'\nmodel = 'chain'\ndesign = 'grid'\n\
                     [[parameter]]\nkey = 'projectile.velocity'\nvalues = ['200 m/s', '230 m/s']\n";
         let (file, case) = (Document::new("sweep", file), Document::new("case", CASE));
         let sweep = Sweep::of(&file, &case).unwrap();
         let columns = columns(&sweep);
-        let names: Vec<&str> = columns.iter().map(|column| column.name()).collect();
-        let mut checked = 0;
-        for (key, value) in record.as_object().unwrap() {
-            let standing_for = NOT_SCALAR.iter().find(|(name, _)| name == key);
-            match standing_for {
-                Some((_, others)) => assert!(
-                    others.iter().all(|name| names.contains(name)),
-                    "{key}: {others:?}"
-                ),
-                // A list of objects of any number has no place in a row.
-                None if key == "fragments" => assert!(value.is_array()),
-                None => assert!(
-                    names.contains(&key.as_str()),
-                    "{key} is no column: {names:?}"
-                ),
+        let found: BTreeSet<&str> = columns.iter().map(|column| column.name()).collect();
+        let mut expected = BTreeSet::from(["shot", "projectile.velocity_m_s"]);
+        for field in RESULT_FIELDS {
+            let held = NO_NUMBERS.iter().find(|(name, _)| *name == field.name);
+            match (&field.number, held) {
+                (Some(number), None) => assert!(expected.insert(number.name)),
+                (None, Some((_, names))) => expected.extend(*names),
+                other => panic!("{}: {other:?}", field.name),
             }
-            checked += 1;
         }
-        assert!(checked > 30, "{checked}");
+        assert_eq!(found, expected);
+        assert_eq!(found.len(), columns.len());
+        let kind = |name: &str| columns.iter().find(|c| c.name() == name).unwrap().kind();
+        assert!(result_numbers().all(|number| kind(number.name) == "number"));
     }
 }

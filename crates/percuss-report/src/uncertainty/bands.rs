@@ -39,9 +39,9 @@ pub(super) fn bands(
     let color = palette::SERIES[0];
     let mut chart = LineChart::new(
         format!("bands-{}", stem(what.name)),
-        format!("Spread of the {} over speed: {}", what.in_words, found.case),
+        format!("Spread of the {} over speed: {}", what.label, found.case),
         Axis::new("impact speed [m/s]"),
-        Axis::new(format!("{} [{}]", what.in_words, what.unit)),
+        Axis::new(format!("{} [{}]", what.label, what.unit.symbol)),
     )
     .caption(format!(
         "{}; bands hold 50 % and 90 % of the shots, the speed itself is exact",

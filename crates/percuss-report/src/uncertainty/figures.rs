@@ -11,11 +11,11 @@ use crate::{Axis, Bar, BarRows, Histogram, Mark, caption::caption, palette};
 
 fn axis(quantity: &QuantityResult) -> Axis {
     let what = quantity.what();
-    Axis::new(format!("{} [{}]", what.in_words, what.unit))
+    Axis::new(format!("{} [{}]", what.label, what.unit.symbol))
 }
 
 fn title(start: &str, quantity: &QuantityResult, found: &Uncertainty) -> String {
-    format!("{start} {}: {}", quantity.what().in_words, found.case)
+    format!("{start} {}: {}", quantity.what().label, found.case)
 }
 
 fn with_unit(value: f64, unit: &str) -> String {
@@ -34,7 +34,10 @@ pub(super) fn histogram(
     let statistics = &quantity.statistics;
     let values = found.draws.iter().filter_map(|draw| draw.value(what));
     let named = |name: &str, value: f64| {
-        Mark::vertical(format!("{name} {}", with_unit(value, what.unit)), value)
+        Mark::vertical(
+            format!("{name} {}", with_unit(value, what.unit.symbol)),
+            value,
+        )
     };
     let title = title("Spread of the", quantity, found);
     let mut chart = Histogram::new(
@@ -48,7 +51,7 @@ pub(super) fn histogram(
         caption(scenario, None),
         statistics.shots,
         found.model,
-        with_unit(statistics.standard_deviation, what.unit)
+        with_unit(statistics.standard_deviation, what.unit.symbol)
     ))
     .mark(named("5 % below", statistics.percentile(5.0).value))
     .mark(named("mean", statistics.mean))

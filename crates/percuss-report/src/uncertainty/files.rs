@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use percuss::uncertainty::{
-    Draw, Estimate, PERCENTS, QUANTITIES, QuantityResult, Statistics, Uncertainty,
+    Draw, Estimate, PERCENTS, QuantityResult, Statistics, Uncertainty, quantities,
 };
 
 use crate::{
@@ -99,7 +99,7 @@ fn sample_columns(found: &Uncertainty) -> Vec<Column<Draw>> {
     columns.push(Column::text("outcome", |draw: &Draw| {
         draw.outcome.in_words().to_owned()
     }));
-    for (i, quantity) in QUANTITIES.iter().enumerate() {
+    for (i, quantity) in quantities().enumerate() {
         if found.draws.iter().any(|draw| draw.values[i].is_some()) {
             columns.push(Column::optional(quantity.name, move |draw: &Draw| {
                 draw.values[i]

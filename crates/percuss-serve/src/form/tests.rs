@@ -50,6 +50,40 @@ fn fields_follow_from_the_schema() {
 }
 
 #[test]
+fn defaults_are_those_of_the_schema() {
+    let schema = case::schema();
+    let chain = &schema["$defs"]["ChainOptions"]["properties"];
+    let fields: Vec<Field> = fields().into_iter().collect();
+    let mut shown = 0;
+    for (name, property) in object(chain) {
+        let key = format!("chain.{name}");
+        let Some(field) = fields.iter().find(|field| field.key == key) else {
+            continue;
+        };
+        let default = field.default.as_ref().map(|default| {
+            let text = format!("x = {default}");
+            let table: toml::Table = text.parse().unwrap();
+            serde_json::to_value(&table["x"]).unwrap()
+        });
+        assert_eq!(default.as_ref(), property.get("default"), "{key}");
+        if let Some(default) = &field.default {
+            assert!(
+                field.help.ends_with(&format!(" Default: {default}.")),
+                "{key}"
+            );
+            shown += 1;
+        }
+    }
+    assert!(shown > 10, "{shown}");
+    assert_eq!(field("chain.heat_fraction").default.unwrap(), "0.9");
+    assert!(
+        field("chain.courant")
+            .help
+            .contains("Default: 0.5 with target resistance model")
+    );
+}
+
+#[test]
 fn every_choice_is_toml() {
     for field in fields() {
         if let Kind::Choice { choices } = field.kind {

@@ -64,5 +64,5 @@ pub(super) fn uncertain(job: &Job<'_>) -> Result<Study, Problem> {
 /// A quantity in words.
 fn quantity(result: &uncertainty::QuantityResult) -> Value {
     let what = result.what();
-    json!({ "words": what.in_words, "unit": what.unit })
+    json!({ "words": what.label, "unit": what.unit.symbol })
 }

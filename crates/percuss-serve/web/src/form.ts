@@ -171,9 +171,14 @@ function rangeOf(field: Field, si: number): [number, number] {
   return [Math.min(low, si), Math.max(high, si)];
 }
 
+// What is used where nothing is given.
+function ofDefault(field: Field): string {
+  return field.default === null ? "default" : `default: ${field.default.replaceAll('"', "")}`;
+}
+
 function quantity(field: Field, id: string, frame: HTMLElement, edit: Change) {
   const units = field.units ?? [];
-  const input = make("input", { id, type: "text", inputmode: "decimal", placeholder: "default" });
+  const input = make("input", { id, type: "text", inputmode: "decimal", placeholder: ofDefault(field) });
   const unit = make("select", { "aria-label": `${field.key.replaceAll("_", " ").replaceAll(".", " ")}, unit` });
   const known = [...units.map((u) => u.symbol), ...(field.words ?? [])];
   unit.append(...known.map((symbol) => make("option", { value: symbol }, symbol)));
@@ -232,7 +237,7 @@ function quantity(field: Field, id: string, frame: HTMLElement, edit: Change) {
 }
 
 function number(field: Field, id: string, frame: HTMLElement, edit: Change) {
-  const input = make("input", { id, type: "text", inputmode: "decimal", placeholder: "default" });
+  const input = make("input", { id, type: "text", inputmode: "decimal", placeholder: ofDefault(field) });
   const range = field.slider ? slider(id, frame.textContent ?? "") : null;
   frame.append(input);
   if (range) frame.append(range);
@@ -269,7 +274,7 @@ function choice(
   const input = make("select", { id });
   const words = (toml: string) => toml.replaceAll('"', "").replace(/^\{ (\w+) = .*\}$/, "$1").replaceAll("_", " ");
   const optional = !["projectile.material", "target.material"].includes(field.key);
-  if (optional) input.append(make("option", { value: "" }, "default"));
+  if (optional) input.append(make("option", { value: "" }, ofDefault(field)));
   input.append(...choices.map((toml) => make("option", { value: toml }, words(toml))));
   input.addEventListener("input", () => edit(input.value === "" ? null : input.value));
   frame.append(input);
@@ -285,7 +290,7 @@ function choice(
 }
 
 function text(field: Field, id: string, frame: HTMLElement, edit: Change) {
-  const input = make("input", { id, type: "text", placeholder: "default" });
+  const input = make("input", { id, type: "text", placeholder: ofDefault(field) });
   input.addEventListener("input", () => edit(input.value.trim() === "" ? null : quoted(input.value)));
   frame.append(input);
   const show = (values: Values) => {

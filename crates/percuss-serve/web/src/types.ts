@@ -5,6 +5,7 @@ export interface Unit { symbol: string; factor: number; offset: number }
 export interface Field {
   key: string;
   help: string;
+  default: string | null;
   kind: "material" | "quantity" | "number" | "boolean" | "choice" | "text";
   units?: Unit[];
   usual?: string;

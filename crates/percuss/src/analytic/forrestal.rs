@@ -63,7 +63,7 @@ impl Forrestal {
             strength: resistance.strength,
             inertia: resistance.coefficient * shot.target.density.si(),
         };
-        match options.entry.unwrap_or_default() {
+        match options.entry() {
             Entry::Embedded => motion.embedded(shot.speed),
             Entry::Gradual => motion.gradual(shot.speed),
         }
@@ -80,11 +80,7 @@ impl Forrestal {
 }
 
 fn nose(shot: &DeepShot<'_>, options: &ForrestalOptions) -> NoseLoad {
-    NoseLoad::new(
-        shot.rod.nose,
-        shot.rod.diameter,
-        options.friction.unwrap_or(0.0),
-    )
+    NoseLoad::new(shot.rod.nose, shot.rod.diameter, options.friction())
 }
 
 fn rounded(speed: f64) -> Velocity {
@@ -160,7 +156,7 @@ impl Model for Forrestal {
         let shot = DeepShot::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET))?;
         let options = &scenario.options.forrestal;
         let nose = nose(&shot, options);
-        let cavity = options.cavity.unwrap_or_default();
+        let cavity = options.cavity();
         let given = options
             .a
             .and_then(|a| Some(a * Self::yield_stress(&shot, options)?));
@@ -181,7 +177,7 @@ impl Model for Forrestal {
             }
         };
         let stop = Self::stop(&shot, options, &resistance);
-        let entry = options.entry.unwrap_or_default();
+        let entry = options.entry();
         let scheme = match (given, options.b, cavity) {
             (Some(_), Some(_), _) => "given-coefficients",
             (_, _, Cavity::Incompressible) => "incompressible",

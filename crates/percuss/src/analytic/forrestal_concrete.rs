@@ -13,9 +13,6 @@ use crate::{
     solver::{Control, Model},
 };
 
-/// Depth of the crater in projectile diameters.
-const CRATER_DEPTH: f64 = 2.0;
-
 /// Rigid projectiles into concrete \[forrestal1994, li2003\].
 #[derive(Debug, Clone, Copy)]
 pub struct ForrestalConcrete;
@@ -81,7 +78,7 @@ impl ForrestalConcrete {
             nose: nose_factor(shot.rod.nose),
             density: shot.target.density.si(),
             strength: compressive * options.s.unwrap_or_else(|| strength_factor(compressive)),
-            crater: options.crater_depth_to_diameter.unwrap_or(CRATER_DEPTH),
+            crater: options.crater_depth_to_diameter(),
         })
     }
 }

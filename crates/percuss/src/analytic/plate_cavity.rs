@@ -22,8 +22,6 @@ use crate::{
 #[derive(Debug, Clone, Copy)]
 pub struct PlateCavity;
 
-/// Inertial coefficient of a spherical cavity that grows at constant speed in an incompressible body: exact.
-const INERTIA: f64 = 1.5;
 /// Brinell hardness above which a steel plate may break the core or give a plug.
 const HARD: f64 = 300.0;
 /// Tensile strength of a steel of that hardness [Pa].
@@ -82,7 +80,7 @@ impl Passage {
     /// With the default inertial coefficient, or the case's own.
     pub(super) fn of(scenario: &Scenario) -> Option<Self> {
         let shot = PlateShot::of(scenario)?;
-        let coefficient = scenario.options.plate_cavity.inertia.unwrap_or(INERTIA);
+        let coefficient = scenario.options.plate_cavity.inertia();
         Self::new(scenario, &shot, coefficient)
     }
 
@@ -122,7 +120,7 @@ fn unbounded_limit(scenario: &Scenario, shot: &PlateShot<'_>) -> Option<f64> {
     let mut limit = Passage::new(scenario, shot, 0.0)?.slow_limit;
     for _ in 0..50 {
         let growth_speed = limit * nose_factor(scenario.projectile.nose).sqrt();
-        let coefficient = ((2.0 * wave / growth_speed).ln() - 0.5).max(INERTIA);
+        let coefficient = ((2.0 * wave / growth_speed).ln() - 0.5).max(PlateCavityOptions::INERTIA);
         limit = Passage::new(scenario, shot, coefficient)?.ballistic_limit();
     }
     Some(limit)

@@ -12,9 +12,6 @@ use crate::{
     solver::{Control, Model},
 };
 
-/// Distance of the plastic front from the wall over the initial length.
-const FRONT: f64 = 0.12;
-
 /// Final over initial length of a rod for `ρV²/Y`: `(1 − h) exp(−ρV²/(2Y)) + h`, h the distance of the front from the wall over the
 /// initial length.
 ///
@@ -41,11 +38,7 @@ pub struct WilkinsGuinan;
 
 impl WilkinsGuinan {
     fn front(scenario: &Scenario) -> f64 {
-        scenario
-            .options
-            .wilkins_guinan
-            .front_to_length
-            .unwrap_or(FRONT)
+        scenario.options.wilkins_guinan.front_to_length()
     }
 
     fn yield_stress(self, scenario: &Scenario) -> Result<DynamicYield, Refusal> {

@@ -9,7 +9,7 @@ use crate::{
     history::{Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
     material::Material,
-    options::Eos,
+    options::{AxiOptions, Eos},
     outcome::{Outcome, RunResult, Termination},
     scenario::{Plate, TargetBody},
     solver::{
@@ -21,8 +21,8 @@ use crate::{
     },
 };
 
-/// Courant number when a case gives none.
-const DEFAULT_COURANT: f64 = 0.5;
+/// Courant number below which a run is not repeated.
+const SMALLEST_COURANT: f64 = 0.1;
 /// Part of the largest force so far below which bodies do not touch: nodes of the grid that two bodies share still exchange the impulses
 /// of what rings in them.
 const TOUCHING_FRACTION: f64 = 1e-2;
@@ -97,7 +97,7 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
             momentum: 1e-9,
         },
         retry: Retry::OfAnyError {
-            smallest: 0.25 * DEFAULT_COURANT,
+            smallest: SMALLEST_COURANT,
         },
     };
 
@@ -115,12 +115,15 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
-        (scenario.options.axi.courant, DEFAULT_COURANT)
+        (
+            scenario.options.axi.courant,
+            AxiOptions::default().courant(),
+        )
     }
 
     fn limits(&self) -> Limits {
         let options = &self.scenario.options.axi;
-        Limits::new(self.scenario, options.end_time, options.max_steps)
+        Limits::new(self.scenario, options.end_time, options.max_steps())
     }
 
     fn advance(&mut self) -> Result<(), NumericalError> {

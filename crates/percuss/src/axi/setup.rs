@@ -88,13 +88,9 @@ fn expected_depth(scenario: &Scenario, layers: &[Plate]) -> f64 {
 
 fn law(material: &Material, scenario: &Scenario) -> Law {
     let options = &scenario.options.axi;
-    let heated = options.adiabatic_heating.unwrap_or(true);
-    let fraction = if heated {
-        options.heat_fraction.unwrap_or(0.9)
-    } else {
-        0.0
-    };
-    let state = match options.equation_of_state.unwrap_or_default() {
+    let heated = options.adiabatic_heating();
+    let fraction = if heated { options.heat_fraction() } else { 0.0 };
+    let state = match options.equation_of_state() {
         Eos::Linear => None,
         Eos::MieGruneisen => StateEquation::of(material),
     };
@@ -105,7 +101,7 @@ fn law(material: &Material, scenario: &Scenario) -> Law {
         bulk_modulus,
         pressure: state.map_or(Pressure::Linear, Pressure::MieGruneisen),
         strength: material.strength.law().prepare(material, 1.0),
-        rate_effects: options.rate_effects.unwrap_or(true),
+        rate_effects: options.rate_effects(),
         heating: material
             .specific_heat
             .map_or(0.0, |heat| fraction / heat.si()),
@@ -289,7 +285,7 @@ pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
                 ),
                 edge: (
                     row(extent.radius) as usize + 1,
-                    edge_support(options.edge.unwrap_or_default(), &plate.material),
+                    edge_support(options.edge(), &plate.material),
                 ),
                 ..Supports::NONE
             });
@@ -299,9 +295,9 @@ pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
     let mut solver = Grid {
         bodies,
         supports,
-        contact: match options.contact.unwrap_or_default() {
+        contact: match options.contact() {
             ContactKind::Sticking => Contact::Sticking,
-            ContactKind::Frictional => Contact::Frictional(options.friction.unwrap_or(0.0)),
+            ContactKind::Frictional => Contact::Frictional(options.friction()),
         },
         cell,
         courant,

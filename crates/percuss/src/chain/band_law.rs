@@ -97,7 +97,7 @@ impl BandLaw {
             strength: &*strength,
             heating,
             temperature: material.room_temperature.si(),
-            rate_effects: options.rate_effects.unwrap_or(true),
+            rate_effects: options.rate_effects(),
         };
         // Plug and plate that dish shear for themselves, and the band is what is left between them.
         let rim = plate.thickness.filter(|_| options.dishing()).map(rim_width);

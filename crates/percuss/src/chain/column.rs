@@ -6,7 +6,7 @@ use crate::{
     error::NumericalError,
     history::{Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
-    options::{ErosionClosure, ErosionStrain},
+    options::{ChainOptions, ErosionClosure, ErosionStrain},
     outcome::{Outcome, RunResult, Termination},
     solver::{
         archive::Archive,
@@ -17,12 +17,8 @@ use crate::{
     },
 };
 
-/// Courant number when a case gives none.
-const DEFAULT_COURANT: f64 = 0.8;
 /// Courant number below which a run is not repeated.
 const SMALLEST_COURANT: f64 = 0.05;
-/// Strain at which an element erodes when a case gives none.
-pub(super) const DEFAULT_EROSION_STRAIN: f64 = 2.0;
 /// Steps between two audits.
 pub(super) const AUDIT_INTERVAL: u64 = 128;
 /// Part of the first time step below which a run would never end.
@@ -55,14 +51,12 @@ impl<'a> Column<'a> {
         let options = &scenario.options.chain;
         let mut state = mesh::build(scenario);
         let mut longest_step = f64::INFINITY;
-        let erosion_strain = match (options.erosion_closure(), options.erosion_strain) {
-            (ErosionClosure::Tate, _) => {
+        let erosion_strain = match options.erosion_closure() {
+            ErosionClosure::Tate => {
                 longest_step = tate::longest_step(&state, scenario.impact_speed);
                 tate::USED_UP_STRAIN
             }
-            (ErosionClosure::Strain, Some(ErosionStrain::At(strain))) => strain,
-            (ErosionClosure::Strain, Some(ErosionStrain::Never)) => f64::INFINITY,
-            (ErosionClosure::Strain, None) => DEFAULT_EROSION_STRAIN,
+            ErosionClosure::Strain => erosion_strain(options),
         };
         let control = StepControl::new(options, courant, erosion_strain, longest_step);
         state.stable_step *= control.first_step_factor(&state, scenario.impact_speed);
@@ -71,7 +65,7 @@ impl<'a> Column<'a> {
             state,
             control,
             window: Window::default(),
-            limits: Limits::new(scenario, options.end_time, options.max_steps),
+            limits: Limits::new(scenario, options.end_time, options.max_steps()),
         }
     }
 
@@ -81,6 +75,14 @@ impl<'a> Column<'a> {
             state: &self.state,
             erosion_strain: self.control.erosion_strain,
         }
+    }
+}
+
+/// Strain at which an element erodes.
+pub(super) fn erosion_strain(options: &ChainOptions) -> f64 {
+    match options.erosion_strain() {
+        ErosionStrain::At(strain) => strain,
+        ErosionStrain::Never => f64::INFINITY,
     }
 }
 
@@ -100,7 +102,7 @@ impl<'a> Solver<'a> for Column<'a> {
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
-        (scenario.options.chain.courant, DEFAULT_COURANT)
+        (scenario.options.chain.courant, ChainOptions::COURANT)
     }
 
     fn limits(&self) -> Limits {

@@ -75,7 +75,7 @@ impl Part {
             strength: material.strength.law().prepare(material, factor),
             heating,
             start_temperature: material.room_temperature.si(),
-            rate_effects: options.rate_effects.unwrap_or(true),
+            rate_effects: options.rate_effects(),
             kinematics: options.kinematics(),
             constraint: factor,
             failure: options
@@ -108,8 +108,8 @@ impl Part {
 /// Temperature rise per work per volume of a flow stress with a factor on it [K m3/J]; 0 without heating.
 pub(super) fn heating(material: &Material, options: &ChainOptions, factor: f64) -> f64 {
     match material.specific_heat {
-        Some(heat) if options.adiabatic_heating.unwrap_or(true) => {
-            options.heat_fraction.unwrap_or(0.9) / (factor * material.density.si() * heat.si())
+        Some(heat) if options.adiabatic_heating() => {
+            options.heat_fraction() / (factor * material.density.si() * heat.si())
         }
         _ => 0.0,
     }

@@ -51,7 +51,7 @@ impl PlateSection {
             shear: SHEAR_CORRECTION * material.shear_modulus() * thickness,
             strength: material.strength.law().prepare(material, 1.0),
             heating: super::part::heating(material, options, 1.0),
-            rate_effects: options.rate_effects.unwrap_or(true),
+            rate_effects: options.rate_effects(),
             start_temperature: material.room_temperature.si(),
             failure,
         }

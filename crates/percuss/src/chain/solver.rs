@@ -44,9 +44,9 @@ impl StepControl {
     ) -> Self {
         Self {
             courant,
-            viscosity: options.artificial_viscosity.unwrap_or_default(),
-            damping_ratio: options.damping_ratio.unwrap_or(0.0),
-            local_damping: options.local_damping.unwrap_or(0.0),
+            viscosity: options.artificial_viscosity(),
+            damping_ratio: options.damping_ratio(),
+            local_damping: options.local_damping(),
             erosion_strain,
             fails: options.failure.is_some(),
             longest_step,

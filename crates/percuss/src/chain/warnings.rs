@@ -46,7 +46,7 @@ pub(super) fn warnings(
     warn_of_closure(scenario, result, &mut warnings);
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
     warn_of_failure(scenario, result, &mut warnings);
-    let heated = scenario.options.chain.adiabatic_heating.unwrap_or(true);
+    let heated = scenario.options.chain.adiabatic_heating();
     let mut warn = |what: &str, material: &Material, reached: Option<&Reached>| {
         if let Some(reached) = reached {
             warn_of_material(what, material, reached, heated, &mut warnings);
@@ -91,7 +91,7 @@ pub(super) fn warnings_of_cavity(
     }
     warnings.extend(warning_of_rear_face(scenario, depth));
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
-    let heated = scenario.options.chain.adiabatic_heating.unwrap_or(true);
+    let heated = scenario.options.chain.adiabatic_heating();
     let material = &scenario.projectile.material;
     warn_of_material("projectile", material, reached, heated, &mut warnings);
     warnings

@@ -9,8 +9,6 @@ use crate::{
     },
 };
 
-/// Courant number when a case gives none.
-pub(super) const DEFAULT_COURANT: f64 = 0.7;
 /// Part of the impact speed below which a projectile counts as stopped.
 pub(super) const REST_FRACTION: f64 = 0.01;
 /// Part of the first time step below which cells are crushed to nothing: a strain of about 4.6.

@@ -13,7 +13,7 @@ pub use planar::StateEquation;
 use crate::{
     Error, Refusal, Scenario,
     guard::{Guard, NoseKind, Range, fixed_rear_face_warning},
-    options::ErosionStrain,
+    options::{ChainOptions, ErosionStrain},
     outcome::RunResult,
     regime::{ProjectileRegime, Regime},
     solver::{Control, Model},
@@ -110,8 +110,12 @@ pub fn elements(scenario: &Scenario) -> (u32, u32) {
                 .fdm
                 .with_defaults_of(&scenario.options.chain);
             (
-                options.projectile_elements.unwrap_or(40),
-                options.target_elements.unwrap_or(80),
+                options
+                    .projectile_elements
+                    .unwrap_or(ChainOptions::PROJECTILE_ELEMENTS),
+                options
+                    .target_elements
+                    .unwrap_or(ChainOptions::TARGET_ELEMENTS),
             )
         }
     }

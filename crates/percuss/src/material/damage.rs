@@ -22,13 +22,13 @@ pub struct Damage {
     pub d2: f64,
     /// Exponent D₃ of the stress triaxiality, negative: tension is positive.
     pub d3: f64,
-    /// Rate coefficient D₄; 0 when not given.
+    /// Rate coefficient D₄.
     #[serde(default)]
     pub d4: f64,
-    /// Thermal coefficient D₅; 0 when not given.
+    /// Thermal coefficient D₅.
     #[serde(default)]
     pub d5: f64,
-    /// Reference strain rate ε̇₀ [1/s]; 1 when not given.
+    /// Reference strain rate ε̇₀ [1/s].
     #[serde(default = "reference_rate")]
     pub reference_rate: StrainRate,
     /// Form of the rate factor.

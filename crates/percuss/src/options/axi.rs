@@ -3,7 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::ArtificialViscosity;
+use super::{
+    ArtificialViscosity,
+    defaults::{MAX_STEPS, defaults},
+};
 use crate::{
     check::{Check, Limits, limits},
     problem::Target,
@@ -13,48 +16,49 @@ use crate::{
 /// Options of the model `axi`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[schemars(transform = axi_in_schema)]
 pub struct AxiOptions {
-    /// Cells along the projectile's radius; 8 when not given.
+    /// Cells along the projectile's radius.
     pub cells_per_radius: Option<u32>,
-    /// Particles along each side of a cell at the start; 2 when not given, so four in a cell.
+    /// Particles along each side of a cell at the start; two make four in a cell.
     pub particles_per_side: Option<u32>,
     /// Radius of the target that is modelled [m]; 10 radii of the projectile when not given.
     pub target_radius: Option<Length>,
     /// Depth of the target that is modelled when the target is thicker [m]; what the shot is expected to need when not given.
     pub target_depth: Option<Length>,
-    /// What holds the target at `target_radius`; `non-reflecting` when not given.
+    /// What holds the target at `target_radius`.
     pub edge: Option<Edge>,
-    /// How bodies meet; `frictional` when not given.
+    /// How bodies meet.
     pub contact: Option<ContactKind>,
-    /// Coulomb's coefficient of friction of contact `frictional`; 0 when not given.
+    /// Coulomb's coefficient of friction of contact `frictional`.
     pub friction: Option<f64>,
-    /// Equation of state; `linear` when not given.
+    /// Equation of state.
     pub equation_of_state: Option<Eos>,
-    /// Courant number on the fastest wave and particle; 0.5 when not given.
+    /// Courant number on the fastest wave and particle.
     pub courant: Option<f64>,
-    /// Artificial viscosity in compression; linear 0.06 and quadratic 1.2 when not given.
+    /// Artificial viscosity in compression.
     pub artificial_viscosity: Option<ArtificialViscosity>,
-    /// Whether strength laws see the strain rate; true when not given.
+    /// Whether strength laws see the strain rate.
     pub rate_effects: Option<bool>,
-    /// Whether plastic work heats the material; true when not given.
+    /// Whether plastic work heats the material.
     pub adiabatic_heating: Option<bool>,
-    /// Fraction of plastic work that becomes heat; 0.9 when not given.
+    /// Fraction of plastic work that becomes heat.
     pub heat_fraction: Option<f64>,
-    /// Whether plastic strain uses material up by the damage of its record; false when not given.
+    /// Whether damage accumulates with plastic strain, by the constants of the material's record.
     pub damage: Option<bool>,
     /// Equivalent plastic strain at which material loses its strength in shear and tension; never when not given.
     pub failure_strain: Option<f64>,
     /// Equivalent plastic strain at which material is taken out; never when not given.
     pub erosion_strain: Option<f64>,
-    /// Whether material that fails is taken out, not left without strength; false when not given.
+    /// Whether material that fails is taken out, not left without strength.
     pub erode_failed: Option<bool>,
-    /// Whether material spalls at the spall strength of its record; false when not given.
+    /// Whether material spalls at the spall strength of its record.
     pub spall: Option<bool>,
     /// Tensile stress at which material spalls, in place of that of the materials' records [Pa].
     pub spall_strength: Option<Pressure>,
     /// Time at which a run is ended [s]; long enough for the case to end by itself when not given.
     pub end_time: Option<Time>,
-    /// Time steps after which a run is ended; 20 million when not given.
+    /// Time steps after which a run is ended.
     pub max_steps: Option<u64>,
 }
 
@@ -98,25 +102,39 @@ const CELLS: (u32, u32) = (2, 200);
 const PARTICLES: (u32, u32) = (1, 4);
 const STRAIN: Limits = limits::EROSION_STRAIN;
 
-impl AxiOptions {
+defaults! { AxiOptions, axi_in_schema {
     /// Cells along the projectile's radius.
-    pub fn cells_per_radius(&self) -> u32 {
-        self.cells_per_radius.unwrap_or(8)
-    }
-
+    cells_per_radius: u32 = 8;
     /// Particles along each side of a cell.
-    pub fn particles_per_side(&self) -> u32 {
-        self.particles_per_side.unwrap_or(2)
-    }
-
+    particles_per_side: u32 = 2;
+    /// What holds the target at its outer radius.
+    edge: Edge = Edge::NonReflecting;
+    /// How bodies meet.
+    contact: ContactKind = ContactKind::Frictional;
+    /// Coulomb's coefficient of friction.
+    friction: f64 = 0.0;
+    /// Equation of state.
+    equation_of_state: Eos = Eos::Linear;
+    /// Courant number.
+    courant: f64 = 0.5;
     /// Artificial viscosity.
-    pub fn artificial_viscosity(&self) -> ArtificialViscosity {
-        self.artificial_viscosity.unwrap_or(ArtificialViscosity {
-            linear: 0.06,
-            quadratic: 1.2,
-        })
-    }
+    artificial_viscosity: ArtificialViscosity = ArtificialViscosity { linear: 0.06, quadratic: 1.2 };
+    /// Whether strength laws see the strain rate.
+    rate_effects: bool = true;
+    /// Whether plastic work heats the material.
+    adiabatic_heating: bool = true;
+    /// Fraction of plastic work that becomes heat.
+    heat_fraction: f64 = 0.9;
+    /// Whether damage accumulates with plastic strain.
+    damage: bool = false;
+    /// Whether material that fails is taken out.
+    erode_failed: bool = false;
+    /// Time steps after which a run is ended.
+    max_steps: u64 = MAX_STEPS;
+    depending spall: "`false`, and `true` where `spall_strength` is given";
+} }
 
+impl AxiOptions {
     /// Whether material spalls.
     pub fn spalls(&self) -> bool {
         self.spall.unwrap_or(self.spall_strength.is_some())

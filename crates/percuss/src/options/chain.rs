@@ -19,60 +19,57 @@ use crate::{
     units::{EnergyPerArea, Time},
 };
 
-/// Options of the model `chain`; a key that is not given has the default that the scheme states.
+/// Options of the model `chain`; the schema has the defaults.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[schemars(transform = super::chain_defaults::chain_in_schema)]
 pub struct ChainOptions {
-    /// Scheme; `conservative` when not given, or `published`.
+    /// Numerical scheme.
     pub scheme: Scheme,
-    /// Elements along the projectile; 40 when not given.
+    /// Elements along the projectile.
     pub projectile_elements: Option<u32>,
-    /// Elements through the target, shared among its layers by thickness; 80 when not given, and fewer in a target thinner than
-    /// half the projectile's length, a fourth as long as the projectile's but at least 24; always 80 in scheme `published`.
+    /// Elements through the target, shared among its layers by thickness.
     pub target_elements: Option<u32>,
-    /// Target resistance model; scheme `conservative` only. When not given, `expanding-cavity` for a flat-ended projectile on one
-    /// layer that yields, semi-infinite or at least 0.866 projectile diameters thick, unless `constraint_factor`, `border_shear`,
-    /// `border_shear_law`, `dishing`, `kinematics`, `erosion_closure` or `target.column_diameter` differs from its default: the
-    /// expanding cavity has none of these. `column` otherwise.
+    /// Target resistance model; scheme `conservative` only.
     pub target_closure: Option<TargetClosure>,
-    /// Factor on the target's flow stress for the lateral constraint; 2.7 \[woodward1982\] when not given.
+    /// Factor on the target's flow stress for the lateral constraint \[woodward1982\].
     pub constraint_factor: Option<ConstraintFactor>,
-    /// Border-shear coefficient C in `Fy = C π d h σ_f` \[paper, eq. 24\]; 0.577 when not given.
+    /// Border-shear coefficient C in `Fy = C π d h σ_f` \[paper, eq. 24\].
     pub border_shear: Option<f64>,
-    /// What holds the column of target to the plate around it; `friction` when not given; scheme `conservative` only.
+    /// What holds the column of target to the plate around it; scheme `conservative` only.
     pub border_shear_law: Option<BorderShearLaw>,
     /// The shear band, with `border_shear_law = "shear-band"`.
     pub shear_band: Option<ShearBandOptions>,
-    /// Whether the plate around the column dishes, with a shear band and `target.plate_diameter`; false when not given.
+    /// Whether the plate around the column dishes, with a shear band and `target.plate_diameter`.
     pub dishing: Option<bool>,
-    /// Strain measure and area change; `logarithmic` when not given; scheme `conservative` only.
+    /// Strain measure and area change; scheme `conservative` only.
     pub kinematics: Option<Kinematics>,
     /// Courant number on the current smallest transit time; scheme `conservative` only.
     pub courant: Option<f64>,
-    /// Magnitude of strain at which an element erodes, or `"never"`; 2 when not given; scheme `conservative` only.
+    /// Magnitude of strain at which an element erodes, or `"never"`; scheme `conservative` only.
     pub erosion_strain: Option<ErosionStrain>,
-    /// How what erodes leaves the tip; `strain` when not given; scheme `conservative` only.
+    /// How what erodes leaves the tip; scheme `conservative` only.
     pub erosion_closure: Option<ErosionClosure>,
-    /// Artificial viscosity in compression; none when not given; scheme `conservative` only.
+    /// Artificial viscosity in compression; scheme `conservative` only.
     pub artificial_viscosity: Option<ArtificialViscosity>,
-    /// Viscous damping of every spring as a fraction of critical; 0 when not given; scheme `conservative` only.
+    /// Viscous damping of every spring as a fraction of critical; scheme `conservative` only.
     pub damping_ratio: Option<f64>,
-    /// Local damping: part of the unbalanced force on every node that acts against its motion; 0 when not given; scheme
-    /// `conservative` only.
+    /// Local damping: part of the unbalanced force on every node that acts against its motion; scheme `conservative`
+    /// only.
     pub local_damping: Option<f64>,
     /// When material in tension parts; never when not given; scheme `conservative` only.
     pub failure: Option<Failure>,
     /// Energy that a crack takes to open, per area [J/m2]; none when not given.
     pub fracture_energy: Option<EnergyPerArea>,
-    /// Whether strength laws see the strain rate; true when not given; scheme `conservative` only.
+    /// Whether strength laws see the strain rate; scheme `conservative` only.
     pub rate_effects: Option<bool>,
-    /// Whether plastic work heats the material; true when not given; scheme `conservative` only.
+    /// Whether plastic work heats the material; scheme `conservative` only.
     pub adiabatic_heating: Option<bool>,
-    /// Fraction of plastic work that becomes heat; 0.9 when not given; scheme `conservative` only.
+    /// Fraction of plastic work that becomes heat; scheme `conservative` only.
     pub heat_fraction: Option<f64>,
     /// Time at which a run is ended [s]; long enough for the case to end by itself when not given.
     pub end_time: Option<Time>,
-    /// Time steps after which a run is ended; 20 million when not given.
+    /// Time steps after which a run is ended.
     pub max_steps: Option<u64>,
     /// Readings of the paper; scheme `published` only.
     pub published: Option<PublishedOptions>,

@@ -2,31 +2,102 @@
 
 use super::{
     chain::ChainOptions,
-    chain_words::{ErosionClosure, Kinematics, TargetClosure},
-    number_or_word::{ConstraintFactor, NumberOrWord},
+    chain_words::{ArtificialViscosity, ErosionClosure, Kinematics, TargetClosure},
+    defaults::{MAX_STEPS, defaults},
+    number_or_word::{ConstraintFactor, ErosionStrain, NumberOrWord},
     published_options::PublishedOptions,
+    shear_band::BorderShearLaw,
 };
+
+defaults! { ChainOptions, chain_in_schema {
+    /// Factor on the target's flow stress.
+    constraint_factor: ConstraintFactor = ConstraintFactor::Value(2.7);
+    /// Border-shear coefficient C.
+    border_shear: f64 = 0.577;
+    /// What holds the column of target to the plate around it.
+    border_shear_law: BorderShearLaw = BorderShearLaw::Friction;
+    /// Whether the plate around the column dishes.
+    dishing: bool = false;
+    /// Strain at which an element erodes.
+    erosion_strain: ErosionStrain = ErosionStrain::At(2.0);
+    /// How what erodes leaves the tip.
+    erosion_closure: ErosionClosure = ErosionClosure::Strain;
+    /// Artificial viscosity.
+    artificial_viscosity: ArtificialViscosity = ArtificialViscosity::default();
+    /// Damping of every spring as a fraction of critical.
+    damping_ratio: f64 = 0.0;
+    /// Local damping.
+    local_damping: f64 = 0.0;
+    /// Whether strength laws see the strain rate.
+    rate_effects: bool = true;
+    /// Whether plastic work heats the material.
+    adiabatic_heating: bool = true;
+    /// Fraction of plastic work that becomes heat.
+    heat_fraction: f64 = 0.9;
+    /// Time steps after which a run is ended.
+    max_steps: u64 = MAX_STEPS;
+    also projectile_elements = ChainOptions::PROJECTILE_ELEMENTS;
+    also kinematics = Kinematics::Logarithmic;
+    depending target_elements: few_elements();
+    depending target_closure: resistance_model();
+    depending courant: courant_by_model();
+} }
+
+fn few_elements() -> String {
+    format!(
+        "{}, and in a target thinner than half the projectile's length fewer, a fourth as long as the projectile's but at least 24; always {0} in scheme `published`",
+        ChainOptions::TARGET_ELEMENTS
+    )
+}
+
+fn resistance_model() -> String {
+    let default = ChainOptions::default();
+    let lacks: Vec<String> = default
+        .cavity_lacks()
+        .map(|(key, _)| format!("`{key}`"))
+        .collect();
+    format!(
+        "`expanding-cavity` for a flat-ended projectile on one layer that yields, semi-infinite or at least 0.866 projectile diameters thick, \
+         unless {} or `target.column_diameter` differs from its default: the expanding cavity has none of these. `column` otherwise",
+        lacks.join(", ")
+    )
+}
+
+fn courant_by_model() -> String {
+    format!(
+        "{} with target resistance model `expanding-cavity`, {} with the others",
+        ChainOptions::EXPANDING_CAVITY_COURANT,
+        ChainOptions::COURANT
+    )
+}
 
 impl ChainOptions {
     /// Elements along the projectile.
+    pub const PROJECTILE_ELEMENTS: u32 = 40;
+    /// Elements through a target that is not thin.
+    pub const TARGET_ELEMENTS: u32 = 80;
+    /// Courant number with every target resistance model but `expanding-cavity`.
+    pub const COURANT: f64 = 0.8;
+    /// Courant number with the target resistance model `expanding-cavity`.
+    pub const EXPANDING_CAVITY_COURANT: f64 = 0.5;
+
+    /// Elements along the projectile.
     pub fn projectile_elements(&self) -> usize {
-        self.projectile_elements.unwrap_or(40) as usize
+        self.projectile_elements
+            .unwrap_or(Self::PROJECTILE_ELEMENTS) as usize
     }
 
-    /// Elements through the target.
+    /// Elements through the target: of a [`Scenario`](crate::Scenario), where those of a thin one are known.
     pub fn target_elements(&self) -> usize {
-        self.target_elements.unwrap_or(80) as usize
+        self.target_elements.unwrap_or(Self::TARGET_ELEMENTS) as usize
     }
 
-    /// Border-shear coefficient C.
-    pub fn border_shear(&self) -> f64 {
-        self.border_shear.unwrap_or(0.577)
-    }
-
-    /// Factor on the target's flow stress.
-    pub fn constraint_factor(&self) -> ConstraintFactor {
-        self.constraint_factor
-            .unwrap_or(ConstraintFactor::Value(2.7))
+    /// Courant number: of a [`Scenario`](crate::Scenario), where the target resistance model of its case is known.
+    pub fn courant(&self) -> f64 {
+        self.courant.unwrap_or(match self.target_closure() {
+            TargetClosure::ExpandingCavity => Self::EXPANDING_CAVITY_COURANT,
+            _ => Self::COURANT,
+        })
     }
 
     /// What stands for the target: of a [`Scenario`](crate::Scenario), where the default of its case is worked out.
@@ -87,11 +158,6 @@ impl ChainOptions {
             || key
                 .strip_prefix("chain.")
                 .is_some_and(|key| keys.any(|(own, _)| key.split('.').next() == Some(own)))
-    }
-
-    /// How what erodes leaves the tip.
-    pub fn erosion_closure(&self) -> ErosionClosure {
-        self.erosion_closure.unwrap_or_default()
     }
 
     /// Strain measure; the closure of Tate has one of its own.

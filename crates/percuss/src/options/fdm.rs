@@ -3,7 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ArtificialViscosity, ChainOptions, ConstraintFactor, number_or_word::NumberOrWord};
+use super::{
+    ArtificialViscosity, ChainOptions, ConstraintFactor,
+    defaults::{MAX_STEPS, defaults},
+    number_or_word::NumberOrWord,
+};
 use crate::{
     check::{
         Check,
@@ -16,30 +20,29 @@ use crate::{
 /// Options of the model `fdm`. In geometry `rod` the keys of mesh, target resistance and end have the values of `[chain]` when not given.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[schemars(transform = fdm_in_schema)]
 pub struct FdmOptions {
-    /// Geometry; `rod` when not given, or `planar`.
+    /// Geometry of the impact.
     pub geometry: Geometry,
-    /// Cells along the projectile; when not given, that of `[chain]` in a rod and 200 in a planar impact.
+    /// Cells along the projectile.
     pub projectile_elements: Option<u32>,
-    /// Cells through the target, shared among its layers by thickness; when not given, that of `[chain]` in a rod, and cells as
-    /// long as the projectile's in a planar impact.
+    /// Cells through the target, shared among its layers by thickness.
     pub target_elements: Option<u32>,
     /// Factor on the target's flow stress for the lateral constraint; geometry `rod` only.
     pub constraint_factor: Option<ConstraintFactor>,
     /// Border-shear coefficient C in `Fy = C π d h σ_f`; geometry `rod` only.
     pub border_shear: Option<f64>,
-    /// Courant number on the current smallest transit time; 0.7 when not given. At 0.7 a run in geometry `rod` is repeated with half
-    /// of it, down to 0.04375, until its energy balance closes, and warns; geometry `planar` conserves energy to rounding at any.
+    /// Courant number on the current smallest transit time. At the default a run in geometry `rod` is repeated with half of it,
+    /// down to 0.04375, until its energy balance closes, and warns; geometry `planar` conserves energy to rounding at any.
     pub courant: Option<f64>,
-    /// Artificial viscosity in compression; when not given, that of `[chain]` in a rod, and linear 0.1 with quadratic 2 in a
-    /// planar impact.
+    /// Artificial viscosity in compression.
     pub artificial_viscosity: Option<ArtificialViscosity>,
     /// Tensile stress at which material spalls, in place of that of the materials' records; geometry `planar` only [Pa].
     pub spall_strength: Option<Pressure>,
     /// Time at which a run is ended [s]; when not given, that of `[chain]` in a rod, and three passages of a wave through
     /// both bodies in a planar impact.
     pub end_time: Option<Time>,
-    /// Time steps after which a run is ended; when not given, that of `[chain]` in a rod, and 20 million in a planar impact.
+    /// Time steps after which a run is ended.
     pub max_steps: Option<u64>,
 }
 
@@ -62,6 +65,37 @@ impl Geometry {
             Self::Planar => "planar",
         }
     }
+}
+
+/// A default that differs between the geometries.
+fn by_geometry(planar: &str) -> String {
+    format!("that of `[chain]` in geometry `rod`, {planar} in geometry `planar`")
+}
+
+fn planar_viscosity() -> String {
+    let ArtificialViscosity { linear, quadratic } = FdmOptions::PLANAR_VISCOSITY;
+    by_geometry(&format!("linear {linear} and quadratic {quadratic}"))
+}
+
+defaults! { FdmOptions, fdm_in_schema {
+    /// Courant number.
+    courant: f64 = 0.7;
+    depending projectile_elements: by_geometry(&FdmOptions::PLANAR_ELEMENTS.to_string());
+    depending target_elements: by_geometry("cells as long as the projectile's");
+    depending constraint_factor: "that of `[chain]`";
+    depending border_shear: "that of `[chain]`";
+    depending artificial_viscosity: planar_viscosity();
+    depending max_steps: by_geometry(&MAX_STEPS.to_string());
+} }
+
+impl FdmOptions {
+    /// Cells along the projectile in geometry `planar`.
+    pub const PLANAR_ELEMENTS: u32 = 200;
+    /// Artificial viscosity in geometry `planar`.
+    pub const PLANAR_VISCOSITY: ArtificialViscosity = ArtificialViscosity {
+        linear: 0.1,
+        quadratic: 2.0,
+    };
 }
 
 /// Limits of a spall strength given by itself [Pa].

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::defaults::defaults;
 use crate::{
     check::{Check, limits},
     problem::Target,
@@ -12,8 +13,9 @@ use crate::{
 /// Options of the model `forrestal`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[schemars(transform = forrestal_in_schema)]
 pub struct ForrestalOptions {
-    /// Cavity expansion that the resistance comes from; `incompressible` when not given.
+    /// Cavity expansion that the resistance comes from.
     pub cavity: Option<Cavity>,
     /// Strength coefficient A of `σ_n = A Y + B ρ v_n²`, with `yield_stress` as Y; from the cavity expansion when not given.
     pub a: Option<f64>,
@@ -21,9 +23,9 @@ pub struct ForrestalOptions {
     pub yield_stress: Option<Pressure>,
     /// Inertia coefficient B; from the cavity expansion when not given.
     pub b: Option<f64>,
-    /// Coefficient of friction between nose and target; 0 when not given.
+    /// Coefficient of friction between nose and target.
     pub friction: Option<f64>,
-    /// How the nose enters; `embedded` when not given.
+    /// How the nose enters.
     pub entry: Option<Entry>,
 }
 
@@ -48,6 +50,15 @@ pub enum Entry {
     /// That part of the nose is loaded which is below the original surface.
     Gradual,
 }
+
+defaults! { ForrestalOptions, forrestal_in_schema {
+    /// Cavity expansion that the resistance comes from.
+    cavity: Cavity = Cavity::Incompressible;
+    /// Coefficient of friction between nose and target.
+    friction: f64 = 0.0;
+    /// How the nose enters.
+    entry: Entry = Entry::Embedded;
+} }
 
 impl ForrestalOptions {
     pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {

@@ -51,16 +51,6 @@ pub enum BandFailure {
 }
 
 impl ChainOptions {
-    /// What holds the column of target to the plate around it.
-    pub fn border_shear_law(&self) -> BorderShearLaw {
-        self.border_shear_law.unwrap_or_default()
-    }
-
-    /// Whether the plate around the column dishes.
-    pub fn dishing(&self) -> bool {
-        self.dishing.unwrap_or(false)
-    }
-
     /// Reports keys of border shear that are out of range or would have no effect.
     pub(super) fn check_border_shear(&self, check: &mut Check<'_>, target: &Target) {
         if let Some(band) = &self.shear_band {

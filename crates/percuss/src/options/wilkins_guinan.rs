@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::defaults::defaults;
 use crate::{
     check::{Check, limits},
     problem::Target,
@@ -12,12 +13,18 @@ use crate::{
 /// Options of the model `wilkins_guinan`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[schemars(transform = wilkins_in_schema)]
 pub struct WilkinsGuinanOptions {
     /// Dynamic yield stress Y [Pa]; mean flow stress of the strength law over the strain and at the rate reached when not given.
     pub dynamic_yield_stress: Option<Pressure>,
-    /// Distance of the plastic front from the wall over the initial length; 0.12 \[wilkins1973\] when not given.
+    /// Distance of the plastic front from the wall over the initial length \[wilkins1973\].
     pub front_to_length: Option<f64>,
 }
+
+defaults! { WilkinsGuinanOptions, wilkins_in_schema {
+    /// Distance of the plastic front from the wall over the initial length.
+    front_to_length: f64 = 0.12;
+} }
 
 impl WilkinsGuinanOptions {
     pub(crate) fn check(&self, check: &mut Check<'_>, _: &Target) {

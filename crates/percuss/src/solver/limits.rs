@@ -6,8 +6,6 @@ use crate::{
     units::Time,
 };
 
-/// Number of time steps that ends a run when a case gives none.
-const DEFAULT_MAX_STEPS: u64 = 20_000_000;
 /// Times that waves and the projectile take through all bodies, after which a run ends when a case gives no time.
 const PASSAGES: f64 = 20.0;
 
@@ -20,11 +18,11 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// The limits of a case, or the defaults.
-    pub(crate) fn new(scenario: &Scenario, end_time: Option<Time>, max_steps: Option<u64>) -> Self {
+    /// The limits of a case; `end_time` has a default.
+    pub(crate) fn new(scenario: &Scenario, end_time: Option<Time>, max_steps: u64) -> Self {
         Self {
             end_time: end_time.map_or_else(|| default_end_time(scenario), |time| time.si()),
-            max_steps: max_steps.unwrap_or(DEFAULT_MAX_STEPS),
+            max_steps,
         }
     }
 }

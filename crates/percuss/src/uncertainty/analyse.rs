@@ -7,7 +7,7 @@ use super::{
     design::{MAX_PARAMETERS, Rows},
     indices::{SobolIndices, indices},
     perforation::Perforation,
-    quantity::{QUANTITIES, Quantity},
+    quantity::quantities,
     result::{Draw, Failures, Input, Nominal, QuantityResult, Uncertainty},
     runner::Runner,
     statistics::Statistics,
@@ -18,6 +18,7 @@ use crate::{
     Error,
     model::Model,
     outcome::Outcome,
+    summary::{InStatistics, ResultNumber, Role},
     sweep::{Axis, Kernel, Shot, Stopped, Watch, values},
 };
 
@@ -75,7 +76,7 @@ pub fn analyse(
     let draws: Vec<Draw> = mixed.iter().step_by(width as usize).cloned().collect();
     let quantities = chosen(settings, &draws);
     let keys: Vec<&str> = study.axes.iter().map(|axis| axis.key.as_str()).collect();
-    let of = |quantity: &&'static Quantity| -> Option<QuantityResult> {
+    let of = |quantity: &&'static ResultNumber| -> Option<QuantityResult> {
         let found = draws.iter().filter_map(|draw| draw.value(quantity));
         let statistics = Statistics::of(found)?;
         let indices = no_indices.is_none().then(|| {
@@ -179,17 +180,17 @@ fn nominal(
 }
 
 /// The quantities asked for; otherwise the main ones that the model gives, without those that are the same in all shots.
-fn chosen(settings: &Settings, draws: &[Draw]) -> Vec<&'static Quantity> {
+fn chosen(settings: &Settings, draws: &[Draw]) -> Vec<&'static ResultNumber> {
     if !settings.quantities.is_empty() {
         return settings.quantities.clone();
     }
-    let spread = |quantity: &Quantity| {
+    let spread = |quantity: &ResultNumber| {
         let values = || draws.iter().filter_map(|draw| draw.value(quantity));
         let first = values().next()?;
         Some(values().any(|value| value != first))
     };
-    let given = || QUANTITIES.iter().filter(|q| q.main && spread(q).is_some());
-    let varying: Vec<&Quantity> = given().filter(|q| spread(q) == Some(true)).collect();
+    let given = || quantities().filter(|q| q.role == Role::Main && spread(q).is_some());
+    let varying: Vec<&ResultNumber> = given().filter(|q| spread(q) == Some(true)).collect();
     match varying.is_empty() {
         true => given().collect(),
         false => varying,
@@ -197,7 +198,7 @@ fn chosen(settings: &Settings, draws: &[Draw]) -> Vec<&'static Quantity> {
 }
 
 /// Values of the rows in which no shot lacks one.
-fn complete_rows(shots: &[Draw], width: usize, quantity: &Quantity) -> Vec<Vec<f64>> {
+fn complete_rows(shots: &[Draw], width: usize, quantity: &ResultNumber) -> Vec<Vec<f64>> {
     let row = |row: &[Draw]| row.iter().map(|shot| shot.value(quantity)).collect();
     shots.chunks(width).filter_map(row).collect()
 }
@@ -259,8 +260,8 @@ fn warnings(found: &Uncertainty) -> Vec<String> {
         ));
     }
     for quantity in found.quantities.iter().filter(|q| q.without_value > 0) {
-        let why = match (quantity.quantity, &found.perforation) {
-            ("depth_of_penetration_mm", Some(p)) if p.perforated == quantity.without_value => {
+        let why = match (quantity.what().in_statistics, &found.perforation) {
+            (InStatistics::NotPerforated, Some(p)) if p.perforated == quantity.without_value => {
                 " because they go through"
             }
             _ => "",
@@ -269,7 +270,7 @@ fn warnings(found: &Uncertainty) -> Vec<String> {
             "{} of {} shots have no {}{why}: its statistics are those of the others",
             quantity.without_value,
             found.samples,
-            quantity.what().in_words
+            quantity.what().label
         ));
     }
     warnings

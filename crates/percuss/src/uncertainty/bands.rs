@@ -3,12 +3,14 @@
 use super::{
     design::Rows,
     perforation::Perforation,
-    quantity::Quantity,
     result::{Band, Draw, QuantitySpread},
     runner::Runner,
     statistics::Statistics,
 };
-use crate::sweep::{Stopped, values};
+use crate::{
+    summary::ResultNumber,
+    sweep::{Stopped, values},
+};
 
 /// Most shots at one speed.
 pub(super) const SHOTS: u64 = 256;
@@ -29,8 +31,8 @@ pub(super) fn shots(
 }
 
 /// What the shots at a speed come to.
-pub(super) fn band(speed: f64, shots: &[Draw], quantities: &[&'static Quantity]) -> Band {
-    let spread = |quantity: &&'static Quantity| QuantitySpread {
+pub(super) fn band(speed: f64, shots: &[Draw], quantities: &[&'static ResultNumber]) -> Band {
+    let spread = |quantity: &&'static ResultNumber| QuantitySpread {
         quantity: quantity.name,
         statistics: Statistics::of(shots.iter().filter_map(|shot| shot.value(quantity))),
     };

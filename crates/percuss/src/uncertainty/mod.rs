@@ -20,7 +20,7 @@ mod tornado;
 pub use analyse::analyse;
 pub use indices::{Index, SobolIndices};
 pub use perforation::Perforation;
-pub use quantity::{QUANTITIES, Quantity, quantity};
+pub use quantity::{quantities, quantity};
 pub use result::{
     Band, Draw, Failures, Input, Nominal, QuantityResult, QuantitySpread, TornadoBar, Uncertainty,
 };

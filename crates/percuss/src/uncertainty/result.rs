@@ -5,10 +5,10 @@ use serde::Serialize;
 use super::{
     indices::SobolIndices,
     perforation::Perforation,
-    quantity::{QUANTITIES, Quantity, quantity},
+    quantity::{quantities, quantity},
     statistics::Statistics,
 };
-use crate::{judge::Expectation, outcome::Outcome, sweep::Row};
+use crate::{judge::Expectation, outcome::Outcome, summary::ResultNumber, sweep::Row};
 
 /// What the uncertainty of a case's numbers does to its results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -138,7 +138,7 @@ impl QuantityResult {
     ///
     /// # Panics
     /// Never: results hold quantities of the list only.
-    pub fn what(&self) -> &'static Quantity {
+    pub fn what(&self) -> &'static ResultNumber {
         quantity(self.quantity).expect("a quantity of the list")
     }
 }
@@ -195,7 +195,7 @@ pub struct Draw {
     pub inputs: Vec<f64>,
     /// How it ended.
     pub outcome: Outcome,
-    /// A value for each of [`QUANTITIES`].
+    /// A value for each of [`quantities()`].
     pub values: Vec<Option<f64>>,
     /// Why there is no result; empty when there is one.
     pub error: String,
@@ -208,24 +208,23 @@ impl Draw {
             Ok(record) => Self {
                 inputs: row.inputs,
                 outcome: record.outcome,
-                values: QUANTITIES
-                    .iter()
-                    .map(|quantity| quantity.of(&record))
+                values: quantities()
+                    .map(|quantity| quantity.for_statistics(&record))
                     .collect(),
                 error: record.reason.unwrap_or_default(),
             },
             Err(error) => Self {
                 inputs: row.inputs,
                 outcome: Outcome::Failed,
-                values: vec![None; QUANTITIES.len()],
+                values: vec![None; quantities().count()],
                 error,
             },
         }
     }
 
     /// The value of a quantity.
-    pub fn value(&self, quantity: &Quantity) -> Option<f64> {
-        let place = QUANTITIES.iter().position(|q| q.name == quantity.name)?;
+    pub fn value(&self, quantity: &ResultNumber) -> Option<f64> {
+        let place = quantities().position(|q| q.name == quantity.name)?;
         self.values[place]
     }
 

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use super::quantity::Quantity;
 use crate::{
     Error, Scenario,
     case::{Case, Document, Template},
     check::{Check, Finding},
+    summary::ResultNumber,
     sweep::{Axis, Copula, MAX_DIMENSIONS, check_values},
 };
 
@@ -36,7 +36,7 @@ pub struct Settings {
     /// Decides over everything drawn at random.
     pub seed: u64,
     /// What to look at; the main quantities that the model gives when empty.
-    pub quantities: Vec<&'static Quantity>,
+    pub quantities: Vec<&'static ResultNumber>,
     /// Whether to estimate Sobol' indices.
     pub indices: bool,
     /// Impact speeds of the bands [m/s], rising.

@@ -1,11 +1,10 @@
 //! One parameter at a time, low and high.
 
 use super::{
-    quantity::Quantity,
     result::{Draw, TornadoBar},
     runner::Runner,
 };
-use crate::sweep::Stopped;
+use crate::{summary::ResultNumber, sweep::Stopped};
 
 /// Chances at which a parameter is low and high.
 pub(super) const ENDS: [f64; 2] = [0.05, 0.95];
@@ -24,7 +23,11 @@ pub(super) fn shots(runner: &Runner<'_>) -> Result<Vec<Draw>, Stopped> {
 }
 
 /// The bars of a quantity, the longest first.
-pub(super) fn bars(runner: &Runner<'_>, shots: &[Draw], quantity: &Quantity) -> Vec<TornadoBar> {
+pub(super) fn bars(
+    runner: &Runner<'_>,
+    shots: &[Draw],
+    quantity: &ResultNumber,
+) -> Vec<TornadoBar> {
     let bar = |(i, axis): (usize, &crate::sweep::Axis)| {
         let [low, high] = [&shots[2 * i], &shots[2 * i + 1]];
         TornadoBar {

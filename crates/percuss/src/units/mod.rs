@@ -12,6 +12,7 @@
 //! ```
 
 mod dimension;
+mod result_unit;
 #[cfg(test)]
 mod tests;
 
@@ -21,6 +22,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 pub use dimension::*;
+pub use result_unit::ResultUnit;
 
 use crate::error::nearest;
 

@@ -6,6 +6,7 @@ use percuss::{
 
 use super::shown;
 use crate::{
+    output,
     table::{Column, blocks},
     terminal::bold,
 };
@@ -151,22 +152,17 @@ fn range(record: &ResultRecord, leading: BandQuantity) -> String {
 
 /// For scripts: a line for each speed and model.
 pub fn lines(comparison: &Comparison) -> String {
-    let value = |value: Option<f64>| value.map_or_else(|| "null".to_owned(), |v| v.to_string());
     comparison
         .results
         .iter()
         .map(|record| {
             let outcome = serde_json::json!(record.outcome);
             format!(
-                "model={} impact_velocity_m_s={} outcome={} depth_of_penetration_mm={} residual_velocity_m_s={} \
-                 ballistic_limit_m_s={} projectile_final_length_mm={} warnings={}\n",
+                "model={} impact_velocity_m_s={} outcome={} {} warnings={}\n",
                 record.model,
                 record.impact_velocity_m_s,
                 outcome.as_str().unwrap_or_default(),
-                value(record.depth_of_penetration_mm),
-                value(record.residual_velocity_m_s),
-                value(record.ballistic_limit_m_s),
-                value(record.projectile_final_length_mm),
+                output::main_numbers(record),
                 record.warnings.len(),
             )
         })

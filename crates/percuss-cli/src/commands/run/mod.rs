@@ -203,15 +203,10 @@ fn without_history(result: &RunResult) -> &'static str {
 /// A result in one line for scripts.
 fn one_line(record: &ResultRecord) -> String {
     let outcome = serde_json::json!(record.outcome);
-    let value = |value: Option<f64>| value.map_or_else(|| "null".to_owned(), |v| v.to_string());
     format!(
-        "outcome={} depth_of_penetration_mm={} residual_velocity_m_s={} \
-         ballistic_limit_m_s={} projectile_final_length_mm={} warnings={} model={}\n",
+        "outcome={} {} warnings={} model={}\n",
         outcome.as_str().unwrap_or_default(),
-        value(record.depth_of_penetration_mm),
-        value(record.residual_velocity_m_s),
-        value(record.ballistic_limit_m_s),
-        value(record.projectile_final_length_mm),
+        output::main_numbers(record),
         record.warnings.len(),
         record.model,
     )

@@ -13,11 +13,9 @@ use percuss::{
     Error,
     case::Document,
     model::{self, MODELS, Model},
+    summary::ResultNumber,
     sweep::BatchKernel,
-    uncertainty::{
-        self, MAX_SAMPLES, MIN_SAMPLES, QUANTITIES, Quantity, Settings, Study,
-        Uncertainty as Found, Watch,
-    },
+    uncertainty::{self, MAX_SAMPLES, MIN_SAMPLES, Settings, Study, Uncertainty as Found, Watch},
 };
 
 use crate::{
@@ -88,7 +86,7 @@ pub struct Uncertainty {
     seed: u64,
     /// Result to look at, by its name in JSON; may be given several times
     #[arg(long, value_name = "NAME")]
-    #[arg(value_parser = PossibleValuesParser::new(QUANTITIES.iter().map(|quantity| quantity.name)))]
+    #[arg(value_parser = PossibleValuesParser::new(uncertainty::quantities().map(|quantity| quantity.name)))]
     quantity: Vec<String>,
     /// Impact speeds for bands: FROM..TO (11 speeds), FROM..TO:COUNT, a list, or `experiments`
     // A negative speed is answered with the range that speeds have.
@@ -234,13 +232,16 @@ impl Uncertainty {
         let Some(missing) = self.quantity.iter().find(|name| !given(name)) else {
             return Ok(());
         };
-        let has = |quantity: &&Quantity| {
+        let has = |quantity: &&ResultNumber| {
             found
                 .draws
                 .iter()
                 .any(|draw| draw.value(quantity).is_some())
         };
-        let names: Vec<&str> = QUANTITIES.iter().filter(has).map(|q| q.name).collect();
+        let names: Vec<&str> = uncertainty::quantities()
+            .filter(has)
+            .map(|q| q.name)
+            .collect();
         Err(Failure::Usage {
             message: format!("no shot of model `{}` has a value of {missing}", self.model),
             help: match names.is_empty() {

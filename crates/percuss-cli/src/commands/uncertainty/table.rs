@@ -160,11 +160,11 @@ fn spread(found: &Uncertainty) -> String {
 /// Name and unit of a quantity in narrow lines.
 fn heading(quantity: &QuantityResult) -> String {
     let what = quantity.what();
-    let words = match what.in_words.rsplit_once(' ') {
+    let words = match what.label.rsplit_once(' ') {
         Some((start, end)) => format!("{start}\n{end}"),
-        None => what.in_words.to_owned(),
+        None => what.label.to_owned(),
     };
-    format!("{words}\n[{}]", what.unit)
+    format!("{words}\n[{}]", what.unit.symbol)
 }
 
 fn value(value: Option<f64>) -> String {
@@ -174,7 +174,7 @@ fn value(value: Option<f64>) -> String {
 fn influence(found: &Uncertainty, quantity: &QuantityResult) -> String {
     let bars = quantity.tornado.iter();
     let each = |of: &dyn Fn(&TornadoBar) -> String| bars.clone().map(of).collect();
-    let unit = quantity.what().unit;
+    let unit = quantity.what().unit.symbol;
     let first = names("parameter", each(&|bar| found.label(&bar.key).to_owned()));
     let mut columns = vec![
         column(&format!("at 5 %\n[{unit}]"), each(&|bar| value(bar.at_low))),
@@ -197,7 +197,7 @@ fn influence(found: &Uncertainty, quantity: &QuantityResult) -> String {
             each(&|bar| index(&bar.key, |i| i.total)),
         ));
     }
-    let title = format!("what moves the {}", quantity.what().in_words);
+    let title = format!("what moves the {}", quantity.what().label);
     let mut text = format!("{}\n{}", bold(title), blocks(&first, columns));
     if let (Some(why), None) = (&quantity.no_indices, &found.no_indices) {
         text += &format!(

@@ -1,29 +1,15 @@
 //! Which number of the rows is drawn, and what it is called.
 
+use percuss::{
+    summary::{Role, result_number},
+    units::ResultUnit,
+};
+
 use super::super::{manifest::Manifest, parts::Parts, rows::has_numbers};
 use crate::ReportError;
 
-/// Columns that say what was shot, or how it was computed: what comes of it is drawn unless they are asked for.
-const SECOND: [&str; 7] = [
-    "shot",
-    "impact_velocity_m_s",
-    "impact_energy_j",
-    "band_low",
-    "band_high",
-    "steps",
-    "time_step_ns",
-];
-/// Ends of the names of columns, and the units that they stand for.
-const UNITS: [(&str, &str); 8] = [
-    ("_m_s", "m/s"),
-    ("_mm", "mm"),
-    ("_us", "µs"),
-    ("_ns", "ns"),
-    ("_kn", "kN"),
-    ("_g", "g"),
-    ("_j", "J"),
-    ("_k", "K"),
-];
+/// Columns of numbers that are no result number of their own and are drawn only where they are named.
+const SECOND: [&str; 3] = ["shot", "band_low", "band_high"];
 
 /// The column that was asked for, or the first result that the sweep has.
 pub(super) fn choose(parts: &Parts<'_>, wanted: Option<&str>) -> Result<String, ReportError> {
@@ -63,19 +49,22 @@ fn is_input(manifest: &Manifest, column: &str) -> bool {
     manifest.parameters.iter().any(|p| p.column == column)
 }
 
-/// Whether a column says what comes of a shot.
+/// Whether a column is a result: neither an input nor a count of the computation.
 pub(super) fn is_result(manifest: &Manifest, column: &str) -> bool {
-    !is_input(manifest, column) && !SECOND.contains(&column)
+    let second = match result_number(column) {
+        Some(number) => matches!(number.role, Role::Input | Role::Numerics),
+        None => SECOND.contains(&column),
+    };
+    !is_input(manifest, column) && !second
 }
 
 /// A column's name in words, with its unit in brackets.
 pub(super) fn label(column: &str) -> String {
-    let unit = UNITS.iter().find(|(end, _)| column.ends_with(end));
-    match unit {
-        Some((end, unit)) => {
-            let name = column.strip_suffix(end).unwrap_or(column);
-            format!("{} [{unit}]", name.replace('_', " "))
-        }
-        None => column.replace('_', " "),
+    let (name, unit) = ResultUnit::split(column);
+    let name = name.replace('_', " ");
+    match unit.symbol {
+        "" => name,
+        "us" => format!("{name} [µs]"),
+        symbol => format!("{name} [{symbol}]"),
     }
 }

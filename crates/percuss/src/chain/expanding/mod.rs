@@ -34,7 +34,7 @@ use self::{
     state::{Accumulators, State, TargetFailure},
 };
 use super::{
-    column::{DEFAULT_EROSION_STRAIN, TOLERANCE},
+    column::{TOLERANCE, erosion_strain},
     cone::{Cone, Grading},
     solver::StepControl,
 };
@@ -43,7 +43,7 @@ use crate::{
     error::NumericalError,
     history::{Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
-    options::ErosionStrain,
+    options::ChainOptions,
     outcome::{Outcome, RunResult, Termination},
     problem::BackFace,
     scenario::{Plate, TargetBody, modelled_thickness},
@@ -55,8 +55,6 @@ use crate::{
     },
 };
 
-/// Courant number when a case gives none.
-const DEFAULT_COURANT: f64 = 0.5;
 /// Courant number below which a run is not repeated.
 const SMALLEST_COURANT: f64 = 0.05;
 /// Steps between two audits.
@@ -108,12 +106,12 @@ impl<'a> Cavity<'a> {
         let options = &scenario.options.chain;
         let projectile = &scenario.projectile;
         let area = projectile.mass / (projectile.material.density.si() * projectile.length);
-        let heat = if options.adiabatic_heating.unwrap_or(true) {
-            options.heat_fraction.unwrap_or(0.9)
+        let heat = if options.adiabatic_heating() {
+            options.heat_fraction()
         } else {
             0.0
         };
-        let rate_effects = options.rate_effects.unwrap_or(true);
+        let rate_effects = options.rate_effects();
         let metal = Metal::new(&projectile.material, heat, rate_effects);
         let temperature = projectile
             .temperature
@@ -168,11 +166,7 @@ impl<'a> Cavity<'a> {
             contact_force: 0.0,
             eroded: 0,
         };
-        let erosion_strain = match options.erosion_strain {
-            Some(ErosionStrain::At(strain)) => strain,
-            Some(ErosionStrain::Never) => f64::INFINITY,
-            None => DEFAULT_EROSION_STRAIN,
-        };
+        let erosion_strain = erosion_strain(options);
         let mut control = StepControl::new(options, courant, erosion_strain, f64::INFINITY);
         let slowness = state.rod.front.metal.slowness.max(state.far_field.slowness);
         control.courant *= control.step_factor(speed, slowness);
@@ -204,12 +198,15 @@ impl<'a> Solver<'a> for Cavity<'a> {
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
-        (scenario.options.chain.courant, DEFAULT_COURANT)
+        (
+            scenario.options.chain.courant,
+            ChainOptions::EXPANDING_CAVITY_COURANT,
+        )
     }
 
     fn limits(&self) -> Limits {
         let options = &self.scenario.options.chain;
-        Limits::new(self.scenario, options.end_time, options.max_steps)
+        Limits::new(self.scenario, options.end_time, options.max_steps())
     }
 
     fn advance(&mut self) -> Result<(), NumericalError> {

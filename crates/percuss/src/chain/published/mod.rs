@@ -366,7 +366,7 @@ impl<'a> Solver<'a> for Published<'a> {
 
     fn limits(&self) -> Limits {
         let options = &self.scenario.options.chain;
-        Limits::new(self.scenario, options.end_time, options.max_steps)
+        Limits::new(self.scenario, options.end_time, options.max_steps())
     }
 
     fn advance(&mut self) -> Result<(), NumericalError> {

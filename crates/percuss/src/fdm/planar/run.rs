@@ -10,12 +10,13 @@ use crate::{
     Error, Refusal, Scenario,
     error::NumericalError,
     fdm::{
-        audit::{self, AUDIT, DEFAULT_COURANT},
+        audit::{self, AUDIT},
         grid::{End, Grid, Slab},
     },
     history::{Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
     material::{Library, Material},
+    options::{FdmOptions, MAX_STEPS},
     outcome::{Outcome, RunResult, Termination},
     problem::BackFace,
     scenario::{TargetBody, modelled_thickness},
@@ -109,7 +110,7 @@ fn law(material: &Material, scenario: &Scenario) -> Option<PlanarLaw> {
     Some(medium.law(
         scenario.projectile.area(),
         options.artificial_viscosity.unwrap_or(DEFAULT_VISCOSITY),
-        scenario.options.chain.rate_effects.unwrap_or(true),
+        scenario.options.chain.rate_effects(),
     ))
 }
 
@@ -210,7 +211,11 @@ impl<'a> Solver<'a> for PlanarImpact<'a> {
         let refuse = || Error::not_applicable("fdm", not_applicable(scenario).unwrap_or_default());
         let (grid, passage, interface) = build(scenario).ok_or_else(refuse)?;
         let options = &scenario.options.fdm;
-        let mut limits = Limits::new(scenario, options.end_time, options.max_steps);
+        let mut limits = Limits::new(
+            scenario,
+            options.end_time,
+            options.max_steps.unwrap_or(MAX_STEPS),
+        );
         if options.end_time.is_none() {
             limits.end_time = PASSAGES * passage;
         }
@@ -230,7 +235,10 @@ impl<'a> Solver<'a> for PlanarImpact<'a> {
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
-        (scenario.options.fdm.courant, DEFAULT_COURANT)
+        (
+            scenario.options.fdm.courant,
+            FdmOptions::default().courant(),
+        )
     }
 
     fn limits(&self) -> Limits {

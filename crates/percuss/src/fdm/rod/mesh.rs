@@ -6,7 +6,7 @@ use super::law::RodLaw;
 use crate::{
     fdm::grid::{End, Grid, Slab},
     material::Material,
-    options::{ConstraintFactor, FdmOptions, constraint_factor},
+    options::{ChainOptions, ConstraintFactor, FdmOptions, constraint_factor},
     problem::BackFace,
     scenario::{Scenario, TargetBody, modelled_thickness},
 };
@@ -21,9 +21,9 @@ fn law(
 ) -> RodLaw {
     let chain = &scenario.options.chain;
     let heating = match material.specific_heat {
-        Some(heat) if chain.adiabatic_heating.unwrap_or(true) => {
+        Some(heat) if chain.adiabatic_heating() => {
             // What the constraint adds to the stress is work against the material around the column, not heat in it.
-            chain.heat_fraction.unwrap_or(0.9) / (factor * material.density.si() * heat.si())
+            chain.heat_fraction() / (factor * material.density.si() * heat.si())
         }
         _ => 0.0,
     };
@@ -35,7 +35,7 @@ fn law(
         strength: material.strength.law().prepare(material, factor),
         heating,
         start_temperature: material.room_temperature.si(),
-        rate_effects: chain.rate_effects.unwrap_or(true),
+        rate_effects: chain.rate_effects(),
         viscosity: options.artificial_viscosity.unwrap_or_default(),
     }
 }
@@ -56,7 +56,9 @@ pub(super) fn build(scenario: &Scenario, options: &FdmOptions) -> Grid<RodLaw> {
     let rod = &scenario.projectile;
     let area = rod.mass / (rod.material.density.si() * rod.length);
     let projectile = law(&rod.material, area, 1.0, options, scenario);
-    let cells = options.projectile_elements.unwrap_or(40) as usize;
+    let cells = options
+        .projectile_elements
+        .unwrap_or(ChainOptions::PROJECTILE_ELEMENTS) as usize;
     let mut slabs = vec![slab(projectile, -rod.length, rod.length, cells)];
     slabs[0].velocity = scenario.impact_speed;
     let mut end = End::Free;
@@ -72,9 +74,15 @@ pub(super) fn build(scenario: &Scenario, options: &FdmOptions) -> Grid<RodLaw> {
             let factor = options
                 .constraint_factor
                 .unwrap_or(ConstraintFactor::Value(2.7));
-            let shear = options.border_shear.unwrap_or(0.577);
+            let shear = options
+                .border_shear
+                .unwrap_or_else(|| ChainOptions::default().border_shear());
             let total = target_length(scenario);
-            let all = f64::from(options.target_elements.unwrap_or(80));
+            let all = f64::from(
+                options
+                    .target_elements
+                    .unwrap_or(ChainOptions::TARGET_ELEMENTS),
+            );
             let mut start = 0.0;
             for plate in layers {
                 let material = &plate.material;

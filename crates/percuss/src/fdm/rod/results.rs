@@ -3,6 +3,7 @@
 use super::{mesh, run::Rod};
 use crate::{
     fdm::{audit::REST_FRACTION, warnings::warn_of_material},
+    options::ChainOptions,
     outcome::{Outcome, RunResult, Termination},
     scenario::TargetBody,
     solver::monitor::RunMonitor,
@@ -94,15 +95,23 @@ fn warnings(rod: &Rod<'_>, result: &RunResult) -> Vec<String> {
         ),
         _ => {}
     }
-    let heated = scenario.options.chain.adiabatic_heating.unwrap_or(true);
+    let heated = scenario.options.chain.adiabatic_heating();
     let material = &scenario.projectile.material;
     warn_of_material("projectile", material, grid.views(0), heated, &mut warnings);
     let TargetBody::Layers { layers, .. } = &scenario.target else {
         return warnings;
     };
     let length = mesh::target_length(scenario);
-    let cell = length / f64::from(rod.options.target_elements.unwrap_or(80));
-    let shear = rod.options.border_shear.unwrap_or(0.577);
+    let cell = length
+        / f64::from(
+            rod.options
+                .target_elements
+                .unwrap_or(ChainOptions::TARGET_ELEMENTS),
+        );
+    let shear = rod
+        .options
+        .border_shear
+        .unwrap_or_else(|| ChainOptions::default().border_shear());
     let depth = result.depth_of_penetration.unwrap_or(0.0);
     if shear > 0.0 {
         warnings.push(format!(

@@ -7,12 +7,12 @@ use crate::{
     Error, Scenario,
     error::NumericalError,
     fdm::{
-        audit::{self, AUDIT, DEFAULT_COURANT, REST_FRACTION},
+        audit::{self, AUDIT, REST_FRACTION},
         grid::{End, Grid},
     },
     history::{Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
-    options::FdmOptions,
+    options::{FdmOptions, MAX_STEPS},
     outcome::{Outcome, RunResult, Termination},
     solver::{
         archive::Archive,
@@ -123,7 +123,11 @@ impl<'a> Solver<'a> for Rod<'a> {
         Ok(Self {
             scenario,
             grid: mesh::build(scenario, &options),
-            limits: Limits::new(scenario, options.end_time, options.max_steps),
+            limits: Limits::new(
+                scenario,
+                options.end_time,
+                options.max_steps.unwrap_or(MAX_STEPS),
+            ),
             options,
             courant,
             window: Window::default(),
@@ -132,7 +136,10 @@ impl<'a> Solver<'a> for Rod<'a> {
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
-        (options_of(scenario).courant, DEFAULT_COURANT)
+        (
+            options_of(scenario).courant,
+            FdmOptions::default().courant(),
+        )
     }
 
     fn limits(&self) -> Limits {
