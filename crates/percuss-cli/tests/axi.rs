@@ -120,12 +120,24 @@ fn options_of_fields_are_refused_where_there_are_none() {
     let case = case(folder.path(), CASE);
     let shown = folder.path().join("out");
     let shown = shown.to_str().unwrap();
-    for option in ["--resume", "--fields", "--animation", "--frames=10"] {
-        let run = percuss(folder.path(), ["run", &*case, "--out", shown, option]);
+    let chain = "whose fields are one-dimensional";
+    let formula = "which does not step through time";
+    for (model, option, why) in [
+        ("chain", "--animation", chain),
+        ("chain", "--field=speed", chain),
+        ("tate", "--animation", formula),
+        ("tate", "--resume", formula),
+        ("tate", "--fields", formula),
+        ("tate", "--frames=10", formula),
+    ] {
+        let run = percuss(
+            folder.path(),
+            ["run", &*case, "--model", model, "--out", shown, option],
+        );
         let said = run.stderr;
         assert_eq!(run.code, 2, "{said}");
         let name = option.split('=').next().unwrap();
-        let expected = format!("`{name}` has no effect with model `chain`, which has no fields");
+        let expected = format!("`{name}` has no effect with model `{model}`, {why}");
         assert!(
             said.contains(&expected) && said.contains("--model axi"),
             "{said}"

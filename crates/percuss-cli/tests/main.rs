@@ -3,6 +3,7 @@
 mod axi;
 mod bad_input;
 mod calibrate;
+mod checkpoints;
 mod compare;
 mod docs;
 mod figures;

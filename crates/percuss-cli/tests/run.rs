@@ -240,12 +240,9 @@ fn a_numerical_failure_has_its_own_exit_code() {
         "{}",
         said.stderr
     );
+    let words: Vec<&str> = said.stderr.split_whitespace().collect();
     assert!(
-        said.stderr.contains(" at step ")
-            && said.stderr.contains(
-                "
-help: "
-            ),
+        words.join(" ").contains(" at step ") && said.stderr.contains("\nhelp: "),
         "{}",
         said.stderr
     );

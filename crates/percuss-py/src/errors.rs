@@ -46,9 +46,9 @@ fn describe(failure: &Failure, attributes: &Bound<'_, PyDict>) -> PyResult<Optio
                 Subject::Case => "CaseError",
             }
         }
-        Failure::Library(Error::NotApplicable { model, reason }) => {
+        Failure::Library(Error::NotApplicable { model, refusal }) => {
             attributes.set_item("model", model)?;
-            attributes.set_item("reason", reason)?;
+            attributes.set_item("reason", refusal.to_string())?;
             "NotApplicableError"
         }
         Failure::Library(Error::NoModelApplies { reasons }) => {

@@ -85,7 +85,7 @@ impl Bounds {
             ));
         }
         let cells = options.axi.cells_per_radius();
-        if model.has_fields() && cells > CELLS_PER_RADIUS {
+        if model.is_two_dimensional() && cells > CELLS_PER_RADIUS {
             return Err(Problem::too_large(
                 format!("the mesh has {cells} cells along the projectile's radius"),
                 format!(

@@ -251,10 +251,10 @@ pub fn study(
         let refined = model.refined(scenario, REFINEMENT.saturating_pow(level));
         let result = run(model, refined.as_ref().unwrap_or(scenario), control)?;
         let (Some(_), Some(numerics)) = (&refined, &result.numerics) else {
-            return Err(Error::NotApplicable {
-                model: model.name(),
-                reason: "it has no mesh to refine".to_owned(),
-            });
+            return Err(Error::not_applicable(
+                model.name(),
+                "it has no mesh to refine",
+            ));
         };
         meshes.push(Mesh {
             projectile_elements: numerics.elements.0,

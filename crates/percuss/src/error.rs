@@ -2,6 +2,8 @@
 
 use std::{fmt, io, ops::Range, path::PathBuf};
 
+use crate::Refusal;
+
 /// Any failure of the library.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -10,12 +12,12 @@ pub enum Error {
     #[error(transparent)]
     Input(#[from] Box<InputError>),
     /// The model does not apply to this case.
-    #[error("model `{model}` does not apply to this case: {reason}")]
+    #[error("model `{model}` does not apply to this case: {refusal}")]
     NotApplicable {
         /// Name of the model.
         model: &'static str,
-        /// Why, in words.
-        reason: String,
+        /// Why, and the remedy.
+        refusal: Refusal,
     },
     /// No quick model applies to this case.
     #[error("no model applies to this case: {}", in_one_line(.reasons))]
@@ -80,14 +82,23 @@ pub enum Error {
 const WHICH_APPLY: &str = "`percuss compare CASE.toml` names the models that apply";
 
 impl Error {
+    /// The refusal of a model.
+    pub fn not_applicable(model: &'static str, refusal: impl Into<Refusal>) -> Self {
+        Self::NotApplicable {
+            model,
+            refusal: refusal.into(),
+        }
+    }
+
     /// What is wrong, and what to do about it; the latter may be empty.
     pub fn message_and_help(&self) -> (String, String) {
         match self {
             Self::Input(error) => (error.message.clone(), error.help.clone()),
-            Self::NotApplicable { model, reason } => {
-                let (reason, help) = reason.split_once("; ").unwrap_or((reason, WHICH_APPLY));
+            Self::NotApplicable { model, refusal } => {
+                let reason = &refusal.reason;
                 let message = format!("model `{model}` does not apply to this case: {reason}");
-                (message, help.to_owned())
+                let remedy = refusal.remedy.as_deref().unwrap_or(WHICH_APPLY);
+                (message, remedy.to_owned())
             }
             Self::NoModelApplies { reasons } => (
                 "no model applies to this case".to_owned(),
@@ -182,7 +193,11 @@ impl InputError {
 
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}: ", self.file, self.line())?;
+        // A case that is built in code has no lines.
+        match self.text.is_empty() {
+            true => write!(f, "{}: ", self.file)?,
+            false => write!(f, "{}:{}: ", self.file, self.line())?,
+        }
         if !self.key.is_empty() {
             write!(f, "`{}`: ", self.key)?;
         }

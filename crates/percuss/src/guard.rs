@@ -18,6 +18,7 @@ pub use range::{Measure, Outside, Range};
 use serde::Serialize;
 
 use crate::{
+    Refusal,
     material::MaterialClass,
     outcome::BandQuantity,
     regime::{ProjectileRegime, Regime, TargetKind},
@@ -96,7 +97,7 @@ impl Guard {
     pub fn verdict(&self, scenario: &Scenario, regime: &Regime) -> Verdict {
         let mut warnings = Vec::new();
         if !self.targets.contains(&regime.target) {
-            return Verdict::Outside(format!(
+            return Verdict::refused(format!(
                 "it takes {}, and this is {}",
                 list(self.targets.iter().map(|kind| kind.in_words())),
                 regime.target_in_words(scenario)
@@ -104,20 +105,20 @@ impl Guard {
         }
         let nose = NoseKind::of(scenario.projectile.nose);
         if !self.noses.contains(&nose) {
-            return Verdict::Outside(format!(
+            return Verdict::refused(format!(
                 "it takes {} noses, and this nose is of the shape `{}`",
                 list(self.noses.iter().map(|nose| nose.name())),
                 nose.name()
             ));
         }
         if let Some(reason) = oblique::reason(self, scenario, nose) {
-            return Verdict::Outside(reason);
+            return Verdict::refused(reason);
         }
         if let Some(reason) = self.wrong_material(scenario) {
-            return Verdict::Outside(reason);
+            return Verdict::refused(reason);
         }
         if let Some(reason) = temperature::reason(self, scenario) {
-            return Verdict::Outside(reason);
+            return Verdict::refused(reason);
         }
         if !self.separate_layers
             && let TargetBody::Layers {
@@ -125,15 +126,14 @@ impl Guard {
                 ..
             } = scenario.target
         {
-            return Verdict::Outside(
+            return Verdict::refused(
                 "it takes layers that lie on each other, without a gap, an `interface` or a `column_diameter` of their own"
                     .to_owned(),
             );
         }
         if scenario.resistance.is_some() && !self.own_resistance {
-            return Verdict::Outside(
-                "it takes no resistance law of the caller's own; `chain` does".to_owned(),
-            );
+            let refusal = Refusal::new("it takes no resistance law of the caller's own");
+            return Verdict::Outside(refusal.with_remedy("use the model `chain`"));
         }
         let neighbour = regime
             .neighbour
@@ -141,7 +141,7 @@ impl Guard {
         if !self.projectile.contains(&regime.projectile) {
             match neighbour {
                 None => {
-                    return Verdict::Outside(format!(
+                    return Verdict::refused(format!(
                         "it takes {} projectiles, and this one is {}: {}",
                         list(self.projectile.iter().map(|regime| regime.in_words())),
                         regime.projectile.in_words(),
@@ -161,7 +161,7 @@ impl Guard {
                 continue;
             };
             match range.outside {
-                Outside::NotApplicable => return Verdict::Outside(outside),
+                Outside::NotApplicable => return Verdict::refused(outside),
                 Outside::Warning => warnings.push(outside),
             }
         }
@@ -267,8 +267,14 @@ impl Guard {
 pub enum Verdict {
     /// It does, with warnings where it stands at an edge.
     Inside(Vec<String>),
-    /// It does not, for this reason.
-    Outside(String),
+    /// It does not.
+    Outside(Refusal),
+}
+
+impl Verdict {
+    fn refused(reason: impl Into<Refusal>) -> Self {
+        Self::Outside(reason.into())
+    }
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use crate::ledger::{EnergyLedger, MomentumLedger};
 
 /// One moment of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Sample {
     /// Time [s].
     pub time: f64,

@@ -2,6 +2,7 @@
 
 /// Where the energy of a run is [J].
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
 pub struct EnergyLedger {
     /// Kinetic energy at the start.
     pub initial: f64,
@@ -82,6 +83,7 @@ impl EnergyLedger {
 
 /// Where the momentum of a run is [N s], along the direction of the shot.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
 pub struct MomentumLedger {
     /// Momentum at the start.
     pub initial: f64,

@@ -16,6 +16,10 @@
 //! assert!(result.numerics().energy_residual < 1e-3 && result.numerics().momentum_residual < 1e-12);
 //! # Ok::<(), percuss::Error>(())
 //! ```
+//!
+//! A case is also built without a text: [`case::Case::scenario`]. A model, a strength law, a failure law or a resistance law of your own
+//! implements [`model::Model`], [`material::StrengthLaw`], [`material::FailureLaw`] or [`resistance::ResistanceLaw`]; the options of
+//! such a model stand in the case under `extensions`. The folder `examples/own-model` of the repository has one of each.
 
 pub mod analytic;
 pub mod axi;
@@ -25,7 +29,6 @@ pub mod chain;
 pub mod check;
 pub mod compare;
 pub mod converge;
-mod courant_retry;
 pub mod document;
 mod error;
 pub mod fdm;
@@ -34,6 +37,7 @@ pub mod guard;
 pub mod history;
 pub mod inputs;
 pub mod judge;
+mod lanes;
 pub mod ledger;
 pub mod limit;
 pub mod material;
@@ -42,6 +46,7 @@ pub mod options;
 pub mod outcome;
 pub mod power;
 pub mod problem;
+mod refusal;
 pub mod regime;
 pub mod resistance;
 pub mod richardson;
@@ -57,6 +62,7 @@ pub mod v50;
 pub mod validate;
 
 pub use error::{Error, InputError, NumericalError, Subject};
+pub use refusal::Refusal;
 pub use scenario::Scenario;
 pub use solver::{checkpoint, frames};
 

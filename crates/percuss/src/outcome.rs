@@ -116,6 +116,7 @@ impl Termination {
 
 /// The result of one model on one case; a number that the model does not give is `None`.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct RunResult {
     /// Name of the model.
     pub model: &'static str,
@@ -261,6 +262,7 @@ pub struct Detail {
 
 /// Steps and books of a model that steps through time on a mesh.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Numerics {
     /// Time steps taken.
     pub steps: u64,

@@ -6,7 +6,7 @@ use crate::{
     material::Material,
     options::{ModelOptions, TargetClosure},
     outcome::BandQuantity,
-    problem::{BackFace, LayerInterface, Nose, Support},
+    problem::{BackFace, Extensions, LayerInterface, Nose, Support},
     resistance::OwnResistance,
 };
 
@@ -34,6 +34,8 @@ pub struct Scenario {
     pub resistance_reason: Option<String>,
     /// Options of the models.
     pub options: ModelOptions,
+    /// Tables of models that are not part of percuss.
+    pub extensions: Extensions,
     /// What was measured, for comparison; no model sees it.
     pub experiments: Vec<Measurement>,
     /// Which values that have a default the case gives.

@@ -170,8 +170,8 @@ fn run(model: &dyn Model, scenario: &Scenario) -> Option<RunResult> {
             assert_finite(&result);
             Some(result)
         }
-        Err(Error::NotApplicable { reason, .. }) => {
-            assert!(!reason.is_empty(), "{}", model.name());
+        Err(Error::NotApplicable { refusal, .. }) => {
+            assert!(!refusal.reason.is_empty(), "{}", model.name());
             None
         }
         Err(error) => panic!("{} at {} m/s: {error}", model.name(), scenario.impact_speed),

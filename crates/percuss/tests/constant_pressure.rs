@@ -60,3 +60,17 @@ fn the_pressure_stays_on_a_tip_that_erodes() {
     assert!(share <= 1.0 && share > 0.97, "{share}");
     assert_near("peak force [N]", result.peak_force.unwrap(), force, 1e-9);
 }
+
+#[test]
+fn a_projectile_of_which_nothing_is_left_ends_the_run() {
+    // Its only element fails in tension at once.
+    let result = run(r#"
+        projectile = { material = "copper-woodward", length = "1 mm", diameter = "0.5 mm", velocity = "2213.9 m/s" }
+        target = { constant_pressure = "2901 MPa" }
+        [chain]
+        projectile_elements = 1
+        failure = { spall = { strength = "50 MPa" } }
+        "#);
+    assert_eq!(result.outcome, Outcome::ProjectileEroded);
+    assert_eq!(result.projectile_final_mass, Some(0.0));
+}

@@ -55,7 +55,7 @@ fn a_rod_gets_hotter_from_where_it_starts() {
 #[test]
 fn what_cannot_follow_the_temperature_refuses_it() {
     let reason = match run("copper-woodward", ", temperature = '718 K'") {
-        Err(Error::NotApplicable { reason, .. }) => reason,
+        Err(Error::NotApplicable { refusal, .. }) => refusal.to_string(),
         other => panic!("{other:?}"),
     };
     assert!(reason.contains("does not tell 718 K"), "{reason}");

@@ -2,7 +2,9 @@
 
 mod axi;
 mod axi_output;
+mod built_in_code;
 mod cases;
+mod checkpoints;
 mod common;
 mod consistency;
 mod constant_pressure;

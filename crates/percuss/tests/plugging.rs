@@ -269,7 +269,7 @@ fn between_plates_only_a_narrow_width_is_the_length_scale() {
 fn a_material_that_gives_no_width_is_refused_in_words() {
     let chain = model::model("chain").unwrap();
     let refused = |scenario: Scenario| match model::run(chain, &scenario, &mut Control::default()) {
-        Err(percuss::Error::NotApplicable { reason, .. }) => reason,
+        Err(percuss::Error::NotApplicable { refusal, .. }) => refusal.to_string(),
         other => panic!("{other:?}"),
     };
     let elastic = scenario(100.0, "", "");

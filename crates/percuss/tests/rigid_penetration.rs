@@ -230,7 +230,7 @@ fn a_rigid_projectile_against_a_constant_pressure_is_poncelet_without_drag() {
 #[test]
 fn what_lies_outside_is_refused_or_warned_of() {
     let refusal = |model: &str, case: &Scenario| match run(model, case) {
-        Err(Error::NotApplicable { reason, .. }) => reason,
+        Err(Error::NotApplicable { refusal, .. }) => refusal.to_string(),
         other => panic!("{model}: {other:?}"),
     };
     let soft_rod = scenario(

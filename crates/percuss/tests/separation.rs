@@ -182,6 +182,7 @@ fn bodies_that_cannot_part_are_named() {
     let chain = percuss::model::model("chain").unwrap();
     let reason =
         percuss::model::applicability(chain, &crate::common::scenario(&shot(""))).unwrap_err();
+    let reason = reason.to_string();
     assert!(
         reason.contains("`chain.failure.spall`") && reason.contains("`spall_strength`"),
         "{reason}"

@@ -133,8 +133,8 @@ fn is_run(numerical: &Numerical, projectile: &str, target: &str, speed: f64) -> 
     let model = model::model(numerical.model).unwrap();
     let result = match model::run(model, &scenario, &mut Control::default()) {
         Ok(result) => result,
-        Err(Error::NotApplicable { reason, .. }) => {
-            assert!(!reason.is_empty(), "{text}");
+        Err(Error::NotApplicable { refusal, .. }) => {
+            assert!(!refusal.reason.is_empty(), "{text}");
             return false;
         }
         Err(error) => panic!("{error}\n{text}"),

@@ -1,4 +1,4 @@
-//! Fields of a run in two dimensions: files for ParaView, a picture, and on request a series of both and an animation.
+//! Fields of a run: files for ParaView, and in two dimensions a picture and an animation.
 
 #[cfg(feature = "png")]
 mod animation;

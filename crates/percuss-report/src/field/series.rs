@@ -77,6 +77,13 @@ impl FieldSeries {
     /// # Errors
     /// [`ReportError::Write`].
     pub fn add(&mut self, frame: &Frame<'_>) -> Result<(), ReportError> {
+        // A run that is repeated with a smaller Courant number starts again.
+        if frame.step == 0 {
+            for entry in std::mem::take(&mut self.entries) {
+                self.remove(entry);
+            }
+            self.stride = 1;
+        }
         let repeated = self.entries.last().map(|last| last.number) == Some(frame.number);
         if repeated || !(frame.last || frame.number.is_multiple_of(self.stride)) {
             return Ok(());
@@ -185,6 +192,8 @@ impl Entry {
 
 #[cfg(test)]
 mod tests {
+    use percuss::frames::Fields;
+
     use super::*;
 
     fn add(series: &mut FieldSeries, number: u64, last: bool) {
@@ -193,9 +202,8 @@ mod tests {
             last,
             step: number,
             time: number as f64,
-            cell: 1.0,
             depth: 0.0,
-            bodies: Vec::new(),
+            fields: Fields::Elements(Vec::new()),
         };
         series.add(&frame).unwrap();
     }
@@ -226,6 +234,17 @@ mod tests {
             assert_eq!(cleared.frames(), 0);
             assert_eq!(fs::read_dir(folder.path().join(FOLDER)).unwrap().count(), 0);
         }
+    }
+
+    #[test]
+    fn a_run_that_starts_again_starts_its_series_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut series = FieldSeries::create(folder.path(), 9).unwrap();
+        for number in (0..20).chain(0..3) {
+            add(&mut series, number, false);
+        }
+        assert_eq!(series.frames(), 3);
+        assert_eq!(fs::read_dir(folder.path().join(FOLDER)).unwrap().count(), 3);
     }
 
     #[test]

@@ -1,8 +1,8 @@
-//! Material points as a file of VTK's XML format: PolyData, appended raw data, compressed.
+//! Fields as a file of VTK's XML format: PolyData, appended raw data, compressed.
 //!
-//! Everything is in SI units. Points stand at (radius, −depth, 0), so that the axis of symmetry is the vertical one and the shot
-//! goes down. Values but positions and volumes keep twelve bits of their mantissa, better than one part in 4000: what is left of
-//! the others compresses, and nobody sees the difference.
+//! Everything is in SI units. Points stand at (radius, −depth, 0), so that the axis of symmetry is the vertical one and the projectile
+//! flies down. Material points are vertices; elements along the axis are rectangles of their length and diameter. Values other than
+//! positions and volumes keep twelve bits of their mantissa, better than one part in 4000.
 
 use std::{
     fmt::Write as _,
@@ -10,7 +10,11 @@ use std::{
 };
 
 use flate2::{Compression, read::ZlibDecoder, write::ZlibEncoder};
-use percuss::{axi::Particle, frames::Frame};
+use percuss::{
+    axi::Particle,
+    frames::{Fields, Frame},
+    history::ElementState,
+};
 use rayon::prelude::*;
 
 const MARKER: &[u8] = b"<AppendedData encoding=\"raw\">\n_";
@@ -33,42 +37,153 @@ const COLUMNS: [Column; 8] = [
 const POINTS: &str = "points";
 const BODY: &str = "body";
 
+/// A number of an element with its name.
+type ElementColumn = (&'static str, fn(&ElementState) -> f64);
+
+const ELEMENT_COLUMNS: [ElementColumn; 4] = [
+    ("axial_stress", |e| e.stress),
+    ("axial_strain", |e| e.strain),
+    ("plastic_strain", |e| e.plastic_strain),
+    ("temperature", |e| e.temperature),
+];
+
+/// An array of a file: name, type, components and bytes.
+type Array = (&'static str, &'static str, usize, Vec<u8>);
+
+/// Bytes of numbers, rounded or exact.
+fn floats(values: impl Iterator<Item = f64>, exact: bool) -> Vec<u8> {
+    let rounded = move |value: f64| {
+        let value = value as f32;
+        if exact { value } else { rounded(value) }
+    };
+    values
+        .flat_map(|value| rounded(value).to_le_bytes())
+        .collect()
+}
+
+fn integers(values: impl Iterator<Item = i32>) -> Vec<u8> {
+    values.flat_map(i32::to_le_bytes).collect()
+}
+
 /// The file of a frame.
 pub(crate) fn encode(frame: &Frame<'_>) -> Vec<u8> {
-    let particles: Vec<(usize, &Particle)> = frame.particles().collect();
-    let count = particles.len();
-    let floats =
-        |exact: bool, components: usize, value: &(dyn Fn(&Particle) -> [f64; 3] + Sync)| {
-            let mut bytes = Vec::with_capacity(4 * components * count);
-            for (_, particle) in &particles {
-                for entry in &value(particle)[..components] {
-                    let entry = *entry as f32;
-                    let entry = if exact { entry } else { rounded(entry) };
-                    bytes.extend(entry.to_le_bytes());
-                }
-            }
-            bytes
-        };
-    let mut arrays: Vec<(&str, &str, usize, Vec<u8>)> = vec![(
-        BODY,
-        "UInt8",
-        1,
-        particles.iter().map(|(body, _)| *body as u8).collect(),
-    )];
-    for (name, components, value) in COLUMNS {
-        let bytes = floats(name == "volume", components, &value);
-        arrays.push((name, "Float32", components, bytes));
+    match &frame.fields {
+        Fields::Elements(elements) => encode_elements(frame, elements),
+        fields => encode_particles(frame, fields),
     }
+}
+
+fn encode_particles(frame: &Frame<'_>, fields: &Fields<'_>) -> Vec<u8> {
+    let particles: Vec<(usize, &Particle)> = fields.particles().collect();
+    let cell = match fields {
+        Fields::Particles { cell, .. } => *cell,
+        _ => 0.0,
+    };
+    let of = |exact: bool, components: usize, value: &dyn Fn(&Particle) -> [f64; 3]| {
+        let entries = particles
+            .iter()
+            .flat_map(|(_, particle)| value(particle).into_iter().take(components));
+        floats(entries, exact)
+    };
+    let bodies = particles.iter().map(|(body, _)| *body as u8).collect();
+    let mut data: Vec<Array> = vec![(BODY, "UInt8", 1, bodies)];
+    for (name, components, value) in COLUMNS {
+        data.push((
+            name,
+            "Float32",
+            components,
+            of(name == "volume", components, &value),
+        ));
+    }
+    let count = particles.len();
     let place = |p: &Particle| [p.position[0], -p.position[1], 0.0];
-    arrays.push((POINTS, "Float32", 3, floats(true, 3, &place)));
-    let numbers = (0..count as i32).flat_map(i32::to_le_bytes).collect();
-    arrays.push(("connectivity", "Int32", 1, numbers));
-    arrays.push(("offsets", "Int32", 1, (count as i32).to_le_bytes().to_vec()));
+    assemble(&File {
+        constants: &[
+            ("TimeValue", frame.time),
+            ("cell", cell),
+            ("depth", frame.depth),
+        ],
+        points: (count, of(true, 3, &place)),
+        data: (
+            "PointData Scalars=\"plastic_strain\" Vectors=\"velocity\"",
+            data,
+        ),
+        shapes: Shapes {
+            tag: "Verts",
+            count: 1,
+            connectivity: integers(0..count as i32),
+            offsets: integers(std::iter::once(count as i32)),
+        },
+    })
+}
+
+fn encode_elements(frame: &Frame<'_>, elements: &[ElementState]) -> Vec<u8> {
+    let count = elements.len();
+    let corners = elements.iter().flat_map(|element| {
+        let (radius, half) = (0.5 * element.diameter, 0.5 * element.length);
+        let (behind, ahead) = (half - element.position, -half - element.position);
+        [
+            [-radius, behind],
+            [radius, behind],
+            [radius, ahead],
+            [-radius, ahead],
+        ]
+    });
+    let places = corners.flat_map(|[x, y]| [x, y, 0.0]);
+    let bodies = elements.iter().map(|element| element.part as u8).collect();
+    let mut data: Vec<Array> = vec![(BODY, "UInt8", 1, bodies)];
+    for (name, value) in ELEMENT_COLUMNS {
+        data.push((
+            name,
+            "Float32",
+            1,
+            floats(elements.iter().map(value), false),
+        ));
+    }
+    assemble(&File {
+        constants: &[("TimeValue", frame.time), ("depth", frame.depth)],
+        points: (4 * count, floats(places, true)),
+        data: ("CellData Scalars=\"plastic_strain\"", data),
+        shapes: Shapes {
+            tag: "Polys",
+            count,
+            connectivity: integers(0..4 * count as i32),
+            offsets: integers((1..=count as i32).map(|element| 4 * element)),
+        },
+    })
+}
+
+/// Content of a file.
+struct File<'a> {
+    constants: &'a [(&'a str, f64)],
+    /// Their number and their coordinates.
+    points: (usize, Vec<u8>),
+    /// Start tag of the arrays at points or in cells, and the arrays.
+    data: (&'a str, Vec<Array>),
+    shapes: Shapes,
+}
+
+/// Vertices or polygons.
+struct Shapes {
+    tag: &'static str,
+    count: usize,
+    connectivity: Vec<u8>,
+    offsets: Vec<u8>,
+}
+
+fn assemble(file: &File<'_>) -> Vec<u8> {
+    let (tag, data) = &file.data;
+    let mut arrays: Vec<(&str, &str, usize, &[u8])> = data
+        .iter()
+        .map(|(name, kind, components, bytes)| (*name, *kind, *components, &**bytes))
+        .collect();
+    arrays.push((POINTS, "Float32", 3, &file.points.1));
+    arrays.push(("connectivity", "Int32", 1, &file.shapes.connectivity));
+    arrays.push(("offsets", "Int32", 1, &file.shapes.offsets));
     let blocks: Vec<Vec<u8>> = arrays
         .par_iter()
         .map(|(_, _, _, bytes)| block(bytes))
         .collect();
-
     let mut offset = 0;
     let mut tags = Vec::new();
     for ((name, kind, components, _), block) in arrays.iter().zip(&blocks) {
@@ -81,31 +196,34 @@ pub(crate) fn encode(frame: &Frame<'_>) -> Vec<u8> {
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" \
          header_type=\"UInt32\" compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n<FieldData>\n",
     );
-    for (name, value) in [
-        ("TimeValue", frame.time),
-        ("cell", frame.cell),
-        ("depth", frame.depth),
-    ] {
+    for (name, value) in file.constants {
         // Writing to a string does not fail.
         let _ = writeln!(
             text,
             r#"<DataArray type="Float64" Name="{name}" NumberOfTuples="1" format="ascii">{value:e}</DataArray>"#
         );
     }
+    let shapes = &file.shapes;
+    let number = |kind: &str| if shapes.tag == kind { shapes.count } else { 0 };
+    let end = tag.split(' ').next().unwrap_or(tag);
     let _ = write!(
         text,
-        "</FieldData>\n<Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"1\" NumberOfLines=\"0\" NumberOfStrips=\"0\" \
-         NumberOfPolys=\"0\">\n<PointData Scalars=\"plastic_strain\" Vectors=\"velocity\">\n{}\n</PointData>\n\
-         <Points>\n{}\n</Points>\n<Verts>\n{}\n</Verts>\n</Piece>\n</PolyData>\n",
-        tags[..=COLUMNS.len()].join("\n"),
-        tags[COLUMNS.len() + 1],
-        tags[COLUMNS.len() + 2..].join("\n"),
+        "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" \
+         NumberOfPolys=\"{}\">\n<{tag}>\n{}\n</{end}>\n\
+         <Points>\n{}\n</Points>\n<{shape}>\n{}\n</{shape}>\n</Piece>\n</PolyData>\n",
+        file.points.0,
+        number("Verts"),
+        number("Polys"),
+        tags[..data.len()].join("\n"),
+        tags[data.len()],
+        tags[data.len() + 1..].join("\n"),
+        shape = shapes.tag,
     );
-    let mut file = text.into_bytes();
-    file.extend(MARKER);
-    file.extend(blocks.concat());
-    file.extend(b"\n</AppendedData>\n</VTKFile>\n");
-    file
+    let mut bytes = text.into_bytes();
+    bytes.extend(MARKER);
+    bytes.extend(blocks.concat());
+    bytes.extend(b"\n</AppendedData>\n</VTKFile>\n");
+    bytes
 }
 
 /// A number with twelve bits of mantissa.
@@ -145,40 +263,48 @@ pub(crate) struct Points {
     pub(crate) values: Vec<f32>,
 }
 
-/// Reads a file that [`encode`] made; `None` when it is none.
-pub(crate) fn decode(file: &[u8], array: &str, components: usize) -> Option<Points> {
+/// Header and appended data of a file; `None` when it is none.
+fn parts(file: &[u8]) -> Option<(&str, &[u8])> {
     let start = file.windows(MARKER.len()).position(|part| part == MARKER)?;
     let text = std::str::from_utf8(&file[..start]).ok()?;
-    let data = &file[start + MARKER.len()..];
-    let after = |tag: &str, end: char| {
-        let from = text.find(tag)? + tag.len();
-        text[from..].split(end).next()
-    };
+    Some((text, &file[start + MARKER.len()..]))
+}
+
+/// Text between a tag and a character.
+fn after<'a>(text: &'a str, tag: &str, end: char) -> Option<&'a str> {
+    let from = text.find(tag)? + tag.len();
+    text[from..].split(end).next()
+}
+
+/// Bytes of an array of a file.
+fn bytes(file: &[u8], name: &str, components: usize) -> Option<Vec<u8>> {
+    let (text, data) = parts(file)?;
+    let tag =
+        format!(r#"Name="{name}" NumberOfComponents="{components}" format="appended" offset=""#);
+    let offset: usize = after(text, &tag, '"')?.parse().ok()?;
+    let size = u32::from_le_bytes(data.get(offset + 12..offset + 16)?.try_into().ok()?);
+    let packed = data.get(offset + 16..offset + 16 + size as usize)?;
+    let mut bytes = Vec::new();
+    ZlibDecoder::new(packed).read_to_end(&mut bytes).ok()?;
+    Some(bytes)
+}
+
+/// Numbers of an array of a file.
+fn values(file: &[u8], name: &str, components: usize) -> Option<Vec<f32>> {
+    let bytes = bytes(file, name, components)?;
+    let (entries, _) = bytes.as_chunks::<4>();
+    let values = entries.iter().map(|entry| f32::from_le_bytes(*entry));
+    Some(values.collect())
+}
+
+/// Reads a file of material points; `None` when it is none.
+pub(crate) fn decode(file: &[u8], array: &str, components: usize) -> Option<Points> {
+    let (text, _) = parts(file)?;
     let number = |name: &str| -> Option<f64> {
         let tag = format!(r#"Name="{name}" NumberOfTuples="1" format="ascii">"#);
-        after(&tag, '<')?.parse().ok()
+        after(text, &tag, '<')?.parse().ok()
     };
-    let bytes = |name: &str, components: usize| -> Option<Vec<u8>> {
-        let tag = format!(
-            r#"Name="{name}" NumberOfComponents="{components}" format="appended" offset=""#
-        );
-        let offset: usize = after(&tag, '"')?.parse().ok()?;
-        let size = u32::from_le_bytes(data.get(offset + 12..offset + 16)?.try_into().ok()?);
-        let packed = data.get(offset + 16..offset + 16 + size as usize)?;
-        let mut bytes = Vec::new();
-        ZlibDecoder::new(packed).read_to_end(&mut bytes).ok()?;
-        Some(bytes)
-    };
-    let floats = |name: &str, components: usize| -> Option<Vec<f32>> {
-        let bytes = bytes(name, components)?;
-        let (entries, _) = bytes.as_chunks::<4>();
-        Some(
-            entries
-                .iter()
-                .map(|entry| f32::from_le_bytes(*entry))
-                .collect(),
-        )
-    };
+    let floats = |name: &str, components: usize| values(file, name, components);
     let places: Vec<[f32; 2]> = floats(POINTS, 3)?
         .chunks_exact(3)
         .map(|point| [point[0], -point[1]])
@@ -192,7 +318,7 @@ pub(crate) fn decode(file: &[u8], array: &str, components: usize) -> Option<Poin
         depth: number("depth")?,
         sizes: places.iter().zip(&volumes).map(size).collect(),
         places,
-        bodies: bytes(BODY, 1)?,
+        bodies: bytes(file, BODY, 1)?,
         values: floats(array, components)?
             .chunks_exact(components)
             .map(|value| match value {
@@ -221,9 +347,11 @@ mod tests {
             last: false,
             step: 10,
             time: 1.5e-6,
-            cell: 1e-4,
             depth: 2e-3,
-            bodies: bodies.iter().map(|body| &body[..]).collect(),
+            fields: Fields::Particles {
+                cell: 1e-4,
+                bodies: bodies.iter().map(|body| &body[..]).collect(),
+            },
         };
         let file = encode(&frame);
         let strain = decode(&file, "plastic_strain", 1).unwrap();
@@ -233,6 +361,42 @@ mod tests {
         assert_eq!(strain.values, [0.375; 3]);
         assert_eq!(decode(&file, "velocity", 3).unwrap().values, [5.0; 3]);
         assert!(decode(&file[..100], "velocity", 3).is_none());
+    }
+
+    #[test]
+    fn elements_become_rectangles_of_their_length_and_diameter() {
+        let element = ElementState {
+            part: 1,
+            initial_position: 2e-3,
+            position: 3e-3,
+            length: 1e-3,
+            stress: 2e8,
+            strain: 0.1,
+            plastic_strain: 0.25,
+            diameter: 4e-3,
+            temperature: 300.0,
+        };
+        let frame = Frame {
+            number: 0,
+            last: true,
+            step: 1,
+            time: 1e-6,
+            depth: 0.0,
+            fields: Fields::Elements(vec![element, element]),
+        };
+        let file = encode(&frame);
+        let text = String::from_utf8_lossy(&file);
+        assert!(
+            text.contains(r#"NumberOfPoints="8" NumberOfVerts="0""#),
+            "{text}"
+        );
+        assert!(text.contains(r#"NumberOfPolys="2""#) && text.contains("</CellData>"));
+        let of = |name| values(&file, name, if name == POINTS { 3 } else { 1 }).unwrap();
+        assert_eq!(of("plastic_strain"), [0.25, 0.25]);
+        let corners = of(POINTS);
+        let height = |corner: usize| corners[3 * corner + 1];
+        assert_eq!([height(0), height(2)], [-2.5e-3, -3.5e-3]);
+        assert_eq!([corners[0], corners[3]], [-2e-3, 2e-3]);
     }
 
     #[test]

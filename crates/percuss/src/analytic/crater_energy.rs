@@ -1,12 +1,12 @@
 //! Model `crater_energy`: the kinetic energy of the projectile pays for the volume of the crater.
 
 use super::{
-    deep_shot::{DeepShot, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail, termination},
+    deep_shot::{DeepShot, NOT_ONE_TARGET, at_rest, detail, never_yields, termination},
     nose_load::NoseLoad,
     rigid_motion::RigidMotion,
 };
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{Guard, Range},
     material::cavity_expansion_pressure,
     outcome::{BandQuantity, Outcome, RunResult},
@@ -23,15 +23,15 @@ const STRENGTH_STRAIN: f64 = 0.1;
 pub struct CraterEnergy;
 
 impl CraterEnergy {
-    fn resistance(scenario: &Scenario) -> Result<f64, String> {
-        let shot = DeepShot::of(scenario).ok_or_else(|| NOT_ONE_TARGET.to_owned())?;
+    fn resistance(scenario: &Scenario) -> Result<f64, Refusal> {
+        let shot = DeepShot::of(scenario).ok_or(NOT_ONE_TARGET)?;
         scenario
             .options
             .crater_energy
             .resistance
             .map(Pressure::si)
             .or_else(|| cavity_expansion_pressure(shot.target))
-            .ok_or_else(|| format!("{NEVER_YIELDS}, or give `crater_energy.resistance`"))
+            .ok_or_else(|| never_yields(Some("`crater_energy.resistance`")))
     }
 }
 
@@ -98,17 +98,14 @@ impl Model for CraterEnergy {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         Self::resistance(scenario).err()
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let refuse = |reason: String| Error::NotApplicable {
-            model: self.name(),
-            reason,
-        };
+        let refuse = |refusal: Refusal| Error::not_applicable(self.name(), refusal);
         let resistance = Self::resistance(scenario).map_err(refuse)?;
-        let shot = DeepShot::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET.to_owned()))?;
+        let shot = DeepShot::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET.into()))?;
         let rod = shot.rod;
         let energy = 0.5 * rod.mass * shot.speed * shot.speed;
         let given = scenario.options.crater_energy.crater_to_projectile_diameter;

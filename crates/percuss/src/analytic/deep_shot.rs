@@ -1,6 +1,7 @@
 //! What the models of deep penetration read from a case, and the result that they have in common.
 
 use crate::{
+    Refusal,
     material::Material,
     outcome::{Detail, Outcome, RunResult, Termination},
     scenario::{Rod, Scenario, TargetBody},
@@ -36,8 +37,16 @@ impl<'a> DeepShot<'a> {
 /// Why a case has no one material to resist.
 pub(super) const NOT_ONE_TARGET: &str = "it takes one layer of target";
 /// Why a target has no resistance.
-pub(super) const NEVER_YIELDS: &str =
-    "the target's material never yields: give it another strength law";
+pub(super) const NEVER_YIELDS: &str = "the target's material never yields";
+
+/// The refusal of a target that never yields; `key` stands for its resistance.
+pub(super) fn never_yields(key: Option<&str>) -> Refusal {
+    let law = "give it another strength law";
+    Refusal::new(NEVER_YIELDS).with_remedy(match key {
+        Some(key) => format!("{law}, or give {key}"),
+        None => law.to_owned(),
+    })
+}
 
 /// The result of a rigid projectile that stops in its target.
 pub(super) fn at_rest(

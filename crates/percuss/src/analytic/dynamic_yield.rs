@@ -1,7 +1,7 @@
 //! The one flow stress that stands for a strength law in a model of a rigid, perfectly plastic rod.
 
 use crate::{
-    Scenario,
+    Refusal, Scenario,
     material::{FlowState, Material},
     units::Pressure,
 };
@@ -76,7 +76,7 @@ pub(super) fn dynamic_yield(
     given: Option<Pressure>,
     table: &str,
     shorten: impl Fn(f64) -> Shortening,
-) -> Result<DynamicYield, String> {
+) -> Result<DynamicYield, Refusal> {
     let rod = &scenario.projectile;
     let speed = scenario.impact_speed;
     let number = |stress: f64| rod.material.density.si() * speed * speed / stress;
@@ -97,9 +97,10 @@ pub(super) fn dynamic_yield(
     if let Some(given) = given {
         return Ok(reached(given.si()));
     }
+    let remedy = || format!("give `{table}.dynamic_yield_stress`");
     let law = rod.material.strength.law();
     let initial = law.initial_yield_stress(&rod.material).ok_or_else(|| {
-        format!("the projectile's material never yields: give `{table}.dynamic_yield_stress`")
+        Refusal::new("the projectile's material never yields").with_remedy(remedy())
     })?;
     let excess = |stress: f64| {
         let rod_state = reached(stress);
@@ -108,10 +109,8 @@ pub(super) fn dynamic_yield(
     };
     let (mut low, mut high) = (initial / FACTOR, initial * FACTOR);
     if excess(low) <= 0.0 || excess(high) >= 0.0 {
-        return Err(format!(
-            "no flow stress is its own mean over the strain that it leads to, as the projectile would melt: give \
-             `{table}.dynamic_yield_stress`"
-        ));
+        let reason = "no flow stress is its own mean over the strain that it leads to, as the projectile would melt";
+        return Err(Refusal::new(reason).with_remedy(remedy()));
     }
     for _ in 0..BISECTIONS {
         let middle = (low * high).sqrt();

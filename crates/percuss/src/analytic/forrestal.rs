@@ -2,12 +2,12 @@
 
 use super::{
     cavity_expansion::CavityExpansion,
-    deep_shot::{DeepShot, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail},
+    deep_shot::{DeepShot, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail, never_yields},
     nose_load::NoseLoad,
     rigid_motion::{RigidMotion, Stop},
 };
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
     material::{MaterialClass, cavity_expansion_pressure},
     options::{Cavity, Entry, ForrestalOptions},
@@ -136,21 +136,23 @@ impl Model for Forrestal {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         let Some(shot) = DeepShot::of(scenario) else {
-            return Some(NOT_ONE_TARGET.to_owned());
+            return Some(NOT_ONE_TARGET.into());
         };
         let options = &scenario.options.forrestal;
         let given = options.a.is_some() && options.yield_stress.is_some();
-        (cavity_expansion_pressure(shot.target).is_none() && !(given && options.b.is_some()))
-            .then(|| format!("{NEVER_YIELDS}, or give `forrestal.a`, `forrestal.yield_stress` and `forrestal.b`"))
+        (cavity_expansion_pressure(shot.target).is_none() && !(given && options.b.is_some())).then(
+            || {
+                never_yields(Some(
+                    "`forrestal.a`, `forrestal.yield_stress` and `forrestal.b`",
+                ))
+            },
+        )
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let refuse = |reason: &str| Error::NotApplicable {
-            model: self.name(),
-            reason: reason.to_owned(),
-        };
+        let refuse = |reason: &str| Error::not_applicable(self.name(), reason);
         let shot = DeepShot::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET))?;
         let options = &scenario.options.forrestal;
         let nose = nose(&shot, options);

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::deep_shot::{DeepShot, NOT_ONE_TARGET, at_rest, detail};
 use super::rigid_motion::Stop;
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{FirstChoice, FittedTo, Guard, Measure, NoseKind, Outside, Range},
     material::{MaterialClass, Strength, strength_factor},
     outcome::{BandQuantity, RunResult},
@@ -64,12 +64,11 @@ impl TwoPhases {
 }
 
 impl ForrestalConcrete {
-    fn phases(scenario: &Scenario) -> Result<TwoPhases, String> {
-        let shot = DeepShot::of(scenario).ok_or_else(|| NOT_ONE_TARGET.to_owned())?;
+    fn phases(scenario: &Scenario) -> Result<TwoPhases, Refusal> {
+        let shot = DeepShot::of(scenario).ok_or(NOT_ONE_TARGET)?;
         let Strength::Concrete(concrete) = &shot.target.strength else {
-            return Err(
-                "the target's strength law has no compressive strength of concrete: use `strength.concrete`".to_owned(),
-            );
+            let reason = "the target's strength law has no compressive strength of concrete";
+            return Err(Refusal::new(reason).with_remedy("use `strength.concrete`"));
         };
         let compressive = concrete.compressive_strength.si();
         let options = &scenario.options.forrestal_concrete;
@@ -138,15 +137,13 @@ impl Model for ForrestalConcrete {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         Self::phases(scenario).err()
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let phases = Self::phases(scenario).map_err(|reason| Error::NotApplicable {
-            model: self.name(),
-            reason,
-        })?;
+        let phases = Self::phases(scenario)
+            .map_err(|refusal| Error::not_applicable(self.name(), refusal))?;
         let stop = phases.stop(scenario.impact_speed);
         let mut result = at_rest(self.name(), "crater-and-tunnel", scenario, stop);
         let square = phases.tunnel_speed_squared(scenario.impact_speed);

@@ -2,7 +2,7 @@
 
 use super::long_rod::{LongRod, NOT_ONE_TARGET, detail};
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{Guard, Measure, Outside, Range},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
@@ -56,17 +56,15 @@ impl Model for Hydrodynamic {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         LongRod::of(scenario)
             .is_none()
-            .then(|| NOT_ONE_TARGET.to_owned())
+            .then(|| NOT_ONE_TARGET.into())
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let rod = LongRod::of(scenario).ok_or_else(|| Error::NotApplicable {
-            model: self.name(),
-            reason: NOT_ONE_TARGET.to_owned(),
-        })?;
+        let rod = LongRod::of(scenario)
+            .ok_or_else(|| Error::not_applicable(self.name(), NOT_ONE_TARGET))?;
         let (projectile, target) = rod.densities();
         let ratio = (projectile / target).sqrt();
         if rod.speed == 0.0 {

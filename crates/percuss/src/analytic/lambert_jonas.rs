@@ -5,7 +5,7 @@ use super::{
     plate_shot::{PlateShot, plate_result, refuse},
 };
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::Guard,
     outcome::{BandQuantity, Detail, RunResult},
     regime::TargetKind,
@@ -39,7 +39,7 @@ impl Model for LambertJonas {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         limit(
             scenario,
             scenario.options.lambert_jonas.ballistic_limit,

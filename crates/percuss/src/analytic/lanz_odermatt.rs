@@ -2,7 +2,7 @@
 
 use super::long_rod::{LongRod, NOT_ONE_TARGET, detail};
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{Guard, Measure, Outside, Range},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::TargetKind,
@@ -89,9 +89,9 @@ impl Model for LanzOdermatt {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         let Some(rod) = LongRod::of(scenario) else {
-            return Some(NOT_ONE_TARGET.to_owned());
+            return Some(NOT_ONE_TARGET.into());
         };
         let (projectile, target) = rod.densities();
         for (what, density, range, is) in [
@@ -99,43 +99,40 @@ impl Model for LanzOdermatt {
             ("target", target, STEEL, "steel"),
         ] {
             if !range.contains(&density) {
-                return Some(format!(
+                return Some(Refusal::new(format!(
                     "its {what} is {is}, recognised by a density of {} to {} kg/m3, and this one has {}",
                     range.start(),
                     range.end(),
                     significant(density, 5)
-                ));
+                )));
             }
         }
         let Some(hardness) = Self::hardness(scenario, &rod) else {
             return Some(
-                "the target's Brinell hardness is missing: give `lanz_odermatt.target_hardness`, or `brinell_hardness` of the \
-                 target's material"
-                    .to_owned(),
+                Refusal::new("the target's Brinell hardness is missing").with_remedy(
+                    "give `lanz_odermatt.target_hardness`, or `brinell_hardness` of the target's material",
+                ),
             );
         };
         if !HARDNESS.contains(&hardness) {
-            return Some(format!(
+            return Some(Refusal::new(format!(
                 "a Brinell hardness of {} is outside 200 to 600",
                 significant(hardness, 4)
-            ));
+            )));
         }
         let smallest = smallest_speed(projectile, hardness);
         (rod.speed < smallest).then(|| {
-            format!(
+            Refusal::new(format!(
                 "an impact speed of {} m/s is below the smallest one of the regression, {} m/s",
                 significant(rod.speed, 4),
                 significant(smallest, 4)
-            )
+            ))
         })
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let refuse = |reason: String| Error::NotApplicable {
-            model: self.name(),
-            reason,
-        };
-        let rod = LongRod::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET.to_owned()))?;
+        let refuse = |refusal: Refusal| Error::not_applicable(self.name(), refusal);
+        let rod = LongRod::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET.into()))?;
         let hardness = Self::hardness(scenario, &rod)
             .ok_or_else(|| refuse(self.not_applicable(scenario).unwrap_or_default()))?;
         let (outcome, termination) = if rod.speed == 0.0 {
@@ -222,16 +219,17 @@ mod tests {
         let verdict = |scenario: &Scenario| model::applicability(&LanzOdermatt, scenario);
         assert!(verdict(&case(17600, "target_hardness = 300", 1500)).is_ok());
         let missing = verdict(&case(17600, "", 1500)).unwrap_err();
+        let remedy = missing.remedy.unwrap_or_default();
         assert!(
-            missing.contains("`lanz_odermatt.target_hardness`"),
-            "{missing}"
+            remedy.contains("`lanz_odermatt.target_hardness`"),
+            "{remedy}"
         );
         for (refused, word) in [
             (case(7850, "target_hardness = 300", 1500), "tungsten"),
             (case(17600, "target_hardness = 150", 1500), "200 to 600"),
             (case(17600, "target_hardness = 300", 1000), "1011 m/s"),
         ] {
-            let reason = verdict(&refused).unwrap_err();
+            let reason = verdict(&refused).unwrap_err().reason;
             assert!(reason.contains(word), "{reason}");
         }
     }

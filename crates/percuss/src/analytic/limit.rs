@@ -5,7 +5,7 @@ use super::{
     plugging::{Plugging, ballistic_limit},
 };
 use crate::{
-    Scenario,
+    Refusal, Scenario,
     guard::NoseKind,
     outcome::Detail,
     solver::{InputLimit, Model, applicability},
@@ -38,12 +38,12 @@ pub(super) struct Limit {
     pub warnings: Vec<String>,
 }
 
-/// The ballistic limit of a case; the reason in words when there is none. `table` is the option table to add one to.
+/// The ballistic limit of a case; the refusal when there is none. `table` is the option table to add one to.
 pub(super) fn limit(
     scenario: &Scenario,
     given: Option<Velocity>,
     table: &str,
-) -> Result<Limit, String> {
+) -> Result<Limit, Refusal> {
     if let Some(given) = given {
         return Ok(Limit {
             speed: given.si(),
@@ -65,12 +65,13 @@ pub(super) fn limit(
         ),
     };
     let refuse = |reason: &str| {
-        format!(
-            "no ballistic limit is given, and model `{}` gives none: {reason}; add `{table}.ballistic_limit`",
+        let reason = format!(
+            "no ballistic limit is given, and model `{}` gives none: {reason}",
             model.name()
-        )
+        );
+        Refusal::new(reason).with_remedy(format!("add `{table}.ballistic_limit`"))
     };
-    let mut warnings = applicability(model, scenario).map_err(|reason| refuse(&reason))?;
+    let mut warnings = applicability(model, scenario).map_err(|refusal| refuse(&refusal.reason))?;
     let speed = speed.ok_or_else(|| refuse("the plate's strength law never flows"))?;
     warnings.push(format!(
         "no ballistic limit is given: that of model `{}`, {}, is used; `{table}.ballistic_limit` sets a measured one",

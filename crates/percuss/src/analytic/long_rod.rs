@@ -1,6 +1,7 @@
 //! What the models of long rods read from a case: a rod of one metal on a target of one metal.
 
 use crate::{
+    Refusal,
     error::NumericalError,
     material::Material,
     outcome::Detail,
@@ -16,11 +17,11 @@ use super::ode::Stuck;
 pub(super) const STRENGTH_STRAIN: f64 = 0.1;
 
 /// Why a model without noses does not apply to a sharp projectile that stays rigid; `None` for every other case.
-pub(super) fn sharp_and_rigid(scenario: &Scenario) -> Option<String> {
+pub(super) fn sharp_and_rigid(scenario: &Scenario) -> Option<Refusal> {
     let nose = scenario.projectile.nose;
     let sharp = matches!(nose, Nose::Cone { .. } | Nose::Ogive { .. });
     (sharp && Regime::of(scenario).projectile == ProjectileRegime::Rigid)
-        .then(|| "it takes no account of the sharp nose of a rigid projectile".to_owned())
+        .then(|| "it takes no account of the sharp nose of a rigid projectile".into())
 }
 
 /// A flat-ended rod and the metal that it strikes.
@@ -75,13 +76,12 @@ pub(super) fn strength(
     material: &Material,
     what: &str,
     key: &str,
-) -> Result<f64, String> {
+) -> Result<f64, Refusal> {
     match (given, material.flow_stress(STRENGTH_STRAIN)) {
         (Some(given), _) => Ok(given.si()),
         (None, Some(stress)) => Ok(stress),
-        (None, None) => Err(format!(
-            "the {what}'s material never yields: give `{key}`, or another strength law"
-        )),
+        (None, None) => Err(Refusal::new(format!("the {what}'s material never yields"))
+            .with_remedy(format!("give `{key}`, or another strength law"))),
     }
 }
 

@@ -5,7 +5,7 @@ use super::{
     plate_shot::{PlateShot, plate_result, refuse},
 };
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{FirstChoice, FittedTo, Guard, Measure, NoseKind, Outside, Range},
     material::{
         Material, MaterialClass, cavity_expansion_pressure, cylindrical_cavity_pressure,
@@ -200,10 +200,10 @@ impl Model for PlateCavity {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         Passage::of(scenario)
             .is_none()
-            .then(|| "the plate's strength law never flows: no cavity opens in it".to_owned())
+            .then(|| "the plate's strength law never flows: no cavity opens in it".into())
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {

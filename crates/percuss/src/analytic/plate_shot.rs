@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::{
-    Error,
+    Error, Refusal,
     material::Material,
     outcome::{Outcome, RunResult, Termination},
     regime::{ProjectileRegime, Regime},
@@ -60,11 +60,8 @@ impl<'a> PlateShot<'a> {
 }
 
 /// The error of a model that was run on a case that it had not been asked about.
-pub(super) fn refuse(model: &'static str, reason: impl Into<String>) -> Error {
-    Error::NotApplicable {
-        model,
-        reason: reason.into(),
-    }
+pub(super) fn refuse(model: &'static str, refusal: impl Into<Refusal>) -> Error {
+    Error::not_applicable(model, refusal)
 }
 
 /// Says that a projectile was taken as rigid although it would not stay so.

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::plate_shot::{PlateShot, plate_result, refuse, taken_as_rigid};
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
     material::{Material, MaterialClass, tensile_strength},
     outcome::{Band, BandQuantity, Detail, RunResult},
@@ -114,9 +114,10 @@ impl Model for Plugging {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         ballistic_limit(scenario).is_none().then(|| {
-            "the plate's strength law never flows: give `plugging.shear_strength`".to_owned()
+            Refusal::new("the plate's strength law never flows")
+                .with_remedy("give `plugging.shear_strength`")
         })
     }
 

@@ -1,12 +1,12 @@
 //! Model `poncelet`: momentum balance of a rigid projectile against strength and drag.
 
 use super::{
-    deep_shot::{DeepShot, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail},
+    deep_shot::{DeepShot, NOT_ONE_TARGET, at_rest, detail, never_yields},
     nose_load::NoseLoad,
     rigid_motion::RigidMotion,
 };
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{Guard, Range},
     material::cavity_expansion_pressure,
     options::PonceletOptions,
@@ -24,21 +24,21 @@ pub struct Poncelet;
 
 impl Poncelet {
     /// R [Pa] and C ρ [kg/m3].
-    fn resistance(scenario: &Scenario) -> Result<(f64, f64), String> {
+    fn resistance(scenario: &Scenario) -> Result<(f64, f64), Refusal> {
         let options = &scenario.options.poncelet;
         if let TargetBody::ConstantPressure(pressure) = scenario.target {
             if *options != PonceletOptions::default() {
-                let reason = "a constant pressure is the resistance, and has no drag: remove the table `poncelet`";
-                return Err(reason.to_owned());
+                let reason = "a constant pressure is the resistance, and has no drag";
+                return Err(Refusal::new(reason).with_remedy("remove the table `poncelet`"));
             }
             return Ok((pressure, 0.0));
         }
-        let shot = DeepShot::of(scenario).ok_or_else(|| NOT_ONE_TARGET.to_owned())?;
+        let shot = DeepShot::of(scenario).ok_or(NOT_ONE_TARGET)?;
         let resistance = options
             .resistance
             .map(Pressure::si)
             .or_else(|| cavity_expansion_pressure(shot.target))
-            .ok_or_else(|| format!("{NEVER_YIELDS}, or give `poncelet.resistance`"))?;
+            .ok_or_else(|| never_yields(Some("`poncelet.resistance`")))?;
         let drag = options.drag.unwrap_or_else(|| nose_factor(shot.rod.nose));
         Ok((resistance, drag * shot.target.density.si()))
     }
@@ -75,16 +75,13 @@ impl Model for Poncelet {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         Self::resistance(scenario).err()
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let (strength, inertia) =
-            Self::resistance(scenario).map_err(|reason| Error::NotApplicable {
-                model: self.name(),
-                reason,
-            })?;
+        let (strength, inertia) = Self::resistance(scenario)
+            .map_err(|refusal| Error::not_applicable(self.name(), refusal))?;
         // The drag coefficient has the nose in it already.
         let motion = RigidMotion {
             mass: scenario.projectile.mass,

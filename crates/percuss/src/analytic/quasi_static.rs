@@ -2,12 +2,12 @@
 
 use super::{
     cavity_expansion::CavityExpansion,
-    deep_shot::{DeepShot, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail},
+    deep_shot::{DeepShot, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail, never_yields},
     nose_load::NoseLoad,
     rigid_motion::RigidMotion,
 };
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{Guard, Measure, Outside, Range},
     material::cavity_expansion_pressure,
     outcome::{Band, BandQuantity, RunResult},
@@ -55,21 +55,18 @@ impl Model for QuasiStatic {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         match DeepShot::of(scenario) {
-            None => Some(NOT_ONE_TARGET.to_owned()),
+            None => Some(NOT_ONE_TARGET.into()),
             Some(shot) if cavity_expansion_pressure(shot.target).is_none() => {
-                Some(NEVER_YIELDS.to_owned())
+                Some(never_yields(None))
             }
             Some(_) => None,
         }
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let refuse = |reason: &str| Error::NotApplicable {
-            model: self.name(),
-            reason: reason.to_owned(),
-        };
+        let refuse = |reason: &str| Error::not_applicable(self.name(), reason);
         let shot = DeepShot::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET))?;
         let pressure =
             cavity_expansion_pressure(shot.target).ok_or_else(|| refuse(NEVER_YIELDS))?;

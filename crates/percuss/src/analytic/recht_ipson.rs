@@ -5,7 +5,7 @@ use super::{
     plate_shot::{PlateShot, plate_result, refuse, taken_as_rigid},
 };
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{Guard, NoseKind},
     outcome::{BandQuantity, Detail, RunResult},
     regime::{ProjectileRegime, TargetKind},
@@ -41,7 +41,7 @@ impl Model for RechtIpson {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         limit(
             scenario,
             scenario.options.recht_ipson.ballistic_limit,

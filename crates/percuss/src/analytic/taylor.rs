@@ -5,7 +5,7 @@ use super::{
     dynamic_yield::{DynamicYield, Shortening, dynamic_yield},
 };
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{Guard, Measure, NoseKind, Outside, Range},
     outcome::{BandQuantity, Outcome, RunResult},
     regime::{ProjectileRegime, TargetKind},
@@ -125,17 +125,14 @@ impl Model for Taylor {
         WALL
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         self.yield_stress(scenario).err()
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
         let dynamic = self
             .yield_stress(scenario)
-            .map_err(|reason| Error::NotApplicable {
-                model: self.name(),
-                reason,
-            })?;
+            .map_err(|refusal| Error::not_applicable(self.name(), refusal))?;
         let rod = &scenario.projectile;
         let number = rod.material.density.si() * scenario.impact_speed.powi(2) / dynamic.stress;
         let shape = TaylorRod::new(number);
@@ -159,7 +156,7 @@ impl Model for Taylor {
 }
 
 impl Taylor {
-    fn yield_stress(self, scenario: &Scenario) -> Result<DynamicYield, String> {
+    fn yield_stress(self, scenario: &Scenario) -> Result<DynamicYield, Refusal> {
         let given = scenario.options.taylor.dynamic_yield_stress;
         dynamic_yield(scenario, given, self.name(), |number| {
             TaylorRod::new(number).shortening()

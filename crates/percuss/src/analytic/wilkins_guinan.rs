@@ -6,7 +6,7 @@ use super::{
     taylor::{WALL, on_wall},
 };
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{FittedTo, Guard},
     outcome::RunResult,
     solver::{Control, Model},
@@ -41,7 +41,7 @@ impl WilkinsGuinan {
         scenario.options.wilkins_guinan.front_to_length()
     }
 
-    fn yield_stress(self, scenario: &Scenario) -> Result<DynamicYield, String> {
+    fn yield_stress(self, scenario: &Scenario) -> Result<DynamicYield, Refusal> {
         let given = scenario.options.wilkins_guinan.dynamic_yield_stress;
         let front = Self::front(scenario);
         dynamic_yield(scenario, given, self.name(), |number| {
@@ -79,17 +79,14 @@ impl Model for WilkinsGuinan {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         self.yield_stress(scenario).err()
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
         let dynamic = self
             .yield_stress(scenario)
-            .map_err(|reason| Error::NotApplicable {
-                model: self.name(),
-                reason,
-            })?;
+            .map_err(|refusal| Error::not_applicable(self.name(), refusal))?;
         let rod = &scenario.projectile;
         let front = Self::front(scenario);
         let number = rod.material.density.si() * scenario.impact_speed.powi(2) / dynamic.stress;

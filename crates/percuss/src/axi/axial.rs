@@ -4,13 +4,12 @@ use super::{
     body::Body,
     crater::{axis_velocity, ends},
     field::VOLUME,
-    solver::Solver,
-    watch::Watch,
+    solver::Grid,
 };
 use crate::history::{ElementState, Profile, Sample};
 
-/// State of the shot at this time.
-pub(super) fn sample(solver: &Solver, watch: &Watch) -> Sample {
+/// State at this time, with the depth of the crater floor [m].
+pub(super) fn sample(solver: &Grid, depth: f64) -> Sample {
     let cell = solver.cell;
     let rod = &solver.bodies[0];
     let (tail, tip) = ends(rod, cell).unwrap_or((0.0, 0.0));
@@ -21,7 +20,7 @@ pub(super) fn sample(solver: &Solver, watch: &Watch) -> Sample {
         step: solver.step,
         tip_velocity: axis_velocity(rod, tip, cell),
         tail_velocity: axis_velocity(rod, tail, cell),
-        interface_velocity: target.map_or(0.0, |body| axis_velocity(body, watch.depth, cell)),
+        interface_velocity: target.map_or(0.0, |body| axis_velocity(body, depth, cell)),
         back_velocity: back_velocity(solver),
         mean_velocity: if sums.mass > 0.0 {
             sums.momentum / sums.mass
@@ -29,7 +28,7 @@ pub(super) fn sample(solver: &Solver, watch: &Watch) -> Sample {
             0.0
         },
         tip_position: tip,
-        depth: watch.depth,
+        depth,
         projectile_length: tip - tail,
         contact_force: solver.pending.contact_force,
         back_force: solver.pending.support_impulse / solver.time_step,
@@ -39,7 +38,7 @@ pub(super) fn sample(solver: &Solver, watch: &Watch) -> Sample {
 }
 
 /// Speed on the axis at the back of the last layer [m/s]; 0 without a target.
-fn back_velocity(solver: &Solver) -> f64 {
+fn back_velocity(solver: &Grid) -> f64 {
     let layer = solver.bodies[1..].last();
     let back = layer.and_then(|layer| Some((layer, ends(layer, solver.cell)?.1)));
     back.map_or(0.0, |(layer, back)| axis_velocity(layer, back, solver.cell))
@@ -47,7 +46,7 @@ fn back_velocity(solver: &Solver) -> f64 {
 
 /// Means over the particles within a cell of the axis, a row of cells at a time; the diameter is that of a circle with the area of
 /// the body's cross-section.
-pub(super) fn profile(solver: &Solver) -> Profile {
+pub(super) fn profile(solver: &Grid) -> Profile {
     let elements = solver.bodies.iter().enumerate();
     Profile {
         time: solver.time,

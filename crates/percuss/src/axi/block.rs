@@ -1,62 +1,26 @@
 //! Eight particles side by side, so that one instruction works on all of them.
 
 use super::{field::Field, law::Law, transfer::gather};
-use crate::solver::{Particle, kinetic_energy};
-
-/// Particles in a block: as many numbers as the widest registers hold.
-pub(super) const LANES: usize = 8;
-
-/// A number of every particle of a block.
-pub(super) type Lane = [f64; LANES];
-
-/// A number of every particle. Loops over lanes work on copies of whole arrays: what a compiler can tell apart from memory becomes
-/// vector instructions.
-#[inline(always)]
-pub(super) fn lanes(value: impl Fn(usize) -> f64) -> Lane {
-    let mut all = [0.0; LANES];
-    for (lane, entry) in all.iter_mut().enumerate() {
-        *entry = value(lane);
-    }
-    all
-}
-
-/// Several numbers of every particle.
-#[inline(always)]
-pub(super) fn each_of<const N: usize>(values: impl Fn(usize) -> [f64; N]) -> [Lane; N] {
-    let mut all = [[0.0; LANES]; N];
-    for lane in 0..LANES {
-        for (entry, value) in all.iter_mut().zip(values(lane)) {
-            entry[lane] = value;
-        }
-    }
-    all
-}
-
-/// The numbers of one particle. (`map` would now and then not be inlined, and then lacks the wide instructions.)
-#[inline(always)]
-pub(super) fn one<const N: usize>(all: &[Lane; N], lane: usize) -> [f64; N] {
-    let mut values = [0.0; N];
-    for (value, entry) in values.iter_mut().zip(all) {
-        *value = entry[lane];
-    }
-    values
-}
+use crate::{
+    lanes::{LANES, Lanes, each_of, lanes, one},
+    solver::{Particle, kinetic_energy},
+};
 
 /// What a step reads and changes of its particles, named as there.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(64))]
 pub(super) struct Block {
-    pub(super) position: [Lane; 2],
-    pub(super) velocity: [Lane; 2],
-    pub(super) gradient: [Lane; 4],
-    pub(super) deviator: [Lane; 3],
-    pub(super) pressure: Lane,
-    pub(super) viscous_pressure: Lane,
-    pub(super) mass: Lane,
-    pub(super) volume: Lane,
-    pub(super) temperature: Lane,
-    pub(super) energy: Lane,
-    pub(super) damage: Lane,
+    pub(super) position: [Lanes; 2],
+    pub(super) velocity: [Lanes; 2],
+    pub(super) gradient: [Lanes; 4],
+    pub(super) deviator: [Lanes; 3],
+    pub(super) pressure: Lanes,
+    pub(super) viscous_pressure: Lanes,
+    pub(super) mass: Lanes,
+    pub(super) volume: Lanes,
+    pub(super) temperature: Lanes,
+    pub(super) energy: Lanes,
+    pub(super) damage: Lanes,
 }
 
 /// The particles of a block: their places among those of a chunk.
@@ -107,8 +71,8 @@ impl Block {
         let each = |value: fn(&Particle) -> f64| lanes(|l| value(&particles[places[l]]));
         Self {
             position: [each(|p| p.position[0]), each(|p| p.position[1])],
-            velocity: [[0.0; LANES]; 2],
-            gradient: [[0.0; LANES]; 4],
+            velocity: [Lanes::all(0.0); 2],
+            gradient: [Lanes::all(0.0); 4],
             deviator: [
                 each(|p| p.deviator[0]),
                 each(|p| p.deviator[1]),
@@ -178,18 +142,18 @@ impl Block {
 
     /// Hoop rate before the particles move [1/s].
     #[inline(always)]
-    pub(super) fn hoop_rate(&self, law: &Law) -> Lane {
+    pub(super) fn hoop_rate(&self, law: &Law) -> Lanes {
         let (radius, velocity) = (self.position[0], self.velocity[0]);
         if law.axisymmetric {
             lanes(|l| velocity[l] / radius[l])
         } else {
-            [0.0; LANES]
+            Lanes::all(0.0)
         }
     }
 
     /// Kinetic energies [J].
     #[inline(always)]
-    pub(super) fn kinetic_energy(&self, cell: f64) -> Lane {
+    pub(super) fn kinetic_energy(&self, cell: f64) -> Lanes {
         let (mass, velocity, gradient) = (self.mass, self.velocity, self.gradient);
         lanes(|l| {
             let velocity = one(&velocity, l);

@@ -1,14 +1,14 @@
 //! A body: its law, its particles in chunks, and its nodes.
 
 use super::{
-    block::{Block, LANES, Members},
+    block::{Block, Members},
     deform::Work,
     field::{Field, Strip},
     kernel::first_node,
     law::Law,
     transfer::Deposit,
 };
-use crate::solver::Particle;
+use crate::{lanes::LANES, solver::Particle};
 
 /// Particles that one task takes. It does not depend on the number of threads, so sums come out the same on any.
 pub(super) const CHUNK: usize = 2048;

@@ -1,9 +1,9 @@
 //! Energy and momentum books of the bodies.
 
-use super::solver::Solver;
+use super::solver::Grid;
 use crate::ledger::{EnergyLedger, MomentumLedger};
 
-impl Solver {
+impl Grid {
     /// Energy book [J].
     pub(super) fn energy(&self) -> EnergyLedger {
         let books = &self.books;

@@ -1,10 +1,11 @@
 //! How a block of particles answers to its velocity gradients in a step.
 
 use super::{
-    block::{Block, LANES, Lane, Members, each_of, lanes, one},
+    block::{Block, Members},
     law::{Law, Pressure},
 };
 use crate::{
+    lanes::{Lanes, each_of, lanes, one},
     material::Trial,
     solver::{Particle, equivalent},
 };
@@ -12,24 +13,24 @@ use crate::{
 /// What a step did in every particle of a block [J].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Work {
-    pub(super) total: Lane,
-    pub(super) plastic: Lane,
-    pub(super) viscous: Lane,
-    pub(super) failure: Lane,
+    pub(super) total: Lanes,
+    pub(super) plastic: Lanes,
+    pub(super) viscous: Lanes,
+    pub(super) failure: Lanes,
     /// Power of the stress at the start and at the end of the step, both on the strain rate of the step [W].
-    pub(super) power_at_start: Lane,
-    pub(super) power_at_end: Lane,
+    pub(super) power_at_start: Lanes,
+    pub(super) power_at_end: Lanes,
 }
 
 impl Work {
     /// That of a step that takes no time.
     pub(super) const NONE: Self = Self {
-        total: [0.0; LANES],
-        plastic: [0.0; LANES],
-        viscous: [0.0; LANES],
-        failure: [0.0; LANES],
-        power_at_start: [0.0; LANES],
-        power_at_end: [0.0; LANES],
+        total: Lanes::all(0.0),
+        plastic: Lanes::all(0.0),
+        viscous: Lanes::all(0.0),
+        failure: Lanes::all(0.0),
+        power_at_start: Lanes::all(0.0),
+        power_at_end: Lanes::all(0.0),
     };
 }
 
@@ -41,7 +42,7 @@ impl Law {
         particles: &mut [Particle],
         members: &Members,
         block: &mut Block,
-        hoop_rate: Lane,
+        hoop_rate: Lanes,
         time_step: f64,
         cell: f64,
     ) -> Work {
@@ -65,8 +66,8 @@ impl Law {
         });
         let size = lanes(|l| equivalent(&one(&trial, l)));
         let mean_volume = lanes(|l| 0.5 * (volume_before[l] + volume[l]));
-        let mut plastic: Lane = [0.0; _];
-        let mut increments: Lane = [0.0; _];
+        let mut plastic: Lanes = Lanes::all(0.0);
+        let mut increments: Lanes = Lanes::all(0.0);
         for (l, place) in members.iter() {
             let particle = &mut particles[place];
             if particle.has_failed() {
@@ -120,7 +121,7 @@ impl Law {
                 particles[place].yield_point.forget();
             }
         }
-        let mut failure: Lane = [0.0; _];
+        let mut failure: Lanes = Lanes::all(0.0);
         if self.can_fail() {
             for (l, place) in members.iter() {
                 let particle = &mut particles[place];
@@ -166,7 +167,7 @@ impl Law {
 
     /// Artificial viscosity [Pa].
     #[inline(always)]
-    fn artificial_viscosity(&self, block: &Block, expansion: &Lane, cell: f64) -> Lane {
+    fn artificial_viscosity(&self, block: &Block, expansion: &Lanes, cell: f64) -> Lanes {
         let squared = self.wave_speed_squared(block);
         let (mass, volume) = (block.mass, block.volume);
         lanes(|l| {
@@ -182,7 +183,7 @@ impl Law {
 
     /// New pressure and energy; gives the work of the pressure [J].
     #[inline(always)]
-    fn compress(&self, block: &mut Block, change: &Lane, other_work: &Lane) -> Lane {
+    fn compress(&self, block: &mut Block, change: &Lanes, other_work: &Lanes) -> Lanes {
         let Block {
             mass,
             volume,
@@ -231,7 +232,7 @@ impl Law {
 /// Particles move by the velocities at the start of the step, which the gradient C belongs to: on the mean configuration,
 /// `C (1 + C Δt/2)⁻¹`, it gives their change of shape to second order, and that of a turning body, which straight ways make larger, too.
 #[inline(always)]
-fn rates(block: &Block, hoop_rate: Lane, time_step: f64) -> [Lane; 5] {
+fn rates(block: &Block, hoop_rate: Lanes, time_step: f64) -> [Lanes; 5] {
     let [rr, rz, zr, zz] = block.gradient;
     let half = 0.5 * time_step;
     each_of(|l| {

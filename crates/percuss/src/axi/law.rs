@@ -1,7 +1,8 @@
 //! What a body is made of, and what its particles can bear.
 
-use super::block::{Block, Lane, lanes};
+use super::block::Block;
 use crate::{
+    lanes::{Lanes, lanes},
     material::{
         DamageState, FlowState, PreparedDamage, PreparedStrength, StateEquation, YieldPoint,
     },
@@ -52,7 +53,7 @@ impl Law {
 
     /// Squares of the speeds of longitudinal waves [m2/s2].
     #[inline(always)]
-    pub(super) fn wave_speed_squared(&self, block: &Block) -> Lane {
+    pub(super) fn wave_speed_squared(&self, block: &Block) -> Lanes {
         let shear = 4.0 / 3.0 * self.shear_modulus;
         let (mass, volume, pressure) = (block.mass, block.volume, block.pressure);
         let specific = lanes(|l| volume[l] * (1.0 / mass[l]));

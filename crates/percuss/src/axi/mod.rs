@@ -5,10 +5,10 @@ mod block;
 mod body;
 mod books;
 mod boundary;
-mod checkpoint;
 mod contact;
 mod crater;
 mod deform;
+mod end;
 mod field;
 mod kernel;
 mod law;
@@ -20,13 +20,12 @@ mod solver;
 mod tests;
 mod transfer;
 mod warnings;
-mod watch;
 
 pub use crate::options::{AxiOptions, ContactKind, Edge, Eos};
 pub use crate::solver::Particle;
 
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::Guard,
     outcome::RunResult,
     regime::TargetKind,
@@ -75,7 +74,11 @@ impl Model for Axi {
         true
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn is_two_dimensional(&self) -> bool {
+        true
+    }
+
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         run::not_applicable(scenario)
     }
 
@@ -87,6 +90,6 @@ impl Model for Axi {
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        run::Run::new(scenario).run(control)
+        run::AxiRun::new(scenario)?.run(control)
     }
 }

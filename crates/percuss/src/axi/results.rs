@@ -1,35 +1,29 @@
 //! From the state at the end of a run to its result.
 
-use super::{crater, run::Run, setup::extent};
+use super::{crater, run::Axisymmetric, setup::extent, solver::Grid};
 use crate::{
-    history::Recorder,
-    outcome::{Detail, Numerics, RunResult, Termination},
+    outcome::{Detail, RunResult},
     scenario::TargetBody,
     shapes::Shapes,
-    solver::Particle,
+    solver::{Particle, driver::Extremes, monitor::RunMonitor},
 };
 
 /// Part of a cell by which a surface must lie below the original face to be a crater.
 const NOTICEABLE: f64 = 0.1;
 
-pub(super) fn sum_up(
-    run: &Run<'_>,
-    termination: Termination,
-    recorder: Option<Recorder>,
-) -> RunResult {
-    let (scenario, solver, watch) = (run.scenario, &run.solver, &run.watch);
-    let outcome = watch.outcome(termination, solver, scenario.impact_speed);
-    let mut result = RunResult::new("axi", "material-point", outcome, termination);
+/// Adds depths, what is left of the projectile, shapes and warnings.
+pub(super) fn complete(run: &Axisymmetric<'_>, result: &mut RunResult, monitor: &RunMonitor) {
+    let (scenario, solver) = (run.scenario, &run.grid);
     let solid = matches!(scenario.target, TargetBody::Layers { .. });
     let rod = &solver.bodies[0];
     let sums = &solver.sums[0];
     if solid {
-        let depth = watch
+        let depth = monitor
             .at_rest
-            .map_or(watch.largest_depth, |(_, depth)| depth.max(0.0));
+            .map_or(monitor.largest_depth, |(_, depth)| depth.max(0.0));
         result.depth_of_penetration = Some(depth);
-        result.largest_depth = Some(watch.largest_depth);
-        result.permanent_depth = Some(watch.depth.max(0.0));
+        result.largest_depth = Some(monitor.largest_depth);
+        result.permanent_depth = Some(run.depth.max(0.0));
     }
     result.residual_velocity = Some(if sums.mass > 0.0 {
         sums.momentum / sums.mass
@@ -39,10 +33,6 @@ pub(super) fn sum_up(
     result.projectile_final_length = crater::ends(rod, solver.cell).map(|(tail, tip)| tip - tail);
     result.projectile_final_diameter = (sums.mass > 0.0).then(|| 2.0 * crater::largest_radius(rod));
     result.projectile_final_mass = Some(sums.mass);
-    result.time_to_rest = watch.at_rest.map(|(time, _)| time);
-    result.contact_time = Some(watch.contact_time);
-    result.peak_force = Some(watch.peak_force);
-    result.end_time = Some(solver.time);
     let shapes = Shapes {
         crater: if solid {
             crater::profile(&solver.bodies[1..], solver.cell)
@@ -53,6 +43,11 @@ pub(super) fn sum_up(
     };
     result.details = details(run, &shapes.crater);
     result.shapes = Some(shapes);
+    result.warnings = super::warnings::warnings(run, result);
+}
+
+/// Mesh and extremes of the material.
+pub(super) fn extremes(solver: &Grid) -> Extremes {
     let most = |target: bool, value: fn(&Particle) -> f64| {
         let bodies = solver
             .bodies
@@ -75,10 +70,7 @@ pub(super) fn sum_up(
             |body: &super::body::Body| body.particles.iter().filter(|p| p.mass > 0.0).count();
         lost + bodies.map(|(_, body)| present(body)).sum::<usize>()
     };
-    result.numerics = Some(Numerics {
-        steps: solver.step,
-        first_time_step: watch.first_time_step,
-        smallest_time_step: watch.smallest_time_step,
+    Extremes {
         elements: (particles(false), particles(true)),
         eroded_elements: (solver.books.lost[0], solver.books.lost[1]),
         largest_plastic_strain: (
@@ -89,23 +81,11 @@ pub(super) fn sum_up(
             most(false, |p| p.temperature),
             most(true, |p| p.temperature),
         ),
-        energy: solver.energy(),
-        momentum: solver.momentum(),
-        energy_residual: watch.energy_residual,
-        momentum_residual: watch.momentum_residual,
-    });
-    result.history = recorder.map(|recorder| {
-        recorder.finish(
-            super::axial::sample(solver, watch),
-            super::axial::profile(solver),
-        )
-    });
-    result.warnings = super::warnings::warnings(run, &result);
-    result
+    }
 }
 
-fn details(run: &Run<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
-    let solver = &run.solver;
+fn details(run: &Axisymmetric<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
+    let solver = &run.grid;
     let mut details = vec![Detail {
         name: "cell size",
         unit: "mm",

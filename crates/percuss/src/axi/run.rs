@@ -1,47 +1,52 @@
-//! Runs a case to its end.
+//! The bodies as a solver.
 
 use std::iter;
 
-use super::{
-    axial,
-    checkpoint::Keeping,
-    results::sum_up,
-    setup::{build, extent},
-    solver::Solver,
-    watch::Watch,
-};
+use super::{axial, crater, end::Window, results, setup::build, solver::Grid};
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     error::NumericalError,
-    history::Recorder,
+    history::{Profile, Sample},
+    ledger::{EnergyLedger, MomentumLedger},
     material::Material,
     options::Eos,
-    outcome::{RunResult, Termination},
+    outcome::{Outcome, RunResult, Termination},
     scenario::{Plate, TargetBody},
     solver::{
-        Control, Progress,
-        frames::{Frame, FrameClock},
-        go_on,
+        archive::Archive,
+        driver::{Audit, BalanceTolerance, Drive, Extremes, Retry, Solver, slowed},
+        frames::Fields,
+        limits::Limits,
+        monitor::{Clock, Probe, RunMonitor},
     },
 };
 
-/// Steps between two looks at the books and reports of progress.
-const AUDIT_INTERVAL: u64 = 10;
-/// Largest part of the initial energy that may stay without an account.
-pub const ENERGY_TOLERANCE: f64 = 1e-2;
-/// Largest part of the initial momentum that may stay without an account.
-pub const MOMENTUM_TOLERANCE: f64 = 1e-9;
+/// Courant number when a case gives none.
+const DEFAULT_COURANT: f64 = 0.5;
+/// Part of the largest force so far below which bodies do not touch: nodes of the grid that two bodies share still exchange the impulses
+/// of what rings in them.
+const TOUCHING_FRACTION: f64 = 1e-2;
 
-/// A case in progress.
+/// Projectile and target as bodies of material points.
 #[derive(Debug)]
-pub(super) struct Run<'a> {
+pub(crate) struct Axisymmetric<'a> {
     pub(super) scenario: &'a Scenario,
-    pub(super) solver: Solver,
-    pub(super) watch: Watch,
+    pub(super) grid: Grid,
+    pub(super) window: Window,
+    /// Depth of the crater floor [m], and whether the last step left it where it was or higher.
+    pub(super) depth: f64,
+    floor_stopped: bool,
+    /// Whether the projectile presses on the target in the step that comes next.
+    touches: bool,
+    /// Time before the last step [s].
+    before: f64,
 }
 
+/// A run of the model.
+pub(super) type AxiRun<'a> = Drive<'a, Axisymmetric<'a>>;
+
 /// Why a case that the guard lets pass gets no number, if it does not.
-pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
+pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     let options = &scenario.options.axi;
     let materials: Vec<(&Material, &str)> = materials(scenario).collect();
     if options.equation_of_state == Some(Eos::MieGruneisen) {
@@ -49,23 +54,22 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
             .iter()
             .find(|(m, _)| m.equation_of_state.is_none());
         if let Some((_, id)) = lacking {
-            return Some(format!(
+            return Some(Refusal::new(format!(
                 "`axi.equation_of_state = \"mie-gruneisen\"` needs an equation of state, and the material `{id}` has none"
-            ));
+            )));
         }
     }
     if options.damage == Some(true) && materials.iter().all(|(m, _)| m.damage.is_none()) {
         return Some(
             "`axi.damage = true` needs a material that has a `damage` table, and none has one"
-                .to_owned(),
+                .into(),
         );
     }
     let spalls = options.spalls() && options.spall_strength.is_none();
     if spalls && materials.iter().all(|(m, _)| m.spall_strength.is_none()) {
-        return Some(
-            "`axi.spall = true` needs a material that has a `spall_strength`, and none has one: give one, or `axi.spall_strength`"
-                .to_owned(),
-        );
+        let reason =
+            "`axi.spall = true` needs a material that has a `spall_strength`, and none has one";
+        return Some(Refusal::new(reason).with_remedy("give one, or `axi.spall_strength`"));
     }
     None
 }
@@ -83,177 +87,152 @@ pub(super) fn materials(scenario: &Scenario) -> impl Iterator<Item = (&Material,
     iter::once((&*rod.material, &*rod.material_id)).chain(layers)
 }
 
-impl<'a> Run<'a> {
-    pub(super) fn new(scenario: &'a Scenario) -> Self {
-        let solver = build(scenario);
-        Self {
+impl<'a> Solver<'a> for Axisymmetric<'a> {
+    const NAMES: (&'static str, &'static str) = ("axi", "material-point");
+    const AUDIT: Audit = Audit {
+        interval: 1,
+        report_interval: 10,
+        tolerance: BalanceTolerance {
+            energy: 1e-2,
+            momentum: 1e-9,
+        },
+        retry: Retry::OfAnyError {
+            smallest: 0.25 * DEFAULT_COURANT,
+        },
+    };
+
+    fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
+        let grid = build(scenario, courant);
+        Ok(Self {
             scenario,
-            watch: Watch::new(&solver),
-            solver,
-        }
+            touches: grid.pending.contact_force > 0.0,
+            grid,
+            window: Window::default(),
+            depth: 0.0,
+            floor_stopped: false,
+            before: 0.0,
+        })
     }
 
-    pub(super) fn run(mut self, control: &mut Control<'_>) -> Result<RunResult, Error> {
+    fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
+        (scenario.options.axi.courant, DEFAULT_COURANT)
+    }
+
+    fn limits(&self) -> Limits {
         let options = &self.scenario.options.axi;
-        let end_time = options
-            .end_time
-            .map_or_else(|| self.longest(), |time| time.si());
-        let max_steps = options.max_steps.unwrap_or(20_000_000);
-        let thickness = self.scenario.target_thickness();
-        let mut keeping = match control.resume {
-            Some(bytes) => self.restore(bytes)?,
-            None => Keeping {
-                clock: FrameClock::new(self.scenario),
-                recorder: control.record.then(Recorder::new),
+        Limits::new(self.scenario, options.end_time, options.max_steps)
+    }
+
+    fn advance(&mut self) -> Result<(), NumericalError> {
+        self.before = self.grid.time;
+        if self.grid.advance() {
+            return Ok(());
+        }
+        Err(self.clock().failure(
+            "the state of a particle is not finite".to_owned(),
+            "lower `axi.courant`".to_owned(),
+        ))
+    }
+
+    fn clock(&self) -> Clock {
+        Clock {
+            step: self.grid.step,
+            time: self.grid.time,
+            time_step: self.grid.time_step,
+        }
+    }
+
+    fn probe(&mut self, monitor: &RunMonitor) -> Probe {
+        let grid = &self.grid;
+        let before = self.depth;
+        if grid.bodies.len() > 1 {
+            match crater::floor(&grid.bodies[1..], grid.cell) {
+                Some(depth) => self.depth = depth,
+                None => self.window.perforated = true,
+            }
+            let thickness = self.scenario.target_thickness();
+            self.window.perforated |= thickness.is_some_and(|thickness| self.depth >= thickness);
+        }
+        // Debris of an eroding rod flies back while the rod goes on: its floor must have stopped too.
+        self.floor_stopped = self.depth <= before;
+        let force = grid.pending.contact_force;
+        let touched = self.touches;
+        self.touches = force > TOUCHING_FRACTION * monitor.peak_force.max(force);
+        Probe {
+            depth: self.depth,
+            contact_force: force,
+            contact_time: if touched {
+                grid.time - self.before
+            } else {
+                0.0
             },
-        };
-        self.show(&mut keeping.clock, control)?;
-        let termination = loop {
-            if self.scenario.impact_speed == 0.0 {
-                break Termination::NothingMoves;
-            }
-            if !self.solver.advance() {
-                return Err(self
-                    .broken("a particle's state is no number", "reduce `axi.courant`")
-                    .into());
-            }
-            self.watch.follow(&self.solver, thickness);
-            if let Some(recorder) = &mut keeping.recorder {
-                if recorder.wants_sample(self.solver.step) {
-                    recorder.sample(axial::sample(&self.solver, &self.watch));
-                }
-                if recorder.wants_profile(self.solver.step) {
-                    recorder.profile(axial::profile(&self.solver));
-                }
-            }
-            self.show(&mut keeping.clock, control)?;
-            if self.solver.step.is_multiple_of(AUDIT_INTERVAL) {
-                self.audit()?;
-                control.report(self.progress(end_time))?;
-            }
-            if let Some(termination) = self.watch.end(&self.solver, self.scenario) {
-                break termination;
-            }
-            if self.solver.time >= end_time {
-                break Termination::EndTime;
-            }
-            if self.solver.step >= max_steps {
-                break Termination::StepLimit;
-            }
-            // After everything that the step changes, so that a run that goes on from here misses none of it.
-            if self.solver.step.is_multiple_of(AUDIT_INTERVAL) {
-                self.leave_checkpoint(&mut keeping, control)?;
-            }
-        };
-        self.audit()?;
-        let last = keeping.clock.last(self.solver.time);
-        self.frame((last, true), control)?;
-        Ok(sum_up(&self, termination, keeping.recorder))
-    }
-
-    /// Gives the fields to the caller when it is time to.
-    fn show(&self, clock: &mut FrameClock, control: &mut Control<'_>) -> Result<(), Error> {
-        match clock.tick(self.solver.time) {
-            Some(number) => self.frame((number, false), control),
-            None => Ok(()),
         }
     }
 
-    fn frame(&self, (number, last): (u64, bool), control: &mut Control<'_>) -> Result<(), Error> {
-        let Some(callback) = &mut control.frames else {
-            return Ok(());
-        };
-        let solver = &self.solver;
-        let frame = Frame {
-            number,
-            last,
-            step: solver.step,
-            time: solver.time,
-            cell: solver.cell,
-            depth: self.watch.depth,
-            bodies: solver.bodies.iter().map(|body| &*body.particles).collect(),
-        };
-        go_on(callback(&frame), solver.step, solver.time)
+    fn is_at_rest(&self) -> bool {
+        self.floor_stopped && self.grid.sums[0].momentum <= 0.0
     }
 
-    fn leave_checkpoint(
-        &mut self,
-        keeping: &mut Keeping,
-        control: &mut Control<'_>,
-    ) -> Result<(), Error> {
-        let Some(checkpoints) = &mut control.checkpoints else {
-            return Ok(());
-        };
-        if !checkpoints.is_due() {
-            return Ok(());
-        }
-        let bytes = self.checkpoint(keeping)?;
-        go_on(checkpoints.keep(&bytes), self.solver.step, self.solver.time)
+    fn energy(&self) -> EnergyLedger {
+        self.grid.energy()
     }
 
-    /// Whether the books balance.
-    fn audit(&self) -> Result<(), Error> {
-        if self.watch.energy_residual > ENERGY_TOLERANCE {
-            let what = format!(
-                "{:.2} % of the energy is without an account",
-                100.0 * self.watch.energy_residual
-            );
-            return Err(self.broken(&what, "reduce `axi.courant`").into());
-        }
-        if self.watch.momentum_residual > MOMENTUM_TOLERANCE {
-            let what = format!(
-                "a part {:.1e} of the momentum is without an account",
-                self.watch.momentum_residual
-            );
-            return Err(self
-                .broken(
-                    &what,
-                    "please report the case: momentum is kept to rounding",
-                )
-                .into());
-        }
-        Ok(())
+    fn momentum(&self) -> MomentumLedger {
+        self.grid.momentum()
     }
 
-    fn broken(&self, what: &str, remedy: &str) -> NumericalError {
-        NumericalError {
-            what: what.to_owned(),
-            step: self.solver.step,
-            time_us: self.solver.time * 1e6,
-            element: None,
-            remedy: remedy.to_owned(),
-        }
-    }
-
-    /// Time at which a run without an `end_time` gives up: many times what waves and the shot itself take.
-    fn longest(&self) -> f64 {
-        let rod = &self.scenario.projectile;
-        let speed = self.scenario.impact_speed.max(1.0);
-        let path =
-            rod.length + extent(self.scenario).map_or(0.0, |extent| extent.layers.iter().sum());
-        20.0 * (2.0 * path / rod.material.bar_wave_speed() + 2.0 * path / speed)
-    }
-
-    fn progress(&self, end_time: f64) -> Progress {
-        let projectile = &self.solver.sums[0];
-        let speed = if projectile.mass > 0.0 {
-            projectile.momentum / projectile.mass
-        } else {
-            0.0
-        };
-        let slowed = (1.0 - speed / self.scenario.impact_speed).min(1.0);
+    fn progress(&self) -> f64 {
+        let projectile = &self.grid.sums[0];
+        let speed = self.scenario.impact_speed;
+        let slowed = slowed((projectile.mass, projectile.momentum), speed);
         // A plate slows its projectile but a little: there the way through it counts.
         let passed = self.scenario.target_thickness().map_or(0.0, |thickness| {
             let way = thickness + self.scenario.projectile.length;
-            (self.solver.time * self.scenario.impact_speed / (2.0 * way)).min(1.0)
+            self.grid.time * speed / (2.0 * way)
         });
-        Progress {
-            step: self.solver.step,
-            time: self.solver.time,
-            fraction: (self.solver.time / end_time)
-                .max(0.95 * slowed.max(passed))
-                .clamp(0.0, 1.0),
-            depth: self.watch.largest_depth,
+        slowed.max(passed).min(1.0)
+    }
+
+    fn event(&mut self, monitor: &RunMonitor) -> Result<Option<Termination>, NumericalError> {
+        Ok(self.window.end(&self.grid, self.scenario, monitor))
+    }
+
+    fn sample(&self, _: &RunMonitor) -> Sample {
+        axial::sample(&self.grid, self.depth)
+    }
+
+    fn profile(&self) -> Profile {
+        axial::profile(&self.grid)
+    }
+
+    fn fields(&self) -> Fields<'_> {
+        let bodies = self.grid.bodies.iter();
+        Fields::Particles {
+            cell: self.grid.cell,
+            bodies: bodies.map(|body| &*body.particles).collect(),
         }
+    }
+
+    fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.window)?;
+        archive.item(&mut self.depth)?;
+        archive.item(&mut self.touches)?;
+        self.grid.archive(archive)
+    }
+
+    fn outcome(&self, termination: Termination, monitor: &RunMonitor) -> (Outcome, String) {
+        let impact_speed = self.scenario.impact_speed;
+        let outcome = self
+            .window
+            .outcome(termination, &self.grid, monitor, impact_speed);
+        (outcome, String::new())
+    }
+
+    fn extremes(&self) -> Extremes {
+        results::extremes(&self.grid)
+    }
+
+    fn complete(&self, result: &mut RunResult, monitor: &RunMonitor) {
+        results::complete(self, result, monitor);
     }
 }

@@ -7,7 +7,7 @@ use super::{
     boundary::{Support, Supports},
     contact::Contact,
     law::{Law, Pressure},
-    solver::{Books, Pending, Solver},
+    solver::{Books, Grid, Pending},
 };
 use crate::{
     Scenario,
@@ -227,7 +227,7 @@ fn nose_radius(nose: Nose, diameter: f64, behind: f64) -> f64 {
 }
 
 /// Builds the bodies of a case.
-pub(super) fn build(scenario: &Scenario) -> Solver {
+pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
     let options = &scenario.options.axi;
     let cell = cell(scenario);
     let spacing = cell / f64::from(options.particles_per_side());
@@ -296,7 +296,7 @@ pub(super) fn build(scenario: &Scenario) -> Solver {
             from = to;
         }
     }
-    let mut solver = Solver {
+    let mut solver = Grid {
         bodies,
         supports,
         contact: match options.contact.unwrap_or_default() {
@@ -304,7 +304,7 @@ pub(super) fn build(scenario: &Scenario) -> Solver {
             ContactKind::Frictional => Contact::Frictional(options.friction.unwrap_or(0.0)),
         },
         cell,
-        courant: options.courant.unwrap_or(0.5),
+        courant,
         limits,
         step: 0,
         time: 0.0,

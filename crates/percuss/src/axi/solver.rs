@@ -8,10 +8,11 @@ use super::{
     contact::{Contact, meet, pushed},
     field::{FORCE, Field, MASS, MOMENTUM, Node, Strip},
 };
+use crate::{Error, solver::archive::Archive};
 
 /// Bodies in motion. The first one is the projectile.
 #[derive(Debug)]
-pub(super) struct Solver {
+pub(super) struct Grid {
     pub(super) bodies: Vec<Body>,
     pub(super) supports: Vec<Supports>,
     pub(super) contact: Contact,
@@ -80,7 +81,26 @@ struct RowSums {
     wall: f64,
 }
 
-impl Solver {
+impl Grid {
+    /// Everything that a step changes: the strips say how far the particles of a body have spread, and the field moves them in the next
+    /// step.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.step)?;
+        archive.item(&mut self.time)?;
+        archive.item(&mut self.time_step)?;
+        archive.item(&mut self.sums)?;
+        archive.item(&mut self.books)?;
+        archive.item(&mut self.pending)?;
+        for (body, supports) in self.bodies.iter_mut().zip(&mut self.supports) {
+            archive.item(&mut body.particles)?;
+            archive.item(&mut body.strips)?;
+            archive.item(&mut body.field)?;
+            archive.item(&mut body.rows_in_order)?;
+            archive.item(&mut supports.displacement)?;
+        }
+        Ok(())
+    }
+
     /// Makes the nodes ready from particles as they are.
     pub(super) fn start(&mut self) {
         for body in &mut self.bodies {

@@ -1,7 +1,7 @@
 //! What to know before relying on a result.
 
 use super::{
-    run::{Run, materials},
+    run::{Axisymmetric, materials},
     setup::extent,
 };
 use crate::{
@@ -39,9 +39,9 @@ fn unlike(scenario: &Scenario, is_one: fn(&Material) -> bool) -> Vec<&str> {
     ids
 }
 
-pub(super) fn warnings(run: &Run<'_>, result: &RunResult) -> Vec<String> {
+pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String> {
     let mut warnings = Vec::new();
-    let energy = run.solver.energy();
+    let energy = run.grid.energy();
     let share = energy.transfer / energy.initial;
     if share > TRANSFER {
         warnings.push(format!(
@@ -85,10 +85,10 @@ pub(super) fn warnings(run: &Run<'_>, result: &RunResult) -> Vec<String> {
             ));
         }
     }
-    if run.solver.books.lost != [0, 0] {
+    if run.grid.books.lost != [0, 0] {
         warnings.push(format!(
             "{} particles of the projectile and {} of the target eroded or left the modelled space; the books have them",
-            run.solver.books.lost[0], run.solver.books.lost[1]
+            run.grid.books.lost[0], run.grid.books.lost[1]
         ));
     }
     warnings

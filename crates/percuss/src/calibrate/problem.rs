@@ -213,7 +213,9 @@ impl Problem {
         }
         let result = match model::run(self.model, scenario, &mut control) {
             Ok(result) => result,
-            Err(Error::NotApplicable { reason, .. }) => return Err(Silent::Always(reason)),
+            Err(Error::NotApplicable { refusal, .. }) => {
+                return Err(Silent::Always(refusal.to_string()));
+            }
             Err(Error::Cancelled { .. }) => return Err(Silent::Stopped),
             Err(error) => return Err(Silent::Here(error.to_string())),
         };

@@ -10,7 +10,7 @@ use crate::{
     inputs::UncertainInputs,
     material::MaterialTable,
     options::{ModelOptions, with_model_options},
-    problem::{Experiment, Projectile, Target},
+    problem::{Experiment, Extensions, Projectile, Target},
 };
 
 macro_rules! case_with_model_options {
@@ -38,6 +38,9 @@ macro_rules! case_with_model_options {
                 #[serde(default)]
                 pub $name: $options,
             )*
+            /// Tables of models that are not part of percuss, by name; only those models read them.
+            #[serde(default, skip_serializing_if = "Extensions::is_empty")]
+            pub extensions: Extensions,
             /// What was measured on shots of this case, for comparison; no model sees it.
             #[serde(default, skip_serializing_if = "Vec::is_empty")]
             pub experiments: Vec<Experiment>,
@@ -53,7 +56,7 @@ macro_rules! case_with_model_options {
         }
 
         impl Case {
-            /// A shot with the default options of every model.
+            /// A case with the default options of every model; [`Case::scenario`] makes it ready to run.
             pub fn new(projectile: Projectile, target: Target) -> Self {
                 Self {
                     title: String::new(),
@@ -61,6 +64,7 @@ macro_rules! case_with_model_options {
                     projectile,
                     target,
                     $($name: Default::default(),)*
+                    extensions: Extensions::default(),
                     experiments: Vec::new(),
                     uncertainty: None,
                     materials: MaterialTable::new(),

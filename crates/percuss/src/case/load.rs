@@ -100,6 +100,43 @@ pub(super) fn library_of(case: &Case, document: &Document) -> Result<Library, Er
 }
 
 impl Case {
+    /// The scenario of a case that is built in code; `name` stands for it in results and errors.
+    ///
+    /// ```
+    /// use percuss::{
+    ///     case::{Case, Projectile, Target},
+    ///     model::{self, Control},
+    ///     units::{Length, Velocity},
+    /// };
+    ///
+    /// let mm = |value: f64| Length::new(1e-3 * value);
+    /// let rod = Projectile::rod("copper", mm(12.74), mm(4.8), Velocity::new(230.0));
+    /// let mut case = Case::new(rod, Target::plate("aluminium-2024-t351", mm(25.0)));
+    /// case.chain.projectile_elements = Some(80);
+    /// let scenario = case.scenario("copper-on-aluminium")?;
+    /// let result = model::run(model::model("chain")?, &scenario, &mut Control::default())?;
+    /// assert!(result.depth_of_penetration.is_some());
+    /// # Ok::<(), percuss::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`] with the key of what is wrong.
+    pub fn scenario(self, name: &str) -> Result<Scenario, Error> {
+        let document = Document::new(name, "");
+        if !self.material_files.is_empty() {
+            let message = "a case that comes from no file cannot name material files";
+            let help = "put the materials into its `materials` table";
+            let finding = Finding::at("material_files", message, help).of_material();
+            return Err(document.place(finding).into());
+        }
+        self.into_scenario(name, Library::built_in())
+            .map_err(|findings| {
+                let unknown = || Finding::whole("the case could not be resolved", "");
+                let first = findings.into_iter().next().unwrap_or_else(unknown);
+                document.place(first).into()
+            })
+    }
+
     /// The scenario of a case that comes from no text, its own materials included; otherwise what is wrong with it.
     pub(crate) fn into_scenario(
         self,

@@ -36,6 +36,7 @@ pub(super) fn resolve(
         resistance: None,
         resistance_reason: None,
         options,
+        extensions: case.extensions,
         experiments: case.experiments.iter().filter_map(measurement).collect(),
         given,
     };

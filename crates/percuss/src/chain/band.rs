@@ -1,10 +1,12 @@
 //! One band: what holds the slice of plug that belongs to a node.
 
+use serde::{Deserialize, Serialize};
+
 use super::{band_law::BandLaw, shear_zone::SQRT_3};
 use crate::material::{FlowState, Trial, YieldPoint};
 
 /// Band of one target node. Strains and damage are those of the rim.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Band {
     pub(super) node: usize,
     pub(super) law: usize,

@@ -1,6 +1,7 @@
 //! What the shear bands of a layer have in common: strength, spread and failure, from its material and the options.
 
 use crate::{
+    Refusal,
     material::{DamageState, Material, PreparedDamage, PreparedStrength, perfectly_plastic},
     options::{BandFailure, ChainOptions},
     scenario::Plate,
@@ -71,7 +72,7 @@ impl BandLaw {
         radius: f64,
         speed: f64,
         options: &ChainOptions,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Refusal> {
         let material = &*plate.material;
         let band = options.shear_band.unwrap_or_default();
         if material
@@ -81,10 +82,11 @@ impl BandLaw {
             .is_none()
             && band.shear_strength.is_none()
         {
-            return Err(format!(
-                "`{}` never yields: give `chain.shear_band.shear_strength`, or a material that flows",
-                plate.material_id
-            ));
+            return Err(
+                Refusal::new(format!("`{}` never yields", plate.material_id)).with_remedy(
+                    "give `chain.shear_band.shear_strength`, or a material that flows",
+                ),
+            );
         }
         let strength = match band.shear_strength {
             Some(stress) => perfectly_plastic(SQRT_3 * stress.si()),
@@ -142,11 +144,13 @@ impl BandLaw {
     }
 }
 
-fn no_width(plate: &Plate) -> String {
-    format!(
-        "`{}` neither hardens nor resists faster shear more, so that nothing spreads its shear around the plug: give \
-         `chain.shear_band.width`, or a strength law that does one or the other",
+fn no_width(plate: &Plate) -> Refusal {
+    Refusal::new(format!(
+        "`{}` neither hardens nor resists faster shear more, so that nothing spreads its shear around the plug",
         plate.material_id
+    ))
+    .with_remedy(
+        "give `chain.shear_band.width`, or a strength law that does one or the other",
     )
 }
 
@@ -154,7 +158,7 @@ fn failure(
     plate: &Plate,
     options: &ChainOptions,
     instability: Option<f64>,
-) -> Result<Failure, String> {
+) -> Result<Failure, Refusal> {
     let band = options.shear_band.unwrap_or_default();
     if let Some(strain) = band.failure_strain {
         return Ok(Failure::Strain(strain / SQRT_3));
@@ -168,15 +172,16 @@ fn failure(
     match (band.failure.unwrap_or(natural), damage, instability) {
         (BandFailure::Never, ..) => Ok(Failure::Never),
         (BandFailure::Damage, Some(damage), _) => Ok(Failure::Damage(damage.prepare(material))),
-        (BandFailure::Damage, None, _) => Err(format!(
-            "`{}` has no damage: give another `chain.shear_band.failure`, or its damage constants",
+        (BandFailure::Damage, None, _) => Err(Refusal::new(format!(
+            "`{}` has no damage",
             plate.material_id
-        )),
+        ))
+        .with_remedy("give another `chain.shear_band.failure`, or its damage constants")),
         (BandFailure::Instability, _, Some(strain)) => Ok(Failure::Strain(strain)),
-        (BandFailure::Instability, _, None) => Err(format!(
-            "the shear stress of `{}` has no adiabatic maximum, at which the shear band would fail: give \
-             `chain.shear_band.failure_strain`, or failure = \"never\"",
+        (BandFailure::Instability, _, None) => Err(Refusal::new(format!(
+            "the shear stress of `{}` has no adiabatic maximum, at which the shear band would fail",
             plate.material_id
-        )),
+        ))
+        .with_remedy("give `chain.shear_band.failure_strain`, or failure = \"never\"")),
     }
 }

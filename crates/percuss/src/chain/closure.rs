@@ -33,8 +33,8 @@ fn default_closure(scenario: &Scenario) -> (TargetClosure, Option<String>) {
 }
 
 fn why_a_column(scenario: &Scenario) -> Option<String> {
-    if let Some(reason) = expanding::not_applicable(scenario) {
-        return Some(reason);
+    if let Some(refusal) = expanding::not_applicable(scenario) {
+        return Some(refusal.to_string());
     }
     if let Some(key) = scenario.options.chain.asks_for_a_column() {
         return Some(format!(

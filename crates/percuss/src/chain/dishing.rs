@@ -10,7 +10,10 @@ use super::{
     dishing_mesh::{Circle, rings, widths},
     plate_section::{PlateSection, Ring},
 };
-use crate::{material::Material, options::ChainOptions, problem::Support, scenario::PlateEdge};
+use crate::{
+    Error, material::Material, options::ChainOptions, problem::Support, scenario::PlateEdge,
+    solver::archive::Archive,
+};
 
 /// A plug and the plate around it.
 #[derive(Debug)]
@@ -32,6 +35,16 @@ pub(super) struct Dishing {
 }
 
 impl Dishing {
+    /// Everything that a step changes.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.circles)?;
+        archive.item(&mut self.rings)?;
+        archive.item(&mut self.edge_held)?;
+        archive.item(&mut self.support_impulse)?;
+        archive.item(&mut self.plastic_work)?;
+        archive.item(&mut self.largest_deflection)
+    }
+
     pub(super) fn new(
         material: &Material,
         thickness: f64,

@@ -1,5 +1,7 @@
 //! The mesh of a plate that dishes: rings between circles, narrow at the rim of a plug.
 
+use serde::{Deserialize, Serialize};
+
 use std::f64::consts::PI;
 
 use super::plate_section::{PlateSection, Ring};
@@ -13,7 +15,7 @@ const GROWTH: f64 = 1.15;
 const MOST_RINGS: f64 = 4000.0;
 
 /// A circle between two rings.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct Circle {
     /// [kg].
     pub(super) mass: f64,

@@ -3,7 +3,7 @@
 use pulp::{Arch, NullaryFnOnce};
 
 use super::{
-    batch::{LANES, Start},
+    batch::Start,
     part::Part,
     penetration::Limit,
     solver::{LARGEST_STRAIN_STEP, StepControl},
@@ -11,6 +11,7 @@ use super::{
 };
 use crate::{
     error::NumericalError,
+    lanes::LANES,
     material::{Hardening, YieldPoint},
     options::Kinematics,
 };

@@ -1,6 +1,6 @@
 //! What the choices behind a depth are worth: runs beside the one that was asked for.
 
-use super::expanding::{self, Expanding};
+use super::expanding::{self, CavityRun};
 use crate::{
     Error,
     options::{ErosionStrain, TargetClosure},
@@ -51,7 +51,7 @@ fn beside(
         None => std::ops::ControlFlow::Continue(()),
     };
     quiet.progress = Some(&mut report);
-    match Expanding::run(&other, &mut quiet) {
+    match CavityRun::new(&other).and_then(|mut run| run.run(&mut quiet)) {
         Ok(found) => Ok(Some(found)),
         Err(error @ Error::Cancelled { .. }) => Err(error),
         Err(_) => Ok(None),

@@ -8,12 +8,13 @@ use super::{
     state::{Element, Parting, Segment, State},
 };
 use crate::{
+    Refusal,
     material::FailureState,
     scenario::{Scenario, TargetBody},
 };
 
 /// Why the failure law of a case cannot be applied, if it cannot.
-pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
+pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     let failure = scenario.options.chain.failure.as_ref()?;
     let mut materials = vec![&scenario.projectile.material];
     if let TargetBody::Layers { layers, .. } = &scenario.target {
@@ -24,12 +25,11 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
         .iter()
         .all(|material| law.prepare(material).is_none());
     has_none.then(|| {
-        format!(
-            "the failure law `{}` has no numbers: give them in `chain.failure.{}`, or `{}` in the record of a material",
-            failure.key(),
-            failure.key(),
+        let key = failure.key();
+        Refusal::new(format!("the failure law `{key}` has no numbers")).with_remedy(format!(
+            "give them in `chain.failure.{key}`, or `{}` in the record of a material",
             law.record_key()
-        )
+        ))
     })
 }
 

@@ -1,7 +1,9 @@
 //! Joints between neighbouring ends: free ends that may meet, ends that touch, ends that hold together.
 
+use serde::{Deserialize, Serialize};
+
 /// Two neighbouring ends of segments.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Joint {
     /// Whether they touch and move as one.
     pub(super) closed: bool,
@@ -16,7 +18,7 @@ pub(super) struct Joint {
 /// An unbroken bond carries any tension. A cracked one carries a tension that falls linearly with the widest opening so far, so that
 /// opening it for good takes the fracture energy, whatever the mesh [hillerborg1976]. It pulls with that tension however far it
 /// has closed again: nothing of the work is stored.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) enum Bond {
     /// Nothing: the ends part as soon as they are pulled.
     None,

@@ -4,16 +4,16 @@ mod adiabatic;
 mod band;
 mod band_law;
 mod batch;
-mod between;
 mod closure;
+mod column;
 mod cone;
-mod conservative;
 mod contact;
 mod damping;
 mod dishing;
 mod dishing_mesh;
 mod drift;
 mod element;
+mod end;
 mod erosion;
 mod expanding;
 mod explain;
@@ -39,11 +39,9 @@ mod tate;
 #[cfg(test)]
 mod tests;
 mod warnings;
-mod watch;
 
-pub use between::{ENERGY_TOLERANCE, MOMENTUM_TOLERANCE};
 pub(crate) use closure::{choose_target_closure, closure_in_use};
-use conservative::Conservative;
+use column::ColumnRun;
 pub use published::Published;
 
 use std::sync::atomic::AtomicBool;
@@ -51,7 +49,7 @@ use std::sync::atomic::AtomicBool;
 pub(crate) use batch::Stopped;
 
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{FirstChoice, Guard, NoseKind, Range},
     material::MaterialClass,
     options::{BorderShearLaw, Scheme, TargetClosure},
@@ -108,15 +106,20 @@ impl Model for Chain {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn has_fields(&self) -> bool {
+        true
+    }
+
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         match scenario.options.chain.scheme {
             Scheme::Conservative if is_expanding(scenario) => {
                 expanding::not_applicable(scenario).or_else(|| fracture::not_applicable(scenario))
             }
             _ if scenario.resistance.is_some() => Some(
-                "a resistance law takes the place of the target's in the closure `expanding-cavity` alone; set \
-                 chain.target_closure = \"expanding-cavity\""
-                    .to_owned(),
+                Refusal::new(
+                    "a resistance law replaces the target's in the closure `expanding-cavity` only",
+                )
+                .with_remedy("set `chain.target_closure = \"expanding-cavity\"`"),
             ),
             Scheme::Conservative => {
                 fracture::not_applicable(scenario).or_else(|| plug::band_laws(scenario).err())
@@ -140,10 +143,10 @@ impl Model for Chain {
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
         let result = match scenario.options.chain.scheme {
             Scheme::Conservative if is_expanding(scenario) => {
-                expanding::Expanding::run(scenario, control)?
+                expanding::CavityRun::new(scenario)?.run(control)?
             }
-            Scheme::Conservative => Conservative::new(scenario).run(control)?,
-            Scheme::Published => Published::new(scenario)?.run(control)?,
+            Scheme::Conservative => ColumnRun::new(scenario)?.run(control)?,
+            Scheme::Published => published::PublishedRun::new(scenario)?.run(control)?,
         };
         Ok(with_warning_of_thin_plate(scenario, result))
     }

@@ -6,6 +6,8 @@
 //! undisturbed target ahead of it. What the tip meets with the speed w is turned aside and pushes back on it with `½ρ_t w²`, as in
 //! the equation of Alekseevskii and Tate.
 
+use serde::{Deserialize, Serialize};
+
 use super::{
     part::Part,
     state::{Element, State},
@@ -18,7 +20,7 @@ const ADDED_MASS: f64 = 4.0 / 3.0;
 const TOLERANCE: f64 = 1e-12;
 
 /// What a target opposes to steady penetration.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Penetration {
     /// Quasi-static resistance [Pa].
     resistance: f64,

@@ -1,5 +1,7 @@
 //! Section of a plate that bends and shears: moments and shear force from curvatures and slope, inside one yield surface.
 
+use serde::{Deserialize, Serialize};
+
 use std::f64::consts::PI;
 
 use super::band_law::Failure;
@@ -97,7 +99,7 @@ impl PlateSection {
 }
 
 /// A ring of a plate. Moments are kept as their sum and their difference, which the elastic law does not mix.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Ring {
     /// Of its middle [m].
     pub(super) radius: f64,

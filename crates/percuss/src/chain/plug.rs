@@ -4,9 +4,11 @@ use std::f64::consts::PI;
 
 use super::{band_law::BandLaw, dishing::Dishing, part::Role, shear_band::Bands, state::State};
 use crate::{
+    Error, Refusal,
     options::BorderShearLaw,
     outcome::Detail,
     scenario::{Scenario, TargetBody},
+    solver::archive::Archive,
 };
 
 /// Names of two numbers of a result.
@@ -23,11 +25,22 @@ pub(super) struct Hold {
     force: f64,
 }
 
+impl Hold {
+    /// Everything that a step changes.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        self.bands.archive(archive)?;
+        if let Some(plate) = &mut self.plate {
+            plate.archive(archive)?;
+        }
+        archive.item(&mut self.force)
+    }
+}
+
 /// The laws of the bands of every layer; `None` where border shear is friction.
 ///
 /// # Errors
-/// In words, why a material does not give what the options leave to it.
-pub(super) fn band_laws(scenario: &Scenario) -> Result<Option<Vec<BandLaw>>, String> {
+/// Why a material does not give what the options leave to it.
+pub(super) fn band_laws(scenario: &Scenario) -> Result<Option<Vec<BandLaw>>, Refusal> {
     let options = &scenario.options.chain;
     let TargetBody::Layers {
         layers,

@@ -4,20 +4,18 @@ use super::{
     part::Role,
     state::State,
     warnings::{Reached, warnings},
-    watch::Watch,
 };
 use crate::{
     fragments::Fragment,
-    history::Recorder,
-    outcome::{Detail, Numerics, RunResult, Termination},
+    outcome::{Detail, RunResult},
     scenario::{Scenario, TargetBody},
+    solver::{driver::Extremes, monitor::RunMonitor},
 };
 
 /// What a result is made of.
 pub(super) struct Results<'a> {
     pub(super) scenario: &'a Scenario,
     pub(super) state: &'a State,
-    pub(super) watch: &'a Watch,
     pub(super) erosion_strain: f64,
 }
 
@@ -31,66 +29,19 @@ struct Remains {
 }
 
 impl Results<'_> {
-    pub(super) fn sum_up(&self, termination: Termination, recorder: Option<Recorder>) -> RunResult {
-        let (scenario, state, watch) = (self.scenario, self.state, self.watch);
-        let reached = self.reached();
-        let remains = self.remains();
+    /// Mesh and extremes of the material.
+    pub(super) fn extremes(&self) -> Extremes {
+        let (options, reached) = (&self.scenario.options.chain, self.reached());
         let most = |role: Role, value: fn(&Reached) -> f64| {
             let own = reached
                 .iter()
-                .zip(&state.parts)
+                .zip(&self.state.parts)
                 .filter(|(_, part)| part.role == role);
             own.map(|(reached, _)| value(reached)).fold(0.0, f64::max)
         };
-        let (mass, momentum) = state.projectile_motion();
-        let depth = match scenario.target {
-            TargetBody::RigidWall => None,
-            // What flies has no depth.
-            _ if state.left_the_plate() => None,
-            // A crater floor that sprang back beyond the original face is no depth.
-            _ => Some(
-                watch
-                    .at_rest
-                    .map_or(watch.largest_depth, |(_, depth)| depth.max(0.0)),
-            ),
-        };
-        let (outcome, criterion) = watch.outcome(termination, state, scenario.impact_speed);
-        let mut result = RunResult::new("chain", "conservative", outcome, termination);
-        result.criterion = criterion;
-        result.depth_of_penetration = depth;
-        result.largest_depth = depth.map(|_| watch.largest_depth);
-        result.permanent_depth = match scenario.target {
-            // The compression of a plug is not its depth.
-            _ if state.hold.is_some() => None,
-            TargetBody::Layers { .. } => Some(remains.permanent_depth),
-            TargetBody::ConstantPressure(_) => Some(watch.largest_depth),
-            TargetBody::RigidWall => None,
-        };
-        result.residual_velocity = Some(if mass > 0.0 { momentum / mass } else { 0.0 });
-        result.projectile_final_length = Some(remains.projectile_length);
-        result.projectile_final_diameter = remains.projectile_diameter;
-        result.projectile_final_mass = Some(mass);
-        result.time_to_rest = watch.at_rest.map(|(time, _)| time);
-        result.peak_force = Some(watch.peak_force);
-        if state.left_the_plate() {
-            let (mass, velocity) = state.plug_motion();
-            result.plug_mass = Some(mass);
-            result.plug_velocity = Some(velocity);
-        }
-        result.contact_time = Some(watch.contact_time);
-        result.fragments = state.fragments();
-        result.details = self.details(&result.fragments);
-        result.details.extend(state.plug_details());
-        result.end_time = Some(state.time);
-        result.numerics = Some(Numerics {
-            steps: state.step,
-            first_time_step: watch.first_time_step,
-            smallest_time_step: watch.smallest_time_step,
-            elements: (
-                scenario.options.chain.projectile_elements(),
-                scenario.options.chain.target_elements(),
-            ),
-            eroded_elements: remains.eroded,
+        Extremes {
+            elements: (options.projectile_elements(), options.target_elements()),
+            eroded_elements: self.remains().eroded,
             largest_plastic_strain: (
                 most(Role::Projectile, |r| r.plastic_strain),
                 most(Role::Target, |r| r.plastic_strain),
@@ -99,14 +50,47 @@ impl Results<'_> {
                 most(Role::Projectile, |r| r.temperature),
                 most(Role::Target, |r| r.temperature),
             ),
-            energy: state.energy(),
-            momentum: state.momentum(),
-            energy_residual: watch.residuals.energy,
-            momentum_residual: watch.residuals.momentum,
-        });
-        result.history = recorder.map(|recorder| recorder.finish(state.sample(), state.profile()));
-        result.warnings = warnings(scenario, &result, &reached, self.erosion_strain);
-        result
+        }
+    }
+
+    /// Adds depths, what is left of the projectile, the plug, fragments and warnings.
+    pub(super) fn complete(&self, result: &mut RunResult, monitor: &RunMonitor) {
+        let (scenario, state) = (self.scenario, self.state);
+        let remains = self.remains();
+        let (mass, momentum) = state.projectile_motion();
+        let depth = match scenario.target {
+            TargetBody::RigidWall => None,
+            // What flies has no depth.
+            _ if state.left_the_plate() => None,
+            // A crater floor that sprang back beyond the original face is no depth.
+            _ => Some(
+                monitor
+                    .at_rest
+                    .map_or(monitor.largest_depth, |(_, depth)| depth.max(0.0)),
+            ),
+        };
+        result.depth_of_penetration = depth;
+        result.largest_depth = depth.map(|_| monitor.largest_depth);
+        result.permanent_depth = match scenario.target {
+            // The compression of a plug is not its depth.
+            _ if state.hold.is_some() => None,
+            TargetBody::Layers { .. } => Some(remains.permanent_depth),
+            TargetBody::ConstantPressure(_) => Some(monitor.largest_depth),
+            TargetBody::RigidWall => None,
+        };
+        result.residual_velocity = Some(if mass > 0.0 { momentum / mass } else { 0.0 });
+        result.projectile_final_length = Some(remains.projectile_length);
+        result.projectile_final_diameter = remains.projectile_diameter;
+        result.projectile_final_mass = Some(mass);
+        if state.left_the_plate() {
+            let (mass, velocity) = state.plug_motion();
+            result.plug_mass = Some(mass);
+            result.plug_velocity = Some(velocity);
+        }
+        result.fragments = state.fragments();
+        result.details = self.details(&result.fragments);
+        result.details.extend(state.plug_details());
+        result.warnings = warnings(scenario, result, &self.reached(), self.erosion_strain);
     }
 
     /// What a run with pieces that fly has to say beyond the common numbers.

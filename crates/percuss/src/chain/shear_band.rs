@@ -5,10 +5,13 @@
 
 use std::ops::RangeInclusive;
 
+use serde::{Deserialize, Serialize};
+
 use super::{band::Band, band_law::BandLaw, state::Node};
+use crate::{Error, solver::archive::Archive};
 
 /// Extremes and sums of all bands, for results.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct BandBooks {
     /// Plastic work and what was stored in bands that ended [J].
     pub(super) work: f64,
@@ -33,6 +36,12 @@ pub(super) struct Bands {
 }
 
 impl Bands {
+    /// Everything that a step changes.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.bands)?;
+        archive.item(&mut self.books)
+    }
+
     pub(super) fn new(laws: Vec<BandLaw>, perimeter: f64, back: f64) -> Self {
         Self {
             laws,

@@ -4,13 +4,13 @@ use super::{
     super::{adiabatic::Sheared, band_law::Failure, shear_zone::SQRT_3},
     *,
 };
-use crate::{case, scenario::TargetBody};
+use crate::{Refusal, case, scenario::TargetBody};
 
 const SPEED: f64 = 100.0;
 const LENGTH: f64 = 0.002;
 const PERIMETER: f64 = 0.06;
 
-fn law(chain: &str) -> Result<BandLaw, String> {
+fn law(chain: &str) -> Result<BandLaw, Refusal> {
     let scenario = case::load_str(
         "band",
         &format!(

@@ -5,9 +5,6 @@ use std::f64::consts::PI;
 use super::{part::Role, state::State};
 use crate::history::{ElementState, Profile, Sample};
 
-/// Most elements in a profile: a finer mesh than a picture can show is thinned out.
-const MOST_ELEMENTS: usize = 400;
-
 impl State {
     pub(super) fn sample(&self) -> Sample {
         let projectile = || {
@@ -54,9 +51,10 @@ impl State {
         }
     }
 
-    pub(super) fn profile(&self) -> Profile {
+    /// Elements along the axis, thinned out to about `most`.
+    pub(super) fn profile(&self, most: usize) -> Profile {
         let total: usize = self.segments.iter().map(|s| s.elements().len()).sum();
-        let stride = total.div_ceil(MOST_ELEMENTS).max(1);
+        let stride = total.div_ceil(most).max(1);
         let mut elements = Vec::with_capacity(total / stride + 1);
         for segment in &self.segments {
             let part = &self.parts[segment.part];

@@ -4,6 +4,8 @@
 //! Every segment has one node more than it has elements, so element `e` joins the nodes `e + shift` and `e + shift + 1`, where the
 //! shift of the first segment is 0 and grows by one at every place where ends meet.
 
+use serde::{Deserialize, Serialize};
+
 use super::{
     dishing::Dishing,
     drift::Working,
@@ -15,8 +17,10 @@ use super::{
     tate::Tip,
 };
 use crate::{
+    Error,
     ledger::{EnergyLedger, MomentumLedger},
     material::YieldPoint,
+    solver::archive::Archive,
 };
 
 /// What holds the last node of the chain.
@@ -35,7 +39,7 @@ pub(super) enum End {
 }
 
 /// A run of nodes joined by elements of one part.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Segment {
     pub(super) part: usize,
     pub(super) first_node: usize,
@@ -51,7 +55,7 @@ impl Segment {
 }
 
 /// A point mass.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct Node {
     pub(super) position: f64,
     pub(super) velocity: f64,
@@ -69,7 +73,7 @@ pub(super) struct Node {
 }
 
 /// A normal spring with its constitutive state.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct Element {
     pub(super) rest_length: f64,
     /// Area at rest [m2].
@@ -109,7 +113,7 @@ pub(super) struct Element {
 }
 
 /// A place where a body or a bonded interface has parted.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Parting {
     /// Initial position, struck face at 0 [m].
     pub(super) position: f64,
@@ -118,7 +122,7 @@ pub(super) struct Parting {
 }
 
 /// Work and impulse that have gone where the state itself does not show them.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct Books {
     pub(super) initial_energy: f64,
     pub(super) initial_momentum: f64,
@@ -179,6 +183,30 @@ pub(super) struct State {
 }
 
 impl State {
+    /// Everything that a step changes; the parts and the end are those of the case.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.segments)?;
+        archive.item(&mut self.joints)?;
+        archive.item(&mut self.tip_friction)?;
+        archive.item(&mut self.tip)?;
+        archive.item(&mut self.penetration)?;
+        if let Some(hold) = &mut self.hold {
+            hold.archive(archive)?;
+        }
+        archive.item(&mut self.drag)?;
+        archive.item(&mut self.nodes)?;
+        archive.item(&mut self.elements)?;
+        archive.item(&mut self.time)?;
+        archive.item(&mut self.step)?;
+        archive.item(&mut self.time_step)?;
+        archive.item(&mut self.stable_step)?;
+        archive.item(&mut self.partings)?;
+        archive.item(&mut self.meetings)?;
+        archive.item(&mut self.contact_force)?;
+        archive.item(&mut self.back_force)?;
+        archive.item(&mut self.books)
+    }
+
     /// Part and node range of the projectile's frontmost segment; `None` when all of it has eroded.
     pub(super) fn tip_segment(&self) -> Option<usize> {
         self.segments

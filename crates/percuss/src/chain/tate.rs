@@ -8,6 +8,8 @@
 //! target that moves with the tip, as the flow around any nose has it, keeps it steady, and what leaves the tip takes the mean of
 //! its velocities before and after the arrival.
 
+use serde::{Deserialize, Serialize};
+
 use super::{part::Role, state::State};
 
 /// Strain, as a part of the length, at which an element counts as used up.
@@ -20,7 +22,7 @@ const TIP_THICKNESS: f64 = 0.5;
 const HELD: f64 = 1e30;
 
 /// Mass of target that moves with the tip.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Tip {
     /// Mass [kg].
     mass: f64,

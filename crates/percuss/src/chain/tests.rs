@@ -1,7 +1,7 @@
 //! Invariants of the chain that only its own state can show.
 
 use super::{
-    conservative::Conservative,
+    column::ColumnRun,
     mesh,
     solver::StepControl,
     state::{Segment, State},
@@ -118,12 +118,13 @@ fn the_share_of_border_shear_on_the_face_explains_the_coarse_meshes() {
         let mut scenario = scenario("copper", "aluminium-2024-t351", 230.0, "fixed");
         scenario.options.chain.projectile_elements = Some(elements.0);
         scenario.options.chain.target_elements = Some(elements.1);
-        let plain = Conservative::new(&scenario)
+        let plain = ColumnRun::new(&scenario)
+            .unwrap()
             .run(&mut Control::default())
             .unwrap();
-        let mut run = Conservative::new(&scenario);
+        let mut run = ColumnRun::new(&scenario).unwrap();
         let face = elements.0 as usize + 1;
-        run.state.nodes[face].friction *= 2.0;
+        run.solver.state.nodes[face].friction *= 2.0;
         let whole = run.run(&mut Control::default()).unwrap();
         let depth = |result: &crate::outcome::RunResult| result.depth_of_penetration.unwrap() * 1e3;
         println!(

@@ -181,7 +181,10 @@ impl Document {
             let allowed = |c: char| c.is_alphanumeric() || "_-.".contains(c);
             (!key.is_empty() && key.chars().all(allowed)).then_some(key)
         };
-        let place = self.text.floor_char_boundary(place.min(self.text.len()));
+        let mut place = place.min(self.text.len());
+        while !self.text.is_char_boundary(place) {
+            place -= 1;
+        }
         let start = self.text[..place].rfind('\n').map_or(0, |at| at + 1);
         let line = self.text[start..].lines().next().unwrap_or_default();
         if line.starts_with('[') {

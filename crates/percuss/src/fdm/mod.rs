@@ -1,7 +1,7 @@
 //! Model `fdm`: one-dimensional finite differences on a staggered grid, stresses in cells and velocities at nodes.
 
+mod audit;
 mod grid;
-mod numerics;
 pub mod planar;
 mod rod;
 mod viscosity;
@@ -9,10 +9,9 @@ mod warnings;
 
 pub use crate::options::{FdmOptions, Geometry};
 pub use planar::StateEquation;
-pub use rod::Rod;
 
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{Guard, NoseKind, Range, fixed_rear_face_warning},
     options::ErosionStrain,
     outcome::RunResult,
@@ -52,7 +51,11 @@ impl Model for Fdm {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn has_fields(&self) -> bool {
+        true
+    }
+
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         match scenario.options.fdm.geometry {
             Geometry::Rod => erodes(scenario),
             Geometry::Planar => planar::not_applicable(scenario),
@@ -71,28 +74,29 @@ impl Model for Fdm {
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
         match scenario.options.fdm.geometry {
             Geometry::Rod => {
-                let mut result = Rod::new(scenario).run(control)?;
+                let mut result = rod::RodRun::new(scenario)?.run(control)?;
                 result.warnings.extend(Range::COLUMN.finding(scenario));
                 result.warnings.extend(fixed_rear_face_warning(scenario));
                 Ok(result)
             }
-            Geometry::Planar => planar::run(scenario, control),
+            Geometry::Planar => planar::PlanarRun::new(scenario)?.run(control),
         }
     }
 }
 
 /// Why a rod that erodes gets no number: its cells are crushed instead, to nothing and at the cost of any number of time steps.
-fn erodes(scenario: &Scenario) -> Option<String> {
+fn erodes(scenario: &Scenario) -> Option<Refusal> {
     let regime = Regime::of(scenario);
     let asked = scenario.options.chain.erosion_strain == Some(ErosionStrain::Never);
     let sharply = regime.projectile == ProjectileRegime::Eroding
         && regime.neighbour != Some(ProjectileRegime::Deforming);
     (sharply && !asked).then(|| {
-        format!(
-            "geometry `rod` has no erosion, and this rod erodes: {}; for a comparison without erosion give \
-             `chain.erosion_strain = \"never\"`",
+        let reason = format!(
+            "geometry `rod` has no erosion, and this rod erodes: {}",
             regime.because
-        )
+        );
+        Refusal::new(reason)
+            .with_remedy("for a comparison without erosion give `chain.erosion_strain = \"never\"`")
     })
 }
 

@@ -27,7 +27,7 @@ fn verdict(guard: &Guard, scenario: &Scenario) -> Verdict {
 
 fn reason(guard: &Guard, scenario: &Scenario) -> String {
     match verdict(guard, scenario) {
-        Verdict::Outside(reason) => reason,
+        Verdict::Outside(refusal) => refusal.to_string(),
         Verdict::Inside(warnings) => panic!("let pass with {warnings:?}"),
     }
 }

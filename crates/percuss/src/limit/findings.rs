@@ -86,7 +86,7 @@ pub(super) fn passage(result: &RunResult) -> Passage {
 /// Why a run gave no result.
 pub(super) fn reason(error: &Error) -> String {
     match error {
-        Error::NotApplicable { reason, .. } => reason.clone(),
+        Error::NotApplicable { refusal, .. } => refusal.to_string(),
         other => other.to_string(),
     }
 }

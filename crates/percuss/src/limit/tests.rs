@@ -56,10 +56,7 @@ impl Model for Made {
         let speed = scenario.impact_speed;
         let outcome = (self.outcome)(speed);
         if outcome == Outcome::NotApplicable {
-            return Err(Error::NotApplicable {
-                model: "made",
-                reason: "too fast for it".to_owned(),
-            });
+            return Err(Error::not_applicable("made", "too fast for it"));
         }
         Ok(RunResult {
             residual_velocity: Some(speed),

@@ -121,13 +121,13 @@ fn gives_result(
     scenario: &Scenario,
     regime: &Regime,
 ) -> Result<(), String> {
-    applicability_in(model, scenario, regime)?;
+    applicability_in(model, scenario, regime).map_err(|refusal| refusal.to_string())?;
     if model.guard().sees_back_face || scenario.target_thickness().is_none() {
         return Ok(());
     }
     match run_in(model, scenario, regime, &mut Control::default()) {
         Ok(_) => Ok(()),
-        Err(Error::NotApplicable { reason, .. }) => Err(reason),
+        Err(Error::NotApplicable { refusal, .. }) => Err(refusal.to_string()),
         Err(error) => Err(error.to_string()),
     }
 }

@@ -1,9 +1,11 @@
 //! The parts of a problem as a case file has them: projectile, target with its boundary conditions, experiments.
 
 mod experiment;
+mod extensions;
 mod projectile;
 mod target;
 
 pub use experiment::{Experiment, SourceKeys, Uncertainty};
+pub use extensions::Extensions;
 pub use projectile::{Nose, Projectile};
 pub use target::{BackFace, Layer, LayerInterface, Support, Target, Thickness};

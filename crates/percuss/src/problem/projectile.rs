@@ -99,6 +99,69 @@ impl Nose {
 }
 
 impl Projectile {
+    /// A flat-ended rod of a length, at the temperature of its material's record, in normal impact.
+    pub fn rod(
+        material: impl Into<String>,
+        length: Length,
+        diameter: Length,
+        velocity: Velocity,
+    ) -> Self {
+        Self {
+            length: Some(length),
+            ..Self::blank(material, diameter, velocity)
+        }
+    }
+
+    /// The same of a mass in place of the length.
+    pub fn of_mass(
+        material: impl Into<String>,
+        mass: Mass,
+        diameter: Length,
+        velocity: Velocity,
+    ) -> Self {
+        Self {
+            mass: Some(mass),
+            ..Self::blank(material, diameter, velocity)
+        }
+    }
+
+    fn blank(material: impl Into<String>, diameter: Length, velocity: Velocity) -> Self {
+        Self {
+            material: material.into(),
+            length: None,
+            mass: None,
+            diameter,
+            nose: Nose::Flat,
+            velocity,
+            obliquity: None,
+            temperature: None,
+        }
+    }
+
+    /// The same with a nose.
+    #[must_use]
+    pub fn with_nose(self, nose: Nose) -> Self {
+        Self { nose, ..self }
+    }
+
+    /// The same at an angle between its path and the normal of the struck face.
+    #[must_use]
+    pub fn with_obliquity(self, obliquity: Angle) -> Self {
+        Self {
+            obliquity: Some(obliquity),
+            ..self
+        }
+    }
+
+    /// The same at a temperature before the impact.
+    #[must_use]
+    pub fn with_temperature(self, temperature: Temperature) -> Self {
+        Self {
+            temperature: Some(temperature),
+            ..self
+        }
+    }
+
     /// Angle between the path and the normal of the struck face [rad].
     pub fn obliquity(&self) -> f64 {
         self.obliquity.map_or(0.0, Quantity::si)

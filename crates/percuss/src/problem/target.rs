@@ -178,7 +178,68 @@ impl JsonSchema for Thickness {
     }
 }
 
+impl From<Length> for Thickness {
+    fn from(length: Length) -> Self {
+        Self::Finite(length)
+    }
+}
+
+impl Target {
+    /// One plate, or one semi-infinite target.
+    pub fn plate(material: impl Into<String>, thickness: impl Into<Thickness>) -> Self {
+        Self {
+            material: Some(material.into()),
+            thickness: Some(thickness.into()),
+            ..Self::default()
+        }
+    }
+
+    /// Layers from the struck face to the rear face.
+    pub fn layers(layers: impl IntoIterator<Item = Layer>) -> Self {
+        Self {
+            layers: layers.into_iter().collect(),
+            ..Self::default()
+        }
+    }
+
+    /// A rigid, frictionless wall: a Taylor test.
+    pub fn rigid_wall() -> Self {
+        Self {
+            rigid_wall: true,
+            ..Self::default()
+        }
+    }
+
+    /// A constant pressure on the projectile's face.
+    pub fn constant_pressure(pressure: Pressure) -> Self {
+        Self {
+            constant_pressure: Some(pressure),
+            ..Self::default()
+        }
+    }
+
+    /// The same with a boundary condition at the rear face.
+    #[must_use]
+    pub fn with_back_face(self, back_face: BackFace) -> Self {
+        Self {
+            back_face: Some(back_face),
+            ..self
+        }
+    }
+}
+
 impl Layer {
+    /// A layer that lies on the one before it.
+    pub fn new(material: impl Into<String>, thickness: impl Into<Thickness>) -> Self {
+        Self {
+            material: material.into(),
+            thickness: thickness.into(),
+            gap: None,
+            interface: None,
+            column_diameter: None,
+        }
+    }
+
     /// Whether anything is given that only a model with separate layers can take.
     fn is_separate(&self) -> bool {
         self.gap.is_some() || self.interface.is_some() || self.column_diameter.is_some()

@@ -3,14 +3,14 @@
 //! A checkpoint belongs to one case, one model and one version of the program: anything else is refused, since the run that
 //! goes on would be neither the old one nor a new one.
 
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Serialize};
 
-use crate::{Error, Scenario, options::ModelOptions, scenario::Given};
+use crate::{Error, Scenario, scenario::Given};
 
 /// First bytes of every checkpoint.
 const MAGIC: &[u8] = b"percuss checkpoint\n";
 /// Raised whenever the content changes its form.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 
 /// What a checkpoint says of itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,41 +36,29 @@ impl Header {
     }
 }
 
-/// Puts a state into bytes.
-pub(crate) fn write<T: Serialize>(
+/// A checkpoint with an archived state.
+pub(super) fn seal(
     model: &str,
     scenario: &Scenario,
     (step, time): (u64, f64),
-    state: &T,
+    content: &[u8],
 ) -> Result<Vec<u8>, Error> {
-    let encode = |error: postcard::Error| refused(&format!("it cannot be encoded: {error}"), "");
-    let content = postcard::to_stdvec(state).map_err(encode)?;
     let header = Header {
         format: FORMAT,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         model: model.to_owned(),
         case: fingerprint(scenario),
-        content: hash(&content),
+        content: hash(content),
         step,
         time,
     };
-    let mut bytes = MAGIC.to_vec();
-    bytes.extend(postcard::to_stdvec(&header).map_err(encode)?);
-    bytes.extend(content);
-    Ok(bytes)
+    let encoded = postcard::to_stdvec(&header);
+    let header = encoded.map_err(|error| refused(&format!("it cannot be encoded: {error}"), ""))?;
+    Ok([MAGIC, &header, content].concat())
 }
 
-/// Takes a state out of bytes.
-pub(crate) fn read<T: DeserializeOwned>(
-    bytes: &[u8],
-    model: &str,
-    scenario: &Scenario,
-) -> Result<T, Error> {
-    let (_, content) = open(bytes, model, scenario)?;
-    postcard::from_bytes(content).map_err(|_| damaged())
-}
-
-fn open<'a>(
+/// Header and archived state of a checkpoint.
+pub(super) fn open<'a>(
     bytes: &'a [u8],
     model: &str,
     scenario: &Scenario,
@@ -96,7 +84,7 @@ fn open<'a>(
     }
     if header.case != fingerprint(scenario) {
         return Err(refused(
-            "it is of another case: only its title, sources, experiments, `axi.end_time` and `axi.max_steps` may change",
+            "it is of another case: only its title, sources, experiments, and `end_time` and `max_steps` of a model may change",
             "restore the case or start anew without `--resume`",
         ));
     }
@@ -106,7 +94,7 @@ fn open<'a>(
     Ok((header, content))
 }
 
-fn damaged() -> Error {
+pub(super) fn damaged() -> Error {
     refused("it is damaged", "start anew without `--resume`")
 }
 
@@ -124,14 +112,19 @@ fn fingerprint(scenario: &Scenario) -> u64 {
         title: String::new(),
         sources: Vec::new(),
         experiments: Vec::new(),
-        options: ModelOptions::default(),
         // A default that is written down changes no run.
         given: Given::default(),
         ..scenario.clone()
     };
-    bare.options.axi = scenario.options.axi.clone();
-    bare.options.axi.end_time = None;
-    bare.options.axi.max_steps = None;
+    let options = &mut bare.options;
+    for (end_time, max_steps) in [
+        (&mut options.chain.end_time, &mut options.chain.max_steps),
+        (&mut options.fdm.end_time, &mut options.fdm.max_steps),
+        (&mut options.axi.end_time, &mut options.axi.max_steps),
+    ] {
+        *end_time = None;
+        *max_steps = None;
+    }
     // Debug output gives every number with all its digits.
     hash(format!("{bare:?}").as_bytes())
 }

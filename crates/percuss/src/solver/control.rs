@@ -42,7 +42,7 @@ pub struct Control<'a> {
     pub frames: Option<OnFrame<'a>>,
     /// Gets checkpoints of a model that [has fields](crate::solver::Model::has_fields).
     pub checkpoints: Option<&'a mut dyn Checkpoints>,
-    /// A checkpoint of the same case to go on from; other models than those with fields ignore it.
+    /// A checkpoint of the same case to continue from; models without fields ignore it.
     pub resume: Option<&'a [u8]>,
 }
 

@@ -1,11 +1,11 @@
-//! Fields of a run as it goes on: the material points at even intervals of time, for a caller that draws or writes them.
+//! Fields of a run at even intervals of time, for a caller that draws or writes them.
 
 use serde::{Deserialize, Serialize};
 
 use super::Particle;
-use crate::Scenario;
+use crate::{Scenario, history::ElementState};
 
-/// Material points at one moment.
+/// Fields at one time.
 #[derive(Debug, Clone)]
 pub struct Frame<'a> {
     /// Number of the frame: its time in whole intervals. The last frame may repeat the number of the one before, at the same time.
@@ -16,19 +16,35 @@ pub struct Frame<'a> {
     pub step: u64,
     /// Time [s].
     pub time: f64,
-    /// Side of a cell [m].
-    pub cell: f64,
     /// Depth of the crater floor on the axis [m].
     pub depth: f64,
-    /// Particles of each body: the projectile, then the layers of the target.
-    pub bodies: Vec<&'a [Particle]>,
+    /// The fields.
+    pub fields: Fields<'a>,
 }
 
-impl Frame<'_> {
-    /// Particles that have not left, each with the index of its body.
-    pub fn particles(&self) -> impl Iterator<Item = (usize, &Particle)> {
-        let bodies = self.bodies.iter().enumerate();
-        bodies.flat_map(|(index, particles)| {
+/// Where a model has its fields.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub enum Fields<'a> {
+    /// At material points in the plane of the radius and the depth.
+    Particles {
+        /// Side of a cell of the grid [m].
+        cell: f64,
+        /// Particles of each body: the projectile, then the layers of the target.
+        bodies: Vec<&'a [Particle]>,
+    },
+    /// In elements along the axis, from the projectile's tail to the rear face of the target.
+    Elements(Vec<ElementState>),
+}
+
+impl<'a> Fields<'a> {
+    /// Particles that have not left, each with the index of its body; none of a model that has elements.
+    pub fn particles(&self) -> impl Iterator<Item = (usize, &'a Particle)> {
+        let bodies: &[&'a [Particle]] = match self {
+            Self::Particles { bodies, .. } => bodies,
+            Self::Elements(_) => &[],
+        };
+        bodies.iter().enumerate().flat_map(|(index, particles)| {
             let present = particles.iter().filter(|particle| particle.mass > 0.0);
             present.map(move |particle| (index, particle))
         })

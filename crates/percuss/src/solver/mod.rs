@@ -1,13 +1,18 @@
 //! Model interface: what every model offers, how a run of one is started, watched, interrupted and resumed.
 
+pub(crate) mod archive;
 pub mod checkpoint;
 mod control;
+mod courant_retry;
+pub(crate) mod driver;
 pub mod frames;
 mod input_limit;
+pub(crate) mod limits;
+pub(crate) mod monitor;
 mod particle;
 
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{Guard, Verdict},
     outcome::RunResult,
     regime::Regime,
@@ -15,6 +20,7 @@ use crate::{
 
 pub(crate) use control::go_on;
 pub use control::{Checkpoints, Control, OnFrame, Progress};
+pub(crate) use courant_retry::AttemptError;
 pub use input_limit::InputLimit;
 pub use particle::Particle;
 pub(crate) use particle::{equivalent, kinetic_energy};
@@ -35,13 +41,18 @@ pub trait Model: Sync {
         false
     }
 
-    /// Whether it computes fields in two dimensions, which [`Control::frames`] gets, and can go on from a checkpoint.
+    /// Whether it steps through time: then [`Control::frames`] gets its fields, and a run continues from a checkpoint.
     fn has_fields(&self) -> bool {
         false
     }
 
+    /// Whether its fields are two-dimensional.
+    fn is_two_dimensional(&self) -> bool {
+        false
+    }
+
     /// Why the model does not apply to a case that its guard lets pass, if it does not: an option or a number is missing.
-    fn not_applicable(&self, _: &Scenario) -> Option<String> {
+    fn not_applicable(&self, _: &Scenario) -> Option<Refusal> {
         None
     }
 
@@ -110,16 +121,13 @@ pub(crate) fn run_in(
     control: &mut Control<'_>,
 ) -> Result<RunResult, Error> {
     let warnings =
-        applicability_in(model, scenario, regime).map_err(|reason| refusal(model, reason))?;
+        applicability_in(model, scenario, regime).map_err(|refusal| refused(model, refusal))?;
     let result = model.run(scenario, control)?;
     complete(model, scenario, warnings, result)
 }
 
-fn refusal(model: &dyn Model, reason: String) -> Error {
-    Error::NotApplicable {
-        model: model.name(),
-        reason,
-    }
+fn refused(model: &dyn Model, refusal: impl Into<Refusal>) -> Error {
+    Error::not_applicable(model.name(), refusal)
 }
 
 /// What [`run_in`] makes of the model's own result, for a case to which the model applies with some warnings.
@@ -132,7 +140,7 @@ pub(crate) fn complete(
     if let Some(depth) = result.depth_of_penetration
         && let Some(reason) = model.guard().depth_at_back_face(scenario, depth)
     {
-        return Err(refusal(model, reason));
+        return Err(refused(model, reason));
     }
     result.warnings.splice(0..0, warnings);
     Ok(result)
@@ -141,8 +149,8 @@ pub(crate) fn complete(
 /// Whether a model applies to a case: the warnings of its guard, or the reason why not.
 ///
 /// # Errors
-/// The reason in words.
-pub fn applicability(model: &dyn Model, scenario: &Scenario) -> Result<Vec<String>, String> {
+/// Why it does not.
+pub fn applicability(model: &dyn Model, scenario: &Scenario) -> Result<Vec<String>, Refusal> {
     applicability_in(model, scenario, &Regime::of(scenario))
 }
 
@@ -150,11 +158,11 @@ pub(crate) fn applicability_in(
     model: &dyn Model,
     scenario: &Scenario,
     regime: &Regime,
-) -> Result<Vec<String>, String> {
+) -> Result<Vec<String>, Refusal> {
     match model.guard().verdict(scenario, regime) {
-        Verdict::Outside(reason) => Err(reason),
+        Verdict::Outside(refusal) => Err(refusal),
         Verdict::Inside(warnings) => match model.not_applicable(scenario) {
-            Some(reason) => Err(reason),
+            Some(refusal) => Err(refusal),
             None => Ok(warnings),
         },
     }

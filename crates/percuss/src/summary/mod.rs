@@ -75,7 +75,7 @@ impl ResultRecord {
     /// [`Error::NotApplicable`] becomes [`Outcome::NotApplicable`], any other error [`Outcome::Failed`].
     pub fn without_result(scenario: &Scenario, model: &'static str, error: &Error) -> Self {
         let (outcome, reason) = match error {
-            Error::NotApplicable { reason, .. } => (Outcome::NotApplicable, reason.clone()),
+            Error::NotApplicable { refusal, .. } => (Outcome::NotApplicable, refusal.to_string()),
             other => (Outcome::Failed, other.to_string()),
         };
         Self {

@@ -4,7 +4,7 @@ use super::{RESULT_FIELDS, ResultRecord, Role, result_number, result_numbers};
 use crate::{
     case,
     model::{self, Control},
-    outcome::{BandQuantity, RunResult},
+    outcome::{BandQuantity, Outcome, RunResult},
     scenario::Scenario,
     units::ResultUnit,
 };
@@ -90,11 +90,10 @@ fn a_number_has_a_label_and_a_description_of_its_own() {
 #[test]
 fn a_case_without_a_result_has_the_numbers_of_the_case_alone() {
     let (scenario, _) = run();
-    let error = crate::Error::NotApplicable {
-        model: "tate",
-        reason: "no".to_owned(),
-    };
-    let record = ResultRecord::without_result(&scenario, "tate", &error);
+    let taylor = model::model("taylor").unwrap();
+    let error = model::run(taylor, &scenario, &mut Control::default()).unwrap_err();
+    let record = ResultRecord::without_result(&scenario, "taylor", &error);
+    assert_eq!(record.outcome, Outcome::NotApplicable);
     for number in result_numbers() {
         let given = number.role == Role::Input;
         assert_eq!(number.of(&record).is_some(), given, "{number:?}");

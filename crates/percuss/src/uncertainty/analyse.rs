@@ -161,10 +161,10 @@ fn nominal(
     };
     match &row.record {
         Ok(record) if record.outcome == Outcome::NotApplicable => {
-            return Err(Error::NotApplicable {
-                model: model.name(),
-                reason: record.reason.clone().unwrap_or_default(),
-            });
+            return Err(Error::not_applicable(
+                model.name(),
+                record.reason.clone().unwrap_or_default(),
+            ));
         }
         Ok(record) => {
             nominal = Nominal {

@@ -207,7 +207,8 @@ fn compute(kind: Kind, scenario: &Scenario, model: &dyn Model, stop: &AtomicBool
     let failed = |outcome, reason| Answer::none(Standing::Failed, outcome, reason);
     let result = match model::run(model, scenario, &mut control) {
         Ok(result) => result,
-        Err(Error::NotApplicable { reason, .. }) => {
+        Err(Error::NotApplicable { refusal, .. }) => {
+            let reason = refusal.to_string();
             return Answer::none(Standing::NotApplicable, Outcome::NotApplicable, reason);
         }
         Err(error) => return failed(Outcome::Failed, error.to_string()),

@@ -33,7 +33,7 @@ pub fn try_run(name: &str, scenario: &Scenario) -> Result<RunResult, Error> {
 
 pub fn refusal(name: &str, scenario: &Scenario) -> String {
     match try_run(name, scenario) {
-        Err(Error::NotApplicable { reason, .. }) => reason,
+        Err(Error::NotApplicable { refusal, .. }) => refusal.to_string(),
         other => panic!("{name}: {other:?}"),
     }
 }

@@ -26,7 +26,15 @@ pub fn load(folder: &Path) -> Result<Option<Vec<u8>>, Failure> {
     let path = file(folder);
     match fs::read(&path) {
         Ok(bytes) => Ok(Some(bytes)),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        // A folder that cannot be written is reported where it is made.
+        Err(error)
+            if matches!(
+                error.kind(),
+                io::ErrorKind::NotFound | io::ErrorKind::NotADirectory
+            ) =>
+        {
+            Ok(None)
+        }
         Err(error) => Err(Failure::Library(percuss::Error::Read {
             path,
             reason: error.to_string(),

@@ -44,13 +44,15 @@ case-as-run.toml needs no other file and gives the same results. A model without
 time histories writes the first two only. Files of the same names are replaced,
 others are left alone.
 
-A model of two dimensions, which `axi` is, also writes the shapes of crater and
-projectile (CSV and figure) and its fields at the end: field.vtp for ParaView
-and a picture of one of them, field.png. On request it writes the fields over
-time: --fields as a series for ParaView (fields.pvd, which can be opened during
-the run), --animation as animation.gif and its pictures (frames/). Ctrl-C, or a
-request of the system to end, leaves a checkpoint there, from which --resume
-goes on with the same numbers.
+With --fields the models `chain`, `fdm` and `axi` also write their fields against
+time as a series for ParaView (fields.pvd, which can be opened during the run).
+Ctrl-C, or a request of the system to end, leaves a checkpoint in DIR, from which
+--resume continues with the same numbers.
+
+The two-dimensional model `axi` also writes the shapes of crater and projectile
+(CSV and figure) and its fields at the end: field.vtp for ParaView and a picture
+of one of them, field.png. With --animation it writes animation.gif and its
+pictures (frames/).
 
 Anything longer than a second shows its progress, if standard error is a
 terminal.";
@@ -61,7 +63,7 @@ Examples:
   percuss run my-shot/scenario.toml --out results
   percuss run my-shot/scenario.toml --json > result.json
   percuss run my-shot/scenario.toml --quiet
-  percuss run my-shot/scenario.toml --model axi --out results
+  percuss run my-shot/scenario.toml --out results --fields
   percuss run my-shot/scenario.toml --model axi --out results --resume
   percuss run my-shot/scenario.toml --model axi --out results --animation
 
@@ -88,23 +90,23 @@ pub struct Run {
     /// No table and no progress: one line of NAME=VALUE pairs
     #[arg(long, short)]
     quiet: bool,
-    /// Field that pictures show, from a model of two dimensions [default: plastic-strain]
+    /// Field that pictures of a two-dimensional model show [default: plastic-strain]
     #[arg(long, value_name = "NAME", requires = "out")]
     #[arg(value_parser = PossibleValuesParser::new(FieldQuantity::ALL.map(FieldQuantity::name)))]
     field: Option<String>,
-    /// Write the fields of a model of two dimensions over time, as a series for ParaView
+    /// Write the fields against time as a series for ParaView
     #[arg(long, requires = "out")]
     fields: bool,
-    /// Write an animation of one field of a model of two dimensions, and its pictures
+    /// Write an animation of one field of a two-dimensional model, and its pictures
     #[arg(long, requires = "out")]
     animation: bool,
     /// Most frames of --fields and --animation, 2 to 1000; a run has between half as many and all of them, unless it is too short [default: 64]
     #[arg(long, value_name = "N", requires = "out", value_parser = value_parser!(u16).range(2..=1000))]
     frames: Option<u16>,
-    /// How often a model of two dimensions leaves a checkpoint in DIR [default: 60s]
+    /// How often a numerical model leaves a checkpoint in DIR [default: 60s]
     #[arg(long, value_name = "TIME", requires = "out", value_parser = checkpoints::interval)]
     checkpoint: Option<Duration>,
-    /// Go on from the checkpoint in DIR; without one there, start at the beginning
+    /// Continue from the checkpoint in DIR; without one there, start at the beginning
     #[arg(long, requires = "out")]
     resume: bool,
 }

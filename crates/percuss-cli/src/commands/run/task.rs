@@ -41,12 +41,13 @@ pub(super) struct Task<'a> {
     fields: Option<Fields<'a>>,
 }
 
-/// What a run in two dimensions leaves in its folder besides its result.
+/// Fields and checkpoints that a run leaves in its folder.
 struct Fields<'a> {
     /// The fields over time, where something is made of them.
     series: Option<FieldSeries>,
-    /// The fields at the end.
+    /// The fields at the end, in two dimensions.
     last: Option<FinalField>,
+    two_dimensional: bool,
     keeper: Keeper<'a>,
     /// Checkpoint to go on from.
     resume: Option<Vec<u8>>,
@@ -74,6 +75,7 @@ impl<'a> Task<'a> {
             Some(out) => Some(Fields {
                 series: series(options, out, start.as_ref().map(|(header, _)| header))?,
                 last: None,
+                two_dimensional: model.is_two_dimensional(),
                 keeper: Keeper::new(out, options.checkpoint.unwrap_or(CHECKPOINT_INTERVAL), stop),
                 resume: start.map(|(_, bytes)| bytes),
             }),
@@ -158,9 +160,15 @@ impl Fields<'_> {
         report: &mut dyn FnMut(model::Progress) -> ControlFlow<()>,
     ) -> Result<RunResult, Failure> {
         let mut failure = None;
-        let Self { series, last, .. } = self;
+        let is_shown = self.two_dimensional || self.series.is_some();
+        let Self {
+            series,
+            last,
+            two_dimensional,
+            ..
+        } = self;
         let mut add = |frame: &Frame<'_>| {
-            if frame.last {
+            if frame.last && *two_dimensional {
                 *last = Some(FinalField::of(frame));
             }
             match series.as_mut().map_or(Ok(()), |series| series.add(frame)) {
@@ -172,7 +180,7 @@ impl Fields<'_> {
             }
         };
         let mut control = Control {
-            frames: Some(&mut add),
+            frames: is_shown.then_some(&mut add),
             checkpoints: Some(&mut self.keeper),
             resume: self.resume.as_deref(),
             record: true,
@@ -246,16 +254,31 @@ fn check_use(options: &Run, model: &dyn Model) -> Result<(), Failure> {
             return Err(crate::commands::left_out::refuse(option, "png"));
         }
     }
+    let useless = |what: &str, option: &str, models: &str| Failure::Usage {
+        message: format!(
+            "`{option}` has no effect with model `{}`, {what}",
+            model.name()
+        ),
+        help: format!("remove `{option}` or give {models}"),
+    };
     if let Some((option, _)) = given.iter().find(|(_, given)| *given)
         && !model.has_fields()
     {
-        return Err(Failure::Usage {
-            message: format!(
-                "`{option}` has no effect with model `{}`, which has no fields",
-                model.name()
-            ),
-            help: format!("remove `{option}` or give `--model axi`"),
-        });
+        let what = "which does not step through time";
+        return Err(useless(
+            what,
+            option,
+            "`--model chain`, `--model fdm` or `--model axi`",
+        ));
+    }
+    for (option, given) in [
+        ("--animation", options.animation),
+        ("--field", options.field.is_some()),
+    ] {
+        if given && !model.is_two_dimensional() {
+            let what = "whose fields are one-dimensional";
+            return Err(useless(what, option, "`--model axi`"));
+        }
     }
     if options.frames.is_some() && !(options.fields || options.animation) {
         return Err(Failure::Usage {
@@ -289,13 +312,13 @@ fn start(
     if !options.resume {
         if let Ok(header) = header {
             say(&format!(
-                "`{shown}` holds a checkpoint of this case at {:.1} us; the run starts anew, `--resume` would go on",
+                "`{shown}` holds a checkpoint of this case at {:.1} us; the run starts at the beginning; `--resume` continues",
                 header.time * 1e6
             ));
         }
         return Ok(None);
     }
     let header = header?;
-    say(&format!("going on from {:.1} us", header.time * 1e6));
+    say(&format!("continuing from {:.1} us", header.time * 1e6));
     Ok(Some((header, bytes)))
 }

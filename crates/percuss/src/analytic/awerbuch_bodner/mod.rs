@@ -13,7 +13,7 @@ use super::{
     plugging::PLUG_RANGES,
 };
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{Guard, NoseKind},
     material::tensile_strength,
     options::AwerbuchBodnerOptions,
@@ -83,13 +83,14 @@ impl Model for AwerbuchBodner {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         let shot = PlateShot::of(scenario)?;
         let options = &scenario.options.awerbuch_bodner;
         let given = options.crushing_stress.is_some() && options.shear_strength.is_some();
         (!given && tensile_strength(shot.plate).is_none()).then(|| {
-            "the plate's strength law never flows: give `awerbuch_bodner.crushing_stress` and `awerbuch_bodner.shear_strength`"
-                .to_owned()
+            Refusal::new("the plate's strength law never flows").with_remedy(
+                "give `awerbuch_bodner.crushing_stress` and `awerbuch_bodner.shear_strength`",
+            )
         })
     }
 

@@ -5,11 +5,14 @@ mod exact;
 
 pub use equations::{Phase, Rods, Stop};
 
-use super::long_rod::{
-    LongRod, NOT_ONE_TARGET, STRENGTH_STRAIN, detail, rests_on, sharp_and_rigid, strength,
+use super::{
+    deep_shot::never_yields,
+    long_rod::{
+        LongRod, NOT_ONE_TARGET, STRENGTH_STRAIN, detail, rests_on, sharp_and_rigid, strength,
+    },
 };
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
     material::{Material, MaterialClass, cavity_expansion_pressure},
     outcome::{Band, BandQuantity, Outcome, RunResult, Termination},
@@ -51,15 +54,15 @@ impl Tate {
     /// The rod and target of a case.
     ///
     /// # Errors
-    /// What is missing, in words.
-    pub fn rods(scenario: &Scenario) -> Result<Rods, String> {
+    /// What is missing.
+    pub fn rods(scenario: &Scenario) -> Result<Rods, Refusal> {
         let rod = LongRod::of(scenario).ok_or(NOT_ONE_TARGET)?;
         let options = &scenario.options.tate;
         let resistance = options
             .target_resistance
             .map(Pressure::si)
             .or_else(|| cavity_expansion_pressure(rod.target))
-            .ok_or("the target's material never yields: give `tate.target_resistance`")?;
+            .ok_or_else(|| never_yields(Some("`tate.target_resistance`")))?;
         let (projectile_density, target_density) = rod.densities();
         Ok(Rods {
             projectile_density,
@@ -166,17 +169,14 @@ impl Model for Tate {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         sharp_and_rigid(scenario).or_else(|| Self::rods(scenario).err())
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let refuse = |reason: String| Error::NotApplicable {
-            model: self.name(),
-            reason,
-        };
+        let refuse = |refusal: Refusal| Error::not_applicable(self.name(), refusal);
         let rods = Self::rods(scenario).map_err(refuse)?;
-        let rod = LongRod::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET.to_owned()))?;
+        let rod = LongRod::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET.into()))?;
         let stop = rods.penetrate(rod.speed, rod.length)?;
         let (outcome, termination) = if rod.speed == 0.0 {
             (Outcome::AtRest, Termination::NothingMoves)

@@ -13,7 +13,7 @@ use super::{
     tate::LONG_ROD,
 };
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     guard::Guard,
     material::Material,
     outcome::{BandQuantity, Outcome, RunResult, Termination},
@@ -47,7 +47,7 @@ fn shock(material: &Material) -> (f64, f64, bool) {
 
 impl WalkerAnderson {
     /// The rod, what it does, and warnings on what had to be estimated.
-    fn motion<'a>(scenario: &'a Scenario) -> Result<(LongRod<'a>, Motion, Vec<String>), String> {
+    fn motion<'a>(scenario: &'a Scenario) -> Result<(LongRod<'a>, Motion, Vec<String>), Refusal> {
         let rod = LongRod::of(scenario).ok_or(NOT_ONE_TARGET)?;
         let options = &scenario.options.walker_anderson;
         let (density, target_density) = rod.densities();
@@ -94,23 +94,25 @@ impl WalkerAnderson {
                 .map_or(0.5 * rod.diameter * crater_ratio(rod.speed), Length::si),
         };
         if motion.target.strength >= 2.0 * motion.target.shear_modulus {
-            return Err("the target's strength is beyond twice its shear modulus".to_owned());
+            return Err("the target's strength is beyond twice its shear modulus".into());
         }
         if rod.speed > 0.0 {
             let tip = motion.tip_speed_at_impact(rod.speed);
             let limit = target_sound_speed + target_slope * tip;
             if tip >= limit {
-                return Err(format!(
+                return Err(Refusal::new(format!(
                     "the tip would move at {} m/s, faster than the target's shock at {} m/s: the flow of the target is not the \
                      model's",
                     significant(tip, 4),
                     significant(limit, 4)
-                ));
+                )));
             }
             if motion.plastic_length(rod.speed, tip) >= rod.length {
-                return Err("the plastic zone at impact is longer than the rod: it takes longer rods or a smaller \
-                            `walker_anderson.crater_radius`"
-                    .to_owned());
+                return Err(
+                    Refusal::new("the plastic zone at impact is longer than the rod").with_remedy(
+                        "give a longer rod or a smaller `walker_anderson.crater_radius`",
+                    ),
+                );
             }
         }
         Ok((rod, motion, warnings))
@@ -146,16 +148,13 @@ impl Model for WalkerAnderson {
         }
     }
 
-    fn not_applicable(&self, scenario: &Scenario) -> Option<String> {
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         sharp_and_rigid(scenario).or_else(|| Self::motion(scenario).err())
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let (rod, motion, mut warnings) =
-            Self::motion(scenario).map_err(|reason| Error::NotApplicable {
-                model: self.name(),
-                reason,
-            })?;
+        let (rod, motion, mut warnings) = Self::motion(scenario)
+            .map_err(|refusal| Error::not_applicable(self.name(), refusal))?;
         if rod.speed == 0.0 {
             let mut result =
                 RunResult::new(self.name(), "", Outcome::AtRest, Termination::NothingMoves);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Solid, Solver, body, rectangle, solver, supported, uniform};
+use super::{Grid, Solid, body, rectangle, solver, supported, uniform};
 use crate::axi::{
     body::Body,
     boundary::{Support, Supports},
@@ -35,7 +35,7 @@ const LENGTH: f64 = 0.05;
 const RADIUS: f64 = 2.5e-3;
 
 /// Two equal bars, the first moving, the second at rest before it.
-fn bars(contact: Contact, cells: f64) -> Solver {
+fn bars(contact: Contact, cells: f64) -> Grid {
     let cell = RADIUS / cells;
     let bar = |depth: (f64, f64), speed: f64| {
         let sections = rectangle((0.0, RADIUS), depth, 0.5 * cell);
@@ -109,7 +109,7 @@ struct Slide {
     heat: f64,
     /// Ratio of axial to radial impulse, and slip that was left [m/s], at nodes that no wave from an edge had reached yet.
     ratios: Vec<(f64, f64)>,
-    solver: Solver,
+    solver: Grid,
 }
 
 /// A ring within another during a little more than one passage of a wave: it comes from inside and slides along the axis.

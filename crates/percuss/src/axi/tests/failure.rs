@@ -1,6 +1,6 @@
 //! Failure: damage in a state that does not change, and a bar that is torn.
 
-use super::{Particle, Solid, Solver, body, deform, rectangle, solver};
+use super::{Grid, Particle, Solid, body, deform, rectangle, solver};
 use crate::{
     axi::law::Law,
     material::{Material, PreparedDamage},
@@ -76,7 +76,7 @@ fn a_particle_fails_at_the_strain_of_its_stress_triaxiality() {
 }
 
 /// A bar whose halves fly apart at 200 and 100 m/s, until it is in two.
-fn torn(erode_failed: bool) -> Solver {
+fn torn(erode_failed: bool) -> Grid {
     const LENGTH: f64 = 20e-3;
     const RADIUS: f64 = 2.5e-3;
     let cell = RADIUS / 4.0;

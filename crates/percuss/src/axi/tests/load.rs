@@ -1,6 +1,6 @@
 //! Slow loading of a body by a pressure on one of its faces.
 
-use super::{Body, Solver};
+use super::{Body, Grid};
 use crate::{
     axi::{
         field::{FORCE, MOMENTUM},
@@ -58,7 +58,7 @@ pub(super) struct Loading {
 
 /// Loads the only body of a solver and lets it come to rest; gives each particle before and after.
 pub(super) fn load(
-    solver: &mut Solver,
+    solver: &mut Grid,
     loading: &Loading,
     part: Part<'_>,
 ) -> Vec<(Particle, Particle)> {

@@ -18,10 +18,11 @@ use super::{
     boundary::Supports,
     contact::Contact,
     law::{Law, Pressure},
-    solver::{Books, Pending, Solver},
+    solver::{Books, Grid, Pending},
 };
 use crate::{
     case::ArtificialViscosity,
+    lanes::Lanes,
     material::{FlowState, FlowStress, PreparedStrength},
     solver::Particle,
 };
@@ -126,7 +127,14 @@ fn deform(law: &Law, particle: &mut Particle, hoop_rate: f64) -> [f64; 3] {
     let members = Members::next(particles, &mut 0).unwrap();
     let mut block = Block::of(particles, &members);
     block.keep_motion(particles, &members);
-    let work = law.deform(particles, &members, &mut block, [hoop_rate; _], 1.0, 1.0);
+    let work = law.deform(
+        particles,
+        &members,
+        &mut block,
+        Lanes::all(hoop_rate),
+        1.0,
+        1.0,
+    );
     [work.total, work.plastic, work.failure].map(|lane| lane[0])
 }
 
@@ -178,14 +186,14 @@ fn spherical_shell(inner: f64, outer: f64, spacing: f64) -> Vec<([f64; 2], f64)>
 const ALL_ROWS: isize = isize::MIN;
 
 /// Bodies without supports, ready to move.
-fn solver(bodies: Vec<Body>, cell: f64) -> Solver {
+fn solver(bodies: Vec<Body>, cell: f64) -> Grid {
     let supports = vec![Supports::NONE; bodies.len()];
     supported(bodies, supports, cell)
 }
 
 /// Bodies with supports, ready to move.
-fn supported(bodies: Vec<Body>, supports: Vec<Supports>, cell: f64) -> Solver {
-    let mut solver = Solver {
+fn supported(bodies: Vec<Body>, supports: Vec<Supports>, cell: f64) -> Grid {
+    let mut solver = Grid {
         bodies,
         supports,
         contact: Contact::Frictional(0.0),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Body, Particle, Solid, Solver, body, rectangle, supported};
+use super::{Body, Grid, Particle, Solid, body, rectangle, supported};
 use crate::axi::boundary::{Support, Supports};
 
 const SPEED: f64 = 1.0;
@@ -55,7 +55,7 @@ fn make_outgoing(body: &mut Body, direction: usize) {
 }
 
 /// Root of the mean square of the velocities of particles that are inside.
-fn strength(solver: &Solver, inside: impl Fn(&Particle) -> bool) -> f64 {
+fn strength(solver: &Grid, inside: impl Fn(&Particle) -> bool) -> f64 {
     let particles = solver.bodies[0].particles.iter().filter(|p| inside(p));
     let (sum, mass) = particles.fold((0.0, 0.0), |(sum, mass), p| {
         let [radial, axial] = p.velocity;
@@ -68,7 +68,7 @@ fn strength(solver: &Solver, inside: impl Fn(&Particle) -> bool) -> f64 {
 }
 
 /// Part of a wave's amplitude that is left when all of it should have gone.
-fn left(mut solver: Solver, inside: impl Fn(&Particle) -> bool) -> f64 {
+fn left(mut solver: Grid, inside: impl Fn(&Particle) -> bool) -> f64 {
     let before = strength(&solver, &inside);
     while solver.time < DURATION * LENGTH / waves().1[0] {
         assert!(solver.advance());

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Solid, Solver, body, deform, rectangle, solver, spherical_shell, uniform};
+use super::{Grid, Solid, body, deform, rectangle, solver, spherical_shell, uniform};
 use crate::axi::{Particle, law::Law};
 
 fn steel() -> Solid {
@@ -35,7 +35,7 @@ fn a_flying_sphere_keeps_its_velocity_shape_and_energy() {
 }
 
 /// Linear momentum [N s/m], and angular momentum about the origin, that of the velocity gradients included [N s].
-fn momenta(solver: &Solver) -> [f64; 3] {
+fn momenta(solver: &Grid) -> [f64; 3] {
     let moment = 0.25 * solver.cell * solver.cell;
     let of_particle = |p: &Particle| {
         let ([r, z], [v_r, v_z]) = (p.position, p.velocity);
@@ -52,7 +52,7 @@ fn momenta(solver: &Solver) -> [f64; 3] {
 }
 
 /// Polar moment of inertia about the centre of mass [kg m].
-fn inertia(solver: &Solver) -> f64 {
+fn inertia(solver: &Grid) -> f64 {
     let particles = &solver.bodies[0].particles;
     let mass: f64 = particles.iter().map(|p| p.mass).sum();
     let mean = [0, 1].map(|k| {

@@ -1,6 +1,6 @@
 //! Collapse of a beryllium shell: the motion of an incompressible perfectly plastic sphere stops at radii known in closed form.
 
-use super::{Solid, Solver, body, solver, spherical_shell};
+use super::{Grid, Solid, body, solver, spherical_shell};
 
 const INNER: f64 = 0.08;
 const OUTER: f64 = 0.10;
@@ -67,7 +67,7 @@ fn stops_at(speed: f64, cells: f64) -> f64 {
     let shell = body(beryllium().law(), sections, &collapse(speed));
     let mut solver = solver(vec![shell], cell);
     // Without change of volume the cubes of all radii fall by the same.
-    let cubes = |solver: &Solver| -> f64 {
+    let cubes = |solver: &Grid| -> f64 {
         let particles = solver.bodies[0].particles.iter();
         let distance = |[r, z]: [f64; 2]| r.hypot(z);
         particles

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{ALL_ROWS, Solid, Solver, body, rectangle, supported};
+use super::{ALL_ROWS, Grid, Solid, body, rectangle, supported};
 use crate::axi::{
     boundary::{Support, Supports},
     law::Law,
@@ -33,7 +33,7 @@ fn measured_speed(radius: f64, cell: f64, supports: Supports, courant: f64) -> f
     let bar = body(copper().law(), sections, &motion);
     let mut solver = supported(vec![bar], vec![supports], cell);
     solver.courant = courant;
-    let amplitude = |solver: &Solver| -> f64 {
+    let amplitude = |solver: &Grid| -> f64 {
         let particles = solver.bodies[0].particles.iter();
         particles
             .map(|p| p.mass * p.velocity[1] * (number * p.position[1]).cos())
@@ -115,7 +115,7 @@ fn held_error(cells: f64, supports: Supports) -> f64 {
     let sections = rectangle((0.0, 2.0 * cell), (-LENGTH, 0.0), 0.5 * cell);
     let slab = body(copper().law(), sections, &motion);
     let mut solver = supported(vec![slab], vec![supports], cell);
-    let amplitude = |solver: &Solver| -> f64 {
+    let amplitude = |solver: &Grid| -> f64 {
         let particles = solver.bodies[0].particles.iter();
         particles
             .map(|p| -p.mass * p.velocity[1] * (number * p.position[1]).sin())
@@ -127,7 +127,7 @@ fn held_error(cells: f64, supports: Supports) -> f64 {
 }
 
 /// Time at which the amplitude of a wave first falls to nothing [s].
-fn time_to_rest(solver: &mut Solver, amplitude: impl Fn(&Solver) -> f64) -> f64 {
+fn time_to_rest(solver: &mut Grid, amplitude: impl Fn(&Grid) -> f64) -> f64 {
     let mut before = (0.0, amplitude(solver));
     loop {
         let half = 0.5 * solver.time_step;
@@ -189,7 +189,7 @@ fn edge_error(cells: f64) -> f64 {
         ..Supports::NONE
     };
     let mut solver = supported(vec![body(law, sections, &motion)], vec![supports], cell);
-    let amplitude = |solver: &Solver| -> f64 {
+    let amplitude = |solver: &Grid| -> f64 {
         let particles = solver.bodies[0].particles.iter();
         particles
             .map(|p| p.mass * p.velocity[0] * (number * (edge - p.position[0])).sin())

@@ -1,10 +1,10 @@
 //! The books of every lane: `State::energy` and `State::momentum`.
 
-use super::{
-    bundle::Bundle,
+use super::bundle::Bundle;
+use crate::{
     lanes::{LANES, Lanes},
+    {chain::column::ColumnRun, solver::AttemptError},
 };
-use crate::{chain::conservative::Conservative, courant_retry::AttemptError};
 
 /// Energy and momentum of projectile and target in every lane.
 #[derive(Default)]
@@ -50,12 +50,15 @@ impl Bundle {
         &self,
         lane: usize,
         sums: &Sums,
-        run: &mut Conservative<'_>,
+        run: &mut ColumnRun<'_>,
     ) -> Result<(), AttemptError> {
         self.whole.let_out(lane, run);
         let of = |sums: [Lanes; 2]| sums.map(|sum| sum.0[lane]);
-        let energy = run.state.energy_ledger(of(sums.kinetic), of(sums.elastic));
-        let momentum = run.state.momentum_ledger(of(sums.momentum));
-        run.look(energy, momentum)
+        let energy = run
+            .solver
+            .state
+            .energy_ledger(of(sums.kinetic), of(sums.elastic));
+        let momentum = run.solver.state.momentum_ledger(of(sums.momentum));
+        run.audit(energy, momentum)
     }
 }

@@ -2,12 +2,9 @@
 
 use std::ops::Range;
 
-use super::{
-    joints::Joint,
-    lanes::{LANES, Lanes},
-    whole::Whole,
-};
+use super::{joints::Joint, whole::Whole};
 use crate::{
+    lanes::{LANES, Lanes},
     problem::BackFace,
     scenario::{Scenario, TargetBody},
 };

@@ -1,11 +1,10 @@
 //! Contact of two ends: `State::kick_contact` and `State::close_gaps`, of tip and face in every lane at once.
 
-use super::{
-    bundle::Bundle,
+use super::{bundle::Bundle, step::Step};
+use crate::{
+    chain::friction::rub,
     lanes::{LANES, Lanes, larger},
-    step::Step,
 };
-use crate::chain::friction::rub;
 
 /// Two ends at the start of a kick.
 #[derive(Clone, Copy)]

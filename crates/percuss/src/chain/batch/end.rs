@@ -2,10 +2,12 @@
 
 use super::{
     bundle::{Back, Bundle},
-    lanes::{LANES, Lanes, larger, smaller},
     step::{Found, Step},
 };
-use crate::chain::solver::LARGEST_STRAIN_STEP;
+use crate::{
+    chain::solver::LARGEST_STRAIN_STEP,
+    lanes::{LANES, Lanes, larger, smaller},
+};
 
 impl Bundle {
     /// Ends the step and finds the lanes that the single run has to look at.

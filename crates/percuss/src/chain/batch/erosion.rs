@@ -1,13 +1,16 @@
 //! Lanes in which elements have eroded: what is left of their bodies, and what is between the pieces.
 
-use super::{bundle::Bundle, joints::Joint, lanes::LANES};
-use crate::chain::{conservative::Conservative, state::State};
+use super::{bundle::Bundle, joints::Joint};
+use crate::{
+    chain::{column::ColumnRun, state::State},
+    lanes::LANES,
+};
 
 impl Bundle {
     /// Takes the elements out of a lane that have eroded in the single run, which has just been let out; false when too little is
     /// left to go on here.
-    pub(super) fn erode(&mut self, lane: usize, run: &Conservative<'_>) -> bool {
-        let state = &run.state;
+    pub(super) fn erode(&mut self, lane: usize, run: &ColumnRun<'_>) -> bool {
+        let state = &run.solver.state;
         let (Some(tip), Some(face)) = (state.tip_segment(), state.face_segment()) else {
             return false;
         };

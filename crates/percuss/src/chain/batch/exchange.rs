@@ -2,7 +2,7 @@
 
 use super::bundle::{Body, Bundle, Flow, Spring};
 use crate::{
-    chain::{conservative::Conservative, part::Part, state::Element},
+    chain::{column::ColumnRun, part::Part, state::Element},
     material::{Hardening, YieldPoint},
     power::log_ratio,
 };
@@ -12,8 +12,8 @@ const CLOSE: f64 = 1.0 + 1e-9;
 
 impl Bundle {
     /// Puts a shot at the moment of impact into a lane.
-    pub(super) fn take_in(&mut self, lane: usize, run: &Conservative<'_>) {
-        let state = &run.state;
+    pub(super) fn take_in(&mut self, lane: usize, run: &ColumnRun<'_>) {
+        let state = &run.solver.state;
         for (i, from) in state.nodes.iter().enumerate() {
             self.nodes[i].position.0[lane] = from.position;
             self.nodes[i].velocity.0[lane] = from.velocity;
@@ -44,7 +44,7 @@ impl Bundle {
             body.first_friction.0[lane] = nodes[0].friction;
             body.last_friction.0[lane] = nodes[count].friction;
             let length = element.rest_length;
-            let stretch = run.control.erosion_strain.exp();
+            let stretch = run.solver.control.erosion_strain.exp();
             body.shortest.0[lane] = length / stretch * CLOSE;
             body.longest.0[lane] = length * stretch / CLOSE;
         }
@@ -60,13 +60,13 @@ impl Bundle {
     }
 
     /// Keeps up what the single run has done with a lane that was let out.
-    pub(super) fn follow(&mut self, lane: usize, run: &Conservative<'_>) {
+    pub(super) fn follow(&mut self, lane: usize, run: &ColumnRun<'_>) {
         self.whole.follow(lane, run);
     }
 
     /// Puts a lane into the state of its shot; false when an element has no length any more.
-    pub(super) fn let_out(&self, lane: usize, run: &mut Conservative<'_>) -> bool {
-        let state = &mut run.state;
+    pub(super) fn let_out(&self, lane: usize, run: &mut ColumnRun<'_>) -> bool {
+        let state = &mut run.solver.state;
         let mut is_sound = true;
         for segment in &state.segments {
             for i in segment.first_node..=segment.last_node {

@@ -1,10 +1,8 @@
 //! Flow of elements, gathered from all lanes: the return of a trial stress to the yield surface.
 
-use super::{
-    bundle::{Body, Flow, Node, Spring},
-    lanes::{LANES, Lanes, larger},
-};
+use super::bundle::{Body, Flow, Node, Spring};
 use crate::{
+    lanes::{LANES, Lanes, larger},
     material::{FlowState, Hardening, Trial, YieldPoint, first_return},
     power::{exponential, log_ratio, small_exponential},
 };

@@ -4,10 +4,12 @@ use std::ops::Range;
 
 use super::{
     bundle::{Back, Bundle, Node},
-    lanes::{LANES, Lanes},
     step::Step,
 };
-use crate::chain::friction::rub;
+use crate::{
+    chain::friction::rub,
+    lanes::{LANES, Lanes},
+};
 
 impl Bundle {
     /// Kicks and moves all of the projectile but its tip; returns the force on the tip.

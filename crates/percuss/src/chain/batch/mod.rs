@@ -2,7 +2,7 @@
 //!
 //! [`Bundle`] advances the state of eight shots by the equations of the single run, in the same order, lane by lane: no lane knows
 //! of another one, so that a shot ends with the same bits in whatever company it was computed. Whatever is rare (the end of a shot,
-//! erosion) is left to the single run: the lane's state is put into its [`Conservative`], and what that makes of it is put back.
+//! erosion) is left to the single run: the lane's state is put into its [`ColumnRun`], and what that makes of it is put back.
 
 // Loops over the lanes run along many arrays at once.
 #![allow(clippy::needless_range_loop)]
@@ -17,7 +17,6 @@ mod exchange;
 mod flow;
 mod joints;
 mod kick;
-mod lanes;
 mod spring;
 mod step;
 #[cfg(test)]
@@ -37,11 +36,11 @@ pub(crate) use accepts::accepts;
 use books::Sums;
 use bundle::{Bundle, Mesh};
 pub(in crate::chain) use flow::Start;
-pub(in crate::chain) use lanes::LANES;
 
-use super::conservative::{AUDIT_INTERVAL, Conservative};
+use super::column::{AUDIT_INTERVAL, ColumnRun};
 use crate::{
     Error, Scenario,
+    lanes::LANES,
     options::constraint_factor,
     outcome::RunResult,
     scenario::TargetBody,
@@ -60,10 +59,10 @@ pub(crate) struct Stopped;
 struct Passenger<'a> {
     /// Its place among the shots.
     shot: usize,
-    run: Conservative<'a>,
+    run: ColumnRun<'a>,
 }
 
-/// Results of shots that [`accepts`] accepts, in their order: those of [`Conservative::run`].
+/// Results of shots that [`accepts`] accepts, in their order: those of a single run.
 ///
 /// # Errors
 /// [`Stopped`].
@@ -160,9 +159,13 @@ impl Ride<'_, '_> {
             if seat.is_none()
                 && let Some(shot) = waiting.pop()
             {
-                let run = Conservative::new(self.scenarios[shot]);
-                self.bundle.take_in(lane, &run);
-                *seat = Some(Passenger { shot, run });
+                match ColumnRun::new(self.scenarios[shot]) {
+                    Ok(run) => {
+                        self.bundle.take_in(lane, &run);
+                        *seat = Some(Passenger { shot, run });
+                    }
+                    Err(error) => self.results[shot] = Some(Err(error)),
+                }
             }
         }
     }
@@ -184,7 +187,6 @@ impl Ride<'_, '_> {
             return Ok(());
         };
         let run = &mut passenger.run;
-        let scenario = self.scenarios[passenger.shot];
         let mut watch = listen(self.stop);
         let mut control = Control {
             progress: Some(&mut watch),
@@ -193,22 +195,23 @@ impl Ride<'_, '_> {
         if !self.bundle.let_out(lane, run) {
             return self.leave(lane, None);
         }
-        let left = |run: &Conservative<'_>| -> usize {
-            let segments = run.state.segments.iter();
+        let left = |run: &ColumnRun<'_>| -> usize {
+            let segments = run.solver.state.segments.iter();
             segments.map(|segment| segment.elements().len()).sum()
         };
         let before = left(run);
-        run.state.erode(run.control.erosion_strain);
+        let erosion_strain = run.solver.control.erosion_strain;
+        run.solver.state.erode(erosion_strain);
         let erodes = left(run) < before;
-        run.watch.follow(&run.state, scenario);
-        let result = match run.ended(&mut control) {
+        run.follow();
+        let result = match run.after_step(&mut control) {
             Ok(None) if !erodes || self.bundle.erode(lane, run) => {
                 self.bundle.follow(lane, run);
                 return Ok(());
             }
             // The single run goes on from here.
-            Ok(None) => Some(run.run_on(&mut control)),
-            Ok(Some(termination)) => run.finish(termination, None).ok().map(Ok),
+            Ok(None) => Some(run.run(&mut control)),
+            Ok(Some(termination)) => run.finish(termination).ok().map(Ok),
             Err(_) => None,
         };
         self.leave(lane, result)
@@ -230,7 +233,7 @@ impl Ride<'_, '_> {
                 progress: Some(&mut watch),
                 ..Control::default()
             };
-            Conservative::new(self.scenarios[shot]).run_on(&mut control)
+            ColumnRun::new(self.scenarios[shot])?.run(&mut control)
         };
         let result = result.unwrap_or_else(alone);
         if let Err(Error::Cancelled { .. }) = result {

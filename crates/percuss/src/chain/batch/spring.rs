@@ -1,10 +1,10 @@
 //! Response of an element in every lane: `Element::deform` for a power of the plastic strain.
 
-use super::{
-    bundle::{Elastic, Flow, Node, Spring},
+use super::bundle::{Elastic, Flow, Node, Spring};
+use crate::{
     lanes::{LANES, Lanes, larger, smaller},
+    power::small_log_ratio,
 };
-use crate::power::small_log_ratio;
 
 /// What became of an element.
 pub(super) struct Response {

@@ -1,10 +1,10 @@
 //! One step of every lane: `State::advance` and `Watch::follow` of a column, in the same order.
 
-use super::{
-    bundle::Bundle,
+use super::bundle::Bundle;
+use crate::{
+    chain::solver::choose_time_step,
     lanes::{LANES, Lanes},
 };
-use crate::chain::solver::choose_time_step;
 
 /// What a step has for every lane besides the state.
 #[derive(Clone, Copy)]

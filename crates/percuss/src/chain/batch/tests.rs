@@ -1,7 +1,7 @@
 use std::sync::atomic::AtomicBool;
 
-use super::{LANES, accepts, run};
-use crate::{Error, Scenario, case, chain::conservative::Conservative, model::Control};
+use super::{accepts, run};
+use crate::{Error, Scenario, case, chain::column::ColumnRun, lanes::LANES, model::Control};
 
 /// A shot of the paper's rod and plate with other numbers.
 fn shot(rod: &str, target: &str, velocity: f64, options: &str) -> Scenario {
@@ -115,7 +115,7 @@ fn shots_side_by_side_end_with_the_bits_of_single_runs() {
     assert!(shots.len() > 3 * LANES && shots.iter().all(accepts));
     let results = together(&shots.iter().collect::<Vec<_>>());
     for (shot, result) in shots.iter().zip(&results) {
-        let alone = Conservative::new(shot).run(&mut Control::default());
+        let alone = ColumnRun::new(shot).unwrap().run(&mut Control::default());
         assert_eq!(result, &words(&alone), "{:?}", shot.options.chain);
     }
     let said = |what: &str| results.iter().filter(|words| words.contains(what)).count();

@@ -6,8 +6,26 @@ use super::{
     bundle::{Bundle, LIMITS_AT_ONCE},
     flow::{flow_gathered, flow_in_place},
     joints::Joint,
-    lanes::{LANES, Lanes, SET_LANES, larger, smaller},
     step::{Found, Step},
+};
+use crate::lanes::{LANES, Lanes, larger, smaller};
+
+/// The lanes whose bits are set in a number, and after them others.
+const SET_LANES: [[u32; LANES]; 256] = {
+    let mut table = [[0; LANES]; 256];
+    let mut bits = 0;
+    while bits < 256 {
+        let (mut count, mut lane) = (0, 0);
+        while lane < LANES {
+            if bits >> lane & 1 == 1 {
+                table[bits][count] = lane as u32;
+                count += 1;
+            }
+            lane += 1;
+        }
+        bits += 1;
+    }
+    table
 };
 
 /// Lanes from which it is cheaper to let an element flow where it is than to gather what flows from several elements.

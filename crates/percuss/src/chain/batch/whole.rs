@@ -1,7 +1,9 @@
 //! What there is one of in every shot, and how it gets into a lane and out of it again.
 
-use super::lanes::Lanes;
-use crate::chain::{conservative::Conservative, state::End};
+use crate::{
+    chain::{column::ColumnRun, state::End},
+    lanes::Lanes,
+};
 
 /// What there is one of in every shot.
 #[derive(Debug, Clone, Copy, Default)]
@@ -38,26 +40,26 @@ pub(super) struct Whole {
 }
 
 impl Whole {
-    pub(super) fn take_in(&mut self, lane: usize, run: &Conservative<'_>) {
+    pub(super) fn take_in(&mut self, lane: usize, run: &ColumnRun<'_>) {
         self.park(lane);
-        let state = &run.state;
-        self.courant.0[lane] = run.control.courant;
+        let state = &run.solver.state;
+        self.courant.0[lane] = run.solver.control.courant;
         self.stable_step.0[lane] = state.stable_step;
         self.closed.0[lane] = f64::from(state.joints[0].closed);
         if let End::Open { impedance, .. } = state.end {
             self.impedance.0[lane] = impedance;
         }
         self.back_position.0[lane] = state.back_position;
-        self.most_steps.0[lane] = run.max_steps as f64;
-        if run.scenario.target_thickness().is_some() {
+        self.most_steps.0[lane] = run.limits.max_steps as f64;
+        if run.solver.scenario.target_thickness().is_some() {
             self.perforated.0[lane] = state.back_position;
         }
         // The single run looks at the first step.
         self.next_look.0[lane] = 0.0;
     }
 
-    pub(super) fn let_out(&self, lane: usize, run: &mut Conservative<'_>) {
-        let state = &mut run.state;
+    pub(super) fn let_out(&self, lane: usize, run: &mut ColumnRun<'_>) {
+        let state = &mut run.solver.state;
         state.time = self.time.0[lane];
         state.step = self.step.0[lane] as u64;
         state.time_step = self.time_step.0[lane];
@@ -71,24 +73,26 @@ impl Whole {
         books.contact_loss = self.contact_loss.0[lane];
         books.support_impulse = self.support_impulse.0[lane];
         books.boundary_work = self.boundary_work.0[lane];
-        let watch = &mut run.watch;
-        watch.largest_depth = self.largest_depth.0[lane];
-        watch.peak_force = self.peak_force.0[lane];
-        watch.smallest_time_step = self.smallest_time_step.0[lane];
-        watch.contact_time = self.contact_time.0[lane];
-        watch.touched = self.touched.0[lane] > 0.0;
+        let monitor = &mut run.monitor;
+        monitor.largest_depth = self.largest_depth.0[lane];
+        monitor.peak_force = self.peak_force.0[lane];
+        monitor.smallest_time_step = self.smallest_time_step.0[lane];
+        monitor.contact_time = self.contact_time.0[lane];
+        run.solver.window.touched = self.touched.0[lane] > 0.0;
     }
 
-    pub(super) fn follow(&mut self, lane: usize, run: &Conservative<'_>) {
-        let watch = &run.watch;
-        self.largest_depth.0[lane] = watch.largest_depth;
-        self.peak_force.0[lane] = watch.peak_force;
-        self.smallest_time_step.0[lane] = watch.smallest_time_step;
-        self.contact_time.0[lane] = watch.contact_time;
-        self.touched.0[lane] = f64::from(watch.touched);
-        self.next_look.0[lane] = watch.next_look(run.scenario).min(run.end_time);
-        self.slow_tail.0[lane] = match watch.at_rest {
-            None => 0.5 * run.scenario.impact_speed,
+    pub(super) fn follow(&mut self, lane: usize, run: &ColumnRun<'_>) {
+        let (monitor, window) = (&run.monitor, &run.solver.window);
+        self.largest_depth.0[lane] = monitor.largest_depth;
+        self.peak_force.0[lane] = monitor.peak_force;
+        self.smallest_time_step.0[lane] = monitor.smallest_time_step;
+        self.contact_time.0[lane] = monitor.contact_time;
+        self.touched.0[lane] = f64::from(window.touched);
+        self.next_look.0[lane] = window
+            .end_time(run.solver.scenario)
+            .min(run.limits.end_time);
+        self.slow_tail.0[lane] = match monitor.at_rest {
+            None => 0.5 * run.solver.scenario.impact_speed,
             Some(_) => f64::NEG_INFINITY,
         };
     }

@@ -15,13 +15,10 @@ use super::{
     rod::Fastest,
     slice::{Metal, Slice},
 };
-use crate::material::{Hardening, YieldPoint, first_return};
-
-/// Slices side by side: as many numbers as the widest registers hold.
-const WIDTH: usize = 8;
-
-/// Numbers of eight slices.
-type Block = [f64; WIDTH];
+use crate::{
+    lanes::{LANES, Lanes, lanes, larger},
+    material::{Hardening, YieldPoint, first_return},
+};
 
 /// Slices that have their lengths and radii, and go on to the stresses that belong to them; slice `i` is between the nodes `i` and
 /// `i + 1`.
@@ -41,22 +38,22 @@ impl NullaryFnOnce for Respond<'_> {
     fn call(self) -> (f64, Fastest) {
         let Self { metal, nodes, .. } = self;
         let mut work = 0.0;
-        let mut limits = [[0.0; WIDTH]; 2];
+        let mut limits = [Lanes::all(0.0); 2];
         let (blocks, rest) = self.slices.as_chunks_mut();
-        let of_rest = blocks.len() * WIDTH;
+        let of_rest = blocks.len() * LANES;
         for (b, slices) in blocks.iter_mut().enumerate() {
-            let nodes = &nodes[b * WIDTH..=(b + 1) * WIDTH];
+            let nodes = &nodes[b * LANES..=(b + 1) * LANES];
             let (done, next) = respond(slices, nodes, metal, self.law, self.time_step);
-            for p in 0..WIDTH {
+            for p in 0..LANES {
                 work += done[p];
             }
             for (limit, next) in limits.iter_mut().zip(next) {
-                for p in 0..WIDTH {
+                for p in 0..LANES {
                     limit[p] = larger(next[p], limit[p]);
                 }
             }
         }
-        let [stiffness, rate] = limits.map(|limit| limit.into_iter().fold(0.0, f64::max));
+        let [stiffness, rate] = limits.map(|limit| limit.iter().copied().fold(0.0, f64::max));
         let mut fastest = Fastest { stiffness, rate };
         for (slice, nodes) in rest.iter_mut().zip(nodes[of_rest..].windows(2)) {
             work += slice.deform(metal, self.time_step);
@@ -66,26 +63,20 @@ impl NullaryFnOnce for Respond<'_> {
     }
 }
 
-/// The larger of two numbers of which neither is undefined.
 #[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-#[inline(always)]
-fn gather(slices: &[Slice; WIDTH], number: impl Fn(&Slice) -> f64) -> Block {
-    std::array::from_fn(|p| number(&slices[p]))
+fn gather(slices: &[Slice; LANES], number: impl Fn(&Slice) -> f64) -> Lanes {
+    lanes(|p| number(&slices[p]))
 }
 
 /// Plastic work of eight slices; their stiffness and their rates of strain.
 #[inline(always)]
 fn respond(
-    slices: &mut [Slice; WIDTH],
+    slices: &mut [Slice; LANES],
     nodes: &[Node],
     metal: &Metal,
     law: Hardening,
     time_step: f64,
-) -> (Block, [Block; 2]) {
+) -> (Lanes, [Lanes; 2]) {
     let axial = gather(slices, Slice::strain);
     let radial = gather(slices, Slice::radial_strain);
     let length = gather(slices, |slice| slice.length);
@@ -100,23 +91,23 @@ fn respond(
     let mut slope = gather(slices, |slice| slice.yield_point.strain_slope());
     let mut largest_rate = gather(slices, |slice| slice.largest_rate);
     let mut temperature = gather(slices, |slice| slice.temperature);
-    let velocity: [f64; WIDTH + 1] = std::array::from_fn(|p| nodes[p].velocity);
+    let velocity: [f64; LANES + 1] = std::array::from_fn(|p| nodes[p].velocity);
 
     let modulus = 3.0 * metal.shear_modulus;
-    let mut pressure = [0.0; WIDTH];
-    let mut difference = [0.0; WIDTH];
+    let mut pressure = Lanes::all(0.0);
+    let mut difference = Lanes::all(0.0);
     let mut flows = 0_u8;
-    for p in 0..WIDTH {
+    for p in 0..LANES {
         pressure[p] = metal.bulk_modulus * (axial[p] + 2.0 * radial[p]);
         let elastic = axial[p] - radial[p] - 1.5 * plastic_axial[p];
         difference[p] = 2.0 * metal.shear_modulus * elastic;
         flows |= u8::from(difference[p].abs() > yield_stress[p]) << p;
     }
     let trial = difference;
-    let mut plastic_step = [0.0; WIDTH];
+    let mut plastic_step = Lanes::all(0.0);
     let mut left_over = 0;
     if flows != 0 {
-        for p in 0..WIDTH {
+        for p in 0..LANES {
             let size = trial[p].abs();
             let before = [yield_stress[p], slope[p]];
             let returned = first_return(law, before, plastic_strain[p], size, modulus);
@@ -140,7 +131,7 @@ fn respond(
             yield_stress[p] = or(size - modulus * increment, yield_stress[p]);
         }
     }
-    for p in (0..WIDTH).filter(|p| left_over >> p & 1 == 1) {
+    for p in (0..LANES).filter(|p| left_over >> p & 1 == 1) {
         let slice = &mut slices[p];
         // Such a strength does not depend on the pressure.
         slice.plastic_step = 0.0;
@@ -154,12 +145,12 @@ fn respond(
         slope[p] = slice.yield_point.strain_slope();
     }
 
-    let mut axial_force = [0.0; WIDTH];
-    let mut radial_force = [0.0; WIDTH];
-    let mut work = [0.0; WIDTH];
-    let mut stiffness = [0.0; WIDTH];
-    let mut rate = [0.0; WIDTH];
-    for p in 0..WIDTH {
+    let mut axial_force = Lanes::all(0.0);
+    let mut radial_force = Lanes::all(0.0);
+    let mut work = Lanes::all(0.0);
+    let mut stiffness = Lanes::all(0.0);
+    let mut rate = Lanes::all(0.0);
+    for p in 0..LANES {
         let axial_stress = pressure[p] + difference[p] / 1.5;
         axial_force[p] = axial_stress * volume[p] / length[p];
         radial_force[p] = 2.0 * (pressure[p] - difference[p] / 3.0) * volume[p] / radius[p];

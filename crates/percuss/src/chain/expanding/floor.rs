@@ -1,13 +1,15 @@
 //! The crater floor: what goes on between the tip of the projectile and the ground.
 
+use serde::{Deserialize, Serialize};
+
 use super::resistance::Resistance;
-use crate::resistance::OwnResistance;
+use crate::{Error, resistance::OwnResistance, solver::archive::Archive};
 
 /// Added mass of a disc that moves normal to itself, on one side of it, over `ρ a³` \[lamb1932\].
 const ADDED_MASS: f64 = 4.0 / 3.0;
 
 /// Whether the tip is on the floor.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Contact {
     Open,
     Closed,
@@ -66,6 +68,14 @@ pub(super) struct Tip {
 }
 
 impl Floor {
+    /// Everything that a step changes.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.contact)?;
+        archive.item(&mut self.depth)?;
+        archive.item(&mut self.speed)?;
+        archive.item(&mut self.lost_length)
+    }
+
     pub(super) fn new(opposition: Opposition, area: f64, density: f64) -> Self {
         Self {
             opposition,

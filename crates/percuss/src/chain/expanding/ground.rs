@@ -1,9 +1,15 @@
 //! The target away from the crater: an elastic cone that is as stiff as a half-space under the projectile.
 
+use serde::{Deserialize, Serialize};
+
 use super::node::{Dashpot, Node};
-use crate::chain::{
-    cone::{Cone, Grading},
-    solver::StepControl,
+use crate::{
+    Error,
+    chain::{
+        cone::{Cone, Grading},
+        solver::StepControl,
+    },
+    solver::archive::Archive,
 };
 
 /// From the crater floor to the rear face; positions are displacements in waves that leave the crater. What is behind takes those waves
@@ -24,7 +30,7 @@ pub(super) struct Ground {
     pub(super) passed_work: f64,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 struct Spring {
     stiffness: f64,
     /// Over one of these the strain is 1 [m].
@@ -59,6 +65,15 @@ impl Strained {
 }
 
 impl Ground {
+    /// Everything that a step changes.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.nodes)?;
+        archive.item(&mut self.springs)?;
+        archive.item(&mut self.passing_force)?;
+        archive.item(&mut self.passed_impulse)?;
+        archive.item(&mut self.passed_work)
+    }
+
     pub(super) fn new(
         cone: Cone,
         grading: Grading,

@@ -28,41 +28,44 @@ use self::{
     projectile::{Failure, Projectile},
     rear_face::RearFace,
     resistance::Resistance,
-    results::Watch,
+    results::Window,
     rod::Rod,
     slice::Metal,
     state::{Books, State, TargetFailure},
 };
 use super::{
-    between::Moment,
+    column::{DEFAULT_EROSION_STRAIN, TOLERANCE},
     cone::{Cone, Grading},
     solver::StepControl,
 };
 use crate::{
-    Error, Scenario,
-    courant_retry::CourantRetry,
-    history::Recorder,
+    Error, Refusal, Scenario,
+    error::NumericalError,
+    history::{Profile, Sample},
+    ledger::{EnergyLedger, MomentumLedger},
     options::ErosionStrain,
-    outcome::{RunResult, Termination},
+    outcome::{Outcome, RunResult, Termination},
     problem::BackFace,
     scenario::{Plate, TargetBody, modelled_thickness},
-    solver::{Control, Progress},
+    solver::{
+        archive::Archive,
+        driver::{Audit, Drive, Extremes, Retry, Solver, slowed},
+        limits::Limits,
+        monitor::{Clock, Probe, RunMonitor},
+    },
 };
 
+/// Courant number when a case gives none.
 const DEFAULT_COURANT: f64 = 0.5;
-/// A run that fails numerically at the default Courant number is repeated with half of it, down to this one.
+/// Courant number below which a run is not repeated.
 const SMALLEST_COURANT: f64 = 0.05;
-const DEFAULT_EROSION_STRAIN: f64 = 2.0;
-const DEFAULT_MAX_STEPS: u64 = 20_000_000;
-/// Steps between two looks at the books.
+/// Steps between two audits.
 const AUDIT_INTERVAL: u64 = 64;
 
 /// Why a case cannot be run with this closure, if it cannot.
-pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
+pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     let Some(plate) = struck(scenario) else {
-        return Some(
-            "the target closure `expanding-cavity` needs a target of one material".to_owned(),
-        );
+        return Some("the target closure `expanding-cavity` needs a target of one material".into());
     };
     if scenario.resistance.is_some() {
         return None;
@@ -74,7 +77,7 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
         .initial_yield_stress(&plate.material);
     yields
         .is_none()
-        .then(|| "the target closure `expanding-cavity` needs a target that yields".to_owned())
+        .then(|| "the target closure `expanding-cavity` needs a target that yields".into())
 }
 
 fn struck(scenario: &Scenario) -> Option<&Plate> {
@@ -84,48 +87,23 @@ fn struck(scenario: &Scenario) -> Option<&Plate> {
     }
 }
 
-/// A run with this closure.
-pub(super) struct Expanding<'a> {
+/// The projectile, the crater floor and the ground under it.
+#[derive(Debug)]
+pub(crate) struct Cavity<'a> {
     scenario: &'a Scenario,
     plate: &'a Plate,
     control: StepControl,
     state: State,
-    watch: Watch,
+    window: Window,
 }
 
-impl<'a> Expanding<'a> {
-    /// Runs to the end.
-    ///
-    /// # Errors
-    /// [`Error::NotApplicable`] when [`not_applicable`] has a reason; [`Error::Numerical`] when a slice is crushed or the books do not balance;
-    /// [`Error::Cancelled`].
-    pub(super) fn run(
-        scenario: &'a Scenario,
-        control: &mut Control<'_>,
-    ) -> Result<RunResult, Error> {
-        let mut courant = CourantRetry::new(
-            scenario.options.chain.courant,
-            DEFAULT_COURANT,
-            SMALLEST_COURANT,
-        );
-        loop {
-            let mut run = Self::new(scenario, courant.number())?;
-            match run.attempt(control) {
-                Err(Error::Numerical(error)) => courant.halve(*error)?,
-                Ok(mut result) => {
-                    result.warnings.extend(courant.warning());
-                    return Ok(result);
-                }
-                Err(error) => return Err(error),
-            }
-        }
-    }
+/// A run with this target resistance model.
+pub(super) type CavityRun<'a> = Drive<'a, Cavity<'a>>;
 
+impl<'a> Cavity<'a> {
     fn new(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
-        let refuse = || Error::NotApplicable {
-            model: "chain",
-            reason: not_applicable(scenario).unwrap_or_default(),
-        };
+        let refuse =
+            || Error::not_applicable("chain", not_applicable(scenario).unwrap_or_default());
         let plate = struck(scenario).ok_or_else(refuse)?;
         let options = &scenario.options.chain;
         let projectile = &scenario.projectile;
@@ -205,88 +183,113 @@ impl<'a> Expanding<'a> {
             plate,
             control,
             state,
-            watch: Watch::default(),
+            window: Window::default(),
         })
     }
+}
 
-    fn attempt(&mut self, control: &mut Control<'_>) -> Result<RunResult, Error> {
+impl<'a> Solver<'a> for Cavity<'a> {
+    const NAMES: (&'static str, &'static str) = ("chain", "conservative");
+    const AUDIT: Audit = Audit {
+        interval: AUDIT_INTERVAL,
+        report_interval: AUDIT_INTERVAL,
+        tolerance: TOLERANCE,
+        retry: Retry::OfAnyError {
+            smallest: SMALLEST_COURANT,
+        },
+    };
+
+    fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
+        Self::new(scenario, courant)
+    }
+
+    fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
+        (scenario.options.chain.courant, DEFAULT_COURANT)
+    }
+
+    fn limits(&self) -> Limits {
         let options = &self.scenario.options.chain;
-        let mut recorder = control.record.then(Recorder::new);
-        let end_time = options.end_time.map_or(f64::INFINITY, |time| time.si());
-        let max_steps = options.max_steps.unwrap_or(DEFAULT_MAX_STEPS);
-        self.record(&mut recorder);
-        let termination = loop {
-            if self.scenario.impact_speed == 0.0 {
-                break Termination::NothingMoves;
-            }
-            self.state.advance(&self.control)?;
-            self.watch.follow(&self.state);
-            self.record(&mut recorder);
-            if self.state.step.is_multiple_of(AUDIT_INTERVAL) {
-                self.audit()?;
-                control.report(self.progress(end_time))?;
-            }
-            if self
-                .plate
-                .thickness
-                .is_some_and(|h| self.state.floor.depth >= h)
-            {
-                break Termination::PassedBackFace;
-            }
-            if self.state.time >= end_time {
-                break Termination::EndTime;
-            }
-            if self.state.step >= max_steps {
-                break Termination::StepLimit;
-            }
-            if let Some(termination) = self.watch.end(&self.state, self.scenario) {
-                break termination;
-            }
-        };
-        self.audit()?;
-        Ok(results::sum_up(
-            self.scenario,
-            &self.state,
-            &self.watch,
-            termination,
-            recorder,
-            self.control.erosion_strain,
-        ))
+        Limits::new(self.scenario, options.end_time, options.max_steps)
     }
 
-    fn audit(&mut self) -> Result<(), Error> {
-        let residuals = [
-            self.state.energy().residual(),
-            self.state.momentum().residual(),
-        ];
-        let moment = self.moment();
-        Ok(self
-            .watch
-            .residuals
-            .audit(residuals, moment, self.control.courant)?)
+    fn advance(&mut self) -> Result<(), NumericalError> {
+        self.state.advance(&self.control)
     }
 
-    fn moment(&self) -> Moment {
-        Moment {
+    fn clock(&self) -> Clock {
+        Clock {
             step: self.state.step,
             time: self.state.time,
+            time_step: self.state.time_step,
         }
     }
 
-    fn progress(&self, end_time: f64) -> Progress {
-        let motion = self.state.rod.motion();
-        let depth = self.watch.largest_depth;
-        self.moment()
-            .progress(end_time, motion, self.scenario.impact_speed, depth)
+    fn probe(&mut self, _: &RunMonitor) -> Probe {
+        let state = &self.state;
+        let touches = state.floor.contact == Contact::Closed;
+        self.window.touched |= touches;
+        Probe {
+            depth: state.position(),
+            contact_force: state.contact_force,
+            contact_time: if touches { state.time_step } else { 0.0 },
+        }
     }
 
-    fn record(&self, recorder: &mut Option<Recorder>) {
-        let state = &self.state;
-        self.moment().record(
-            recorder,
-            || results::sample(state),
-            || results::profile(state),
-        );
+    fn is_at_rest(&self) -> bool {
+        self.state.rod.motion().1 <= 0.0
+    }
+
+    fn energy(&self) -> EnergyLedger {
+        self.state.energy()
+    }
+
+    fn momentum(&self) -> MomentumLedger {
+        self.state.momentum()
+    }
+
+    fn progress(&self) -> f64 {
+        slowed(self.state.rod.motion(), self.scenario.impact_speed)
+    }
+
+    fn event(&mut self, monitor: &RunMonitor) -> Result<Option<Termination>, NumericalError> {
+        let thickness = self.plate.thickness;
+        if thickness.is_some_and(|thickness| self.state.floor.depth >= thickness) {
+            return Ok(Some(Termination::PassedBackFace));
+        }
+        Ok(self.window.end(&self.state, self.scenario, monitor))
+    }
+
+    fn sample(&self, _: &RunMonitor) -> Sample {
+        results::sample(&self.state)
+    }
+
+    fn profile(&self) -> Profile {
+        results::profile(&self.state)
+    }
+
+    fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.window)?;
+        self.state.archive(archive)
+    }
+
+    fn outcome(&self, termination: Termination, monitor: &RunMonitor) -> (Outcome, String) {
+        let impact_speed = self.scenario.impact_speed;
+        results::outcome(termination, &self.state, monitor, impact_speed)
+    }
+
+    fn extremes(&self) -> Extremes {
+        let (options, state) = (&self.scenario.options.chain, &self.state);
+        let [plastic_strain, _, temperature] = state.rod.reached();
+        Extremes {
+            elements: (options.projectile_elements(), options.target_elements()),
+            eroded_elements: (state.eroded, 0),
+            largest_plastic_strain: (plastic_strain, 0.0),
+            largest_temperature: (temperature, state.ground.temperature),
+        }
+    }
+
+    fn complete(&self, result: &mut RunResult, monitor: &RunMonitor) {
+        results::complete(self, result, monitor);
     }
 }
 
@@ -327,9 +330,4 @@ fn rear_face(scenario: &Scenario) -> BackFace {
         TargetBody::Layers { back_face, .. } => *back_face,
         _ => BackFace::NonReflecting,
     }
-}
-
-/// Whether the tip has left the floor, or is gone.
-fn parted(state: &State) -> bool {
-    state.floor.contact == Contact::Open
 }

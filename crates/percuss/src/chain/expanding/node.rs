@@ -1,9 +1,11 @@
 //! A point mass on the axis.
 
+use serde::{Deserialize, Serialize};
+
 use crate::chain::{damping::against, solver::StepControl};
 
 /// Its velocity stands half a step behind its position.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct Node {
     pub(super) position: f64,
     pub(super) velocity: f64,

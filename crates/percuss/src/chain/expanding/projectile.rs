@@ -6,12 +6,14 @@ use super::{
     slice::Slice,
 };
 use crate::{
+    Error,
     chain::{
         joint::{Bond, Joint},
         solver::StepControl,
     },
     fragments::Fragment,
     material::{FailureState, PreparedFailure},
+    solver::archive::Archive,
 };
 
 /// Rods one behind the other.
@@ -50,6 +52,24 @@ impl Projectile {
             fracture_work: 0.0,
             contact_loss: 0.0,
         }
+    }
+
+    /// Everything that a step changes.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        let mut joints: Vec<Joint> = self.behind.iter().map(|piece| piece.joint).collect();
+        archive.item(&mut joints)?;
+        if archive.is_read() {
+            let piece = |joint| Piece {
+                rod: self.front.of_same_metal(),
+                joint,
+            };
+            self.behind = joints.into_iter().map(piece).collect();
+        }
+        for rod in self.rods_mut() {
+            rod.archive(archive)?;
+        }
+        archive.item(&mut self.fracture_work)?;
+        archive.item(&mut self.contact_loss)
     }
 
     /// Its rods from the tail to the tip.

@@ -13,7 +13,7 @@
 //! `B(t) = 2 Σ_j (−1)^j F(t − (2j + 1)h/c_p)` is exact for the contact force F.
 
 use super::delay_line::DelayLine;
-use crate::{chain::cone::Cone, problem::BackFace};
+use crate::{Error, chain::cone::Cone, problem::BackFace, solver::archive::Archive};
 
 /// Samples of a delay line per transit of the thickness.
 const SAMPLES: usize = 64;
@@ -42,6 +42,16 @@ pub(super) struct RearFace {
 }
 
 impl RearFace {
+    /// Everything that a step changes.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.outgoing)?;
+        archive.item(&mut self.impulse)?;
+        archive.item(&mut self.displacement)?;
+        archive.item(&mut self.velocity)?;
+        archive.item(&mut self.support_impulse)?;
+        archive.item(&mut self.support_force)
+    }
+
     /// Of a plate of a thickness [m]; `speeds` are those of waves in the cone and of plane longitudinal waves [m/s]. `None` for a
     /// face that does not reflect.
     pub(super) fn new(

@@ -1,19 +1,21 @@
-//! When a shot is over, and what comes of it.
+//! End of a run, its outcome and its result.
+
+use serde::{Deserialize, Serialize};
 
 use super::{
     super::{
-        between::Residuals,
         results::of_cracks,
         warnings::{Reached, warnings_of_cavity},
     },
-    forces, parted,
+    Cavity, forces,
     slice::Slice,
     state::State,
 };
 use crate::{
-    history::{ElementState, Profile, Recorder, Sample},
-    outcome::{Detail, Numerics, Outcome, PLANE_IMPACT, RunResult, Termination},
+    history::{ElementState, Profile, Sample},
+    outcome::{Detail, Outcome, PLANE_IMPACT, RunResult, Termination},
     scenario::Scenario,
+    solver::monitor::RunMonitor,
     units::significant,
 };
 
@@ -22,58 +24,32 @@ const REST_FRACTION: f64 = 0.01;
 /// Part of its depth by which a floor may still sink in a window of a run that is over.
 const QUIET_FRACTION: f64 = 1e-6;
 
-/// What is followed during a run.
-#[derive(Debug, Default)]
-pub(super) struct Watch {
-    pub(super) largest_depth: f64,
-    peak_force: f64,
-    /// Time of it [s].
-    peak_time: f64,
-    smallest_time_step: f64,
-    first_time_step: f64,
-    pub(super) residuals: Residuals,
-    /// Time at which the projectile's momentum was first used up.
-    at_rest: Option<f64>,
-    window_start: f64,
-    window_depth: f64,
-    touched: bool,
-    /// Time during which the projectile touched the floor [s].
-    contact_time: f64,
+/// One round trip of a wave in the projectile, in which a run that is over changes no more.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(super) struct Window {
+    start: f64,
+    depth: f64,
+    pub(super) touched: bool,
 }
 
-impl Watch {
-    pub(super) fn follow(&mut self, state: &State) {
-        self.largest_depth = self.largest_depth.max(state.position());
-        if state.contact_force > self.peak_force {
-            self.peak_force = state.contact_force;
-            self.peak_time = state.time;
-        }
-        if state.step == 1 {
-            self.first_time_step = state.time_step;
-            self.smallest_time_step = state.time_step;
-        }
-        self.smallest_time_step = self.smallest_time_step.min(state.time_step);
-        if !parted(state) {
-            self.touched = true;
-            self.contact_time += state.time_step;
-        }
-        if self.at_rest.is_none() && state.rod.motion().1 <= 0.0 {
-            self.at_rest = Some(state.time);
-        }
-    }
-
-    /// Why the shot is over, if it is: looked at once in a round trip of a wave in the projectile.
-    pub(super) fn end(&mut self, state: &State, scenario: &Scenario) -> Option<Termination> {
+impl Window {
+    /// Why a run is over at the end of a window, if it is.
+    pub(super) fn end(
+        &mut self,
+        state: &State,
+        scenario: &Scenario,
+        monitor: &RunMonitor,
+    ) -> Option<Termination> {
         let rod = &scenario.projectile;
         let window = 2.0 * rod.length.max(rod.diameter) / rod.material.bar_wave_speed();
-        if state.time < self.window_start + window {
+        if state.time < self.start + window {
             return None;
         }
-        let sinks = state.floor.depth > self.window_depth * (1.0 + QUIET_FRACTION)
-            || state.floor.speed > 0.0;
+        let sinks =
+            state.floor.depth > self.depth * (1.0 + QUIET_FRACTION) || state.floor.speed > 0.0;
         let touched = self.touched;
-        self.window_start = state.time;
-        self.window_depth = state.floor.depth;
+        self.start = state.time;
+        self.depth = state.floor.depth;
         self.touched = false;
         let (mass, momentum) = state.rod.motion();
         if sinks {
@@ -82,7 +58,7 @@ impl Watch {
         if mass == 0.0 {
             return Some(Termination::ProjectileConsumed);
         }
-        self.at_rest?;
+        monitor.at_rest?;
         if state
             .rod
             .pieces_approach(REST_FRACTION * scenario.impact_speed)
@@ -95,95 +71,62 @@ impl Watch {
         let still = (momentum / mass).abs() <= REST_FRACTION * scenario.impact_speed;
         (still && touched).then_some(Termination::Quiescent)
     }
+}
 
-    /// How a run ended that was ended for a reason, and what that was told by.
-    fn outcome(
-        &self,
-        termination: Termination,
-        state: &State,
-        impact_speed: f64,
-    ) -> (Outcome, String) {
-        let (mass, momentum) = state.rod.motion();
-        match termination {
-            Termination::PassedBackFace => {
-                let words = format!(
-                    "the crater reached the rear face at {} us",
-                    significant(state.time * 1e6, 4)
-                );
-                return (Outcome::Perforated, words);
-            }
-            Termination::NothingMoves => {
-                return (Outcome::AtRest, "the impact speed is zero".to_owned());
-            }
-            _ if mass == 0.0 => {
-                let words = "no element of the projectile is left".to_owned();
-                return (Outcome::ProjectileEroded, words);
-            }
-            Termination::EndTime | Termination::StepLimit if self.at_rest.is_none() => {
-                let words = "the projectile still moved forward when the run was ended";
-                return (Outcome::OutOfTime, words.to_owned());
-            }
-            _ => {}
+/// Outcome of a run that was ended for a reason, and its criterion.
+pub(super) fn outcome(
+    termination: Termination,
+    state: &State,
+    monitor: &RunMonitor,
+    impact_speed: f64,
+) -> (Outcome, String) {
+    let (mass, momentum) = state.rod.motion();
+    match termination {
+        Termination::PassedBackFace => {
+            let words = format!(
+                "the crater reached the rear face at {} us",
+                significant(state.time * 1e6, 4)
+            );
+            return (Outcome::Perforated, words);
         }
-        let ratio = momentum / (mass * impact_speed);
-        let speed = format!(
-            "the projectile's mean speed at the end is {} % of the impact speed",
-            significant(100.0 * ratio, 3)
-        );
-        let percent = REST_FRACTION * 100.0;
-        if ratio < -REST_FRACTION {
-            (Outcome::Rebounded, format!("{speed}, below -{percent} %"))
-        } else {
-            (Outcome::AtRest, format!("{speed}, not below -{percent} %"))
+        Termination::NothingMoves => {
+            return (Outcome::AtRest, "the impact speed is zero".to_owned());
         }
+        _ if mass == 0.0 => {
+            let words = "no element of the projectile is left".to_owned();
+            return (Outcome::ProjectileEroded, words);
+        }
+        Termination::EndTime | Termination::StepLimit if monitor.at_rest.is_none() => {
+            let words = "the projectile still moved forward when the run was ended";
+            return (Outcome::OutOfTime, words.to_owned());
+        }
+        _ => {}
+    }
+    let ratio = momentum / (mass * impact_speed);
+    let speed = format!(
+        "the projectile's mean speed at the end is {} % of the impact speed",
+        significant(100.0 * ratio, 3)
+    );
+    let percent = REST_FRACTION * 100.0;
+    if ratio < -REST_FRACTION {
+        (Outcome::Rebounded, format!("{speed}, below -{percent} %"))
+    } else {
+        (Outcome::AtRest, format!("{speed}, not below -{percent} %"))
     }
 }
 
-pub(super) fn sum_up(
-    scenario: &Scenario,
-    state: &State,
-    watch: &Watch,
-    termination: Termination,
-    recorder: Option<Recorder>,
-    erosion_strain: f64,
-) -> RunResult {
-    let (outcome, criterion) = watch.outcome(termination, state, scenario.impact_speed);
-    let mut result = RunResult::new("chain", "conservative", outcome, termination);
-    result.criterion = criterion;
+/// Adds depths, what is left of the projectile, fragments and warnings.
+pub(super) fn complete(cavity: &Cavity<'_>, result: &mut RunResult, monitor: &RunMonitor) {
+    let (scenario, state) = (cavity.scenario, &cavity.state);
     let (mass, momentum) = state.rod.motion();
     let remnant = Remnant::of(state.rod.slices().map(|(slice, _)| slice));
     result.depth_of_penetration = Some(state.floor.depth);
-    result.largest_depth = Some(watch.largest_depth);
+    result.largest_depth = Some(monitor.largest_depth);
     result.permanent_depth = Some(state.floor.depth);
     result.residual_velocity = Some(if mass > 0.0 { momentum / mass } else { 0.0 });
     result.projectile_final_length = Some(remnant.length);
     result.projectile_final_diameter = (remnant.length > 0.0).then_some(2.0 * remnant.radius);
     result.projectile_final_mass = Some(mass);
-    result.time_to_rest = watch.at_rest;
-    result.peak_force = Some(watch.peak_force);
-    result.contact_time = Some(watch.contact_time);
-    result.end_time = Some(state.time);
-    let [plastic_strain, strain_rate, temperature] = state.rod.reached();
-    let reached = Reached {
-        plastic_strain,
-        strain_rate,
-        temperature,
-    };
-    let options = &scenario.options.chain;
-    result.numerics = Some(Numerics {
-        steps: state.step,
-        first_time_step: watch.first_time_step,
-        smallest_time_step: watch.smallest_time_step,
-        elements: (options.projectile_elements(), options.target_elements()),
-        eroded_elements: (state.eroded, 0),
-        largest_plastic_strain: (plastic_strain, 0.0),
-        largest_temperature: (temperature, state.ground.temperature),
-        energy: state.energy(),
-        momentum: state.momentum(),
-        energy_residual: watch.residuals.energy,
-        momentum_residual: watch.residuals.momentum,
-    });
-    result.history = recorder.map(|recorder| recorder.finish(sample(state), profile(state)));
     result.fragments = state.rod.fragments();
     result.details = of_cracks(state.cracks.len(), state.cracks.first().copied());
     let plane_impact = forces::plane_impact_force(scenario);
@@ -194,14 +137,20 @@ pub(super) fn sum_up(
             value: force * 1e-3,
         });
     }
-    result.warnings = warnings_of_cavity(scenario, &result, &reached, erosion_strain);
+    let [plastic_strain, strain_rate, temperature] = state.rod.reached();
+    let reached = Reached {
+        plastic_strain,
+        strain_rate,
+        temperature,
+    };
+    let erosion_strain = cavity.control.erosion_strain;
+    result.warnings = warnings_of_cavity(scenario, result, &reached, erosion_strain);
     let first_contact =
-        (watch.peak_time < forces::edge_wave_time(scenario)).then_some(watch.peak_force);
+        (monitor.peak_time < forces::edge_wave_time(scenario)).then_some(monitor.peak_force);
     let warning = forces::warning(scenario, first_contact, plane_impact);
     result.warnings.extend(warning);
     result.warnings.extend(warning_of_target_failure(state));
     result.warnings.splice(0..0, remnant.warning());
-    result
 }
 
 /// Logarithmic stretch beyond which a slice counts as parted: it takes 63 % of a bar's area, about what metals have lost at fracture.

@@ -3,14 +3,16 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use pulp::Arch;
-
-use crate::{chain::solver::StepControl, material::PreparedFailure};
+use serde::{Deserialize, Serialize};
 
 use super::{
     block::Respond,
     node::{Dashpot, Node},
     projectile::failure_state,
     slice::{Metal, Shear, Slice},
+};
+use crate::{
+    Error, chain::solver::StepControl, material::PreparedFailure, solver::archive::Archive,
 };
 
 /// From its tail to its tip; what erodes leaves from the tip.
@@ -29,7 +31,7 @@ pub(super) struct Rod {
 }
 
 /// What limits a time step: the largest of all slices.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct Fastest {
     /// Square of a frequency times the density [Pa/m2].
     pub(super) stiffness: f64,
@@ -57,6 +59,28 @@ pub(super) struct Loss {
 }
 
 impl Rod {
+    /// A rod without slices.
+    pub(super) fn of_same_metal(&self) -> Self {
+        Self {
+            metal: Arc::clone(&self.metal),
+            nodes: Vec::new(),
+            slices: Vec::new(),
+            shears: Vec::new(),
+            arch: self.arch,
+            fastest: None,
+            lost: [0.0; 3],
+        }
+    }
+
+    /// Everything that a step changes.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.nodes)?;
+        archive.item(&mut self.slices)?;
+        archive.item(&mut self.shears)?;
+        archive.item(&mut self.fastest)?;
+        archive.item(&mut self.lost)
+    }
+
     pub(super) fn new(
         metal: Metal,
         count: usize,

@@ -7,6 +7,8 @@
 
 use std::f64::consts::PI;
 
+use serde::{Deserialize, Serialize};
+
 use crate::material::{FlowState, Material, PreparedStrength, Trial, YieldPoint};
 
 /// Constants of the projectile.
@@ -52,7 +54,7 @@ impl Metal {
 
 /// A slice between two nodes of the projectile. Stresses are those per area at rest in each direction (Kirchhoff), compression
 /// positive, so that their work on logarithmic strains is exact.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Slice {
     pub(super) mass: f64,
     pub(super) rest_length: f64,
@@ -233,7 +235,7 @@ impl Slice {
 }
 
 /// Shear between two neighbours that widen at different rates.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct Shear {
     /// Stress at the radius of the rod [Pa], now and a step before, and the plastic strain of the last step.
     stress: [f64; 2],

@@ -1,5 +1,7 @@
 //! One step of the projectile, the crater floor and the ground, with books.
 
+use serde::{Deserialize, Serialize};
+
 use super::{
     floor::{Contact, Floor, Tip},
     ground::Ground,
@@ -7,6 +9,7 @@ use super::{
     rear_face::RearFace,
 };
 use crate::{
+    Error,
     chain::{
         part::Role,
         solver::{StepControl, choose_time_step},
@@ -14,13 +17,14 @@ use crate::{
     error::NumericalError,
     ledger::{EnergyLedger, MomentumLedger},
     material::{FailureState, PreparedFailure},
+    solver::archive::Archive,
 };
 
 /// Largest change of strain that a slice may make in one step.
 const LARGEST_STRAIN_STEP: f64 = 0.02;
 
 /// Work and impulse that have gone where the state itself does not show them.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Books {
     pub(super) initial_energy: f64,
     pub(super) initial_momentum: f64,
@@ -68,6 +72,28 @@ pub(super) struct TargetFailure {
 }
 
 impl State {
+    /// Everything that a step changes.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        self.rod.archive(archive)?;
+        self.floor.archive(archive)?;
+        self.ground.archive(archive)?;
+        if let Some(face) = &mut self.rear_face {
+            face.archive(archive)?;
+        }
+        archive.item(&mut self.books)?;
+        archive.item(&mut self.time)?;
+        archive.item(&mut self.step)?;
+        archive.item(&mut self.time_step)?;
+        archive.item(&mut self.contact_force)?;
+        archive.item(&mut self.eroded)?;
+        archive.item(&mut self.cracks)?;
+        if let Some(failure) = &mut self.target_failure {
+            archive.item(&mut failure.damage)?;
+            archive.item(&mut failure.first)?;
+        }
+        Ok(())
+    }
+
     /// Advances by one step.
     pub(super) fn advance(&mut self, control: &StepControl) -> Result<(), NumericalError> {
         let previous = self.time_step;

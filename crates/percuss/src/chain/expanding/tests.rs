@@ -2,7 +2,7 @@
 
 use std::{f64::consts::PI, sync::Arc};
 
-use super::{Expanding, StepControl, resistance::Resistance, rod::Rod, slice::Metal};
+use super::{CavityRun, StepControl, resistance::Resistance, rod::Rod, slice::Metal};
 use crate::{
     Scenario,
     case::{self, TargetClosure},
@@ -21,7 +21,10 @@ fn scenario(projectile: &str, target: &str, length: f64, speed: f64, more: &str)
 }
 
 fn run(scenario: &Scenario) -> RunResult {
-    Expanding::run(scenario, &mut Control::default()).unwrap()
+    CavityRun::new(scenario)
+        .unwrap()
+        .run(&mut Control::default())
+        .unwrap()
 }
 
 const RADIUS: f64 = 2.5e-3;
@@ -388,7 +391,7 @@ fn where_nothing_takes_a_law_of_resistance_it_is_refused() {
     }
     shot.resistance = Some(OwnResistance(Arc::new(Never)));
     for name in ["fdm", "tate", "axi"] {
-        assert!(refused(&shot, name).contains("`chain` does"));
+        assert!(refused(&shot, name).contains("use the model `chain`"));
     }
     shot.options.chain.target_closure = Some(TargetClosure::Column);
     assert!(refused(&shot, "chain").contains("expanding-cavity"));

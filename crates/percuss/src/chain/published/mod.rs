@@ -10,23 +10,30 @@ use std::f64::consts::PI;
 
 use super::friction::rub;
 use crate::{
-    Error, Scenario,
+    Error, Refusal, Scenario,
     error::NumericalError,
-    history::Recorder,
+    history::{Profile, Sample},
+    ledger::{EnergyLedger, MomentumLedger},
     material::Material,
     options::{
         ContactSpring, Interface, PublishedBorderShear, PublishedOptions, PublishedTimeStep,
         constraint_factor,
     },
-    outcome::{RunResult, Termination},
-    solver::{Control, Progress},
+    outcome::{Outcome, RunResult, Termination},
+    solver::{
+        archive::Archive,
+        driver::{Audit, BalanceTolerance, Drive, Extremes, Retry, Solver},
+        limits::Limits,
+        monitor::{Clock, Probe, RunMonitor},
+    },
 };
 
 use springs::{Springs, law, single_plate};
 
-const DEFAULT_MAX_STEPS: u64 = 20_000_000;
-const REPORT_INTERVAL: u64 = 4096;
-/// A run of the published scheme. Index 0 is the mass at the interface in both bodies.
+/// A run of the published scheme.
+pub(super) type PublishedRun<'a> = Drive<'a, Published<'a>>;
+
+/// Rod and target of the published scheme. Index 0 is the mass at the interface in both bodies.
 #[derive(Debug)]
 pub struct Published<'a> {
     scenario: &'a Scenario,
@@ -48,28 +55,24 @@ pub struct Published<'a> {
     friction_work: f64,
     friction_impulse: f64,
     support_impulse: f64,
-    peak_force: f64,
-    /// Time during which the tip touches the target [s].
-    contact_time: f64,
-    largest_depth: f64,
     initial: (f64, f64),
 }
 
 impl<'a> Published<'a> {
-    pub(super) fn not_applicable(scenario: &Scenario) -> Option<String> {
+    pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
         let Some((plate, _, _)) = single_plate(scenario) else {
             return Some(
                 "scheme `published` has one plate of finite thickness with a fixed back face"
-                    .to_owned(),
+                    .into(),
             );
         };
         for material in [&scenario.projectile.material, &plate.material] {
             if law(material, 1.0, 1.0).is_none() {
-                return Some(format!(
+                return Some(Refusal::new(format!(
                     "scheme `published` has the strength laws power_law and elastic, and {} has {}",
                     material.name,
                     material.strength.key()
-                ));
+                )));
             }
         }
         None
@@ -80,17 +83,13 @@ impl<'a> Published<'a> {
     /// # Errors
     /// [`Error::NotApplicable`] for anything but one plate with a fixed back face and power-law or elastic materials.
     pub fn new(scenario: &'a Scenario) -> Result<Self, Error> {
-        let not_applicable = |reason: String| Error::NotApplicable {
-            model: "chain",
-            reason,
-        };
-        if let Some(reason) = Self::not_applicable(scenario) {
-            return Err(not_applicable(reason));
+        if let Some(refusal) = Self::not_applicable(scenario) {
+            return Err(Error::not_applicable("chain", refusal));
         }
         let (Some((plate, thickness, column)), options) =
             (single_plate(scenario), scenario.options.chain.published())
         else {
-            return Err(not_applicable("no plate".to_owned()));
+            return Err(Error::not_applicable("chain", "no plate"));
         };
         let chain = &scenario.options.chain;
         let body = &scenario.projectile;
@@ -172,9 +171,6 @@ impl<'a> Published<'a> {
             friction_work: 0.0,
             friction_impulse: 0.0,
             support_impulse: 0.0,
-            peak_force: 0.0,
-            contact_time: 0.0,
-            largest_depth: 0.0,
             initial: (0.5 * body.mass * speed * speed, body.mass * speed),
         })
     }
@@ -184,67 +180,12 @@ impl<'a> Published<'a> {
         self.time_step
     }
 
-    /// Runs until the first penetrator mass stops, section 3.6 of the paper.
-    ///
-    /// # Errors
-    /// [`Error::Numerical`] when the solution is no longer finite; [`Error::Cancelled`].
-    pub fn run(mut self, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        let mut recorder = control.record.then(Recorder::new);
-        let options = &self.scenario.options.chain;
-        let max_steps = options.max_steps.unwrap_or(DEFAULT_MAX_STEPS);
-        let end_time = options.end_time.map_or(f64::INFINITY, |time| time.si());
-        self.record(&mut recorder);
-        let termination = if self.scenario.impact_speed == 0.0 {
-            Termination::NothingMoves
-        } else {
-            loop {
-                self.advance();
-                self.record(&mut recorder);
-                if self.rod_velocity[0] <= 0.0 {
-                    break Termination::TipStopped;
-                }
-                if !self.rod_velocity[0].is_finite() {
-                    return Err(self.failed());
-                }
-                if self.rod_displacement[0] >= self.thickness {
-                    break Termination::PassedBackFace;
-                }
-                if self.time() >= end_time {
-                    break Termination::EndTime;
-                }
-                if self.step >= max_steps {
-                    break Termination::StepLimit;
-                }
-                if self.step.is_multiple_of(REPORT_INTERVAL) {
-                    control.report(Progress {
-                        step: self.step,
-                        time: self.time(),
-                        fraction: 1.0 - self.rod_velocity[0] / self.scenario.impact_speed,
-                        depth: self.rod_displacement[0],
-                    })?;
-                }
-            }
-        };
-        Ok(self.finish(termination, recorder))
-    }
-
     fn time(&self) -> f64 {
         self.step as f64 * self.time_step
     }
 
-    fn failed(&self) -> Error {
-        NumericalError {
-            what: "a velocity is not finite".to_owned(),
-            step: self.step,
-            time_us: self.time() * 1e6,
-            element: Some(0),
-            remedy: "use scheme = \"conservative\"".to_owned(),
-        }
-        .into()
-    }
-
     /// One step of equations (22)–(28).
-    fn advance(&mut self) {
+    fn integrate(&mut self) {
         self.collect_forces();
         let joined = self.options.interface != Interface::Chain;
         let rod_before = self.rod_velocity.clone();
@@ -308,11 +249,6 @@ impl<'a> Published<'a> {
             *x += v * self.time_step;
         }
         self.step += 1;
-        self.peak_force = self.peak_force.max(self.contact_force);
-        if joined || self.contact_force > 0.0 {
-            self.contact_time += self.time_step;
-        }
-        self.largest_depth = self.largest_depth.max(self.rod_displacement[0]);
     }
 
     fn collect_forces(&mut self) {
@@ -404,5 +340,135 @@ impl<'a> Published<'a> {
             self.spring_work[0] +=
                 self.time_step * 0.5 * self.rod_force[0] * (rod_before[0] + self.rod_velocity[0]);
         }
+    }
+}
+
+impl<'a> Solver<'a> for Published<'a> {
+    const NAMES: (&'static str, &'static str) = ("chain", "published");
+    /// The scheme has no energy balance that could close; its time step has no Courant number.
+    const AUDIT: Audit = Audit {
+        interval: u64::MAX,
+        report_interval: 256,
+        tolerance: BalanceTolerance {
+            energy: f64::INFINITY,
+            momentum: f64::INFINITY,
+        },
+        retry: Retry::Never,
+    };
+
+    fn build(scenario: &'a Scenario, _: f64) -> Result<Self, Error> {
+        Self::new(scenario)
+    }
+
+    fn courant(_: &Scenario) -> (Option<f64>, f64) {
+        (None, 1.0)
+    }
+
+    fn limits(&self) -> Limits {
+        let options = &self.scenario.options.chain;
+        Limits::new(self.scenario, options.end_time, options.max_steps)
+    }
+
+    fn advance(&mut self) -> Result<(), NumericalError> {
+        self.integrate();
+        if self.rod_velocity[0].is_finite() {
+            return Ok(());
+        }
+        let mut error = self.clock().failure(
+            "a velocity is not finite".to_owned(),
+            "use scheme = \"conservative\"".to_owned(),
+        );
+        error.element = Some(0);
+        Err(error)
+    }
+
+    fn clock(&self) -> Clock {
+        Clock {
+            step: self.step,
+            time: self.time(),
+            time_step: self.time_step,
+        }
+    }
+
+    fn probe(&mut self, _: &RunMonitor) -> Probe {
+        let touches = self.options.interface != Interface::Chain || self.contact_force > 0.0;
+        Probe {
+            depth: self.rod_displacement[0],
+            contact_force: self.contact_force,
+            contact_time: if touches { self.time_step } else { 0.0 },
+        }
+    }
+
+    fn is_at_rest(&self) -> bool {
+        self.rod_velocity[0] <= 0.0
+    }
+
+    fn energy(&self) -> EnergyLedger {
+        self.ledgers().0
+    }
+
+    fn momentum(&self) -> MomentumLedger {
+        self.ledgers().1
+    }
+
+    fn progress(&self) -> f64 {
+        1.0 - self.rod_velocity[0] / self.scenario.impact_speed
+    }
+
+    /// The run ends when the first mass of the penetrator stops, section 3.6 of the paper.
+    fn event(&mut self, _: &RunMonitor) -> Result<Option<Termination>, NumericalError> {
+        Ok(if self.is_at_rest() {
+            Some(Termination::TipStopped)
+        } else if self.rod_displacement[0] >= self.thickness {
+            Some(Termination::PassedBackFace)
+        } else {
+            None
+        })
+    }
+
+    fn sample(&self, _: &RunMonitor) -> Sample {
+        self.state_at_nodes()
+    }
+
+    fn profile(&self) -> Profile {
+        self.state_in_springs()
+    }
+
+    fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.rod_displacement)?;
+        archive.item(&mut self.rod_velocity)?;
+        archive.item(&mut self.rod_force)?;
+        archive.item(&mut self.target_displacement)?;
+        archive.item(&mut self.target_velocity)?;
+        archive.item(&mut self.target_force)?;
+        archive.item(&mut self.contact_force)?;
+        archive.item(&mut self.back_force)?;
+        archive.item(&mut self.step)?;
+        archive.item(&mut self.spring_work)?;
+        archive.item(&mut self.friction_work)?;
+        archive.item(&mut self.friction_impulse)?;
+        archive.item(&mut self.support_impulse)
+    }
+
+    fn outcome(&self, termination: Termination, _: &RunMonitor) -> (Outcome, String) {
+        let outcome = match termination {
+            Termination::PassedBackFace => Outcome::Perforated,
+            Termination::EndTime | Termination::StepLimit => Outcome::OutOfTime,
+            _ => Outcome::AtRest,
+        };
+        (outcome, String::new())
+    }
+
+    fn extremes(&self) -> Extremes {
+        let room = self.scenario.projectile.material.room_temperature.si();
+        Extremes {
+            elements: (self.rod_velocity.len(), self.target_velocity.len()),
+            largest_temperature: (room, room),
+            ..Extremes::default()
+        }
+    }
+
+    fn complete(&self, result: &mut RunResult, monitor: &RunMonitor) {
+        self.complete_result(result, monitor);
     }
 }

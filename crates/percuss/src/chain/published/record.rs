@@ -1,4 +1,4 @@
-//! What a run of the published scheme leaves: books, histories, result and warnings.
+//! Balances, histories, result and warnings of the published scheme.
 
 use std::f64::consts::PI;
 
@@ -7,14 +7,15 @@ use super::{
     springs::{Springs, single_plate},
 };
 use crate::{
-    history::{ElementState, Profile, Recorder, Sample},
+    history::{ElementState, Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
     options::Interface,
-    outcome::{Numerics, Outcome, RunResult, Termination},
+    outcome::{RunResult, Termination},
+    solver::monitor::RunMonitor,
 };
 
 impl Published<'_> {
-    fn ledgers(&self) -> (EnergyLedger, MomentumLedger) {
+    pub(super) fn ledgers(&self) -> (EnergyLedger, MomentumLedger) {
         let kinetic =
             |velocity: &[f64], mass: f64| velocity.iter().map(|v| 0.5 * mass * v * v).sum();
         let momentum = |velocity: &[f64], mass: f64| velocity.iter().map(|v| mass * v).sum();
@@ -38,22 +39,12 @@ impl Published<'_> {
         (energy, momentum)
     }
 
-    pub(super) fn record(&self, recorder: &mut Option<Recorder>) {
-        let Some(recorder) = recorder else { return };
-        if recorder.wants_sample(self.step) {
-            recorder.sample(self.sample());
-        }
-        if recorder.wants_profile(self.step) {
-            recorder.profile(self.profile());
-        }
-    }
-
     fn rod_length(&self) -> f64 {
         let last = self.rod_displacement.len() - 1;
         self.scenario.projectile.length - (self.rod_displacement[last] - self.rod_displacement[0])
     }
 
-    fn sample(&self) -> Sample {
+    pub(super) fn state_at_nodes(&self) -> Sample {
         let (energy, momentum) = self.ledgers();
         let count = self.rod_velocity.len();
         Sample {
@@ -74,7 +65,7 @@ impl Published<'_> {
         }
     }
 
-    fn profile(&self) -> Profile {
+    pub(super) fn state_in_springs(&self) -> Profile {
         let state = |part: usize,
                      centre: f64,
                      shortening: f64,
@@ -132,43 +123,15 @@ impl Published<'_> {
         }
     }
 
-    pub(super) fn finish(self, termination: Termination, recorder: Option<Recorder>) -> RunResult {
-        let history = recorder.map(|recorder| recorder.finish(self.sample(), self.profile()));
-        let (energy, momentum) = self.ledgers();
-        let stopped = termination == Termination::TipStopped;
-        let outcome = match termination {
-            Termination::PassedBackFace => Outcome::Perforated,
-            Termination::EndTime | Termination::StepLimit => Outcome::OutOfTime,
-            _ => Outcome::AtRest,
-        };
+    /// Adds depths, what is left of the projectile, and warnings.
+    pub(super) fn complete_result(&self, result: &mut RunResult, monitor: &RunMonitor) {
         let count = self.rod_velocity.len() as f64;
-        let room = self.scenario.projectile.material.room_temperature.si();
-        let mut result = RunResult::new("chain", "published", outcome, termination);
         result.depth_of_penetration = Some(self.rod_displacement[0]);
-        result.largest_depth = Some(self.largest_depth);
+        result.largest_depth = Some(monitor.largest_depth);
         result.residual_velocity = Some(self.rod_velocity.iter().sum::<f64>() / count);
         result.projectile_final_length = Some(self.rod_length());
         result.projectile_final_mass = Some(self.scenario.projectile.mass);
-        result.time_to_rest = stopped.then(|| self.time());
-        result.peak_force = Some(self.peak_force);
-        result.contact_time = Some(self.contact_time);
-        result.end_time = Some(self.time());
-        result.numerics = Some(Numerics {
-            steps: self.step,
-            first_time_step: self.time_step,
-            smallest_time_step: self.time_step,
-            elements: (self.rod_velocity.len(), self.target_velocity.len()),
-            eroded_elements: (0, 0),
-            largest_plastic_strain: (0.0, 0.0),
-            largest_temperature: (room, room),
-            energy_residual: energy.residual().abs(),
-            momentum_residual: momentum.residual().abs(),
-            energy,
-            momentum,
-        });
-        result.warnings = self.warnings(stopped);
-        result.history = history;
-        result
+        result.warnings = self.warnings(result.termination == Termination::TipStopped);
     }
 
     fn warnings(&self, stopped: bool) -> Vec<String> {

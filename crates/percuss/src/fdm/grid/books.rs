@@ -1,10 +1,12 @@
 //! Energy and momentum books of a grid.
 
+use serde::{Deserialize, Serialize};
+
 use super::{Grid, Law, Motion, Stored};
 use crate::ledger::{EnergyLedger, MomentumLedger};
 
 /// Work and impulse that have gone where the state itself does not show them.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(in crate::fdm) struct Books {
     pub(in crate::fdm) initial_energy: f64,
     pub(in crate::fdm) initial_momentum: f64,

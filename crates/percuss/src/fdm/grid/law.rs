@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde::{Serialize, de::DeserializeOwned};
+
 /// How a cell moves in the middle of a step.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::fdm) struct Motion {
@@ -40,7 +42,7 @@ pub(in crate::fdm) struct View {
 /// Law of one body: how its cells answer to their change of length.
 pub(in crate::fdm) trait Law: fmt::Debug {
     /// State of a cell.
-    type Cell: Copy + fmt::Debug;
+    type Cell: Copy + fmt::Debug + Serialize + DeserializeOwned;
 
     /// Whether the stored energy is made up from the loads before and after a time, rather than kept by the work done.
     const STORED_ACROSS_STEPS: bool;

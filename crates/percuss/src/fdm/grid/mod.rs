@@ -11,16 +11,20 @@ mod kick;
 mod law;
 mod snapshot;
 mod spall;
-mod watch;
 
 use std::ops::Range;
 
-use crate::error::NumericalError;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    Error,
+    error::NumericalError,
+    solver::{archive::Archive, monitor::Clock},
+};
 
 pub(in crate::fdm) use books::Books;
 pub(in crate::fdm) use law::{Law, Motion, Stored, View};
 pub(in crate::fdm) use spall::Spall;
-pub(in crate::fdm) use watch::{AUDIT_INTERVAL, Watch};
 
 /// Largest change of length of a cell in one step, as a part of its length.
 const LARGEST_SHORTENING: f64 = 0.02;
@@ -40,7 +44,7 @@ pub(in crate::fdm) enum End {
 }
 
 /// A node: everything that moves at one velocity.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(in crate::fdm) struct Node {
     pub(in crate::fdm) position: f64,
     pub(in crate::fdm) velocity: f64,
@@ -58,7 +62,7 @@ pub(in crate::fdm) struct Node {
 }
 
 /// Cells of one body that hang together; the nodes of segment `s` are those from `cells.start + s` to `cells.end + s`.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::fdm) struct Segment {
     pub(in crate::fdm) body: usize,
     pub(in crate::fdm) cells: Range<usize>,
@@ -172,6 +176,30 @@ impl<L: Law> Grid<L> {
             cells: start..self.cells.len(),
         });
         self.bodies.push(slab.law);
+    }
+
+    /// Everything that a step changes.
+    pub(in crate::fdm) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.segments)?;
+        archive.item(&mut self.closed)?;
+        archive.item(&mut self.nodes)?;
+        archive.item(&mut self.cells)?;
+        archive.item(&mut self.time)?;
+        archive.item(&mut self.step)?;
+        archive.item(&mut self.time_step)?;
+        archive.item(&mut self.stable_step)?;
+        archive.item(&mut self.contact_force)?;
+        archive.item(&mut self.back_force)?;
+        archive.item(&mut self.books)?;
+        archive.item(&mut self.spalls)
+    }
+
+    pub(in crate::fdm) fn clock(&self) -> Clock {
+        Clock {
+            step: self.step,
+            time: self.time,
+            time_step: self.time_step,
+        }
     }
 
     /// First and last node of a segment.

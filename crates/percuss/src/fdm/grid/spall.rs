@@ -1,9 +1,11 @@
 //! Spall: a body that is pulled harder than it can hold splits at a node.
 
+use serde::{Deserialize, Serialize};
+
 use super::{Grid, Law, Segment};
 
 /// A place where a body split.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(in crate::fdm) struct Spall {
     /// Body that split: 0 is the projectile.
     pub(in crate::fdm) body: usize,

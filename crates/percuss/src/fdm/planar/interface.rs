@@ -4,7 +4,11 @@
 //! needs time to build up its shock profile: until then the stress overshoots, by the same part on every mesh.
 
 use super::law::PlanarLaw;
-use crate::fdm::grid::{Grid, Slab};
+use crate::{
+    Error,
+    fdm::grid::{Grid, Slab},
+    solver::archive::Archive,
+};
 
 /// Part of the time in which a wave crosses the thinner body that the plateau is not taken from.
 const START: f64 = 0.5;
@@ -33,6 +37,12 @@ impl InterfaceForce {
             sums: [0.0; 2],
             peak: 0.0,
         }
+    }
+
+    /// Everything that a step changes.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.sums)?;
+        archive.item(&mut self.peak)
     }
 
     /// Takes the force of the step that ended.

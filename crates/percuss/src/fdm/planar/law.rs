@@ -1,5 +1,7 @@
 //! Law of a planar body: Mie–Grüneisen pressure, hypoelastic deviator, artificial viscosity, energy by the work done.
 
+use serde::{Deserialize, Serialize};
+
 use crate::{
     fdm::{
         grid::{Law, Motion, Stored, View},
@@ -28,7 +30,7 @@ pub(super) struct PlanarLaw {
 }
 
 /// A cell, at the start of a step, and what its middle needs.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct PlanarCell {
     initial_position: f64,
     mass: f64,

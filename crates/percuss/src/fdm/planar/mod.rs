@@ -9,7 +9,7 @@ mod run;
 pub use crate::material::{StateEquation, impedance_match};
 pub use column::{Boundary, CellState, Column, Layer, Medium, Solid};
 
-pub(super) use run::{cells, not_applicable, run};
+pub(super) use run::{PlanarRun, cells, not_applicable};
 
 use crate::options::ArtificialViscosity;
 

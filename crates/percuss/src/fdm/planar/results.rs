@@ -1,83 +1,50 @@
 //! From the grid at the end of a planar impact to its result.
 
-use super::{interface::InterfaceForce, law::PlanarLaw, run::BackFaceMotion};
+use super::run::PlanarImpact;
 use crate::{
-    fdm::{
-        grid::{Grid, Watch},
-        numerics::numerics,
-        warnings::warn_of_material,
-    },
-    history::Recorder,
+    fdm::{audit::REST_FRACTION, warnings::warn_of_material},
     material::impedance_match,
     outcome::{Detail, Outcome, RunResult, Termination},
-    scenario::{Scenario, TargetBody},
+    scenario::TargetBody,
     units::significant,
 };
 
-/// Part of the impact speed below which a projectile counts as stopped.
-const REST_FRACTION: f64 = 0.01;
-
-/// What a result is made of.
-pub(super) struct Ending<'a> {
-    pub(super) scenario: &'a Scenario,
-    pub(super) grid: &'a Grid<PlanarLaw>,
-    pub(super) watch: &'a Watch,
-    pub(super) termination: Termination,
-    pub(super) back: BackFaceMotion,
-    pub(super) interface: &'a InterfaceForce,
-}
-
-pub(super) fn sum_up(ending: &Ending<'_>, recorder: Option<Recorder>) -> RunResult {
-    let Ending {
-        grid,
-        watch,
-        termination,
-        ..
-    } = *ending;
-    let (mass, momentum) = grid.motion(0);
-    let mut result = RunResult::new(
-        "fdm",
-        "planar",
-        outcome(ending, momentum / mass),
-        termination,
-    );
+/// Adds what is left of the projectile, stresses and speeds of the faces, and warnings.
+pub(super) fn complete(impact: &PlanarImpact<'_>, result: &mut RunResult) {
+    let (mass, momentum) = impact.grid.motion(0);
     result.residual_velocity = Some(momentum / mass);
     result.projectile_final_mass = Some(mass);
-    result.time_to_rest = watch.at_rest.map(|(time, _)| time);
-    result.peak_force = Some(ending.interface.peak);
-    result.contact_time = Some(watch.contact_time);
-    result.end_time = Some(grid.time);
-    result.details = details(ending);
-    result.numerics = Some(numerics(grid, watch));
-    result.warnings = warnings(ending, &result);
-    result.history = recorder.map(|recorder| recorder.finish(grid.sample(), grid.profile()));
-    result
+    result.peak_force = Some(impact.interface.peak);
+    result.details = details(impact);
+    result.warnings = warnings(impact, result);
 }
 
-fn outcome(ending: &Ending<'_>, velocity: f64) -> Outcome {
-    match ending.termination {
+pub(super) fn outcome(impact: &PlanarImpact<'_>, termination: Termination) -> Outcome {
+    let (mass, momentum) = impact.grid.motion(0);
+    let velocity = momentum / mass;
+    match termination {
         Termination::NothingMoves => Outcome::AtRest,
         Termination::EndTime | Termination::StepLimit => Outcome::OutOfTime,
-        _ if velocity < -REST_FRACTION * ending.scenario.impact_speed => Outcome::Rebounded,
-        _ if velocity > REST_FRACTION * ending.scenario.impact_speed => Outcome::Separated,
+        _ if velocity < -REST_FRACTION * impact.scenario.impact_speed => Outcome::Rebounded,
+        _ if velocity > REST_FRACTION * impact.scenario.impact_speed => Outcome::Separated,
         _ => Outcome::AtRest,
     }
 }
 
 /// Time after which release from the edge has reached the axis of the projectile [s].
-fn edge_release(ending: &Ending<'_>) -> f64 {
-    0.5 * ending.scenario.projectile.diameter / ending.grid.bodies[0].wave_speed_at_rest()
+fn edge_release(impact: &PlanarImpact<'_>) -> f64 {
+    0.5 * impact.scenario.projectile.diameter / impact.grid.bodies[0].wave_speed_at_rest()
 }
 
-fn details(ending: &Ending<'_>) -> Vec<Detail> {
-    let (scenario, grid) = (ending.scenario, ending.grid);
+fn details(impact: &PlanarImpact<'_>) -> Vec<Detail> {
+    let (scenario, grid) = (impact.scenario, &impact.grid);
     let detail = |name, unit, value| Detail { name, unit, value };
     let mut details = vec![detail(
         "edge release reaches the axis",
         "us",
-        edge_release(ending) * 1e6,
+        edge_release(impact) * 1e6,
     )];
-    if let Some(force) = ending.interface.plateau() {
+    if let Some(force) = impact.interface.plateau() {
         let stress = force / scenario.projectile.area();
         details.push(detail("interface stress, plateau", "GPa", stress * 1e-9));
     }
@@ -94,11 +61,11 @@ fn details(ending: &Ending<'_>) -> Vec<Detail> {
             pressure * 1e-9,
         ));
     }
-    if ending.back.free {
+    if impact.back.free {
         details.push(detail(
             "largest speed of the back face",
             "m/s",
-            ending.back.largest,
+            impact.back.largest,
         ));
     }
     details.push(detail("spall planes", "", grid.spalls.len() as f64));
@@ -109,16 +76,16 @@ fn details(ending: &Ending<'_>) -> Vec<Detail> {
             first.position * 1e3,
         ));
         details.push(detail("first spall", "us", first.time * 1e6));
-        if ending.back.free {
-            let pull_back = ending.back.largest - ending.back.smallest_after;
+        if impact.back.free {
+            let pull_back = impact.back.largest - impact.back.smallest_after;
             details.push(detail("pull-back of the back face", "m/s", pull_back));
         }
     }
     details
 }
 
-fn warnings(ending: &Ending<'_>, result: &RunResult) -> Vec<String> {
-    let (scenario, grid) = (ending.scenario, ending.grid);
+fn warnings(impact: &PlanarImpact<'_>, result: &RunResult) -> Vec<String> {
+    let (scenario, grid) = (impact.scenario, &impact.grid);
     let mut warnings = vec![
         "uniaxial strain leaves no crater: the model gives stresses, speeds and spall, no depth"
             .to_owned(),
@@ -129,7 +96,7 @@ fn warnings(ending: &Ending<'_>, result: &RunResult) -> Vec<String> {
                 .to_owned(),
         );
     }
-    let release = edge_release(ending);
+    let release = edge_release(impact);
     if grid.time > release {
         warnings.push(format!(
             "release from the edge reaches the axis after {} us, and the run lasts {} us: what happens later is not uniaxial \

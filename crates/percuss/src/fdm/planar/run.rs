@@ -1,32 +1,39 @@
-//! A shot in the geometry `planar`.
+//! Geometry `planar` as a solver.
+
+use serde::{Deserialize, Serialize};
 
 use super::{
-    DEFAULT_CELLS, DEFAULT_VISCOSITY,
-    column::Medium,
-    interface::InterfaceForce,
-    law::PlanarLaw,
-    results::{Ending, sum_up},
+    DEFAULT_CELLS, DEFAULT_VISCOSITY, column::Medium, interface::InterfaceForce, law::PlanarLaw,
+    results,
 };
 use crate::{
-    Error, Scenario,
-    fdm::grid::{AUDIT_INTERVAL, End, Grid, Slab, Watch},
-    history::Recorder,
+    Error, Refusal, Scenario,
+    error::NumericalError,
+    fdm::{
+        audit::{self, AUDIT, DEFAULT_COURANT},
+        grid::{End, Grid, Slab},
+    },
+    history::{Profile, Sample},
+    ledger::{EnergyLedger, MomentumLedger},
     material::{Library, Material},
-    outcome::{RunResult, Termination},
+    outcome::{Outcome, RunResult, Termination},
     problem::BackFace,
     scenario::{TargetBody, modelled_thickness},
-    solver::{Control, Progress},
+    solver::{
+        archive::Archive,
+        driver::{Audit, Drive, Extremes, Solver},
+        limits::Limits,
+        monitor::{Clock, Probe, RunMonitor},
+    },
 };
 
-const DEFAULT_COURANT: f64 = 0.7;
-const DEFAULT_MAX_STEPS: u64 = 20_000_000;
 /// Passages of a wave through both bodies that a run lasts when a case gives no end.
 const PASSAGES: f64 = 3.0;
 /// Most cells of a target whose cells are to be as long as the projectile's.
 const MOST_CELLS: f64 = 20_000.0;
 
 /// Motion of the back face: whether it is one that can move freely, its largest speed, and the smallest one after that.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct BackFaceMotion {
     pub(super) free: bool,
     pub(super) largest: f64,
@@ -44,12 +51,12 @@ impl BackFaceMotion {
 }
 
 /// Why the geometry does not apply to a case, if it does not.
-pub(in crate::fdm) fn not_applicable(scenario: &Scenario) -> Option<String> {
+pub(in crate::fdm) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     let rod = &scenario.projectile;
     let mut materials = vec![("projectile", &rod.material_id, &rod.material)];
     match &scenario.target {
         TargetBody::ConstantPressure(_) => {
-            return Some("geometry `planar` takes layers or a rigid wall, and this target is a constant pressure".to_owned());
+            return Some("geometry `planar` takes layers or a rigid wall, and this target is a constant pressure".into());
         }
         TargetBody::RigidWall => {}
         TargetBody::Layers { layers, .. } => {
@@ -61,24 +68,26 @@ pub(in crate::fdm) fn not_applicable(scenario: &Scenario) -> Option<String> {
     }
     for (what, id, material) in materials {
         if material.equation_of_state.is_none() {
-            return Some(format!(
-                "geometry `planar` needs a shock equation of state, and the {what}'s material `{id}` has none: add \
-                 `[materials.NAME.equation_of_state]` with sound_speed, slope and gruneisen, or take one of {}",
+            let reason = format!(
+                "geometry `planar` needs a shock equation of state, and the {what}'s material `{id}` has none"
+            );
+            return Some(Refusal::new(reason).with_remedy(format!(
+                "add `[materials.NAME.equation_of_state]` with sound_speed, slope and gruneisen, or take one of {}",
                 with_equation_of_state().join(", ")
-            ));
+            )));
         }
     }
     let law = law(&rod.material, scenario)?;
     let ratio = rod.length / rod.diameter;
     (ratio > 0.5).then(|| {
         let speed = law.wave_speed_at_rest();
-        format!(
+        Refusal::new(format!(
             "geometry `planar` is uniaxial strain, and this projectile is {ratio:.2} diameters long: release from its edge \
              reaches the axis after {:.2} us, before a wave has gone through it once ({:.2} us); uniaxial strain needs a \
              projectile shorter than half its diameter",
             0.5 * rod.diameter / speed * 1e6,
             rod.length / speed * 1e6
-        )
+        ))
     })
 }
 
@@ -177,78 +186,130 @@ fn build(scenario: &Scenario) -> Option<(Grid<PlanarLaw>, f64, InterfaceForce)> 
     Some((Grid::new(slabs, [End::Free, end]), passage, interface))
 }
 
-/// Runs a case to which the geometry applies.
-pub(in crate::fdm) fn run(
-    scenario: &Scenario,
-    control: &mut Control<'_>,
-) -> Result<RunResult, Error> {
-    let refuse = || Error::NotApplicable {
-        model: "fdm",
-        reason: not_applicable(scenario).unwrap_or_default(),
-    };
-    let (mut grid, passage, mut interface) = build(scenario).ok_or_else(refuse)?;
-    let options = &scenario.options.fdm;
-    let courant = options.courant.unwrap_or(DEFAULT_COURANT);
-    let end_time = options
-        .end_time
-        .map_or(PASSAGES * passage, |time| time.si());
-    let max_steps = options.max_steps.unwrap_or(DEFAULT_MAX_STEPS);
-    let mut watch = Watch::default();
-    let mut back = BackFaceMotion {
-        free: grid.ends[1] == End::Free,
-        ..BackFaceMotion::default()
-    };
-    let mut recorder = control.record.then(Recorder::new);
-    record(&grid, &mut recorder);
-    let termination = loop {
-        if scenario.impact_speed == 0.0 {
-            break Termination::NothingMoves;
-        }
-        let before = grid.time;
-        grid.advance(courant, end_time - grid.time)?;
-        interface.follow(&grid, before);
-        watch.follow(&grid, scenario.impact_speed);
-        back.follow(grid.nodes[grid.nodes.len() - 1].velocity);
-        record(&grid, &mut recorder);
-        if grid.step.is_multiple_of(AUDIT_INTERVAL) {
-            watch.audit(&grid, courant)?;
-            watch.check_time_step(&grid)?;
-            control.report(Progress {
-                step: grid.step,
-                time: grid.time,
-                fraction: (grid.time / end_time).clamp(0.0, 1.0),
-                depth: grid.depth(),
-            })?;
-        }
-        if grid.time >= end_time * (1.0 - 1e-12) {
-            let interface = grid.tip_segment();
-            break match grid.closed.get(interface) {
-                Some(false) => Termination::Parted,
-                _ => Termination::EndTime,
-            };
-        }
-        if grid.step >= max_steps {
-            break Termination::StepLimit;
-        }
-    };
-    watch.audit(&grid, courant)?;
-    let ending = Ending {
-        scenario,
-        grid: &grid,
-        watch: &watch,
-        termination,
-        back,
-        interface: &interface,
-    };
-    Ok(sum_up(&ending, recorder))
+/// Projectile and target in uniaxial strain.
+#[derive(Debug)]
+pub(in crate::fdm) struct PlanarImpact<'a> {
+    pub(super) scenario: &'a Scenario,
+    pub(super) grid: Grid<PlanarLaw>,
+    pub(super) interface: InterfaceForce,
+    pub(super) back: BackFaceMotion,
+    courant: f64,
+    limits: Limits,
+    /// Time before the last step [s].
+    before: f64,
 }
 
-fn record(grid: &Grid<PlanarLaw>, recorder: &mut Option<Recorder>) {
-    let Some(recorder) = recorder else { return };
-    if recorder.wants_sample(grid.step) {
-        recorder.sample(grid.sample());
+/// A run in the geometry `planar`.
+pub(in crate::fdm) type PlanarRun<'a> = Drive<'a, PlanarImpact<'a>>;
+
+impl<'a> Solver<'a> for PlanarImpact<'a> {
+    const NAMES: (&'static str, &'static str) = ("fdm", "planar");
+    const AUDIT: Audit = AUDIT;
+
+    fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
+        let refuse = || Error::not_applicable("fdm", not_applicable(scenario).unwrap_or_default());
+        let (grid, passage, interface) = build(scenario).ok_or_else(refuse)?;
+        let options = &scenario.options.fdm;
+        let mut limits = Limits::new(scenario, options.end_time, options.max_steps);
+        if options.end_time.is_none() {
+            limits.end_time = PASSAGES * passage;
+        }
+        let back = BackFaceMotion {
+            free: grid.ends[1] == End::Free,
+            ..BackFaceMotion::default()
+        };
+        Ok(Self {
+            scenario,
+            grid,
+            interface,
+            back,
+            courant,
+            limits,
+            before: 0.0,
+        })
     }
-    if recorder.wants_profile(grid.step) {
-        recorder.profile(grid.profile());
+
+    fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
+        (scenario.options.fdm.courant, DEFAULT_COURANT)
+    }
+
+    fn limits(&self) -> Limits {
+        self.limits
+    }
+
+    fn advance(&mut self) -> Result<(), NumericalError> {
+        self.before = self.grid.time;
+        let left = self.limits.end_time - self.grid.time;
+        self.grid.advance(self.courant, left)
+    }
+
+    fn clock(&self) -> Clock {
+        self.grid.clock()
+    }
+
+    fn probe(&mut self, _: &RunMonitor) -> Probe {
+        self.interface.follow(&self.grid, self.before);
+        let last = self.grid.nodes[self.grid.nodes.len() - 1];
+        self.back.follow(last.velocity);
+        audit::probe(&self.grid, self.before)
+    }
+
+    fn is_at_rest(&self) -> bool {
+        audit::is_at_rest(&self.grid, self.scenario.impact_speed)
+    }
+
+    fn energy(&self) -> EnergyLedger {
+        self.grid.energy()
+    }
+
+    fn momentum(&self) -> MomentumLedger {
+        self.grid.momentum()
+    }
+
+    fn progress(&self) -> f64 {
+        // The end is that of the time.
+        0.0
+    }
+
+    fn check(&self, monitor: &RunMonitor) -> Result<(), NumericalError> {
+        audit::check_time_step(&self.grid, monitor)
+    }
+
+    fn event(&mut self, _: &RunMonitor) -> Result<Option<Termination>, NumericalError> {
+        if self.grid.time < self.limits.end_time * (1.0 - 1e-12) {
+            return Ok(None);
+        }
+        let interface = self.grid.tip_segment();
+        Ok(Some(match self.grid.closed.get(interface) {
+            Some(false) => Termination::Parted,
+            _ => Termination::EndTime,
+        }))
+    }
+
+    fn sample(&self, _: &RunMonitor) -> Sample {
+        self.grid.sample()
+    }
+
+    fn profile(&self) -> Profile {
+        self.grid.profile()
+    }
+
+    fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        self.interface.archive(archive)?;
+        archive.item(&mut self.back)?;
+        archive.item(&mut self.before)?;
+        self.grid.archive(archive)
+    }
+
+    fn outcome(&self, termination: Termination, _: &RunMonitor) -> (Outcome, String) {
+        (results::outcome(self, termination), String::new())
+    }
+
+    fn extremes(&self) -> Extremes {
+        audit::extremes(&self.grid)
+    }
+
+    fn complete(&self, result: &mut RunResult, _: &RunMonitor) {
+        results::complete(self, result);
     }
 }

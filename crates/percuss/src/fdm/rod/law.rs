@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use serde::{Deserialize, Serialize};
+
 use crate::{
     fdm::{
         grid::{Law, Motion, Stored, View},
@@ -27,7 +29,7 @@ pub(super) struct RodLaw {
 }
 
 /// A cell: its stress, and what led to it.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct RodCell {
     initial_position: f64,
     volume: f64,

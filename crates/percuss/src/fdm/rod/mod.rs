@@ -5,4 +5,4 @@ mod mesh;
 mod results;
 mod run;
 
-pub use run::Rod;
+pub(super) use run::RodRun;

@@ -1,57 +1,32 @@
 //! From the grid at the end of a run to its result.
 
-use super::{law::RodLaw, mesh};
+use super::{mesh, run::Rod};
 use crate::{
-    fdm::{
-        grid::{Grid, Watch},
-        numerics::numerics,
-        warnings::warn_of_material,
-    },
-    history::Recorder,
-    options::FdmOptions,
+    fdm::{audit::REST_FRACTION, warnings::warn_of_material},
     outcome::{Outcome, RunResult, Termination},
-    scenario::{Scenario, TargetBody},
+    scenario::TargetBody,
+    solver::monitor::RunMonitor,
     units::significant,
 };
 
 /// Strain beyond which a cell would have eroded in the chain.
 const LARGEST_STRAIN: f64 = 2.0;
 
-/// What a result is made of.
-pub(super) struct Ending<'a> {
-    pub(super) scenario: &'a Scenario,
-    pub(super) options: &'a FdmOptions,
-    pub(super) grid: &'a Grid<RodLaw>,
-    pub(super) watch: &'a Watch,
-    pub(super) termination: Termination,
-    pub(super) rest_fraction: f64,
-}
-
-pub(super) fn sum_up(ending: &Ending<'_>, recorder: Option<Recorder>) -> RunResult {
-    let Ending {
-        scenario,
-        grid,
-        watch,
-        ..
-    } = *ending;
+/// Adds depths, what is left of the projectile, and warnings.
+pub(super) fn complete(rod: &Rod<'_>, result: &mut RunResult, monitor: &RunMonitor) {
+    let (scenario, grid) = (rod.scenario, &rod.grid);
     let (mass, momentum) = grid.motion(0);
     // A crater floor that sprang back beyond the original face is no depth.
     let depth = match scenario.target {
         TargetBody::RigidWall => None,
         _ => Some(
-            watch
+            monitor
                 .at_rest
-                .map_or(watch.largest_depth, |(_, depth)| depth.max(0.0)),
+                .map_or(monitor.largest_depth, |(_, depth)| depth.max(0.0)),
         ),
     };
-    let mut result = RunResult::new(
-        "fdm",
-        "rod",
-        outcome(ending, mass, momentum),
-        ending.termination,
-    );
     result.depth_of_penetration = depth;
-    result.largest_depth = depth.map(|_| watch.largest_depth);
+    result.largest_depth = depth.map(|_| monitor.largest_depth);
     let cells_of = |bodies: std::ops::Range<usize>| {
         let own = grid
             .segments
@@ -65,7 +40,7 @@ pub(super) fn sum_up(ending: &Ending<'_>, recorder: Option<Recorder>) -> RunResu
                 .map(|cell| cell.rest_length() - cell.unloaded_length());
             Some(shortened.sum())
         }
-        TargetBody::ConstantPressure(_) => Some(watch.largest_depth),
+        TargetBody::ConstantPressure(_) => Some(monitor.largest_depth),
         TargetBody::RigidWall => None,
     };
     result.residual_velocity = Some(momentum / mass);
@@ -73,12 +48,7 @@ pub(super) fn sum_up(ending: &Ending<'_>, recorder: Option<Recorder>) -> RunResu
     let widths = cells_of(0..1).map(|cell| grid.bodies[0].unloaded_diameter(cell));
     result.projectile_final_diameter = Some(widths.fold(0.0, f64::max));
     result.projectile_final_mass = Some(mass);
-    result.time_to_rest = watch.at_rest.map(|(time, _)| time);
-    result.peak_force = Some(watch.peak_force);
-    result.contact_time = Some(watch.contact_time);
-    result.end_time = Some(grid.time);
-    result.numerics = Some(numerics(grid, watch));
-    result.warnings = warnings(ending, &result);
+    result.warnings = warnings(rod, result);
     let strains = cells_of(0..grid.bodies.len()).map(|cell| cell.strain().abs());
     let strain = strains.fold(0.0, f64::max);
     if strain > LARGEST_STRAIN {
@@ -88,31 +58,30 @@ pub(super) fn sum_up(ending: &Ending<'_>, recorder: Option<Recorder>) -> RunResu
             significant(strain, 3)
         ));
     }
-    result.history = recorder.map(|recorder| recorder.finish(grid.sample(), grid.profile()));
-    result
 }
 
-fn outcome(ending: &Ending<'_>, mass: f64, momentum: f64) -> Outcome {
-    match ending.termination {
+pub(super) fn outcome(rod: &Rod<'_>, termination: Termination, monitor: &RunMonitor) -> Outcome {
+    match termination {
         Termination::PassedBackFace => return Outcome::Perforated,
         Termination::NothingMoves => return Outcome::AtRest,
-        Termination::EndTime | Termination::StepLimit if ending.watch.at_rest.is_none() => {
+        Termination::EndTime | Termination::StepLimit if monitor.at_rest.is_none() => {
             return Outcome::OutOfTime;
         }
         _ => {}
     }
-    let ratio = momentum / (mass * ending.scenario.impact_speed);
-    if ratio < -ending.rest_fraction {
+    let (mass, momentum) = rod.grid.motion(0);
+    let ratio = momentum / (mass * rod.scenario.impact_speed);
+    if ratio < -REST_FRACTION {
         Outcome::Rebounded
-    } else if ratio > ending.rest_fraction {
+    } else if ratio > REST_FRACTION {
         Outcome::Separated
     } else {
         Outcome::AtRest
     }
 }
 
-fn warnings(ending: &Ending<'_>, result: &RunResult) -> Vec<String> {
-    let (scenario, grid) = (ending.scenario, ending.grid);
+fn warnings(rod: &Rod<'_>, result: &RunResult) -> Vec<String> {
+    let (scenario, grid) = (rod.scenario, &rod.grid);
     let mut warnings = Vec::new();
     match result.outcome {
         Outcome::OutOfTime => warnings.push(
@@ -126,14 +95,14 @@ fn warnings(ending: &Ending<'_>, result: &RunResult) -> Vec<String> {
         _ => {}
     }
     let heated = scenario.options.chain.adiabatic_heating.unwrap_or(true);
-    let rod = &scenario.projectile.material;
-    warn_of_material("projectile", rod, grid.views(0), heated, &mut warnings);
+    let material = &scenario.projectile.material;
+    warn_of_material("projectile", material, grid.views(0), heated, &mut warnings);
     let TargetBody::Layers { layers, .. } = &scenario.target else {
         return warnings;
     };
     let length = mesh::target_length(scenario);
-    let cell = length / f64::from(ending.options.target_elements.unwrap_or(80));
-    let shear = ending.options.border_shear.unwrap_or(0.577);
+    let cell = length / f64::from(rod.options.target_elements.unwrap_or(80));
+    let shear = rod.options.border_shear.unwrap_or(0.577);
     let depth = result.depth_of_penetration.unwrap_or(0.0);
     if shear > 0.0 {
         warnings.push(format!(

@@ -1,46 +1,50 @@
-//! A run of the rod from impact to its end.
+//! Geometry `rod` as a solver.
 
-use super::{
-    law::RodLaw,
-    mesh,
-    results::{Ending, sum_up},
-};
+use serde::{Deserialize, Serialize};
+
+use super::{law::RodLaw, mesh, results};
 use crate::{
     Error, Scenario,
-    courant_retry::{AttemptError, CourantRetry},
-    fdm::grid::{AUDIT_INTERVAL, End, Grid, Watch},
-    history::Recorder,
+    error::NumericalError,
+    fdm::{
+        audit::{self, AUDIT, DEFAULT_COURANT, REST_FRACTION},
+        grid::{End, Grid},
+    },
+    history::{Profile, Sample},
+    ledger::{EnergyLedger, MomentumLedger},
     options::FdmOptions,
-    outcome::{RunResult, Termination},
-    scenario::{TargetBody, modelled_thickness},
-    solver::{Control, Progress},
+    outcome::{Outcome, RunResult, Termination},
+    solver::{
+        archive::Archive,
+        driver::{Audit, Drive, Extremes, Solver, slowed},
+        limits::Limits,
+        monitor::{Clock, Probe, RunMonitor},
+    },
 };
 
-/// Courant number when a case gives none.
-const DEFAULT_COURANT: f64 = 0.7;
-/// A run at the default Courant number is repeated with half of it until its energy balance closes, down to this one.
-const SMALLEST_COURANT: f64 = 0.04;
-const DEFAULT_MAX_STEPS: u64 = 20_000_000;
-/// Part of the impact speed below which a projectile counts as stopped.
-const REST_FRACTION: f64 = 0.01;
 /// Part of the initial energy that may still dissipate in a window of a run whose bodies touch.
 const QUIET_FRACTION: f64 = 1e-6;
 /// The same when they have parted: what rings inside them then changes neither depth nor speed.
 const PARTED_FRACTION: f64 = 1e-4;
 
-/// A shot in the geometry `rod`.
+/// Projectile and target as rods.
 #[derive(Debug)]
-pub struct Rod<'a> {
-    scenario: &'a Scenario,
-    options: FdmOptions,
-    grid: Grid<RodLaw>,
-    watch: Watch,
+pub(in crate::fdm) struct Rod<'a> {
+    pub(super) scenario: &'a Scenario,
+    pub(super) options: FdmOptions,
+    pub(super) grid: Grid<RodLaw>,
     courant: f64,
+    limits: Limits,
     window: Window,
+    /// Time before the last step [s].
+    before: f64,
 }
 
-/// What a window of one round trip of a wave in the projectile began with.
-#[derive(Debug, Default)]
+/// A run in the geometry `rod`.
+pub(in crate::fdm) type RodRun<'a> = Drive<'a, Rod<'a>>;
+
+/// One round trip of a wave in the projectile, in which a run that is over changes no more.
+#[derive(Debug, Default, Serialize, Deserialize)]
 struct Window {
     start: f64,
     dissipation: f64,
@@ -48,134 +52,14 @@ struct Window {
     touched: bool,
 }
 
-impl<'a> Rod<'a> {
-    /// The grid at the moment of impact.
-    pub fn new(scenario: &'a Scenario) -> Self {
-        let options = scenario
-            .options
-            .fdm
-            .with_defaults_of(&scenario.options.chain);
-        let courant = options.courant.unwrap_or(DEFAULT_COURANT);
-        Self::with_courant(scenario, options, courant)
-    }
-
-    fn with_courant(scenario: &'a Scenario, options: FdmOptions, courant: f64) -> Self {
-        Self {
-            scenario,
-            grid: mesh::build(scenario, &options),
-            options,
-            watch: Watch::default(),
-            courant,
-            window: Window::default(),
-        }
-    }
-
-    /// Runs to the end.
-    ///
-    /// # Errors
-    /// [`Error::Numerical`] when a cell is crushed to nothing or the energy balance does not close; [`Error::Cancelled`].
-    pub fn run(mut self, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        let given = self.options.courant;
-        let mut courant = CourantRetry::new(given, DEFAULT_COURANT, SMALLEST_COURANT);
-        loop {
-            match self.attempt(control) {
-                Ok(mut result) => {
-                    result.warnings.extend(courant.warning());
-                    return Ok(result);
-                }
-                Err(AttemptError::Unbalanced(error)) => courant.halve(error)?,
-                Err(AttemptError::Other(error)) => return Err(error),
-            }
-            self = Self::with_courant(self.scenario, self.options, courant.number());
-        }
-    }
-
-    fn attempt(&mut self, control: &mut Control<'_>) -> Result<RunResult, AttemptError> {
-        let mut recorder = control.record.then(Recorder::new);
-        let end_time = self.end_time();
-        let max_steps = self.options.max_steps.unwrap_or(DEFAULT_MAX_STEPS);
-        self.record(&mut recorder);
-        let termination = loop {
-            if self.scenario.impact_speed == 0.0 {
-                break Termination::NothingMoves;
-            }
-            self.grid.advance(self.courant, f64::INFINITY)?;
-            self.watch.follow(&self.grid, self.scenario.impact_speed);
-            self.window.touched |= self.grid.touches();
-            self.record(&mut recorder);
-            if self.has_passed() {
-                break Termination::PassedBackFace;
-            }
-            if self.grid.time >= end_time {
-                break Termination::EndTime;
-            }
-            if self.grid.step >= max_steps {
-                break Termination::StepLimit;
-            }
-            if self.grid.step.is_multiple_of(AUDIT_INTERVAL) {
-                self.audit()?;
-                self.watch.check_time_step(&self.grid)?;
-                control.report(self.progress(end_time))?;
-            }
-            if self.is_quiet(end_time) {
-                break if self.grid.closed.first() == Some(&false) {
-                    Termination::Parted
-                } else {
-                    Termination::Quiescent
-                };
-            }
-        };
-        self.audit()?;
-        Ok(sum_up(
-            &Ending {
-                scenario: self.scenario,
-                options: &self.options,
-                grid: &self.grid,
-                watch: &self.watch,
-                termination,
-                rest_fraction: REST_FRACTION,
-            },
-            recorder,
-        ))
-    }
-
-    fn audit(&mut self) -> Result<(), AttemptError> {
-        let audit = self.watch.audit(&self.grid, self.courant);
-        audit.map_err(AttemptError::Unbalanced)
-    }
-
+impl Rod<'_> {
     fn has_passed(&self) -> bool {
         let thickness = self.scenario.target_thickness();
         thickness.is_some_and(|thickness| self.grid.depth() >= thickness)
     }
 
-    /// Time at which a run without an `end_time` gives up: many times what waves and the shot itself take.
-    fn end_time(&self) -> f64 {
-        if let Some(time) = self.options.end_time {
-            return time.si();
-        }
-        let rod = &self.scenario.projectile;
-        let speed = self.scenario.impact_speed.max(1.0);
-        let passage =
-            |length: f64, wave_speed: f64| 2.0 * length / wave_speed + 2.0 * length / speed;
-        let mut time = passage(rod.length, rod.material.bar_wave_speed());
-        match &self.scenario.target {
-            TargetBody::Layers { layers, .. } => {
-                for plate in layers {
-                    let thickness = modelled_thickness(plate, self.scenario);
-                    time += passage(thickness, plate.material.bar_wave_speed());
-                }
-            }
-            TargetBody::RigidWall => {}
-            TargetBody::ConstantPressure(pressure) => {
-                time += rod.material.density.si() * rod.length * speed / pressure;
-            }
-        }
-        20.0 * time
-    }
-
-    /// Whether the shot is over: looked at once in a round trip of a wave in the projectile.
-    fn is_quiet(&mut self, end_time: f64) -> bool {
+    /// Whether the run is over at the end of a window.
+    fn is_quiet(&mut self, monitor: &RunMonitor) -> bool {
         let rod = &self.scenario.projectile;
         if self.grid.time < self.window.start + 2.0 * rod.length / rod.material.bar_wave_speed() {
             return false;
@@ -192,20 +76,20 @@ impl<'a> Rod<'a> {
             Window {
                 start: self.grid.time,
                 dissipation,
-                depth: self.watch.largest_depth,
+                depth: monitor.largest_depth,
                 touched: false,
             },
         );
         let flow = (dissipation - before.dissipation) / books.initial_energy;
         if !before.touched {
-            let remaining = end_time - self.grid.time;
+            let remaining = self.limits.end_time - self.grid.time;
             return flow <= PARTED_FRACTION && !self.will_meet(remaining);
         }
         // A projectile that is still being pushed back has not got its rebound speed yet.
         let (mass, momentum) = self.grid.motion(0);
         let still = (momentum / mass).abs() <= REST_FRACTION * self.scenario.impact_speed;
-        let deepening = self.watch.largest_depth > before.depth * (1.0 + 1e-9);
-        self.watch.at_rest.is_some() && !deepening && still && flow <= QUIET_FRACTION
+        let deepening = monitor.largest_depth > before.depth * (1.0 + 1e-9);
+        monitor.at_rest.is_some() && !deepening && still && flow <= QUIET_FRACTION
     }
 
     /// Whether the projectile in free flight will meet what is ahead of it within a time.
@@ -228,27 +112,108 @@ impl<'a> Rod<'a> {
         let approach = mean(0) - away;
         approach > 0.0 && gap < approach * horizon
     }
+}
 
-    fn progress(&self, end_time: f64) -> Progress {
-        let (mass, momentum) = self.grid.motion(0);
-        let slowed = 1.0 - momentum / (mass * self.scenario.impact_speed);
-        Progress {
-            step: self.grid.step,
-            time: self.grid.time,
-            fraction: (self.grid.time / end_time)
-                .max(0.95 * slowed)
-                .clamp(0.0, 1.0),
-            depth: self.watch.largest_depth,
-        }
+impl<'a> Solver<'a> for Rod<'a> {
+    const NAMES: (&'static str, &'static str) = ("fdm", "rod");
+    const AUDIT: Audit = AUDIT;
+
+    fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
+        let options = options_of(scenario);
+        Ok(Self {
+            scenario,
+            grid: mesh::build(scenario, &options),
+            limits: Limits::new(scenario, options.end_time, options.max_steps),
+            options,
+            courant,
+            window: Window::default(),
+            before: 0.0,
+        })
     }
 
-    fn record(&self, recorder: &mut Option<Recorder>) {
-        let Some(recorder) = recorder else { return };
-        if recorder.wants_sample(self.grid.step) {
-            recorder.sample(self.grid.sample());
-        }
-        if recorder.wants_profile(self.grid.step) {
-            recorder.profile(self.grid.profile());
-        }
+    fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
+        (options_of(scenario).courant, DEFAULT_COURANT)
     }
+
+    fn limits(&self) -> Limits {
+        self.limits
+    }
+
+    fn advance(&mut self) -> Result<(), NumericalError> {
+        self.before = self.grid.time;
+        self.grid.advance(self.courant, f64::INFINITY)
+    }
+
+    fn clock(&self) -> Clock {
+        self.grid.clock()
+    }
+
+    fn probe(&mut self, _: &RunMonitor) -> Probe {
+        self.window.touched |= self.grid.touches();
+        audit::probe(&self.grid, self.before)
+    }
+
+    fn is_at_rest(&self) -> bool {
+        audit::is_at_rest(&self.grid, self.scenario.impact_speed)
+    }
+
+    fn energy(&self) -> EnergyLedger {
+        self.grid.energy()
+    }
+
+    fn momentum(&self) -> MomentumLedger {
+        self.grid.momentum()
+    }
+
+    fn progress(&self) -> f64 {
+        slowed(self.grid.motion(0), self.scenario.impact_speed)
+    }
+
+    fn check(&self, monitor: &RunMonitor) -> Result<(), NumericalError> {
+        audit::check_time_step(&self.grid, monitor)
+    }
+
+    fn event(&mut self, monitor: &RunMonitor) -> Result<Option<Termination>, NumericalError> {
+        if self.has_passed() {
+            return Ok(Some(Termination::PassedBackFace));
+        }
+        let parted = self.grid.closed.first() == Some(&false);
+        Ok(self.is_quiet(monitor).then_some(if parted {
+            Termination::Parted
+        } else {
+            Termination::Quiescent
+        }))
+    }
+
+    fn sample(&self, _: &RunMonitor) -> Sample {
+        self.grid.sample()
+    }
+
+    fn profile(&self) -> Profile {
+        self.grid.profile()
+    }
+
+    fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.window)?;
+        archive.item(&mut self.before)?;
+        self.grid.archive(archive)
+    }
+
+    fn outcome(&self, termination: Termination, monitor: &RunMonitor) -> (Outcome, String) {
+        let outcome = results::outcome(self, termination, monitor);
+        (outcome, String::new())
+    }
+
+    fn extremes(&self) -> Extremes {
+        audit::extremes(&self.grid)
+    }
+
+    fn complete(&self, result: &mut RunResult, monitor: &RunMonitor) {
+        results::complete(self, result, monitor);
+    }
+}
+
+fn options_of(scenario: &Scenario) -> FdmOptions {
+    let chain = &scenario.options.chain;
+    scenario.options.fdm.with_defaults_of(chain)
 }

@@ -1,6 +1,7 @@
 //! Failure laws: when material in tension parts. Adding one is one file here and one line in the `failure_laws!` list.
 
 mod johnson_cook;
+mod own;
 mod spall;
 mod tuler_butcher;
 
@@ -13,6 +14,7 @@ use super::Material;
 use crate::check::Check;
 
 pub use johnson_cook::JohnsonCookDamage;
+pub use own::OwnFailure;
 pub use spall::Spall;
 pub use tuler_butcher::TulerButcher;
 
@@ -53,6 +55,9 @@ macro_rules! failure_laws {
         #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
         pub enum Failure {
             $($(#[$doc])* #[serde(rename = $key)] $law($law),)*
+            /// A law of the caller's own; no file can name it.
+            #[serde(skip)]
+            Own(OwnFailure),
         }
 
         impl Failure {
@@ -60,6 +65,7 @@ macro_rules! failure_laws {
             pub fn key(&self) -> &'static str {
                 match self {
                     $(Self::$law(_) => $key,)*
+                    Self::Own(_) => "own",
                 }
             }
 
@@ -67,6 +73,7 @@ macro_rules! failure_laws {
             pub fn law(&self) -> &dyn FailureLaw {
                 match self {
                     $(Self::$law(law) => law,)*
+                    Self::Own(own) => &*own.0,
                 }
             }
         }

@@ -1,5 +1,8 @@
 //! Repeated runs with smaller Courant numbers.
 
+use serde::{Deserialize, Serialize};
+
+use super::driver::Retry;
 use crate::{Error, error::NumericalError, units::significant};
 
 /// Why an attempt at a run gave no result.
@@ -7,6 +10,20 @@ pub(crate) enum AttemptError {
     /// The energy or momentum balance does not close: a smaller time step may help.
     Unbalanced(NumericalError),
     Other(Error),
+}
+
+impl AttemptError {
+    /// The numerical error after which the run is repeated.
+    ///
+    /// # Errors
+    /// The error that ends the run.
+    pub(super) fn retried(self, retry: Retry) -> Result<NumericalError, Error> {
+        match (self, retry) {
+            (Self::Unbalanced(error), _) => Ok(error),
+            (Self::Other(Error::Numerical(error)), Retry::OfAnyError { .. }) => Ok(*error),
+            (Self::Other(error), _) => Err(error),
+        }
+    }
 }
 
 impl From<NumericalError> for AttemptError {
@@ -22,7 +39,7 @@ impl From<Error> for AttemptError {
 }
 
 /// Courant number of a run, halved after a numerical error unless the case gives one of its own.
-#[derive(Debug)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct CourantRetry {
     number: f64,
     first: f64,

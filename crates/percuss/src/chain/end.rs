@@ -1,13 +1,15 @@
-//! When a shot is over, and how it ended.
+//! End of a run of the column, and its outcome.
+
+use serde::{Deserialize, Serialize};
 
 use super::{
-    between::Residuals,
     part::Role,
     state::{End, State},
 };
 use crate::{
     outcome::{Outcome, Termination},
     scenario::{Scenario, TargetBody},
+    solver::monitor::RunMonitor,
     units::significant,
 };
 
@@ -18,40 +20,24 @@ const QUIET_FRACTION: f64 = 1e-6;
 /// The same when they have parted: what rings inside them then changes neither depth nor speed.
 const PARTED_FRACTION: f64 = 1e-4;
 
-/// What is followed during a run.
-#[derive(Debug, Default)]
-pub(super) struct Watch {
-    pub(super) largest_depth: f64,
-    pub(super) peak_force: f64,
-    pub(super) first_time_step: f64,
-    pub(super) smallest_time_step: f64,
-    pub(super) residuals: Residuals,
-    /// Time and depth at which the projectile's momentum was first used up.
-    pub(super) at_rest: Option<(f64, f64)>,
-    /// Time at which the crater floor passed the original back face.
-    passed_back_face: Option<f64>,
-    /// Time during which the projectile touched the target [s].
-    pub(super) contact_time: f64,
+/// One round trip of a wave in the projectile, in which a run that is over changes no more.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(super) struct Window {
     /// Whether the projectile touched the target at any time since the window began.
     pub(super) touched: bool,
     /// How often ends had met when the window began.
-    window_meetings: u64,
-    window_start: f64,
-    window_dissipation: f64,
-    window_depth: f64,
+    meetings: u64,
+    start: f64,
+    dissipation: f64,
+    depth: f64,
+    /// Time at which the crater floor passed the original rear face.
+    passed_back_face: Option<f64>,
 }
 
-impl Watch {
-    /// Keeps up extremes and the state of the projectile after a step.
-    pub(super) fn follow(&mut self, state: &State, scenario: &Scenario) {
-        let depth = state.depth();
-        self.largest_depth = self.largest_depth.max(depth);
-        self.peak_force = self.peak_force.max(state.contact_force);
-        if state.step == 1 {
-            self.first_time_step = state.time_step;
-            self.smallest_time_step = state.time_step;
-        }
-        self.smallest_time_step = self.smallest_time_step.min(state.time_step);
+impl Window {
+    /// Includes a step: whether projectile and target touch.
+    #[inline(always)]
+    pub(super) fn follow(&mut self, state: &State, scenario: &Scenario) -> bool {
         if self.passed_back_face.is_none()
             && scenario.target_thickness().is_some()
             && state.passed_back_face()
@@ -59,32 +45,47 @@ impl Watch {
             self.passed_back_face = Some(state.time);
         }
         let Some(tip) = state.tip_segment() else {
-            return;
+            return false;
         };
         let touches = state.tip_friction > 0.0 || state.joints.get(tip).is_some_and(|j| j.closed);
         self.touched |= touches;
-        if touches {
-            self.contact_time += state.time_step;
-        }
-        // The tail is the last to hear of the impact: no need to sum up before it slows down.
-        let tail = state.segments[0].first_node;
-        if self.at_rest.is_none()
-            && state.nodes[tail].velocity < 0.5 * scenario.impact_speed
-            && state.projectile_motion().1 <= 0.0
-        {
-            self.at_rest = Some((state.time, depth));
-        }
+        touches
     }
 
-    /// Time from which [`Self::is_quiet`] looks again.
-    pub(super) fn next_look(&self, scenario: &Scenario) -> f64 {
+    /// Time at which the window ends.
+    pub(super) fn end_time(&self, scenario: &Scenario) -> f64 {
         let rod = &scenario.projectile;
-        self.window_start + 2.0 * rod.length / rod.material.bar_wave_speed()
+        self.start + 2.0 * rod.length / rod.material.bar_wave_speed()
     }
 
-    /// Whether the shot is over: looked at once in a round trip of a wave in the projectile.
-    pub(super) fn is_quiet(&mut self, state: &State, scenario: &Scenario, end_time: f64) -> bool {
-        if state.time < self.next_look(scenario) {
+    /// Why a run is over at the end of a window, if it is.
+    pub(super) fn end(
+        &mut self,
+        state: &State,
+        scenario: &Scenario,
+        monitor: &RunMonitor,
+        end_time: f64,
+    ) -> Option<Termination> {
+        if !self.is_quiet(state, scenario, monitor, end_time) {
+            return None;
+        }
+        let tip = state.tip_segment().map(|tip| state.joints.get(tip));
+        Some(match tip {
+            Some(_) if state.left_the_plate() => Termination::PlugFree,
+            Some(Some(joint)) if !joint.closed => Termination::Parted,
+            Some(_) => Termination::Quiescent,
+            None => Termination::ProjectileConsumed,
+        })
+    }
+
+    fn is_quiet(
+        &mut self,
+        state: &State,
+        scenario: &Scenario,
+        monitor: &RunMonitor,
+        end_time: f64,
+    ) -> bool {
+        if state.time < self.end_time(scenario) {
             return false;
         }
         let books = &state.books;
@@ -95,15 +96,15 @@ impl Watch {
             + books.fracture_work
             + books.eroded_energy
             + state.plug_dissipation();
-        let flow = (dissipation - self.window_dissipation) / books.initial_energy;
-        let deepening = self.largest_depth > self.window_depth * (1.0 + 1e-9);
+        let flow = (dissipation - self.dissipation) / books.initial_energy;
+        let deepening = monitor.largest_depth > self.depth * (1.0 + 1e-9);
         // Where the target is free to fly, its pieces count as well.
-        let met = state.end == End::Free && state.meetings != self.window_meetings;
+        let met = state.end == End::Free && state.meetings != self.meetings;
         let touched = self.touched || met;
-        self.window_meetings = state.meetings;
-        self.window_start = state.time;
-        self.window_dissipation = dissipation;
-        self.window_depth = self.largest_depth;
+        self.meetings = state.meetings;
+        self.start = state.time;
+        self.dissipation = dissipation;
+        self.depth = monitor.largest_depth;
         self.touched = false;
         let (mass, momentum) = state.projectile_motion();
         if mass == 0.0 {
@@ -127,14 +128,15 @@ impl Watch {
         // A projectile that is still being pushed back has not got its rebound speed yet.
         let still = (momentum / mass).abs() <= REST_FRACTION * scenario.impact_speed;
         let layers_rest = || state.tip_segment().is_none_or(|tip| !meets(tip + 1));
-        self.at_rest.is_some() && !deepening && still && flow <= QUIET_FRACTION && layers_rest()
+        monitor.at_rest.is_some() && !deepening && still && flow <= QUIET_FRACTION && layers_rest()
     }
 
-    /// How a run ended that was ended for a reason, and what that was told by.
+    /// Outcome of a run that was ended for a reason, and its criterion.
     pub(super) fn outcome(
         &self,
         termination: Termination,
         state: &State,
+        monitor: &RunMonitor,
         impact_speed: f64,
     ) -> (Outcome, String) {
         let (mass, momentum) = state.projectile_motion();
@@ -185,7 +187,7 @@ impl Watch {
             return (Outcome::ProjectileEroded, speed);
         }
         let unfinished = matches!(termination, Termination::EndTime | Termination::StepLimit);
-        if unfinished && self.at_rest.is_none() && follows {
+        if unfinished && monitor.at_rest.is_none() && follows {
             let words = "the projectile still moved forward when the run was ended";
             return (Outcome::OutOfTime, words.to_owned());
         }
@@ -239,30 +241,30 @@ fn approaches(state: &State, from: usize, horizon: f64, impact_speed: f64) -> bo
     })
 }
 
-/// What ends a run at once; an error when the modelled part of a semi-infinite target is used up.
-///
-/// A crater floor that passes the back face ends a run only while border shear still acts on the column, which has left the plate then.
-/// What nothing holds flies on until its pieces have parted for good.
-pub(super) fn event(state: &State, scenario: &Scenario) -> Result<Option<Termination>, f64> {
-    let TargetBody::Layers { layers, .. } = &scenario.target else {
-        let gone = state.tip_segment().is_none();
-        return Ok(gone.then_some(Termination::ProjectileConsumed));
-    };
-    let finite = layers.iter().all(|plate| plate.thickness.is_some());
-    match (finite, state.face_segment()) {
-        (false, None) => Err(state.depth()),
-        (true, None) => Ok(Some(Termination::PassedBackFace)),
-        // A plug that is still held, or that the projectile still pushes, is no end.
-        (true, Some(_))
-            if state.hold.is_none() && state.passed_back_face() && !state.flies_free() =>
-        {
-            Ok(Some(Termination::PassedBackFace))
-        }
-        _ => Ok(None),
-    }
-}
-
 impl State {
+    /// What ends a run at once; an error when the modelled part of a semi-infinite target is used up.
+    ///
+    /// A crater floor that passes the back face ends a run only while border shear still acts on the column, which has left the plate then.
+    /// What nothing holds flies on until its pieces have parted for good.
+    pub(super) fn event(&self, scenario: &Scenario) -> Result<Option<Termination>, f64> {
+        let TargetBody::Layers { layers, .. } = &scenario.target else {
+            let gone = self.tip_segment().is_none();
+            return Ok(gone.then_some(Termination::ProjectileConsumed));
+        };
+        let finite = layers.iter().all(|plate| plate.thickness.is_some());
+        match (finite, self.face_segment()) {
+            (false, None) => Err(self.depth()),
+            (true, None) => Ok(Some(Termination::PassedBackFace)),
+            // A plug that is still held, or that the projectile still pushes, is no end.
+            (true, Some(_))
+                if self.hold.is_none() && self.passed_back_face() && !self.flies_free() =>
+            {
+                Ok(Some(Termination::PassedBackFace))
+            }
+            _ => Ok(None),
+        }
+    }
+
     /// Whether the crater floor has passed the original back face.
     fn passed_back_face(&self) -> bool {
         self.face_segment().is_none() || self.depth() >= self.back_position

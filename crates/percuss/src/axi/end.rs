@@ -1,0 +1,97 @@
+//! End of a run, and its outcome.
+
+use super::solver::Grid;
+use crate::{
+    outcome::{Outcome, Termination},
+    scenario::Scenario,
+    solver::monitor::RunMonitor,
+};
+
+/// Part of the impact speed below which a projectile counts as stopped.
+const REST_FRACTION: f64 = 0.01;
+/// Part of the initial energy that may still dissipate in a window of a run that is over.
+const QUIET_FRACTION: f64 = 1e-3;
+/// Part of the impact speed by which a projectile that has come through may still slow in a window.
+const FREE_FRACTION: f64 = 1e-3;
+
+/// One round trip of a wave in the projectile, in which a run that is over changes no more.
+#[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
+pub(super) struct Window {
+    /// Whether the crater floor passed the original rear face.
+    pub(super) perforated: bool,
+    start: f64,
+    dissipation: f64,
+    depth: f64,
+    speed: f64,
+}
+
+impl Window {
+    /// Why a run is over at the end of a window, if it is.
+    pub(super) fn end(
+        &mut self,
+        grid: &Grid,
+        scenario: &Scenario,
+        monitor: &RunMonitor,
+    ) -> Option<Termination> {
+        let projectile = &grid.sums[0];
+        if projectile.mass <= 0.0 {
+            return Some(Termination::ProjectileConsumed);
+        }
+        let rod = &scenario.projectile;
+        if grid.time < self.start + 2.0 * rod.length / rod.material.bar_wave_speed() {
+            return None;
+        }
+        let speed = projectile.momentum / projectile.mass;
+        let books = &grid.books;
+        let dissipation = books.work[0][1] + books.work[1][1] + books.transfer + books.contact;
+        let flow = (dissipation - self.dissipation) / books.initial_energy;
+        let deepening = monitor.largest_depth > self.depth * (1.0 + 1e-3);
+        let slowing = (self.speed - speed).abs() / scenario.impact_speed;
+        self.start = grid.time;
+        self.dissipation = dissipation;
+        self.depth = monitor.largest_depth;
+        self.speed = speed;
+        // A plate that dishes carries the crater floor past its original back face and may throw the projectile back.
+        if self.perforated && speed > 0.0 {
+            return (slowing <= FREE_FRACTION).then_some(Termination::LeftTarget);
+        }
+        // What still rings changes neither depth nor length.
+        let over = monitor.at_rest.is_some() && !deepening && flow <= QUIET_FRACTION;
+        over.then_some(if speed < -REST_FRACTION * scenario.impact_speed {
+            Termination::Parted
+        } else {
+            Termination::Quiescent
+        })
+    }
+
+    /// Outcome of a run that was ended for a reason.
+    pub(super) fn outcome(
+        &self,
+        termination: Termination,
+        grid: &Grid,
+        monitor: &RunMonitor,
+        impact_speed: f64,
+    ) -> Outcome {
+        let projectile = &grid.sums[0];
+        if termination == Termination::NothingMoves {
+            return Outcome::AtRest;
+        }
+        if projectile.mass <= 0.0 {
+            return Outcome::ProjectileEroded;
+        }
+        let ratio = projectile.momentum / (projectile.mass * impact_speed);
+        if self.perforated && ratio > REST_FRACTION {
+            return Outcome::Perforated;
+        }
+        if matches!(termination, Termination::EndTime | Termination::StepLimit)
+            && monitor.at_rest.is_none()
+        {
+            return Outcome::OutOfTime;
+        }
+        if ratio < -REST_FRACTION {
+            Outcome::Rebounded
+        } else {
+            Outcome::AtRest
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! Every numerical solver continues from a checkpoint with the same bits, and gives its fields.
+
+use std::ops::ControlFlow;
+
+use percuss::{
+    Error, Scenario, case,
+    frames::{Fields, Frame},
+    model::{self, Checkpoints, Control},
+    outcome::RunResult,
+};
+
+/// A model with a case for each kind of state that its checkpoints hold.
+const CASES: &[(&str, &str, &str)] = &[
+    ("target column, eroding", "chain", COLUMN),
+    ("plug, plate that dishes, shear bands", "chain", PLUG),
+    ("cracks in a plate", "chain", FAILURE),
+    ("expanding cavity, free rear face", "chain", CAVITY),
+    ("expanding cavity, cracks", "chain", CAVITY_FAILURE),
+    ("published scheme", "chain", PUBLISHED),
+    ("rod", "fdm", COLUMN_WITHOUT_EROSION),
+    ("planar impact with spall", "fdm", SPALL),
+];
+
+const COLUMN: &str = r#"
+    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "800 m/s" }
+    target = { material = "aluminium-2024-t351", thickness = "50 mm" }
+    chain = { target_closure = "column", erosion_strain = 1.0 }
+"#;
+const COLUMN_WITHOUT_EROSION: &str = r#"
+    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+    target = { material = "aluminium-2024-t351", thickness = "50 mm" }
+"#;
+const PLUG: &str = include_str!("../../../cases/weldox-460e-12mm-blunt/scenario.toml");
+const FAILURE: &str = include_str!("../../../cases/spall-two-plates/scenario.toml");
+const CAVITY: &str = r#"
+    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+    target = { material = "aluminium-2024-t351", thickness = "25 mm", back_face = "free" }
+"#;
+const CAVITY_FAILURE: &str = r#"
+    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "400 m/s" }
+    target = { material = "aluminium-2024-t351", thickness = "25 mm" }
+    chain.failure.spall.strength = '80 MPa'
+"#;
+const PUBLISHED: &str = r#"
+    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+    target = { material = "aluminium-2024-t351", thickness = "25 mm" }
+    chain = { scheme = "published" }
+"#;
+const SPALL: &str = r#"
+    projectile = { material = "ofhc-copper-steinberg", length = "2 mm", diameter = "80 mm", velocity = "400 m/s" }
+    target = { material = "ofhc-copper-steinberg", thickness = "4 mm", back_face = "free" }
+    fdm = { geometry = "planar", spall_strength = "1 GPa", projectile_elements = 40 }
+"#;
+
+fn scenario(text: &str) -> Scenario {
+    case::load_str("checkpoints", text).unwrap()
+}
+
+fn run(model: &str, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
+    model::run(model::model(model).unwrap(), scenario, control)
+}
+
+/// Keeps one checkpoint and stops the run there.
+struct Keeper {
+    asked: u32,
+    wanted: u32,
+    kept: Vec<u8>,
+}
+
+impl Checkpoints for Keeper {
+    fn is_due(&mut self) -> bool {
+        self.asked += 1;
+        self.asked == self.wanted
+    }
+
+    fn keep(&mut self, bytes: &[u8]) -> ControlFlow<()> {
+        self.kept = bytes.to_vec();
+        ControlFlow::Break(())
+    }
+}
+
+/// Checkpoint at the opportunity with this number, counted from 1; `None` in a run that ends before.
+fn interrupted(model: &str, scenario: &Scenario, wanted: u32) -> Option<Vec<u8>> {
+    let mut keeper = Keeper {
+        asked: 0,
+        wanted,
+        kept: Vec::new(),
+    };
+    let mut control = Control {
+        checkpoints: Some(&mut keeper),
+        ..Control::recording()
+    };
+    match run(model, scenario, &mut control) {
+        Err(Error::Cancelled { .. }) => Some(keeper.kept),
+        Ok(_) => None,
+        Err(other) => panic!("{other}"),
+    }
+}
+
+/// Whether all numbers of two results are the same; what is gone has no velocity, which is a number that equals no other.
+fn is_same(result: &RunResult, other: &RunResult) -> bool {
+    format!("{result:?}") == format!("{other:?}")
+}
+
+#[test]
+fn every_solver_continues_from_a_checkpoint_with_the_same_bits() {
+    for (what, model, text) in CASES {
+        let scenario = scenario(text);
+        let whole = run(model, &scenario, &mut Control::recording())
+            .unwrap_or_else(|error| panic!("{what}: {error}"));
+        let mut resumed = 0;
+        let mut wanted = 1;
+        while let Some(bytes) = interrupted(model, &scenario, wanted) {
+            let mut control = Control {
+                resume: Some(&bytes),
+                ..Control::recording()
+            };
+            let result = run(model, &scenario, &mut control).unwrap();
+            assert!(is_same(&result, &whole), "{what}, checkpoint {wanted}");
+            resumed += 1;
+            wanted *= 3;
+        }
+        println!(
+            "{what}: {} steps, {resumed} checkpoints, {} warnings",
+            whole.numerics().steps,
+            whole.warnings.len()
+        );
+        assert!(resumed >= 2, "{what}: {}", whole.numerics().steps);
+    }
+}
+
+#[test]
+fn the_cases_reach_the_states_that_they_are_for() {
+    let result = |index: usize| {
+        let (_, model, text) = CASES[index];
+        run(model, &scenario(text), &mut Control::default()).unwrap()
+    };
+    assert!(result(0).numerics().eroded_elements.0 > 0);
+    assert!(result(1).numerics().energy.plastic_plate > 0.0);
+    for index in [2, 4] {
+        let cracks = |r: &RunResult| r.details.iter().any(|detail| detail.name == "cracks");
+        assert!(cracks(&result(index)), "{index}");
+    }
+    let spall = |detail: &&percuss::outcome::Detail| detail.name == "spall planes";
+    let spalled = result(7).details.iter().find(spall).unwrap().value;
+    assert!(spalled > 0.0);
+}
+
+#[test]
+fn a_checkpoint_of_another_solver_of_the_same_model_is_refused() {
+    let (column, cavity) = (scenario(COLUMN), scenario(CAVITY));
+    let bytes = interrupted("chain", &column, 1).unwrap();
+    let mut control = Control {
+        resume: Some(&bytes),
+        ..Control::default()
+    };
+    let refused = run("chain", &cavity, &mut control);
+    assert!(
+        matches!(refused, Err(Error::Checkpoint { .. })),
+        "{refused:?}"
+    );
+}
+
+#[test]
+fn a_resumed_run_keeps_the_courant_number_that_it_was_reduced_to() {
+    // The rod's default Courant number is too large for this viscosity.
+    let viscous = "fdm.artificial_viscosity = { linear = 2.0, quadratic = 0.0 }";
+    let scenario = scenario(&format!(
+        r#"
+        projectile = {{ material = "6061-t6-lesuer", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }}
+        target = {{ material = "4340-johnson-cook", thickness = "20 mm" }}
+        {viscous}
+        "#
+    ));
+    let whole = run("fdm", &scenario, &mut Control::recording()).unwrap();
+    let is_reduced = |result: &RunResult| result.warnings.iter().any(|w| w.contains("reduced"));
+    assert!(is_reduced(&whole), "{:?}", whole.warnings);
+    let mut last = None;
+    let mut wanted = 1;
+    while let Some(bytes) = interrupted("fdm", &scenario, wanted) {
+        last = Some(bytes);
+        wanted *= 2;
+    }
+    let bytes = last.unwrap();
+    let mut control = Control {
+        resume: Some(&bytes),
+        ..Control::recording()
+    };
+    let resumed = run("fdm", &scenario, &mut control).unwrap();
+    assert!(is_same(&resumed, &whole));
+}
+
+#[test]
+fn every_solver_gives_its_fields_from_the_start_to_the_end() {
+    for (what, model, text) in CASES {
+        let scenario = scenario(text);
+        let mut times = Vec::new();
+        let mut look = |frame: &Frame<'_>| {
+            let Fields::Elements(elements) = &frame.fields else {
+                panic!("{what}");
+            };
+            let has_projectile = elements.iter().any(|element| element.part == 0);
+            assert!(has_projectile || frame.step > 0, "{what}");
+            // Springs of the published scheme may invert.
+            let is_sound = elements.iter().all(|element| element.length > 0.0);
+            assert!(is_sound || *what == "published scheme", "{what}");
+            if !frame.last {
+                times.push(frame.time);
+            }
+            ControlFlow::Continue(())
+        };
+        let mut control = Control {
+            frames: Some(&mut look),
+            ..Control::default()
+        };
+        let result = run(model, &scenario, &mut control).unwrap();
+        assert!(times.len() > 9 && times[0] == 0.0, "{what}: {times:?}");
+        assert!(times.is_sorted() && times[times.len() - 1] <= result.end_time.unwrap());
+    }
+}
