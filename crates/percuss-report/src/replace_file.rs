@@ -11,11 +11,10 @@ use std::{
 use crate::ReportError;
 
 /// Writes a file in a folder, which is made if need be, under a temporary name and then renames it.
-pub(crate) fn replace_file(
-    folder: &Path,
-    name: &str,
-    content: &[u8],
-) -> Result<PathBuf, ReportError> {
+///
+/// # Errors
+/// [`ReportError::Write`].
+pub fn replace_file(folder: &Path, name: &str, content: &[u8]) -> Result<PathBuf, ReportError> {
     replace(folder, name, |file| file.write_all(content))
 }
 

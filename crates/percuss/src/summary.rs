@@ -6,7 +6,7 @@ use crate::{
     Error,
     chain::closure_in_use,
     fragments::FragmentRecord,
-    judge::{Expectation, expected_error},
+    model_error::{Expectation, expected_error},
     options::TargetClosure,
     outcome::{Band, Detail, Outcome, RunResult, Termination},
     regime::Regime,

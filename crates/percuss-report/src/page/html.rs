@@ -20,7 +20,8 @@ figcaption{color:var(--soft);font-size:.86rem;margin-top:.3rem}\
 summary{cursor:pointer;color:var(--link)}\
 @media print{details>*{display:block}}";
 
-pub(crate) fn render(page: &[Block<'_>]) -> String {
+/// The page as HTML.
+pub fn render(page: &[Block<'_>]) -> String {
     let title = page.iter().find_map(|block| match block {
         Block::Title(title) => Some(escape(title)),
         _ => None,

@@ -3,7 +3,8 @@
 use super::{Block, Table};
 use crate::figure::IN_PAGES;
 
-pub(crate) fn render(page: &[Block<'_>]) -> String {
+/// The page as Markdown.
+pub fn render(page: &[Block<'_>]) -> String {
     let parts: Vec<String> = page.iter().filter_map(block).collect();
     parts.join("\n\n") + "\n"
 }
