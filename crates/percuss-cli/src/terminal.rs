@@ -14,10 +14,12 @@ const MAX_WIDTH: usize = 100;
 
 /// Columns for running text: those of the terminal, 80 when output goes elsewhere.
 pub fn width() -> usize {
-    Table::new()
-        .width()
-        .map_or(80, usize::from)
-        .clamp(30, MAX_WIDTH)
+    full_width().unwrap_or(80).clamp(30, MAX_WIDTH)
+}
+
+/// Columns of the terminal; `None` when output goes elsewhere.
+pub fn full_width() -> Option<usize> {
+    Table::new().width().map(usize::from)
 }
 
 /// Whether escape codes may be written to a stream.

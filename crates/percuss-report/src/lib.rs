@@ -68,6 +68,7 @@ mod shape_figure;
 mod stress_grid;
 #[cfg(feature = "parquet")]
 pub mod sweep;
+pub mod table;
 mod time_figures;
 mod uncertainty;
 mod v50_figure;

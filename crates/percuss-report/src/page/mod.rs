@@ -5,7 +5,7 @@ pub mod markdown;
 
 use std::path::{Path, PathBuf};
 
-use crate::{Figure, ReportError, column::File, replace_file::replace_file};
+use crate::{Figure, ReportError, column::File, replace_file::replace_file, table::Table};
 
 /// Writes a page as `STEM.html` and `STEM.md`, the pictures of the latter and further files to a folder, which is made if it does not exist.
 ///
@@ -56,29 +56,35 @@ pub enum Block<'a> {
     WebOnly(Vec<Block<'a>>),
 }
 
-/// A table.
-#[derive(Default)]
-pub struct Table {
-    /// Headings; one that begins with `#` stands over numbers, which are set flush right.
-    pub head: Vec<String>,
-    /// Rows of as many texts as there are headings.
-    pub rows: Vec<Vec<String>>,
+/// A cell of a page, with minus signs in columns of numbers.
+fn typeset(cell: &str, numbers: bool) -> String {
+    let mut typeset = String::with_capacity(cell.len());
+    let mut last = ' ';
+    let mut chars = cell.chars().peekable();
+    while let Some(c) = chars.next() {
+        let is_sign = c == '-' && !last.is_alphanumeric();
+        let before_number = chars.peek().is_some_and(char::is_ascii_digit);
+        typeset.push(if numbers && is_sign && before_number {
+            '\u{2212}'
+        } else {
+            c
+        });
+        last = c;
+    }
+    typeset
 }
 
-impl Table {
-    /// A table without rows.
-    pub fn new(head: &[&str]) -> Self {
-        Self {
-            head: head.iter().map(|&name| name.to_owned()).collect(),
-            rows: Vec::new(),
-        }
-    }
+#[cfg(test)]
+mod tests {
+    use super::typeset;
 
-    /// Headings with whether numbers stand below.
-    pub fn columns(&self) -> impl Iterator<Item = (&str, bool)> {
-        self.head.iter().map(|name| {
-            name.strip_prefix('#')
-                .map_or((name.as_str(), false), |name| (name, true))
-        })
+    #[test]
+    fn negative_numbers_have_minus_signs() {
+        assert_eq!(typeset("12.5 (-3.1)", true), "12.5 (\u{2212}3.1)");
+        assert_eq!(
+            typeset("-1 to 2024-T351, - and -x", true),
+            "\u{2212}1 to 2024-T351, - and -x"
+        );
+        assert_eq!(typeset("-1", false), "-1");
     }
 }

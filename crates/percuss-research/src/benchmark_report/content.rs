@@ -42,10 +42,10 @@ pub(super) fn page<'a>(
         Block::Table(tables::groups(verdicts, Grouping::All)),
     ];
     let refused = tables::refused(&compared.references);
-    if !refused.rows.is_empty() {
+    if !refused.is_empty() {
         let title = format!(
             "{} shots left out: their reference fails its check",
-            refused.rows.len()
+            refused.len()
         );
         page.push(Block::Folded(title, vec![Block::Table(refused)]));
     }

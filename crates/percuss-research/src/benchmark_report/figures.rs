@@ -84,7 +84,7 @@ fn map(verdicts: &[Verdict], contender: &str) -> Option<Figure> {
     }
     let percent = |value: f64| match value.is_nan() {
         true => "\u{2013}".to_owned(),
-        false => signed(value),
+        false => signed(value).replace('-', "\u{2212}"),
     };
     let texts = rows
         .iter()

@@ -3,7 +3,7 @@
 mod content;
 mod figures;
 mod numbers;
-mod tables;
+pub mod tables;
 
 use std::path::{Path, PathBuf};
 

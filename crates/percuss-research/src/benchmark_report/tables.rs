@@ -1,212 +1,172 @@
-//! Tables of a compared.
+//! Tables of the benchmark report.
 
 use percuss::{
     model_error::{Verdict, contenders},
     units::significant,
 };
-use percuss_report::page::Table;
+use percuss_report::table::{Rows, Table, number};
 
 use super::Benchmark;
 use crate::{
-    benchmark::{self, CheckedReference, Errors, Grouping, pair_name},
+    benchmark::{self, CheckedReference, Errors, Group, Grouping, Shot, pair_name},
     paper_case::{self, Study, ablation::Line},
 };
 
 /// A relative error in per cent with its sign.
-pub(super) fn signed(error: f64) -> String {
+pub fn signed(error: f64) -> String {
     match (100.0 * error).round() {
         0.0 => "0".to_owned(),
-        percent => format!("{percent:+.0}").replace('-', "\u{2212}"),
+        percent => format!("{percent:+.0}"),
     }
 }
 
-const ERRORS: [&str; 6] = [
-    "#n",
-    "#median [%]",
-    "#10 % below [%]",
-    "#10 % above [%]",
-    "#median magnitude [%]",
-    "#within 25 % [%]",
-];
-
-fn errors(errors: &Errors) -> Vec<String> {
-    vec![
-        errors.count.to_string(),
-        signed(errors.median),
-        signed(errors.low),
-        signed(errors.high),
-        format!("{:.0}", 100.0 * errors.median_absolute),
-        format!("{:.0}", 100.0 * errors.within_25_percent),
-    ]
+/// Columns of errors, of which each row has some.
+fn errors<R>(rows: Rows<'_, R>, of: impl Fn(&R) -> &Errors) -> Rows<'_, R> {
+    rows.numbers("n", "", |row| of(row).count.to_string())
+        .numbers("median", "%", |row| signed(of(row).median))
+        .numbers("10 % below", "%", |row| signed(of(row).low))
+        .numbers("10 % above", "%", |row| signed(of(row).high))
+        .numbers("median magnitude", "%", |row| {
+            format!("{:.0}", 100.0 * of(row).median_absolute)
+        })
+        .numbers("within 25 %", "%", |row| {
+            format!("{:.0}", 100.0 * of(row).within_25_percent)
+        })
 }
 
 /// One row a contender and group; the groups together, for the contenders to be compared.
 pub(super) fn groups(verdicts: &[Verdict], grouping: Grouping) -> Table {
     let groups = benchmark::statistics(verdicts, grouping);
-    if grouping == Grouping::All {
-        let mut table = Table::new(&[&["contender"], ERRORS.as_slice()].concat());
-        for group in &groups {
-            let mut row = vec![group.contender.to_owned()];
-            row.extend(errors(&group.errors));
-            table.rows.push(row);
-        }
-        return table;
-    }
-    let head = [&[grouping.in_words(), "contender"], ERRORS.as_slice()].concat();
-    let mut table = Table::new(&head);
+    let mut rows: Vec<(String, &Group)> = Vec::new();
     for value in grouping.values() {
+        // The value stands in the first row of its group.
         let mut name = value.clone();
-        for group in groups.iter().filter(|group| group.value == value) {
-            let mut row = vec![std::mem::take(&mut name), group.contender.to_owned()];
-            row.extend(errors(&group.errors));
-            table.rows.push(row);
-        }
+        let own = groups.iter().filter(|group| group.value == value);
+        rows.extend(own.map(|group| (std::mem::take(&mut name), group)));
     }
-    table
+    let rows = Table::of(&rows)
+        .when(grouping != Grouping::All, |rows| {
+            rows.words(grouping.in_words(), |(name, _)| name.clone())
+        })
+        .words("contender", |(_, group)| group.contender);
+    errors(rows, |(_, group)| &group.errors).table()
 }
 
 /// The paper's case by one-dimensional variants, a column of depth and error a speed.
-pub(super) fn ablation(lines: &[Line]) -> Table {
-    let mut table = Table::new(&["variant", "what is new"]);
-    for speed in paper_case::SPEEDS {
-        table.head.push(format!("#depth at {speed} m/s [mm]"));
-        table.head.push("#error [%]".to_owned());
-    }
-    let mut names: Vec<(&str, &str)> = Vec::new();
+pub fn ablation(lines: &[Line]) -> Table {
+    let mut variants: Vec<&Line> = Vec::new();
     for line in lines {
-        if !names.contains(&(line.variant, line.change)) {
-            names.push((line.variant, line.change));
+        if variants.iter().all(|known| known.variant != line.variant) {
+            variants.push(line);
         }
     }
-    for (name, change) in names {
-        let mut row = vec![name.to_owned(), change.to_owned()];
-        for &speed in paper_case::SPEEDS {
-            let line = lines
-                .iter()
-                .find(|line| line.variant == name && line.impact_velocity_m_s == speed);
-            row.push(line.map_or_else(String::new, |line| {
-                significant(line.depth_of_penetration_mm, 3)
-            }));
-            row.push(
-                line.and_then(|line| line.error)
-                    .map_or_else(String::new, signed),
-            );
-        }
-        table.rows.push(row);
-    }
-    table
+    Table::of(&variants)
+        .words("variant", |line| line.variant)
+        .words("what is new", |line| line.change)
+        .each(paper_case::SPEEDS, |rows, speed| {
+            let at = |line: &Line| {
+                let is_own = |other: &&Line| {
+                    other.variant == line.variant && other.impact_velocity_m_s == *speed
+                };
+                lines.iter().find(is_own)
+            };
+            rows.numbers(format!("depth at {speed} m/s"), "mm", |line| {
+                number(at(line).map(|line| line.depth_of_penetration_mm), 3)
+            })
+            .numbers("error", "%", |line| {
+                let error = at(line).and_then(|line| line.error);
+                error.map_or_else(|| number(None, 0), signed)
+            })
+        })
+        .table()
 }
 
 /// The paper's case by the reference, on its meshes and in its targets.
 pub(super) fn study(rows: &[Study]) -> Table {
-    let mut table = Table::new(&[
-        "#speed [m/s]",
-        "#cells per radius",
-        "#target radius [mm]",
-        "#depth [mm]",
-        "#particles",
-        "#energy residual [%]",
-    ]);
     let mut rows: Vec<&Study> = rows.iter().collect();
     rows.sort_by(|a, b| {
-        let place = |row: &Study| (row.impact_velocity_m_s, row.target_radius_mm);
-        let (a_place, b_place) = (place(a), place(b));
-        a_place
-            .0
-            .total_cmp(&b_place.0)
-            .then(a_place.1.total_cmp(&b_place.1))
-            .then(a.cells_per_radius.cmp(&b.cells_per_radius))
+        let speeds = a.impact_velocity_m_s.total_cmp(&b.impact_velocity_m_s);
+        let radii = a.target_radius_mm.total_cmp(&b.target_radius_mm);
+        let cells = a.cells_per_radius.cmp(&b.cells_per_radius);
+        speeds.then(radii).then(cells)
     });
-    for row in rows {
-        table.rows.push(vec![
-            significant(row.impact_velocity_m_s, 4),
-            row.cells_per_radius.to_string(),
-            significant(row.target_radius_mm, 4),
-            significant(row.depth_of_penetration_mm, 4),
-            row.particles.to_string(),
-            format!("{:.2}", 100.0 * row.energy_residual),
-        ]);
-    }
-    table
+    Table::of(&rows)
+        .numbers("speed", "m/s", |row| {
+            significant(row.impact_velocity_m_s, 4)
+        })
+        .numbers("cells per radius", "", |row| {
+            row.cells_per_radius.to_string()
+        })
+        .numbers("target radius", "mm", |row| {
+            significant(row.target_radius_mm, 4)
+        })
+        .numbers("depth", "mm", |row| {
+            significant(row.depth_of_penetration_mm, 4)
+        })
+        .numbers("particles", "", |row| row.particles.to_string())
+        .numbers("energy residual", "%", |row| {
+            format!("{:.2}", 100.0 * row.energy_residual)
+        })
+        .table()
 }
 
 /// Every shot: its reference on all meshes, extrapolated, and the depth of every contender with its error.
 pub(super) fn every_shot(compared: &Benchmark) -> Table {
-    let mut table = Table::new(&[
-        "materials",
-        "#L/D",
-        "#speed [m/s]",
-        "#on meshes [mm]",
-        "#reference [mm]",
-    ]);
-    let contenders = contenders();
-    table
-        .head
-        .extend(contenders.iter().map(|c| format!("#{} [mm] (%)", c.name)));
-    for entry in &compared.references {
-        let shot = &entry.shot;
-        let reference = match &entry.estimate {
+    let entries: Vec<&CheckedReference> = compared.references.iter().collect();
+    shots(&entries)
+        .numbers("reference", "mm", |entry| match &entry.estimate {
             Ok(estimate) => format!(
                 "{} ± {}",
                 significant(estimate.depth_mm, 4),
                 significant(estimate.uncertainty_mm, 2)
             ),
             Err(refusal) => format!("refused: {}", refusal.in_words()),
-        };
-        let mut row = shot_columns(entry);
-        row.push(reference);
-        let own: Vec<&Verdict> = compared
-            .verdicts
-            .iter()
-            .filter(|verdict| shot.is_of(verdict))
-            .collect();
-        row.extend(contenders.iter().map(|contender| {
-            own.iter()
-                .find(|verdict| verdict.contender == contender.name)
-                .map_or_else(
-                    || "\u{2013}".to_owned(),
+        })
+        .each(contenders(), |rows, contender| {
+            let of = |shot: &Shot| {
+                let is_own =
+                    |verdict: &&Verdict| verdict.contender == contender.name && shot.is_of(verdict);
+                compared.verdicts.iter().find(is_own)
+            };
+            rows.numbers(format!("{} [mm] (%)", contender.name), "", |entry| {
+                of(&entry.shot).map_or_else(
+                    || number(None, 0),
                     |verdict| {
                         let depth = significant(verdict.depth_of_penetration_mm, 3);
                         format!("{depth} ({})", signed(verdict.error()))
                     },
                 )
-        }));
-        table.rows.push(row);
-    }
-    table
+            })
+        })
+        .table()
 }
 
-/// Materials, L/D, velocity and the depths on all meshes of a shot.
-fn shot_columns(entry: &CheckedReference) -> Vec<String> {
-    let shot = &entry.shot;
-    let meshes: Vec<String> = entry
-        .meshes
-        .iter()
-        .map(|mesh| format!("{}: {}", mesh.cells, significant(mesh.value, 4)))
-        .collect();
-    vec![
-        pair_name(&shot.projectile, &shot.target),
-        shot.length_to_diameter.to_string(),
-        shot.speed.to_string(),
-        meshes.join(", "),
-    ]
+/// Materials, L/D, velocity and the depths on all meshes of shots.
+fn shots<'a>(entries: &'a [&'a CheckedReference]) -> Rows<'a, &'a CheckedReference> {
+    Table::of(entries)
+        .words("materials", |entry| {
+            pair_name(&entry.shot.projectile, &entry.shot.target)
+        })
+        .numbers("L/D", "", |entry| entry.shot.length_to_diameter.to_string())
+        .numbers("speed", "m/s", |entry| entry.shot.speed.to_string())
+        .numbers("on meshes", "mm", |entry| {
+            let meshes = entry.meshes.iter();
+            let meshes =
+                meshes.map(|mesh| format!("{}: {}", mesh.cells, significant(mesh.value, 4)));
+            meshes.collect::<Vec<_>>().join(", ")
+        })
 }
 
 /// The shots whose reference fails its check, each with the reason.
 pub(super) fn refused(references: &[CheckedReference]) -> Table {
-    let mut table = Table::new(&[
-        "materials",
-        "#L/D",
-        "#speed [m/s]",
-        "#on meshes [mm]",
-        "refused because",
-    ]);
-    for entry in references {
-        if let Err(refusal) = &entry.estimate {
-            let mut row = shot_columns(entry);
-            row.push(refusal.in_words());
-            table.rows.push(row);
-        }
-    }
-    table
+    let refused: Vec<&CheckedReference> = references
+        .iter()
+        .filter(|entry| entry.estimate.is_err())
+        .collect();
+    shots(&refused)
+        .words("refused because", |entry| match &entry.estimate {
+            Err(refusal) => refusal.in_words(),
+            Ok(_) => String::new(),
+        })
+        .table()
 }
