@@ -12,7 +12,7 @@ use kuva::render::{
 
 use crate::{
     Axis, Figure,
-    frame::{Frame, HEIGHT, tick_label},
+    frame::{Frame, HEIGHT, Head, chart_methods, tick_label},
     palette,
     primitives::{border, filled, line, text},
 };
@@ -61,12 +61,10 @@ impl Scale {
 /// A heat map on a regular grid, with a colour bar. Colours diverge from zero unless they are told to run between two values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatMap {
-    pub(crate) name: String,
-    pub(crate) title: String,
-    pub(crate) caption: String,
+    pub(crate) head: Head,
     pub(crate) x: Axis,
     pub(crate) y: Axis,
-    pub(crate) ranges: [(f64, f64); 2],
+    ranges: [(f64, f64); 2],
     pub(crate) value_label: String,
     pub(crate) rows: Vec<Vec<f64>>,
     pub(crate) vertical_lines: Vec<f64>,
@@ -74,6 +72,8 @@ pub struct HeatMap {
     scale: Option<Scale>,
     height: f64,
 }
+
+chart_methods!(HeatMap);
 
 impl HeatMap {
     /// A heat map: file stem, title, axes, the ranges of `x` and `y` that the grid covers, the label of the colour bar
@@ -87,9 +87,7 @@ impl HeatMap {
         rows: Vec<Vec<f64>>,
     ) -> Self {
         Self {
-            name: name.to_owned(),
-            title: title.to_owned(),
-            caption: String::new(),
+            head: Head::new(name, title),
             x: x.range(ranges[0].0, ranges[0].1),
             y: y.range(ranges[1].0, ranges[1].1),
             ranges,
@@ -100,12 +98,6 @@ impl HeatMap {
             scale: None,
             height: HEIGHT,
         }
-    }
-
-    /// Sets the line below the title.
-    pub fn caption(mut self, caption: impl Into<String>) -> Self {
-        self.caption = caption.into();
-        self
     }
 
     /// Adds a thin vertical line.
@@ -149,17 +141,9 @@ impl HeatMap {
     /// Draws the heat map.
     pub fn draw(&self) -> Figure {
         let frame = Frame {
-            name: &self.name,
-            title: &self.title,
-            caption: &self.caption,
-            x: &self.x,
-            y: &self.y,
-            x_extent: self.ranges[0],
-            y_extent: self.ranges[1],
             height: self.height,
             right_margin: Some(BAR_MARGIN),
-            legend: Vec::new(),
-            marks: Vec::new(),
+            ..Frame::new(&self.head, [&self.x, &self.y], self.extents())
         };
         let scale = self.scale();
         // Axes are drawn only for a plot, so there is one without content.
@@ -169,6 +153,11 @@ impl HeatMap {
             self.add_lines(scene, place);
             self.add_bar(scene, place, scale);
         })
+    }
+
+    /// The ranges of either axis.
+    pub(crate) fn extents(&self) -> ((f64, f64), (f64, f64)) {
+        (self.ranges[0], self.ranges[1])
     }
 
     fn scale(&self) -> Scale {

@@ -65,6 +65,7 @@ mod row_chart;
 mod run_figures;
 mod series;
 mod shape_figure;
+mod single;
 mod stress_grid;
 #[cfg(feature = "parquet")]
 pub mod sweep;

@@ -19,7 +19,7 @@ use super::{
 use crate::{
     Axis, Figure, ReportError,
     caption::significant,
-    frame::{Frame, WIDTH, tick_label},
+    frame::{Frame, Head, WIDTH, tick_label},
     pixels::draw_over,
     primitives::text,
 };
@@ -130,18 +130,16 @@ fn draw(title: &str, caption: &str, colors: Colors, view: View, height: f64) -> 
         (-view.radius * 1e3, view.radius * 1e3),
         (-view.depth.1 * 1e3, -view.depth.0 * 1e3),
     );
+    let mut head = Head::new("field", title);
+    head.caption = caption.to_owned();
+    let axes = [
+        &Axis::new("distance from the axis [mm]").range(x.0, x.1),
+        &Axis::new("depth [mm]").range(y.0, y.1).downward(),
+    ];
     let frame = Frame {
-        name: "field",
-        title,
-        caption,
-        x: &Axis::new("distance from the axis [mm]").range(x.0, x.1),
-        y: &Axis::new("depth [mm]").range(y.0, y.1).downward(),
-        x_extent: x,
-        y_extent: y,
         height,
         right_margin: Some(BAR_MARGIN),
-        legend: Vec::new(),
-        marks: Vec::new(),
+        ..Frame::new(&head, axes, (x, y))
     };
     let mut place = [0.0; 4];
     // Axes are drawn only for a plot, so there is one without content.
