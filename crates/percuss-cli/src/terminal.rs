@@ -8,6 +8,7 @@ use std::{
 
 use clap::builder::styling::{AnsiColor, Style};
 use comfy_table::Table;
+use percuss::Scenario;
 
 /// Widest line of running text: longer ones are hard to read.
 const MAX_WIDTH: usize = 100;
@@ -45,6 +46,26 @@ pub fn bold(text: impl Display) -> String {
 /// Mark of a warning on standard output.
 pub fn yellow(text: impl Display) -> String {
     paint(text, AnsiColor::Yellow.on_default().bold())
+}
+
+/// Title of a case, or its name, in a line of its own.
+pub fn title(scenario: &Scenario) -> String {
+    let title = match scenario.title.is_empty() {
+        true => &scenario.name,
+        false => &scenario.title,
+    };
+    format!("{}\n", bold(wrap(title, width(), 0)))
+}
+
+/// A paragraph of running text.
+pub fn paragraph(text: &str) -> String {
+    format!("{}\n", wrap(text, width(), 0))
+}
+
+/// A warning as a paragraph.
+pub fn warning(text: &str) -> String {
+    let wrapped = wrap(&format!("warning: {text}"), width(), 9);
+    format!("{}\n", wrapped.replacen("warning:", &yellow("warning:"), 1))
 }
 
 /// `1 model`, `2 models`.

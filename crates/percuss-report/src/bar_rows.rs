@@ -1,4 +1,6 @@
 //! Charts of horizontal bars in named rows.
+//!
+//! The bars of the plotting library all start at zero and bear no texts.
 
 use kuva::plot::LinePlot;
 use kuva::render::render::TextAnchor;

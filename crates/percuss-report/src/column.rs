@@ -130,3 +130,17 @@ pub fn parquet<R>(
     #[cfg(not(feature = "parquet"))]
     Ok(None)
 }
+
+/// The table as CSV and, in a build that has it, as Parquet.
+///
+/// # Errors
+/// [`ReportError::Table`].
+pub fn files<R>(
+    [csv, parquet]: [&'static str; 2],
+    columns: &[Column<R>],
+    rows: &[R],
+) -> Result<Vec<File>, ReportError> {
+    let mut files = vec![(csv, self::csv(csv, columns, rows)?)];
+    files.extend(self::parquet(parquet, columns, rows)?);
+    Ok(files)
+}

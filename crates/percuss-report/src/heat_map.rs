@@ -1,4 +1,6 @@
 //! Heat maps of a quantity over two axes.
+//!
+//! The plotting library's own take their colours from the extremes of the data, leave no cell empty and draw a rectangle per cell.
 
 use std::fmt::Write;
 
@@ -7,12 +9,12 @@ use kuva::render::{
     color::Color,
     layout::ComputedLayout,
     render::{Primitive, Scene, TextAnchor},
-    render_utils::generate_ticks,
 };
 
 use crate::{
     Axis, Figure,
-    frame::{Frame, HEIGHT, Head, chart_methods, tick_label},
+    color_bar::ColorBar,
+    frame::{Frame, HEIGHT, Head, chart_methods},
     palette,
     primitives::{border, filled, line, text},
 };
@@ -23,8 +25,6 @@ const LEVELS: usize = 64;
 const FIRST_CODE: u8 = b'0';
 /// Space at the right for the colour bar, its numbers and its label [px].
 const BAR_MARGIN: f64 = 118.0;
-/// Distance of the colour bar from the plot, and its width [px].
-const BAR_PLACE: (f64, f64) = (20.0, 18.0);
 
 /// The values that the colours of a map stand for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +47,14 @@ impl Scale {
         }
         let [r, g, b] = palette::sequential(part);
         format!("#{r:02x}{g:02x}{b:02x}")
+    }
+
+    /// All colours, that of the lowest value first.
+    fn colors(&self) -> Vec<String> {
+        let levels = 0..=LEVELS;
+        levels
+            .map(|level| self.color(level as f64 / LEVELS as f64))
+            .collect()
     }
 
     /// Whether text on the colour of a value has to be white.
@@ -151,7 +159,13 @@ impl HeatMap {
             self.add_cells(scene, place, scale);
             self.add_texts(scene, place, scale);
             self.add_lines(scene, place);
-            self.add_bar(scene, place, scale);
+            let bar = ColorBar {
+                colors: scale.colors(),
+                ends: (scale.low, scale.high),
+                label: &self.value_label,
+                below_top: 0.0,
+            };
+            bar.draw(scene, place);
         })
     }
 
@@ -185,10 +199,9 @@ impl HeatMap {
             true => char::from(FIRST_CODE + (scale.part(*value) * LEVELS as f64).round() as u8),
             false => ' ',
         };
-        let colors = (0..=LEVELS).map(|level| scale.color(level as f64 / LEVELS as f64));
         (
             self.rows.iter().flatten().map(code).collect(),
-            colors.collect(),
+            scale.colors(),
         )
     }
 
@@ -280,39 +293,5 @@ impl HeatMap {
             scene.add(line((x, top), (x, bottom), 1.2));
         }
         scene.add(border(left, top, right - left, bottom - top));
-    }
-
-    fn add_bar(&self, scene: &mut Scene, place: &ComputedLayout, scale: Scale) {
-        let left = place.margin_left + place.plot_width() + BAR_PLACE.0;
-        let (top, height) = (place.margin_top, place.plot_height());
-        let step = height / (LEVELS + 1) as f64;
-        for i in 0..=LEVELS {
-            let color = scale.color(1.0 - i as f64 / LEVELS as f64);
-            let (y, next) = (top + step * i as f64, (step + 0.5).min(height));
-            let next = next.min(top + height - y);
-            scene.add(filled(
-                format!(
-                    "M{left:.2} {y:.2}h{}v{next:.2}h-{}z",
-                    BAR_PLACE.1, BAR_PLACE.1
-                ),
-                &color,
-            ));
-        }
-        scene.add(border(left, top, BAR_PLACE.1, height));
-        let right = left + BAR_PLACE.1;
-        for value in generate_ticks(scale.low, scale.high, 7) {
-            let y = top + height * (1.0 - scale.part(value));
-            scene.add(line((right, y), (right + 4.0, y), 1.0));
-            scene.add(text(
-                (right + 7.0, y + 4.0),
-                &tick_label(value),
-                (12, TextAnchor::Start, None),
-            ));
-        }
-        scene.add(text(
-            (place.width - 12.0, top + 0.5 * height),
-            &self.value_label,
-            (14, TextAnchor::Middle, Some(-90.0)),
-        ));
     }
 }

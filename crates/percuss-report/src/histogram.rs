@@ -1,4 +1,6 @@
 //! Histograms.
+//!
+//! The bars of the plotting library's own touch each other.
 
 use kuva::plot::LinePlot;
 use percuss::statistics::sorted;

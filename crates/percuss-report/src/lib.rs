@@ -35,6 +35,7 @@ pub mod calibration;
 mod caption;
 mod chart;
 mod chart_data;
+mod color_bar;
 pub mod column;
 mod compare_figure;
 mod compare_files;

@@ -1,4 +1,6 @@
 //! The posterior seen along each parameter and along each pair of them.
+//!
+//! The plotting library's histograms over two axes leave seams between their cells.
 
 use percuss::calibrate::Sample;
 

@@ -5,7 +5,12 @@ pub mod markdown;
 
 use std::path::{Path, PathBuf};
 
-use crate::{Figure, ReportError, column::File, replace_file::replace_file, table::Table};
+use crate::{
+    Figure, ReportError,
+    column::File,
+    replace_file::{replace_file, replace_files},
+    table::Table,
+};
 
 /// Writes a page as `STEM.html` and `STEM.md`, the pictures of the latter and further files to a folder, which is made if it does not exist.
 ///
@@ -26,9 +31,7 @@ pub fn write<'a>(
     for figure in figures {
         written.push(figure.write_for_page(folder)?);
     }
-    for (name, content) in files {
-        written.push(replace_file(folder, name, &content)?);
-    }
+    written.extend(replace_files(folder, files)?);
     Ok(written)
 }
 

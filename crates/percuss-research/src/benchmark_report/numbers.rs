@@ -22,28 +22,23 @@ pub(super) fn files(compared: &Benchmark) -> Result<Vec<(&'static str, Vec<u8>)>
         .iter()
         .flat_map(|grouping| benchmark::statistics(&compared.verdicts, *grouping))
         .collect();
-    let [a, b, c, d, e, f, g] = [
+    let mut files = vec![("verdicts.csv", verdicts)];
+    files.extend(column::parquet(
         "verdicts.parquet",
-        "statistics.csv",
-        "statistics.parquet",
-        "ablation.csv",
-        "ablation.parquet",
-        "references.csv",
-        "references.parquet",
-    ];
-    let (of_verdict, of_group, of_line) = (verdict_columns(), group_columns(), line_columns());
-    let of_reference = reference_columns();
-    let files = [
-        Some(("verdicts.csv", verdicts)),
-        column::parquet(a, &of_verdict, &compared.verdicts)?,
-        Some((b, column::csv(b, &of_group, &groups)?)),
-        column::parquet(c, &of_group, &groups)?,
-        Some((d, column::csv(d, &of_line, &compared.ablation)?)),
-        column::parquet(e, &of_line, &compared.ablation)?,
-        Some((f, column::csv(f, &of_reference, &compared.references)?)),
-        column::parquet(g, &of_reference, &compared.references)?,
-    ];
-    Ok(files.into_iter().flatten().collect())
+        &verdict_columns(),
+        &compared.verdicts,
+    )?);
+    let names = ["statistics.csv", "statistics.parquet"];
+    files.extend(column::files(names, &group_columns(), &groups)?);
+    let names = ["ablation.csv", "ablation.parquet"];
+    files.extend(column::files(names, &line_columns(), &compared.ablation)?);
+    let names = ["references.csv", "references.parquet"];
+    files.extend(column::files(
+        names,
+        &reference_columns(),
+        &compared.references,
+    )?);
+    Ok(files)
 }
 
 fn verdict_columns() -> Vec<Column<Verdict>> {

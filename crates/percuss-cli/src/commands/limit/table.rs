@@ -12,15 +12,11 @@ use super::{reliance, values};
 use crate::{
     by_models::by_models,
     table::blocks,
-    terminal::{bold, counted, width, wrap, yellow},
+    terminal::{self, bold, counted, paragraph, title, width, wrap},
 };
 
 /// Case, range and tolerance.
 pub fn head(scenario: &Scenario, limits: &Limits, tolerance: Tolerance) -> String {
-    let title = match scenario.title.is_empty() {
-        true => &scenario.name,
-        false => &scenario.title,
-    };
     let line = format!(
         "case {}, searched from {} to {} m/s, brackets of {} or less",
         limits.case,
@@ -28,12 +24,9 @@ pub fn head(scenario: &Scenario, limits: &Limits, tolerance: Tolerance) -> Strin
         significant(limits.searched_m_s.1, 4),
         values::in_words(tolerance)
     );
-    let (title, line) = (wrap(title, width(), 0), wrap(&line, width(), 0));
     let rear_face = limits.rear_face.and_then(RearFace::in_words);
-    let rear_face = rear_face.map_or_else(String::new, |words| {
-        format!("{}\n", wrap(&words, width(), 0))
-    });
-    format!("{}\n{line}\n{rear_face}\n", bold(title))
+    let rear_face = rear_face.map_or_else(String::new, |words| paragraph(&words));
+    format!("{}{}{rear_face}\n", title(scenario), paragraph(&line))
 }
 
 /// Table of limits, warnings, and models without a limit.
@@ -53,9 +46,7 @@ pub fn text(limits: &Limits) -> String {
         warnings.map(|warning| (limit.model, warning.clone()))
     });
     for line in by_models(said) {
-        let line = wrap(&format!("warning: {line}"), width(), 9);
-        text += &line.replacen("warning:", &yellow("warning:"), 1);
-        text += "\n\n";
+        text += &format!("{}\n", terminal::warning(&line));
     }
     let reasons = reasons(limits);
     if !reasons.is_empty() {

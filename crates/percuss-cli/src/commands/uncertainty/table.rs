@@ -11,7 +11,7 @@ use percuss_report::table::{Table, number};
 
 use crate::{
     table::blocks,
-    terminal::{bold, width, wrap, yellow},
+    terminal::{self, bold, paragraph, title},
 };
 
 /// Everything.
@@ -21,10 +21,7 @@ pub fn text(scenario: &Scenario, found: &Uncertainty) -> String {
         text += &influence(found, quantity);
     }
     if let Some(why) = &found.no_indices {
-        text += &format!(
-            "{}\n\n",
-            wrap(&format!("no Sobol' indices: {why}"), width(), 0)
-        );
+        text += &format!("{}\n", paragraph(&format!("no Sobol' indices: {why}")));
     }
     text + &bands(found) + &warnings(found)
 }
@@ -52,16 +49,11 @@ pub fn lines(found: &Uncertainty) -> String {
 }
 
 fn head(scenario: &Scenario, found: &Uncertainty) -> String {
-    let title = match scenario.title.is_empty() {
-        true => &scenario.name,
-        false => &scenario.title,
-    };
     let line = format!(
         "case {}, model {}, statistics of {} shots, seed {}, {} shots in all",
         found.case, found.model, found.samples, found.seed, found.shots
     );
-    let (title, line) = (wrap(title, width(), 0), wrap(&line, width(), 0));
-    format!("{}\n{line}\n\n", bold(title))
+    format!("{}{}\n", title(scenario), paragraph(&line))
 }
 
 fn inputs(found: &Uncertainty) -> String {
@@ -173,10 +165,7 @@ fn influence(found: &Uncertainty, quantity: &QuantityResult) -> String {
     let title = format!("what moves the {}", quantity.what().in_words);
     let mut text = format!("{}\n{}", bold(title), blocks(&rows.table()));
     if let (Some(why), None) = (&quantity.no_indices, &found.no_indices) {
-        text += &format!(
-            "{}\n\n",
-            wrap(&format!("no Sobol' indices: {why}"), width(), 0)
-        );
+        text += &format!("{}\n", paragraph(&format!("no Sobol' indices: {why}")));
     }
     text
 }
@@ -233,9 +222,7 @@ fn warnings(found: &Uncertainty) -> String {
     let mut text = String::new();
     let nominal = found.nominal.warnings.iter();
     for warning in found.warnings.iter().chain(nominal) {
-        let line = wrap(&format!("warning: {warning}"), width(), 9);
-        text += &line.replacen("warning:", &yellow("warning:"), 1);
-        text += "\n\n";
+        text += &format!("{}\n", terminal::warning(warning));
     }
-    text + &wrap(&found.caution(), width(), 0) + "\n"
+    text + &paragraph(&found.caution())
 }
