@@ -35,6 +35,8 @@ pub mod history;
 pub mod inputs;
 pub mod ledger;
 pub mod limit;
+#[cfg(test)]
+mod made_up;
 pub mod material;
 pub mod model;
 pub mod model_error;
