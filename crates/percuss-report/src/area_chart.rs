@@ -7,7 +7,8 @@ use kuva::plot::{
 
 use crate::{
     Axis, Figure,
-    frame::{Frame, Head, chart_methods, plain},
+    chart_methods::chart_methods,
+    frame::{Frame, Head, plain},
     palette,
 };
 

@@ -8,7 +8,8 @@ use serde::Serialize;
 
 use crate::{
     Axis, Figure, Mark,
-    frame::{Frame, Head, chart_methods, plain},
+    chart_methods::chart_methods,
+    frame::{Frame, Head, plain},
     mark,
     primitives::{area_entry, bar, border, line, text},
     single,

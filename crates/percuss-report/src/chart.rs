@@ -10,7 +10,8 @@ use kuva::render::plots::Plot;
 
 use crate::{
     Axis, Figure, Mark, Series, Style,
-    frame::{Frame, HEIGHT, Head, WIDTH, chart_methods, plain},
+    chart_methods::chart_methods,
+    frame::{Frame, HEIGHT, Head, WIDTH, plain},
     mark, palette,
 };
 

@@ -11,10 +11,13 @@ use kuva::render::{
     render::{Primitive, Scene, TextAnchor},
 };
 
+use percuss::statistics::sorted;
+
 use crate::{
     Axis, Figure,
+    chart_methods::chart_methods,
     color_bar::ColorBar,
-    frame::{Frame, HEIGHT, Head, chart_methods},
+    frame::{Frame, HEIGHT, Head},
     palette,
     primitives::{border, filled, line, text},
 };
@@ -207,9 +210,8 @@ impl HeatMap {
 
     /// Value with the strongest colour: all but one value in 200 lie within it, so that a spike does not bleach the rest.
     fn largest(&self) -> f64 {
-        let mut sizes: Vec<f64> = self.rows.iter().flatten().map(|v| v.abs()).collect();
-        sizes.retain(|size| size.is_finite());
-        sizes.sort_by(f64::total_cmp);
+        let sizes = self.rows.iter().flatten().map(|v| v.abs());
+        let sizes = sorted(sizes.filter(|size| size.is_finite()));
         match sizes.get(sizes.len().saturating_sub(1 + sizes.len() / 200)) {
             Some(&size) if size > 0.0 => size,
             _ => 1.0,

@@ -7,7 +7,8 @@ use percuss::statistics::sorted;
 
 use crate::{
     Axis, Figure, Mark,
-    frame::{Frame, Head, chart_methods},
+    chart_methods::chart_methods,
+    frame::{Frame, Head},
     mark, palette,
     primitives::{bar, border},
 };

@@ -35,6 +35,7 @@ pub mod calibration;
 mod caption;
 mod chart;
 mod chart_data;
+mod chart_methods;
 mod color_bar;
 pub mod column;
 mod compare_figure;

@@ -5,7 +5,8 @@ use serde::Serialize;
 
 use crate::{
     Axis, Figure, Mark,
-    frame::{Frame, Head, chart_methods, plain},
+    chart_methods::chart_methods,
+    frame::{Frame, Head, plain},
     mark, single,
 };
 
