@@ -1,11 +1,9 @@
 //! The pieces that fly at the end of a run, as text for people.
 
 use percuss::{fragments::FragmentRecord, units::significant};
+use percuss_report::table::Table;
 
-use crate::{
-    table::{Column, blocks},
-    terminal::bold,
-};
+use crate::{table::blocks, terminal::bold};
 
 /// Most pieces that the table lists; a run with more says how many there are.
 const MOST_PIECES: usize = 12;
@@ -16,31 +14,20 @@ pub fn text(pieces: &[FragmentRecord]) -> String {
         return String::new();
     }
     let shown = &pieces[..pieces.len().min(MOST_PIECES)];
-    let first = Column {
-        heading: "origin".to_owned(),
-        cells: shown.iter().map(|piece| piece.origin.clone()).collect(),
-        numbers: false,
-    };
-    let numbers = |heading: &str, value: fn(&FragmentRecord) -> f64| Column {
-        heading: heading.to_owned(),
-        cells: shown
-            .iter()
-            .map(|piece| significant(value(piece), 4))
-            .collect(),
-        numbers: true,
-    };
-    let columns = vec![
-        numbers("from\nmm", |piece| piece.initial_from_mm),
-        numbers("to\nmm", |piece| piece.initial_to_mm),
-        numbers("mass\ng", |piece| piece.mass_g),
-        numbers("velocity\nm/s", |piece| piece.velocity_m_s),
-        numbers("length\nmm", |piece| piece.length_mm),
-        numbers("diameter\nmm", |piece| piece.diameter_mm),
-    ];
+    let number = |value: f64| significant(value, 4);
+    let table = Table::of(shown)
+        .words("origin", |piece| piece.origin.clone())
+        .numbers("from", "mm", |piece| number(piece.initial_from_mm))
+        .numbers("to", "mm", |piece| number(piece.initial_to_mm))
+        .numbers("mass", "g", |piece| number(piece.mass_g))
+        .numbers("velocity", "m/s", |piece| number(piece.velocity_m_s))
+        .numbers("length", "mm", |piece| number(piece.length_mm))
+        .numbers("diameter", "mm", |piece| number(piece.diameter_mm))
+        .table();
     let mut text = format!(
         "\n{}\n{}",
         bold("free pieces, from tail to back"),
-        blocks(&first, columns)
+        blocks(&table)
     );
     // The next block starts with an empty line of its own.
     text.pop();

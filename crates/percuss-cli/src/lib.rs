@@ -7,7 +7,6 @@ mod commands;
 mod diagnostic;
 mod failure;
 mod fragment_table;
-mod judgement_table;
 mod material_card;
 mod output;
 mod progress;

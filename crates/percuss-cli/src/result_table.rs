@@ -10,7 +10,7 @@ use percuss_report::result_rows::{self, Row, number, percentage};
 
 use crate::{
     fragment_table,
-    terminal::{bold, width, wrap, yellow},
+    terminal::{self, bold, paragraph, title, width, wrap},
 };
 
 /// Least width of a column of labels.
@@ -55,12 +55,7 @@ pub fn text(
 }
 
 fn head(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text: &mut String) {
-    let title = if scenario.title.is_empty() {
-        &scenario.name
-    } else {
-        &scenario.title
-    };
-    *text += &format!("{}\n", bold(wrap(title, width(), 0)));
+    *text += &title(scenario);
     let mut line = format!(
         "case {}, impact at {}, model {}",
         scenario.name,
@@ -73,10 +68,10 @@ fn head(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text: &m
     if let Some(closure) = record.target_closure {
         line += &format!(", target closure {closure}");
     }
-    *text += &format!("{}\n", wrap(&line, width(), 0));
+    *text += &paragraph(&line);
     let choices = [&result.model_choice, &result.target_closure_choice];
     for choice in choices.into_iter().flatten() {
-        *text += &format!("{}\n", wrap(choice, width(), 0));
+        *text += &paragraph(choice);
     }
     text.push('\n');
 }
@@ -102,9 +97,7 @@ fn energy(numerics: &Numerics, text: &mut String) {
 
 fn warnings(result: &RunResult, text: &mut String) {
     for warning in &result.warnings {
-        let wrapped = wrap(&format!("warning: {warning}"), width(), 9);
-        let marked = wrapped.replacen("warning:", &yellow("warning:"), 1);
-        *text += &format!("\n{marked}\n");
+        *text += &format!("\n{}", terminal::warning(warning));
     }
 }
 

@@ -5,6 +5,7 @@ use std::str::FromStr;
 use percuss::{
     Scenario,
     check::limits::IMPACT_SPEED,
+    statistics::sorted,
     units::{Dimension, OfVelocity, significant},
 };
 
@@ -58,8 +59,7 @@ impl Speeds {
     pub fn of(&self, scenario: &Scenario) -> Result<Vec<f64>, Failure> {
         let Self::Given(speeds) = self else {
             let measured = scenario.experiments.iter();
-            let mut speeds: Vec<f64> = measured.filter_map(|m| m.impact_speed).collect();
-            speeds.sort_by(f64::total_cmp);
+            let mut speeds = sorted(measured.filter_map(|m| m.impact_speed));
             speeds.dedup();
             if speeds.is_empty() {
                 return Err(Failure::Usage {

@@ -8,16 +8,19 @@ use std::{
 
 use clap::builder::styling::{AnsiColor, Style};
 use comfy_table::Table;
+use percuss::Scenario;
 
 /// Widest line of running text: longer ones are hard to read.
 const MAX_WIDTH: usize = 100;
 
 /// Columns for running text: those of the terminal, 80 when output goes elsewhere.
 pub fn width() -> usize {
-    Table::new()
-        .width()
-        .map_or(80, usize::from)
-        .clamp(30, MAX_WIDTH)
+    full_width().unwrap_or(80).clamp(30, MAX_WIDTH)
+}
+
+/// Columns of the terminal; `None` when output goes elsewhere.
+pub fn full_width() -> Option<usize> {
+    Table::new().width().map(usize::from)
 }
 
 /// Whether escape codes may be written to a stream.
@@ -43,6 +46,26 @@ pub fn bold(text: impl Display) -> String {
 /// Mark of a warning on standard output.
 pub fn yellow(text: impl Display) -> String {
     paint(text, AnsiColor::Yellow.on_default().bold())
+}
+
+/// Title of a case, or its name, in a line of its own.
+pub fn title(scenario: &Scenario) -> String {
+    let title = match scenario.title.is_empty() {
+        true => &scenario.name,
+        false => &scenario.title,
+    };
+    format!("{}\n", bold(wrap(title, width(), 0)))
+}
+
+/// A paragraph of running text.
+pub fn paragraph(text: &str) -> String {
+    format!("{}\n", wrap(text, width(), 0))
+}
+
+/// A warning as a paragraph.
+pub fn warning(text: &str) -> String {
+    let wrapped = wrap(&format!("warning: {text}"), width(), 9);
+    format!("{}\n", wrapped.replacen("warning:", &yellow("warning:"), 1))
 }
 
 /// `1 model`, `2 models`.

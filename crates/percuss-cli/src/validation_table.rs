@@ -1,12 +1,19 @@
 //! A validation in the terminal.
 
-use comfy_table::{CellAlignment, Table, presets::NOTHING};
 use percuss::{
     shots::Kind,
-    validate::{self, Coverage, Errors, Group, Grouping, Standing, Validation},
+    validate::{self, Coverage, Group, Grouping, Standing, Validation},
+};
+use percuss_report::validation::tables;
+
+use crate::{
+    by_models::by_models,
+    table::plain,
+    terminal::{bold, width, wrap},
 };
 
-use crate::terminal::{bold, width, wrap};
+/// Spaces between columns.
+const SPACES: u16 = 2;
 
 /// What the command prints; `in_detail` breaks each kind down.
 pub fn text(validation: &Validation, files: &[String], in_detail: bool) -> String {
@@ -43,36 +50,20 @@ pub fn text(validation: &Validation, files: &[String], in_detail: bool) -> Strin
 
 fn section(validation: &Validation, kind: Kind, in_detail: bool) -> String {
     let coverage = validate::coverage(validation);
-    let of_kind = |grouping| {
-        let mut groups = groups(validation, grouping);
-        groups.retain(|group| group.kind == kind);
-        groups
-    };
-    let all = of_kind(Grouping::All);
+    let models = tables::models(validation, kind);
     let mut text = format!(
         "\n{}\n",
         bold(format!("{} (--kind {})", kind.in_words(), kind.name()))
     );
-    if !all.is_empty() {
-        let rows = all
-            .iter()
-            .map(|group| (group.model_in_words(), &group.errors));
-        text += &table("model", rows, true);
+    if !models.is_empty() {
+        text += &plain(&models, SPACES);
     }
-    // Models of which the same is to be said share a line; those that are for something else are left out.
-    let mut lines: Vec<(Vec<&str>, String)> = Vec::new();
-    for coverage in coverage
+    // Models that are for something else are left out.
+    let shown = coverage
         .iter()
-        .filter(|c| c.kind == kind && (in_detail || c.is_given()))
-    {
-        let line = unused(coverage);
-        match lines.iter_mut().find(|(_, other)| *other == line) {
-            Some((models, _)) => models.push(coverage.model),
-            None => lines.push((vec![coverage.model], line)),
-        }
-    }
-    for (models, line) in lines.iter().filter(|(_, line)| !line.is_empty()) {
-        let line = format!("{}: {line}", models.join(", "));
+        .filter(|c| c.kind == kind && (in_detail || c.is_given()));
+    let said = shown.map(|coverage| (coverage.model, unused(coverage)));
+    for line in by_models(said.filter(|(_, line)| !line.is_empty())) {
         text += &format!("{}\n", wrap(&line, width(), 2));
     }
     if !in_detail {
@@ -82,28 +73,11 @@ fn section(validation: &Validation, kind: Kind, in_detail: bool) -> String {
         Kind::Taylor => [Grouping::Record, Grouping::Source],
         _ => [Grouping::Projectile, Grouping::Target],
     };
-    for groups in groupings
-        .map(of_kind)
-        .iter()
-        .filter(|groups| !groups.is_empty())
-    {
-        let rows = groups
-            .iter()
-            .map(|group| (group.value.clone(), &group.errors));
-        text += &format!(
-            "\n{}",
-            table(
-                &format!("by {}", groups[0].grouping.in_words()),
-                rows,
-                false
-            )
-        );
+    let tables = groupings.map(|grouping| tables::by_property(validation, kind, grouping));
+    for table in tables.iter().filter(|table| !table.is_empty()) {
+        text += &format!("\n{}", plain(table, SPACES));
     }
     text
-}
-
-fn groups(validation: &Validation, grouping: Grouping) -> Vec<Group> {
-    validate::statistics(validation, grouping)
 }
 
 /// What is to be said of the shots that a model is not counted on, without its name.
@@ -141,39 +115,6 @@ fn unused(coverage: &Coverage) -> String {
         line += &format!(", {without} without a number{reason}");
     }
     line
-}
-
-fn table<'a>(
-    first: &str,
-    rows: impl Iterator<Item = (String, &'a Errors)>,
-    with_worst_shot: bool,
-) -> String {
-    let mut table = Table::new();
-    table.load_style(NOTHING);
-    let columns = if with_worst_shot { 7 } else { 6 };
-    let header = [first, "n", "bias", "RMS", "median", "worst", "worst shot"];
-    table.set_header(header[..columns].to_vec());
-    let percent = |error: f64| format!("{:.1}", 100.0 * error);
-    let signed = |error: f64| format!("{:+.1}", 100.0 * error);
-    for (name, errors) in rows {
-        let row = [
-            name,
-            errors.count.to_string(),
-            signed(errors.bias),
-            percent(errors.rms),
-            percent(errors.median_absolute),
-            signed(errors.worst),
-            errors.worst_id.clone(),
-        ];
-        table.add_row(row[..columns].to_vec());
-    }
-    for column in table.column_iter_mut() {
-        column.set_padding((0, 2));
-    }
-    for column in table.column_iter_mut().skip(1).take(5) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    format!("{}\n", table.trim_fmt())
 }
 
 /// A group in one line for scripts.

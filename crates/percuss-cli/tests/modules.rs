@@ -38,6 +38,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "scenario",
             "shapes",
             "solver",
+            "statistics",
             "units",
         ],
     ),
@@ -49,8 +50,8 @@ const LAYERS: &[(&str, &[&str])] = &[
             "calibrate",
             "compare",
             "converge",
-            "judge",
             "limit",
+            "model_error",
             "shots",
             "summary",
             "sweep",
@@ -109,6 +110,41 @@ fn no_module_of_the_library_uses_a_higher_layer() {
         text.is_empty(),
         "these edges lead to a higher layer:\n{text}"
     );
+}
+
+/// The estimate of the model error is added to the record of a result: what runs a case is independent of benchmarks and published tests.
+#[test]
+fn no_run_consults_a_benchmark() {
+    let graph = ModuleGraph::read(&crates()["percuss"]);
+    let tables = ["model_error", "shots", "validate"];
+    assert!(tables.iter().all(|table| graph.modules.contains(*table)));
+    let runs = |module: &str| LAYERS[..3].iter().any(|(_, names)| names.contains(&module));
+    let text = graph.describe(|from, to| (runs(from) || from == ROOT) && tables.contains(&to));
+    assert!(text.is_empty(), "{text}");
+    let consults = graph.describe(|from, to| from == "summary" && to == "model_error");
+    assert!(!consults.is_empty(), "who adds the estimate?");
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../percuss/data");
+    assert_eq!(
+        names_in(&data),
+        ["lanz-odermatt.csv", "model-error", "shots"]
+    );
+}
+
+/// The program alone uses the crate of the project's own research.
+#[test]
+fn no_product_crate_needs_the_research() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let users = names_in(&folder).into_iter().filter(|name| {
+        let manifest = fs::read_to_string(folder.join(name).join("Cargo.toml"));
+        manifest.is_ok_and(|text| text.contains("\npercuss-research"))
+    });
+    assert_eq!(users.collect::<Vec<_>>(), ["percuss-cli"]);
+    for module in ["damping", "judge", "judgement", "paper", "study"] {
+        for name in ["percuss", "percuss-report"] {
+            let graph = ModuleGraph::read(&crates()[name]);
+            assert!(!graph.modules.contains(module), "{name}: {module}");
+        }
+    }
 }
 
 /// The solvers check each other, so they share nothing but what lies below all of them.

@@ -180,7 +180,7 @@ def test_a_starter_case_is_that_of_the_program(program: Program, tmp_path: Path)
 
 
 def test_the_reference_is_computed_where_it_lacks(tmp_path: Path) -> None:
-    assert (ROOT / "crates/percuss/data/judge/reference.csv").is_file()
+    assert (ROOT / "crates/percuss-research/data/reference.csv").is_file()
     with pytest.raises(percuss.UsageError, match="--reference FILE"):
         percuss.judge(compute=True)
     with pytest.raises(percuss.UsageError, match="--compute"):

@@ -7,7 +7,8 @@ use kuva::plot::{
 
 use crate::{
     Axis, Figure,
-    frame::{Frame, HEIGHT, plain},
+    chart_methods::chart_methods,
+    frame::{Frame, Head, plain},
     palette,
 };
 
@@ -17,14 +18,14 @@ const LEGEND_CHARS: usize = 30;
 /// A chart of stacked areas, the first one at the bottom.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AreaChart {
-    pub(crate) name: String,
-    pub(crate) title: String,
-    pub(crate) caption: String,
+    pub(crate) head: Head,
     pub(crate) x: Axis,
     pub(crate) y: Axis,
     pub(crate) positions: Vec<f64>,
     pub(crate) areas: Vec<(String, Option<String>, Vec<f64>)>,
 }
+
+chart_methods!(AreaChart);
 
 impl AreaChart {
     /// An empty chart: file stem, title, axes and the positions along `x` at which all areas have a value.
@@ -36,20 +37,12 @@ impl AreaChart {
         positions: impl IntoIterator<Item = f64>,
     ) -> Self {
         Self {
-            name: name.into(),
-            title: title.into(),
-            caption: String::new(),
+            head: Head::new(name, title),
             x,
             y,
             positions: positions.into_iter().collect(),
             areas: Vec::new(),
         }
-    }
-
-    /// Sets the line below the title.
-    pub fn caption(mut self, caption: impl Into<String>) -> Self {
-        self.caption = caption.into();
-        self
     }
 
     /// Adds an area: its name, its colour (the next one of [`palette::SERIES`] if none) and its heights.
@@ -99,19 +92,9 @@ impl AreaChart {
         }
         // The legend lists areas as they stand on each other, the uppermost first.
         legend.reverse();
-        let (x_extent, y_extent) = self.extents();
         let frame = Frame {
-            name: &self.name,
-            title: &self.title,
-            caption: &self.caption,
-            x: &self.x,
-            y: &self.y,
-            x_extent,
-            y_extent,
-            height: HEIGHT,
-            right_margin: None,
             legend,
-            marks: Vec::new(),
+            ..Frame::new(&self.head, [&self.x, &self.y], self.extents())
         };
         frame.draw(vec![plot.into()], |_, _| {})
     }

@@ -48,7 +48,7 @@ impl Axis {
     }
 
     /// Writes names at 1, 2, 3, … in place of numbers.
-    pub(crate) fn names(mut self, names: impl IntoIterator<Item = String>) -> Self {
+    pub fn names(mut self, names: impl IntoIterator<Item = String>) -> Self {
         self.names = names.into_iter().collect();
         self
     }

@@ -1,13 +1,18 @@
 //! Charts of horizontal bars in named rows.
+//!
+//! The bars of the plotting library all start at zero and bear no texts.
 
 use kuva::plot::LinePlot;
 use kuva::render::render::TextAnchor;
+use serde::Serialize;
 
 use crate::{
     Axis, Figure, Mark,
-    frame::{Frame, plain},
+    chart_methods::chart_methods,
+    frame::{Frame, Head, plain},
     mark,
     primitives::{area_entry, bar, border, line, text},
+    single,
 };
 
 /// Most characters of a name.
@@ -26,15 +31,17 @@ const TEXT_GAP: f64 = 6.0;
 const TEXT_WIDTH: f64 = 6.6;
 
 /// A bar of a row.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Bar {
     /// Where it starts and where it ends.
+    #[serde(serialize_with = "single::pair")]
     pub ends: (f64, f64),
     /// Its colour.
     pub color: String,
     /// Lane of the row that it lies in, counted from the top.
     pub lane: usize,
     /// Interval drawn over its end.
+    #[serde(serialize_with = "single::range")]
     pub interval: Option<(f64, f64)>,
     /// Text beyond its end.
     pub text: String,
@@ -43,9 +50,7 @@ pub struct Bar {
 /// A chart of horizontal bars in named rows, the first row at the top.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BarRows {
-    pub(crate) name: String,
-    pub(crate) title: String,
-    pub(crate) caption: String,
+    pub(crate) head: Head,
     x: Axis,
     pub(crate) lanes: usize,
     pub(crate) rows: Vec<(String, Vec<Bar>)>,
@@ -53,25 +58,19 @@ pub struct BarRows {
     pub(crate) marks: Vec<Mark>,
 }
 
+chart_methods!(BarRows, marks);
+
 impl BarRows {
     /// An empty chart: file stem, title, the axis of the values and the number of lanes in a row.
     pub fn new(name: impl Into<String>, title: impl Into<String>, x: Axis, lanes: usize) -> Self {
         Self {
-            name: name.into(),
-            title: title.into(),
-            caption: String::new(),
+            head: Head::new(name, title),
             x,
             lanes: lanes.max(1),
             rows: Vec::new(),
             colors: Vec::new(),
             marks: Vec::new(),
         }
-    }
-
-    /// Sets the line below the title.
-    pub fn caption(mut self, caption: impl Into<String>) -> Self {
-        self.caption = caption.into();
-        self
     }
 
     /// Adds a row.
@@ -83,12 +82,6 @@ impl BarRows {
     /// Says in the legend what a colour stands for.
     pub fn color(mut self, name: impl Into<String>, color: impl Into<String>) -> Self {
         self.colors.push((name.into(), color.into()));
-        self
-    }
-
-    /// Adds a vertical line.
-    pub fn mark(mut self, mark: Mark) -> Self {
-        self.marks.push(mark);
         self
     }
 
@@ -116,17 +109,9 @@ impl BarRows {
             .iter()
             .map(|(name, color)| area_entry(name, color));
         let frame = Frame {
-            name: &self.name,
-            title: &self.title,
-            caption: &self.caption,
-            x: &x,
-            y: &y,
-            x_extent: extent,
-            y_extent: (0.5, count + 0.5),
             height: SURROUNDINGS + ROW * count.max(2.0),
-            right_margin: None,
             legend: legend.chain(mark::entries(&self.marks)).collect(),
-            marks: Vec::new(),
+            ..Frame::new(&self.head, [&x, &y], (extent, (0.5, count + 0.5)))
         };
         // Axes are drawn only for a plot, so there is one without content.
         frame.draw(vec![LinePlot::new().into()], |scene, place| {

@@ -10,7 +10,8 @@ use kuva::render::plots::Plot;
 
 use crate::{
     Axis, Figure, Mark, Series, Style,
-    frame::{Frame, HEIGHT, WIDTH, plain},
+    chart_methods::chart_methods,
+    frame::{Frame, HEIGHT, Head, WIDTH, plain},
     mark, palette,
 };
 
@@ -36,9 +37,7 @@ const MARKERS: [MarkerShape; 9] = [
 /// A chart of lines and markers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineChart {
-    pub(crate) name: String,
-    pub(crate) title: String,
-    pub(crate) caption: String,
+    pub(crate) head: Head,
     pub(crate) x: Axis,
     pub(crate) y: Axis,
     pub(crate) series: Vec<Series>,
@@ -46,25 +45,19 @@ pub struct LineChart {
     pub(crate) true_to_scale: bool,
 }
 
+chart_methods!(LineChart, marks);
+
 impl LineChart {
     /// An empty chart: file stem, title and axes.
     pub fn new(name: impl Into<String>, title: impl Into<String>, x: Axis, y: Axis) -> Self {
         Self {
-            name: name.into(),
-            title: title.into(),
-            caption: String::new(),
+            head: Head::new(name, title),
             x,
             y,
             series: Vec::new(),
             marks: Vec::new(),
             true_to_scale: false,
         }
-    }
-
-    /// Sets the line below the title.
-    pub fn caption(mut self, caption: impl Into<String>) -> Self {
-        self.caption = caption.into();
-        self
     }
 
     /// Adds a series.
@@ -79,12 +72,6 @@ impl LineChart {
         self
     }
 
-    /// Adds a mark.
-    pub fn mark(mut self, mark: Mark) -> Self {
-        self.marks.push(mark);
-        self
-    }
-
     /// Gives a unit the same length on both axes, by the height of the figure where that suffices.
     pub fn true_to_scale(mut self) -> Self {
         self.true_to_scale = true;
@@ -95,17 +82,9 @@ impl LineChart {
     pub fn draw(&self) -> Figure {
         let (x_extent, y_extent) = self.extents();
         let mut frame = Frame {
-            name: &self.name,
-            title: &self.title,
-            caption: &self.caption,
-            x: &self.x,
-            y: &self.y,
-            x_extent,
-            y_extent,
-            height: HEIGHT,
-            right_margin: None,
             legend: self.legend(),
             marks: mark::reference_lines(&self.marks),
+            ..Frame::new(&self.head, [&self.x, &self.y], (x_extent, y_extent))
         };
         let (mut x, mut y) = (self.x.clone(), self.y.clone());
         if self.true_to_scale {

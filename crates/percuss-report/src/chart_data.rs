@@ -4,8 +4,11 @@ use serde::Serialize;
 
 use crate::{
     AreaChart, Axis, Bar, BarRows, Figure, HeatMap, Histogram, LineChart, Mark, RowChart, Series,
-    Style, chart::dashes, palette,
+    Style, chart::dashes, frame::Head, palette, row_chart::Row, single::ends,
 };
+
+/// Smallest and largest value on either axis.
+type Extents = ((f64, f64), (f64, f64));
 
 /// A chart of any kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,49 +27,40 @@ pub enum Chart {
     Bars(BarRows),
 }
 
-impl From<LineChart> for Chart {
-    fn from(chart: LineChart) -> Self {
-        Self::Lines(chart)
-    }
+/// Makes each kind of chart a [`Chart`].
+macro_rules! kinds {
+    ($($kind:ident: $chart:ty),*) => {$(
+        impl From<$chart> for Chart {
+            fn from(chart: $chart) -> Self {
+                Self::$kind(chart)
+            }
+        }
+    )*
+
+    impl Chart {
+        /// File stem of its figure.
+        pub fn name(&self) -> &str {
+            match self {
+                $(Self::$kind(chart) => &chart.head.name,)*
+            }
+        }
+
+        /// Draws the chart.
+        pub fn draw(&self) -> Figure {
+            match self {
+                $(Self::$kind(chart) => chart.draw(),)*
+            }
+        }
+    }};
 }
 
-impl From<AreaChart> for Chart {
-    fn from(chart: AreaChart) -> Self {
-        Self::Areas(chart)
-    }
-}
-
-impl From<HeatMap> for Chart {
-    fn from(chart: HeatMap) -> Self {
-        Self::Map(chart)
-    }
-}
-
-impl From<RowChart> for Chart {
-    fn from(chart: RowChart) -> Self {
-        Self::Rows(chart)
-    }
-}
-
-impl From<Histogram> for Chart {
-    fn from(chart: Histogram) -> Self {
-        Self::Histogram(chart)
-    }
-}
-
-impl From<BarRows> for Chart {
-    fn from(chart: BarRows) -> Self {
-        Self::Bars(chart)
-    }
-}
+kinds!(Lines: LineChart, Areas: AreaChart, Map: HeatMap, Rows: RowChart, Histogram: Histogram, Bars: BarRows);
 
 /// What a chart holds. Numbers have the precision of a drawing, seven digits; what is no number is null.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ChartData {
-    /// File stem of the figure.
-    name: String,
-    title: String,
-    caption: String,
+    #[serde(flatten)]
+    head: Head,
     x: AxisData,
     y: AxisData,
     #[serde(flatten)]
@@ -90,7 +84,7 @@ struct AxisData {
 enum Content {
     Lines {
         series: Vec<SeriesData>,
-        marks: Vec<MarkData>,
+        marks: Vec<Mark>,
         true_to_scale: bool,
     },
     Areas {
@@ -110,8 +104,8 @@ enum Content {
         vertical_lines: Vec<f32>,
     },
     Rows {
-        rows: Vec<RowData>,
-        marks: Vec<MarkData>,
+        rows: Vec<Row>,
+        marks: Vec<Mark>,
     },
     Histogram {
         /// Middles of the intervals, which are of one width.
@@ -120,14 +114,14 @@ enum Content {
         /// Part of the values in each.
         parts: Vec<f32>,
         color: &'static str,
-        marks: Vec<MarkData>,
+        marks: Vec<Mark>,
     },
     Bars {
         lanes: usize,
         rows: Vec<BarRowData>,
         /// What colours stand for.
         colors: Vec<(String, String)>,
-        marks: Vec<MarkData>,
+        marks: Vec<Mark>,
     },
 }
 
@@ -152,13 +146,6 @@ struct SeriesData {
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct MarkData {
-    name: String,
-    value: f32,
-    vertical: bool,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
 struct AreaData {
     name: String,
     color: String,
@@ -166,53 +153,12 @@ struct AreaData {
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct RowData {
-    name: String,
-    color: String,
-    value: f32,
-    range: Option<(f32, f32)>,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
 struct BarRowData {
     name: String,
-    bars: Vec<BarData>,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct BarData {
-    ends: (f32, f32),
-    color: String,
-    lane: usize,
-    interval: Option<(f32, f32)>,
-    text: String,
+    bars: Vec<Bar>,
 }
 
 impl Chart {
-    /// File stem of its figure.
-    pub fn name(&self) -> &str {
-        match self {
-            Self::Lines(chart) => &chart.name,
-            Self::Areas(chart) => &chart.name,
-            Self::Map(chart) => &chart.name,
-            Self::Rows(chart) => &chart.name,
-            Self::Histogram(chart) => &chart.name,
-            Self::Bars(chart) => &chart.name,
-        }
-    }
-
-    /// Draws the chart.
-    pub fn draw(&self) -> Figure {
-        match self {
-            Self::Lines(chart) => chart.draw(),
-            Self::Areas(chart) => chart.draw(),
-            Self::Map(chart) => chart.draw(),
-            Self::Rows(chart) => chart.draw(),
-            Self::Histogram(chart) => chart.draw(),
-            Self::Bars(chart) => chart.draw(),
-        }
-    }
-
     /// What the chart holds.
     pub fn data(&self) -> ChartData {
         match self {
@@ -232,30 +178,25 @@ fn axis(axis: &Axis, extent: (f64, f64)) -> AxisData {
         label: axis.label.clone(),
         log: axis.log,
         downward: axis.downward,
-        range: range.map(pair),
+        range: range.map(ends),
         names: axis.names.clone(),
     }
-}
-
-fn pair(ends: (f64, f64)) -> (f32, f32) {
-    (ends.0 as f32, ends.1 as f32)
 }
 
 fn single(values: impl IntoIterator<Item = f64>) -> Vec<f32> {
     values.into_iter().map(|value| value as f32).collect()
 }
 
-fn marks(marks: &[Mark]) -> Vec<MarkData> {
-    let data = |mark: &Mark| MarkData {
-        name: mark.name.clone(),
-        value: mark.value as f32,
-        vertical: mark.vertical,
-    };
-    marks.iter().map(data).collect()
+fn data(head: &Head, [x, y]: [&Axis; 2], extents: Extents, content: Content) -> ChartData {
+    ChartData {
+        head: head.clone(),
+        x: axis(x, extents.0),
+        y: axis(y, extents.1),
+        content,
+    }
 }
 
 fn lines(chart: &LineChart) -> ChartData {
-    let extents = chart.extents();
     let first = chart.series.first();
     let same = |series: &Series| {
         first.is_some_and(|first| {
@@ -274,22 +215,16 @@ fn lines(chart: &LineChart) -> ChartData {
             width: series.width as f32,
             x: (!shared).then(|| single(series.points.iter().map(|point| point.0))),
             y: single(series.points.iter().map(|point| point.1)),
-            errors: series.errors.iter().copied().map(pair).collect(),
-            band: series.band.iter().copied().map(pair).collect(),
+            errors: series.errors.iter().copied().map(ends).collect(),
+            band: series.band.iter().copied().map(ends).collect(),
         }
     });
-    ChartData {
-        name: chart.name.clone(),
-        title: chart.title.clone(),
-        caption: chart.caption.clone(),
-        x: axis(&chart.x, extents.0),
-        y: axis(&chart.y, extents.1),
-        content: Content::Lines {
-            series: series.collect(),
-            marks: marks(&chart.marks),
-            true_to_scale: chart.true_to_scale,
-        },
-    }
+    let content = Content::Lines {
+        series: series.collect(),
+        marks: chart.marks.clone(),
+        true_to_scale: chart.true_to_scale,
+    };
+    data(&chart.head, [&chart.x, &chart.y], chart.extents(), content)
 }
 
 fn areas(chart: &AreaChart) -> ChartData {
@@ -301,106 +236,64 @@ fn areas(chart: &AreaChart) -> ChartData {
             heights: single(heights.iter().copied()),
         }
     };
-    let extents = chart.extents();
-    ChartData {
-        name: chart.name.clone(),
-        title: chart.title.clone(),
-        caption: chart.caption.clone(),
-        x: axis(&chart.x, extents.0),
-        y: axis(&chart.y, extents.1),
-        content: Content::Areas {
-            positions: single(chart.positions.iter().copied()),
-            areas: chart.areas.iter().enumerate().map(area).collect(),
-        },
-    }
+    let content = Content::Areas {
+        positions: single(chart.positions.iter().copied()),
+        areas: chart.areas.iter().enumerate().map(area).collect(),
+    };
+    data(&chart.head, [&chart.x, &chart.y], chart.extents(), content)
 }
 
 fn map(chart: &HeatMap) -> ChartData {
     let (cells, colors) = chart.codes();
-    ChartData {
-        name: chart.name.clone(),
-        title: chart.title.clone(),
-        caption: chart.caption.clone(),
-        x: axis(&chart.x, chart.ranges[0]),
-        y: axis(&chart.y, chart.ranges[1]),
-        content: Content::Map {
-            columns: chart.rows.first().map_or(0, Vec::len),
-            cells,
-            colors,
-            no_value: palette::NO_VALUE,
-            value_label: chart.value_label.clone(),
-            ends: pair(chart.ends()),
-            vertical_lines: single(chart.vertical_lines.iter().copied()),
-        },
-    }
+    let content = Content::Map {
+        columns: chart.rows.first().map_or(0, Vec::len),
+        cells,
+        colors,
+        no_value: palette::NO_VALUE,
+        value_label: chart.value_label.clone(),
+        ends: ends(chart.ends()),
+        vertical_lines: single(chart.vertical_lines.iter().copied()),
+    };
+    data(&chart.head, [&chart.x, &chart.y], chart.extents(), content)
 }
 
 fn rows(chart: &RowChart) -> ChartData {
-    let rows = chart.rows.iter().map(|row| RowData {
-        name: row.name.clone(),
-        color: row.color.clone(),
-        value: row.value as f32,
-        range: row.range.map(pair),
-    });
-    ChartData {
-        name: chart.name.clone(),
-        title: chart.title.clone(),
-        caption: chart.caption.clone(),
-        x: axis(&chart.x, chart.extent()),
-        y: axis(&Axis::new(""), (0.0, 1.0)),
-        content: Content::Rows {
-            rows: rows.collect(),
-            marks: marks(&chart.marks),
-        },
-    }
+    let content = Content::Rows {
+        rows: chart.rows.clone(),
+        marks: chart.marks.clone(),
+    };
+    named_rows(&chart.head, &chart.x, chart.extent(), content)
 }
 
 fn histogram(chart: &Histogram) -> ChartData {
     let (low, width, parts) = chart.bins();
-    let extents = chart.extents();
     let middles = (0..parts.len()).map(|i| low + width * (i as f64 + 0.5));
-    ChartData {
-        name: chart.name.clone(),
-        title: chart.title.clone(),
-        caption: chart.caption.clone(),
-        x: axis(&chart.x, extents.0),
-        y: axis(&Histogram::y(), extents.1),
-        content: Content::Histogram {
-            middles: single(middles),
-            width: width as f32,
-            parts: single(parts),
-            color: Histogram::color(),
-            marks: marks(&chart.marks),
-        },
-    }
+    let content = Content::Histogram {
+        middles: single(middles),
+        width: width as f32,
+        parts: single(parts),
+        color: Histogram::color(),
+        marks: chart.marks.clone(),
+    };
+    let axes = [&chart.x, &Histogram::y()];
+    data(&chart.head, axes, chart.extents(), content)
 }
 
 fn bars(chart: &BarRows) -> ChartData {
-    let bar = |bar: &Bar| BarData {
-        ends: pair(bar.ends),
-        color: bar.color.clone(),
-        lane: bar.lane,
-        interval: bar.interval.map(pair),
-        text: bar.text.clone(),
+    let rows = chart.rows.iter().cloned();
+    let content = Content::Bars {
+        lanes: chart.lanes,
+        rows: rows.map(|(name, bars)| BarRowData { name, bars }).collect(),
+        colors: chart.colors.clone(),
+        marks: chart.marks.clone(),
     };
-    let rows = chart.rows.iter().map(|(name, bars)| BarRowData {
-        name: name.clone(),
-        bars: bars.iter().map(bar).collect(),
-    });
     let (x, extent) = chart.axis();
-    ChartData {
-        name: chart.name.clone(),
-        title: chart.title.clone(),
-        caption: chart.caption.clone(),
-        x: axis(&x, extent),
-        y: axis(&Axis::new(""), (0.0, 1.0)),
-        content: Content::Bars {
-            lanes: chart.lanes,
-            rows: rows.collect(),
-            colors: chart.colors.clone(),
-            marks: marks(&chart.marks),
-        },
-    }
+    named_rows(&chart.head, &x, extent, content)
+}
+
+/// Data of a chart whose rows have names in place of an axis.
+fn named_rows(head: &Head, x: &Axis, extent: (f64, f64), content: Content) -> ChartData {
+    data(head, [x, &Axis::new("")], (extent, (0.0, 1.0)), content)
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use crate::ReportError;
 pub(crate) use parquet_file::parquet_with;
 
 /// Name and content of a file.
-pub(crate) type File = (&'static str, Vec<u8>);
+pub type File = (&'static str, Vec<u8>);
 
 /// How a value is read off a row.
 type Read<R, T> = Box<dyn Fn(&R) -> T>;
@@ -23,20 +23,22 @@ pub(crate) enum Value<R> {
 }
 
 /// A column of a table whose rows are made from `R`.
-pub(crate) struct Column<R> {
+pub struct Column<R> {
     name: String,
     value: Value<R>,
 }
 
 impl<R> Column<R> {
-    pub(crate) fn float(name: impl Into<String>, value: impl Fn(&R) -> f64 + 'static) -> Self {
+    /// A number.
+    pub fn float(name: impl Into<String>, value: impl Fn(&R) -> f64 + 'static) -> Self {
         Self {
             name: name.into(),
             value: Value::Float(Box::new(value)),
         }
     }
 
-    pub(crate) fn integer(name: impl Into<String>, value: impl Fn(&R) -> i64 + 'static) -> Self {
+    /// A whole number.
+    pub fn integer(name: impl Into<String>, value: impl Fn(&R) -> i64 + 'static) -> Self {
         Self {
             name: name.into(),
             value: Value::Integer(Box::new(value)),
@@ -44,10 +46,7 @@ impl<R> Column<R> {
     }
 
     /// A number that some rows lack: empty in CSV, null in Parquet.
-    pub(crate) fn optional(
-        name: impl Into<String>,
-        value: impl Fn(&R) -> Option<f64> + 'static,
-    ) -> Self {
+    pub fn optional(name: impl Into<String>, value: impl Fn(&R) -> Option<f64> + 'static) -> Self {
         Self {
             name: name.into(),
             value: Value::Optional(Box::new(value)),
@@ -78,7 +77,8 @@ impl<R> Column<R> {
         }
     }
 
-    pub(crate) fn text(name: impl Into<String>, value: impl Fn(&R) -> String + 'static) -> Self {
+    /// A text.
+    pub fn text(name: impl Into<String>, value: impl Fn(&R) -> String + 'static) -> Self {
         Self {
             name: name.into(),
             value: Value::Text(Box::new(value)),
@@ -87,11 +87,10 @@ impl<R> Column<R> {
 }
 
 /// The table as CSV with a header; numbers have as many digits as it takes to read them back unchanged.
-pub(crate) fn csv<R>(
-    table: &str,
-    columns: &[Column<R>],
-    rows: &[R],
-) -> Result<Vec<u8>, ReportError> {
+///
+/// # Errors
+/// [`ReportError::Table`].
+pub fn csv<R>(table: &str, columns: &[Column<R>], rows: &[R]) -> Result<Vec<u8>, ReportError> {
     let failure = |source: csv::Error| ReportError::Table {
         table: table.to_owned(),
         source: source.into(),
@@ -117,8 +116,11 @@ pub(crate) fn csv<R>(
 }
 
 /// The table as a Parquet file: one row group, null in optional columns only, Snappy compression. None in a build without Parquet.
+///
+/// # Errors
+/// [`ReportError::Table`].
 #[cfg_attr(not(feature = "parquet"), expect(unused_variables))]
-pub(crate) fn parquet<R>(
+pub fn parquet<R>(
     table: &'static str,
     columns: &[Column<R>],
     rows: &[R],
@@ -127,4 +129,18 @@ pub(crate) fn parquet<R>(
     return Ok(Some((table, parquet_with(table, columns, rows, &[])?)));
     #[cfg(not(feature = "parquet"))]
     Ok(None)
+}
+
+/// The table as CSV and, in a build that has it, as Parquet.
+///
+/// # Errors
+/// [`ReportError::Table`].
+pub fn files<R>(
+    [csv, parquet]: [&'static str; 2],
+    columns: &[Column<R>],
+    rows: &[R],
+) -> Result<Vec<File>, ReportError> {
+    let mut files = vec![(csv, self::csv(csv, columns, rows)?)];
+    files.extend(self::parquet(parquet, columns, rows)?);
+    Ok(files)
 }

@@ -11,7 +11,7 @@ use percuss::{
 use crate::{
     ReportError,
     column::{self, Column},
-    replace_file::replace_file,
+    replace_file::replace_files,
 };
 
 /// An entry of a comparison.
@@ -33,10 +33,7 @@ pub fn write_comparison(
     folder: &Path,
     comparison: &Comparison,
 ) -> Result<Vec<PathBuf>, ReportError> {
-    comparison_files(comparison)?
-        .into_iter()
-        .map(|(name, content)| replace_file(folder, name, &content))
-        .collect()
+    replace_files(folder, comparison_files(comparison)?)
 }
 
 /// The files that [`write_comparison`] writes: name and content of each.
@@ -46,7 +43,6 @@ pub fn write_comparison(
 pub fn comparison_files(
     comparison: &Comparison,
 ) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
-    let columns = columns();
     let entries: Vec<Entry> = (0..comparison.regime.len())
         .flat_map(|i| {
             let recommended = &comparison.recommended[i].models;
@@ -59,10 +55,7 @@ pub fn comparison_files(
             })
         })
         .collect();
-    let (csv, parquet) = ("compare.csv", "compare.parquet");
-    let mut files = vec![(csv, column::csv(csv, &columns, &entries)?)];
-    files.extend(column::parquet(parquet, &columns, &entries)?);
-    Ok(files)
+    column::files(["compare.csv", "compare.parquet"], &columns(), &entries)
 }
 
 fn columns() -> Vec<Column<Entry>> {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::{ReportError, replace_file::replace_file};
 
 /// The kind of pictures that pages in Markdown show.
-pub(crate) const IN_PAGES: &str = if cfg!(feature = "png") { "png" } else { "svg" };
+pub const IN_PAGES: &str = if cfg!(feature = "png") { "png" } else { "svg" };
 
 /// A finished drawing.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +36,7 @@ impl Figure {
     ///
     /// # Errors
     /// [`ReportError::Write`]; [`ReportError::Figure`].
-    pub(crate) fn write_for_page(&self, folder: &Path) -> Result<PathBuf, ReportError> {
+    pub fn write_for_page(&self, folder: &Path) -> Result<PathBuf, ReportError> {
         #[cfg(feature = "png")]
         let picture = &self.png()?;
         #[cfg(not(feature = "png"))]

@@ -14,6 +14,8 @@ use kuva::{
     },
 };
 
+use serde::Serialize;
+
 use crate::{Axis, Figure};
 
 /// Width of all figures [px].
@@ -29,11 +31,27 @@ const LABEL_SIZE: u32 = 14;
 /// Mean width of a character, in sizes of the font, rather too much than too little.
 const CHAR_WIDTH: f64 = 0.6;
 
+/// File stem and texts of a chart.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct Head {
+    pub(crate) name: String,
+    title: String,
+    pub(crate) caption: String,
+}
+
+impl Head {
+    pub(crate) fn new(name: impl Into<String>, title: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            caption: String::new(),
+        }
+    }
+}
+
 /// A chart without its content.
 pub(crate) struct Frame<'a> {
-    pub(crate) name: &'a str,
-    pub(crate) title: &'a str,
-    pub(crate) caption: &'a str,
+    pub(crate) head: &'a Head,
     pub(crate) x: &'a Axis,
     pub(crate) y: &'a Axis,
     /// Smallest and largest value on either axis.
@@ -46,7 +64,26 @@ pub(crate) struct Frame<'a> {
     pub(crate) marks: Vec<ReferenceLine>,
 }
 
-impl Frame<'_> {
+impl<'a> Frame<'a> {
+    /// A frame of the usual size without legend and marks.
+    pub(crate) fn new(
+        head: &'a Head,
+        [x, y]: [&'a Axis; 2],
+        (x_extent, y_extent): ((f64, f64), (f64, f64)),
+    ) -> Self {
+        Self {
+            head,
+            x,
+            y,
+            x_extent,
+            y_extent,
+            height: HEIGHT,
+            right_margin: None,
+            legend: Vec::new(),
+            marks: Vec::new(),
+        }
+    }
+
     /// Draws axes and content; `finish` may add to the drawing, for which it gets the place of the axes.
     pub(crate) fn draw(
         self,
@@ -58,10 +95,10 @@ impl Frame<'_> {
         let mut scene = render_multiple(plots, layout);
         finish(&mut scene, &place);
         Figure {
-            name: self.name.to_owned(),
-            title: match self.caption {
-                "" => self.title.to_owned(),
-                caption => format!("{}: {caption}", self.title),
+            name: self.head.name.clone(),
+            title: match self.head.caption.as_str() {
+                "" => self.head.title.clone(),
+                caption => format!("{}: {caption}", self.head.title),
             },
             svg: SvgBackend::new().render_scene(&scene),
         }
@@ -131,14 +168,14 @@ impl Frame<'_> {
         let chars = |space: f64, size: u32| (space / (CHAR_WIDTH * f64::from(size))) as usize;
         let (title, caption) = (chars(width, TITLE_SIZE), chars(width, CAPTION_SIZE));
         let layout = layout
-            .with_title(plain(self.title, title))
+            .with_title(plain(&self.head.title, title))
             .with_x_label_wrap(chars(width, LABEL_SIZE))
             .with_y_label_wrap(chars(0.8 * self.height, LABEL_SIZE));
-        if self.caption.is_empty() {
+        if self.head.caption.is_empty() {
             return layout;
         }
         layout
-            .with_subtitle(plain(self.caption, (2 * caption).saturating_sub(10)))
+            .with_subtitle(plain(&self.head.caption, (2 * caption).saturating_sub(10)))
             .with_subtitle_size(CAPTION_SIZE)
             .with_subtitle_wrap(caption)
     }

@@ -1,4 +1,6 @@
 //! Heat maps of a quantity over two axes.
+//!
+//! The plotting library's own take their colours from the extremes of the data, leave no cell empty and draw a rectangle per cell.
 
 use std::fmt::Write;
 
@@ -7,12 +9,15 @@ use kuva::render::{
     color::Color,
     layout::ComputedLayout,
     render::{Primitive, Scene, TextAnchor},
-    render_utils::generate_ticks,
 };
+
+use percuss::statistics::sorted;
 
 use crate::{
     Axis, Figure,
-    frame::{Frame, HEIGHT, tick_label},
+    chart_methods::chart_methods,
+    color_bar::ColorBar,
+    frame::{Frame, HEIGHT, Head},
     palette,
     primitives::{border, filled, line, text},
 };
@@ -23,8 +28,6 @@ const LEVELS: usize = 64;
 const FIRST_CODE: u8 = b'0';
 /// Space at the right for the colour bar, its numbers and its label [px].
 const BAR_MARGIN: f64 = 118.0;
-/// Distance of the colour bar from the plot, and its width [px].
-const BAR_PLACE: (f64, f64) = (20.0, 18.0);
 
 /// The values that the colours of a map stand for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,6 +52,14 @@ impl Scale {
         format!("#{r:02x}{g:02x}{b:02x}")
     }
 
+    /// All colours, that of the lowest value first.
+    fn colors(&self) -> Vec<String> {
+        let levels = 0..=LEVELS;
+        levels
+            .map(|level| self.color(level as f64 / LEVELS as f64))
+            .collect()
+    }
+
     /// Whether text on the colour of a value has to be white.
     fn is_dark(&self, value: f64) -> bool {
         match self.diverging {
@@ -61,12 +72,10 @@ impl Scale {
 /// A heat map on a regular grid, with a colour bar. Colours diverge from zero unless they are told to run between two values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatMap {
-    pub(crate) name: String,
-    pub(crate) title: String,
-    pub(crate) caption: String,
+    pub(crate) head: Head,
     pub(crate) x: Axis,
     pub(crate) y: Axis,
-    pub(crate) ranges: [(f64, f64); 2],
+    ranges: [(f64, f64); 2],
     pub(crate) value_label: String,
     pub(crate) rows: Vec<Vec<f64>>,
     pub(crate) vertical_lines: Vec<f64>,
@@ -74,6 +83,8 @@ pub struct HeatMap {
     scale: Option<Scale>,
     height: f64,
 }
+
+chart_methods!(HeatMap);
 
 impl HeatMap {
     /// A heat map: file stem, title, axes, the ranges of `x` and `y` that the grid covers, the label of the colour bar
@@ -87,9 +98,7 @@ impl HeatMap {
         rows: Vec<Vec<f64>>,
     ) -> Self {
         Self {
-            name: name.to_owned(),
-            title: title.to_owned(),
-            caption: String::new(),
+            head: Head::new(name, title),
             x: x.range(ranges[0].0, ranges[0].1),
             y: y.range(ranges[1].0, ranges[1].1),
             ranges,
@@ -100,12 +109,6 @@ impl HeatMap {
             scale: None,
             height: HEIGHT,
         }
-    }
-
-    /// Sets the line below the title.
-    pub fn caption(mut self, caption: impl Into<String>) -> Self {
-        self.caption = caption.into();
-        self
     }
 
     /// Adds a thin vertical line.
@@ -149,17 +152,9 @@ impl HeatMap {
     /// Draws the heat map.
     pub fn draw(&self) -> Figure {
         let frame = Frame {
-            name: &self.name,
-            title: &self.title,
-            caption: &self.caption,
-            x: &self.x,
-            y: &self.y,
-            x_extent: self.ranges[0],
-            y_extent: self.ranges[1],
             height: self.height,
             right_margin: Some(BAR_MARGIN),
-            legend: Vec::new(),
-            marks: Vec::new(),
+            ..Frame::new(&self.head, [&self.x, &self.y], self.extents())
         };
         let scale = self.scale();
         // Axes are drawn only for a plot, so there is one without content.
@@ -167,8 +162,19 @@ impl HeatMap {
             self.add_cells(scene, place, scale);
             self.add_texts(scene, place, scale);
             self.add_lines(scene, place);
-            self.add_bar(scene, place, scale);
+            let bar = ColorBar {
+                colors: scale.colors(),
+                ends: (scale.low, scale.high),
+                label: &self.value_label,
+                below_top: 0.0,
+            };
+            bar.draw(scene, place);
         })
+    }
+
+    /// The ranges of either axis.
+    pub(crate) fn extents(&self) -> ((f64, f64), (f64, f64)) {
+        (self.ranges[0], self.ranges[1])
     }
 
     fn scale(&self) -> Scale {
@@ -196,18 +202,16 @@ impl HeatMap {
             true => char::from(FIRST_CODE + (scale.part(*value) * LEVELS as f64).round() as u8),
             false => ' ',
         };
-        let colors = (0..=LEVELS).map(|level| scale.color(level as f64 / LEVELS as f64));
         (
             self.rows.iter().flatten().map(code).collect(),
-            colors.collect(),
+            scale.colors(),
         )
     }
 
     /// Value with the strongest colour: all but one value in 200 lie within it, so that a spike does not bleach the rest.
     fn largest(&self) -> f64 {
-        let mut sizes: Vec<f64> = self.rows.iter().flatten().map(|v| v.abs()).collect();
-        sizes.retain(|size| size.is_finite());
-        sizes.sort_by(f64::total_cmp);
+        let sizes = self.rows.iter().flatten().map(|v| v.abs());
+        let sizes = sorted(sizes.filter(|size| size.is_finite()));
         match sizes.get(sizes.len().saturating_sub(1 + sizes.len() / 200)) {
             Some(&size) if size > 0.0 => size,
             _ => 1.0,
@@ -291,39 +295,5 @@ impl HeatMap {
             scene.add(line((x, top), (x, bottom), 1.2));
         }
         scene.add(border(left, top, right - left, bottom - top));
-    }
-
-    fn add_bar(&self, scene: &mut Scene, place: &ComputedLayout, scale: Scale) {
-        let left = place.margin_left + place.plot_width() + BAR_PLACE.0;
-        let (top, height) = (place.margin_top, place.plot_height());
-        let step = height / (LEVELS + 1) as f64;
-        for i in 0..=LEVELS {
-            let color = scale.color(1.0 - i as f64 / LEVELS as f64);
-            let (y, next) = (top + step * i as f64, (step + 0.5).min(height));
-            let next = next.min(top + height - y);
-            scene.add(filled(
-                format!(
-                    "M{left:.2} {y:.2}h{}v{next:.2}h-{}z",
-                    BAR_PLACE.1, BAR_PLACE.1
-                ),
-                &color,
-            ));
-        }
-        scene.add(border(left, top, BAR_PLACE.1, height));
-        let right = left + BAR_PLACE.1;
-        for value in generate_ticks(scale.low, scale.high, 7) {
-            let y = top + height * (1.0 - scale.part(value));
-            scene.add(line((right, y), (right + 4.0, y), 1.0));
-            scene.add(text(
-                (right + 7.0, y + 4.0),
-                &tick_label(value),
-                (12, TextAnchor::Start, None),
-            ));
-        }
-        scene.add(text(
-            (place.width - 12.0, top + 0.5 * height),
-            &self.value_label,
-            (14, TextAnchor::Middle, Some(-90.0)),
-        ));
     }
 }

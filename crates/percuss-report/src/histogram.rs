@@ -1,10 +1,14 @@
 //! Histograms.
+//!
+//! The bars of the plotting library's own touch each other.
 
 use kuva::plot::LinePlot;
+use percuss::statistics::sorted;
 
 use crate::{
     Axis, Figure, Mark,
-    frame::{Frame, HEIGHT},
+    chart_methods::chart_methods,
+    frame::{Frame, Head},
     mark, palette,
     primitives::{bar, border},
 };
@@ -17,13 +21,13 @@ const GAP: f64 = 1.0;
 /// How often values fall into intervals of equal width, with marks across.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Histogram {
-    pub(crate) name: String,
-    pub(crate) title: String,
-    pub(crate) caption: String,
+    pub(crate) head: Head,
     pub(crate) x: Axis,
     values: Vec<f64>,
     pub(crate) marks: Vec<Mark>,
 }
+
+chart_methods!(Histogram, marks);
 
 impl Histogram {
     /// A histogram: file stem, title, the axis of the values, and the values. Those that are not finite are left out.
@@ -33,28 +37,13 @@ impl Histogram {
         x: Axis,
         values: impl IntoIterator<Item = f64>,
     ) -> Self {
-        let mut values: Vec<f64> = values.into_iter().filter(|v| v.is_finite()).collect();
-        values.sort_by(f64::total_cmp);
+        let values = values.into_iter().filter(|value| value.is_finite());
         Self {
-            name: name.into(),
-            title: title.into(),
-            caption: String::new(),
+            head: Head::new(name, title),
             x,
-            values,
+            values: sorted(values),
             marks: Vec::new(),
         }
-    }
-
-    /// Sets the line below the title.
-    pub fn caption(mut self, caption: impl Into<String>) -> Self {
-        self.caption = caption.into();
-        self
-    }
-
-    /// Adds a vertical line.
-    pub fn mark(mut self, mark: Mark) -> Self {
-        self.marks.push(mark);
-        self
     }
 
     /// Lower end of the first bin, width of a bin, and the part of the values in each [%].
@@ -108,20 +97,10 @@ impl Histogram {
     /// Draws the histogram.
     pub fn draw(&self) -> Figure {
         let (low, width, parts) = self.bins();
-        let (x_extent, y_extent) = self.extents();
         let y = Self::y();
         let frame = Frame {
-            name: &self.name,
-            title: &self.title,
-            caption: &self.caption,
-            x: &self.x,
-            y: &y,
-            x_extent,
-            y_extent,
-            height: HEIGHT,
-            right_margin: None,
             legend: mark::entries(&self.marks).collect(),
-            marks: Vec::new(),
+            ..Frame::new(&self.head, [&self.x, &y], self.extents())
         };
         // Axes are drawn only for a plot, so there is one without content.
         frame.draw(vec![LinePlot::new().into()], |scene, place| {

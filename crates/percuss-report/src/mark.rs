@@ -5,7 +5,9 @@ use kuva::render::{
     annotations::ReferenceLine, color::Color, layout::ComputedLayout, render::Primitive,
 };
 
-use crate::{frame::plain, palette};
+use serde::Serialize;
+
+use crate::{frame::plain, palette, single};
 
 /// Dashes of the marks of a chart one after the other [px], short enough for the legend; the last one is a full line.
 const DASHES: [Option<&str>; 4] = [Some("2 2"), Some("5 2.5"), Some("7 2 2 2"), None];
@@ -14,9 +16,10 @@ const WIDTH: f64 = 1.2;
 const NAME_CHARS: usize = 34;
 
 /// A line across the plot at one value.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Mark {
     pub(crate) name: String,
+    #[serde(serialize_with = "single::number")]
     pub(crate) value: f64,
     pub(crate) vertical: bool,
 }

@@ -5,7 +5,10 @@ use percuss::{
     units::{Pressure, Velocity, significant},
 };
 
-use crate::page::{Block, Table, html};
+use crate::{
+    page::{Block, html},
+    table::Table,
+};
 
 /// What is known of a material, in sections.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,6 +39,16 @@ pub enum CardLine {
     Paragraph(String),
 }
 
+impl CardLine {
+    /// Name and value of a row.
+    fn pair(&self) -> Option<(&str, &str)> {
+        match self {
+            Self::Row(name, value) => Some((name, value)),
+            Self::Line(_) | Self::Paragraph(_) => None,
+        }
+    }
+}
+
 impl MaterialCard {
     /// The card of a material of a library.
     pub fn new(entry: &MaterialEntry, library: &Library) -> Self {
@@ -62,20 +75,24 @@ impl MaterialCard {
             if !section.heading.is_empty() {
                 page.push(Block::Heading(section.heading.clone()));
             }
-            for line in &section.lines {
-                match (line, page.last_mut()) {
-                    (CardLine::Row(name, value), Some(Block::Table(table))) => {
-                        table.rows.push(vec![name.clone(), value.clone()]);
-                    }
-                    (CardLine::Row(name, value), _) => page.push(Block::Table(Table {
-                        rows: vec![vec![name.clone(), value.clone()]],
-                        ..Table::new(&["", ""])
-                    })),
-                    (CardLine::Line(text) | CardLine::Paragraph(text), _) => {
-                        page.push(Block::Text(text.clone()));
-                    }
+            let kinds = section
+                .lines
+                .chunk_by(|a, b| a.pair().is_some() && b.pair().is_some());
+            page.extend(kinds.map(|lines| {
+                match &lines[0] {
+                    CardLine::Line(text) | CardLine::Paragraph(text) => Block::Text(text.clone()),
+                    CardLine::Row(..) => Block::Table(
+                        Table::of(lines)
+                            .words("", |line| {
+                                line.pair().map_or("", |(name, _)| name).to_owned()
+                            })
+                            .words("", |line| {
+                                line.pair().map_or("", |(_, value)| value).to_owned()
+                            })
+                            .table(),
+                    ),
                 }
-            }
+            }));
         }
         html::render(&page)
     }

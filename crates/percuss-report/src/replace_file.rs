@@ -1,29 +1,39 @@
 //! Files that are complete or absent: a reader never sees half of one.
 
 use std::{
-    fs::{self, File},
+    fs,
     io::{self, Write},
     path::{Path, PathBuf},
     process,
     sync::atomic::{AtomicU64, Ordering},
 };
 
-use crate::ReportError;
+use crate::{ReportError, column::File};
 
 /// Writes a file in a folder, which is made if need be, under a temporary name and then renames it.
-pub(crate) fn replace_file(
-    folder: &Path,
-    name: &str,
-    content: &[u8],
-) -> Result<PathBuf, ReportError> {
+///
+/// # Errors
+/// [`ReportError::Write`].
+pub fn replace_file(folder: &Path, name: &str, content: &[u8]) -> Result<PathBuf, ReportError> {
     replace(folder, name, |file| file.write_all(content))
 }
 
-/// The same, and the file is on the disk when this returns: it outlives a loss of power.
+/// Writes files in a folder, which is made if need be, by their names and contents.
+///
+/// # Errors
+/// [`ReportError::Write`].
+pub fn replace_files(folder: &Path, files: Vec<File>) -> Result<Vec<PathBuf>, ReportError> {
+    let files = files.into_iter();
+    files
+        .map(|(name, content)| replace_file(folder, name, &content))
+        .collect()
+}
+
+/// Writes a file as [`replace_file`] does, and it is on the disk when this returns: it outlives a loss of power.
 pub(crate) fn replace_file_durably(
     folder: &Path,
     name: &str,
-    write: impl FnOnce(&mut File) -> io::Result<()>,
+    write: impl FnOnce(&mut fs::File) -> io::Result<()>,
 ) -> Result<PathBuf, ReportError> {
     let path = replace(folder, name, |file| {
         write(file)?;
@@ -39,7 +49,7 @@ pub(crate) fn replace_file_durably(
 /// Puts the names of a folder's files on the disk.
 #[cfg(unix)]
 fn sync_folder(folder: &Path) -> io::Result<()> {
-    File::open(folder)?.sync_all()
+    fs::File::open(folder)?.sync_all()
 }
 
 /// Elsewhere a folder cannot be opened as a file, and renaming is as durable as it gets.
@@ -51,7 +61,7 @@ fn sync_folder(_: &Path) -> io::Result<()> {
 fn replace(
     folder: &Path,
     name: &str,
-    write: impl FnOnce(&mut File) -> io::Result<()>,
+    write: impl FnOnce(&mut fs::File) -> io::Result<()>,
 ) -> Result<PathBuf, ReportError> {
     static COUNTER: AtomicU64 = AtomicU64::new(0);
     fs::create_dir_all(folder).map_err(|source| ReportError::Write {
@@ -61,7 +71,7 @@ fn replace(
     let path = folder.join(name);
     let number = COUNTER.fetch_add(1, Ordering::Relaxed);
     let temporary = folder.join(format!(".{name}.{}-{number}.tmp", process::id()));
-    File::create(&temporary)
+    fs::File::create(&temporary)
         .and_then(|mut file| write(&mut file))
         .and_then(|()| fs::rename(&temporary, &path))
         .map_err(|source| {

@@ -1,11 +1,13 @@
 //! Charts of one value a row, each with its range.
 
 use kuva::plot::forest::{ForestPlot, ForestRow};
+use serde::Serialize;
 
 use crate::{
     Axis, Figure, Mark,
-    frame::{Frame, plain},
-    mark,
+    chart_methods::chart_methods,
+    frame::{Frame, Head, plain},
+    mark, single,
 };
 
 /// Most characters of a name.
@@ -19,39 +21,33 @@ const MARKER: f64 = 5.0;
 /// A chart of named values, the first one at the top.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowChart {
-    pub(crate) name: String,
-    pub(crate) title: String,
-    pub(crate) caption: String,
+    pub(crate) head: Head,
     pub(crate) x: Axis,
     pub(crate) rows: Vec<Row>,
     pub(crate) marks: Vec<Mark>,
 }
 
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Row {
     pub(crate) name: String,
+    #[serde(serialize_with = "single::number")]
     pub(crate) value: f64,
+    #[serde(serialize_with = "single::range")]
     pub(crate) range: Option<(f64, f64)>,
     pub(crate) color: String,
 }
+
+chart_methods!(RowChart, marks);
 
 impl RowChart {
     /// An empty chart: file stem, title and the axis of the values.
     pub fn new(name: impl Into<String>, title: impl Into<String>, x: Axis) -> Self {
         Self {
-            name: name.into(),
-            title: title.into(),
-            caption: String::new(),
+            head: Head::new(name, title),
             x,
             rows: Vec::new(),
             marks: Vec::new(),
         }
-    }
-
-    /// Sets the line below the title.
-    pub fn caption(mut self, caption: impl Into<String>) -> Self {
-        self.caption = caption.into();
-        self
     }
 
     /// Adds a row: its name, its value, the ends of its range and its colour. Values that are not finite are left out.
@@ -70,12 +66,6 @@ impl RowChart {
                 color: color.into(),
             });
         }
-        self
-    }
-
-    /// Adds a vertical line.
-    pub fn mark(mut self, mark: Mark) -> Self {
-        self.marks.push(mark);
         self
     }
 
@@ -111,18 +101,12 @@ impl RowChart {
         let y = Axis::new("")
             .range(0.5, count.max(1.0) + 0.5)
             .names(names.map(|row| plain(&row.name, NAME_CHARS)));
+        let extents = (self.extent(), (0.5, count.max(1.0) + 0.5));
         let frame = Frame {
-            name: &self.name,
-            title: &self.title,
-            caption: &self.caption,
-            x: &self.x,
-            y: &y,
-            x_extent: self.extent(),
-            y_extent: (0.5, count.max(1.0) + 0.5),
             height: SURROUNDINGS + ROW * count.max(2.0),
-            right_margin: None,
             legend: mark::entries(&self.marks).collect(),
             marks: mark::reference_lines(&self.marks),
+            ..Frame::new(&self.head, [&self.x, &y], extents)
         };
         frame.draw(vec![plot.into()], |_, _| {})
     }

@@ -3,5 +3,3 @@
 mod cases;
 mod charts;
 mod compare;
-mod damping;
-mod paper;

@@ -19,7 +19,6 @@ mod fdm_planar;
 mod fdm_rod;
 mod hot_rod;
 mod invariants;
-mod judgement;
 mod layers;
 mod long_rods;
 mod melting;

@@ -1,14 +1,16 @@
 use std::path::PathBuf;
 
 use clap::{Args, builder::PossibleValuesParser};
-use comfy_table::{CellAlignment, Table, presets::UTF8_HORIZONTAL_ONLY};
 use percuss::{
     Scenario,
-    converge::{self, Quantity, Study, Verdict},
+    converge::{self, Study, Verdict},
     model::{self, Control, MODELS, Model},
     units::significant,
 };
-use percuss_report::convergence_figure;
+use percuss_report::{
+    convergence_figure,
+    table::{Column, Table, number},
+};
 
 use crate::{
     answer::{Answer, AtHand, Hear},
@@ -16,6 +18,7 @@ use crate::{
     output,
     progress::Progress,
     run_folder::RunFolder,
+    table::blocks,
     terminal::{bold, width, wrap},
     written::Written,
 };
@@ -154,21 +157,6 @@ impl Converge {
 
 /// Meshes as rows, quantities as columns, and below them order, extrapolated value and grid-convergence index.
 fn table(study: &Study) -> String {
-    let mut table = Table::new();
-    table.load_style(UTF8_HORIZONTAL_ONLY);
-    let heading =
-        |quantity: &Quantity| format!("{}\n[{}]", quantity.name.replace('_', "\n"), quantity.unit);
-    let mut header = vec!["elements".to_owned(), "steps".to_owned()];
-    header.extend(study.quantities.iter().map(heading));
-    table.set_header(header);
-    for (i, mesh) in study.meshes.iter().enumerate() {
-        let mut row = vec![
-            format!("{}–{}", mesh.projectile_elements, mesh.target_elements),
-            mesh.steps.to_string(),
-        ];
-        row.extend(study.quantities.iter().map(|q| significant(q.values[i], 5)));
-        table.add_row(row);
-    }
     let numbers = |verdict: &Verdict| {
         let (richardson, index) = match *verdict {
             Verdict::Converging {
@@ -176,27 +164,35 @@ fn table(study: &Study) -> String {
             } => (Some(richardson), Some(100.0 * index)),
             _ => (None, None),
         };
+        let order = verdict.order().map(|order| format!("{order:.2}"));
         [
-            verdict.order().map(|order| format!("{order:.2}")),
-            richardson.map(|value| significant(value, 5)),
-            index.map(|percent| significant(percent, 3)),
+            order.unwrap_or_else(|| number(None, 0)),
+            number(richardson, 5),
+            number(index, 3),
         ]
-        .map(|number| number.unwrap_or_else(|| "–".to_owned()))
     };
-    for (i, name) in ["order", "Richardson", "GCI [%]"].into_iter().enumerate() {
-        let mut row = vec![name.to_owned(), String::new()];
-        row.extend(
-            study
-                .quantities
-                .iter()
-                .map(|q| numbers(&q.verdict)[i].clone()),
-        );
-        table.add_row(row);
-    }
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    format!("{table}\n\n")
+    // Orders, limits and indices stand below the meshes.
+    let mut table = Table::of(&study.meshes)
+        .words("elements", |mesh| {
+            format!("{}–{}", mesh.projectile_elements, mesh.target_elements)
+        })
+        .each(["order", "Richardson", "GCI [%]"], |rows, name| {
+            rows.last(Some(name.to_owned()))
+        })
+        .numbers("steps", "", |mesh| mesh.steps.to_string())
+        .table();
+    table
+        .columns
+        .extend(study.quantities.iter().map(|quantity| {
+            let values = quantity.values.iter().map(|value| significant(*value, 5));
+            Column {
+                heading: quantity.name.replace('_', "\n"),
+                unit: quantity.unit.to_owned(),
+                numbers: true,
+                cells: values.chain(numbers(&quantity.verdict)).collect(),
+            }
+        }));
+    blocks(&table)
 }
 
 fn verdicts(study: &Study) -> String {

@@ -4,7 +4,6 @@ mod calibrate;
 mod compare;
 mod completions;
 mod converge;
-mod judge;
 #[cfg(not(all(feature = "parquet", feature = "png", feature = "serve")))]
 mod left_out;
 mod limit;
@@ -12,7 +11,7 @@ mod man;
 mod materials;
 mod models;
 mod new;
-mod reproduce;
+mod research;
 mod run;
 mod schema;
 #[cfg(feature = "serve")]
@@ -26,7 +25,6 @@ pub use calibrate::Calibrate;
 pub use compare::Compare;
 pub use completions::Completions;
 pub use converge::Converge;
-pub use judge::Judge;
 #[cfg(not(feature = "serve"))]
 pub use left_out::Serve;
 #[cfg(not(feature = "parquet"))]
@@ -36,7 +34,7 @@ pub use man::Man;
 pub use materials::Materials;
 pub use models::Models;
 pub use new::New;
-pub use reproduce::Reproduce;
+pub use research::{Judge, Reproduce};
 pub use run::Run;
 pub use schema::Schema;
 #[cfg(feature = "serve")]

@@ -61,6 +61,37 @@ impl Said {
     }
 }
 
+/// Checks a report `STEM.html` and `STEM.md` in a folder with tables of these names in Parquet; returns both texts.
+#[track_caller]
+pub fn whole_report(folder: &Path, stem: &str, parts: &[&str], tables: &[&str]) -> [String; 2] {
+    let texts = ["html", "md"].map(|ending| {
+        let path = folder.join(format!("{stem}.{ending}"));
+        fs::read_to_string(path).unwrap()
+    });
+    let [html, markdown] = &texts;
+    for part in ["<!doctype html>", "<h2>Every shot</h2>"]
+        .iter()
+        .chain(parts)
+    {
+        assert!(html.contains(part), "{part}");
+    }
+    assert!(
+        !html.contains("<script") && !html.contains("src="),
+        "not self-contained"
+    );
+    let pictures = markdown.lines().filter(|line| line.starts_with("!["));
+    for line in pictures {
+        let name = line.split(['(', ')']).rev().nth(1).unwrap();
+        assert!(folder.join(name).is_file(), "{name}");
+    }
+    for name in tables {
+        let bytes = fs::read(folder.join(name)).unwrap();
+        let whole = bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1");
+        assert!(whole, "{name}");
+    }
+    texts
+}
+
 /// Runs the program in a folder.
 pub fn percuss<I: AsRef<OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = I>) -> Said {
     let mut command = assert_cmd::Command::cargo_bin("percuss").expect("the program is built");

@@ -1,6 +1,8 @@
 //! The posterior seen along each parameter and along each pair of them.
+//!
+//! The plotting library's histograms over two axes leave seams between their cells.
 
-use percuss::calibrate::Sample;
+use percuss::{calibrate::Sample, statistics::sorted};
 
 use super::{
     Column,
@@ -64,8 +66,7 @@ pub(super) fn figure(sample: &Sample, columns: &[Column]) -> Figure {
 }
 
 fn range(values: &[f64]) -> (f64, f64) {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
+    let sorted = sorted(values.iter().copied());
     let cut = ((1.0 - SHOWN) / 2.0 * sorted.len() as f64) as usize;
     let (low, high) = (sorted[cut], sorted[sorted.len() - 1 - cut]);
     match high > low {

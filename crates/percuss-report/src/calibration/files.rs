@@ -7,7 +7,7 @@ use percuss::calibrate::{Calibration, ParameterRecord, Prediction};
 use crate::{
     ReportError,
     column::{self, Column},
-    replace_file::replace_file,
+    replace_file::replace_files,
 };
 
 /// A state of the sample with the place that it was drawn at.
@@ -23,17 +23,12 @@ struct State {
 /// # Errors
 /// [`ReportError::Write`]; [`ReportError::Table`].
 pub fn write(folder: &Path, calibration: &Calibration) -> Result<Vec<PathBuf>, ReportError> {
-    let tables = tables(calibration)?.into_iter();
-    let mut written = tables
-        .map(|(name, content)| replace_file(folder, name, &content))
-        .collect::<Result<Vec<_>, _>>()?;
+    let mut files = tables(calibration)?;
     if let Some(states) = states(calibration) {
-        let name = "sample.parquet";
-        if let Some((_, table)) = column::parquet(name, &state_columns(calibration), &states)? {
-            written.push(replace_file(folder, name, &table)?);
-        }
+        let columns = state_columns(calibration);
+        files.extend(column::parquet("sample.parquet", &columns, &states)?);
     }
-    Ok(written)
+    replace_files(folder, files)
 }
 
 /// The tables that [`write`] writes as CSV: name and content of each.

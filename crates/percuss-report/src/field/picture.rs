@@ -1,14 +1,6 @@
 //! Pictures of a field: the bodies mirrored in the axis, with scales, colour bar and time.
 
-use kuva::{
-    plot::LinePlot,
-    render::{
-        color::Color,
-        layout::ComputedLayout,
-        render::{PathData, Primitive, Scene, TextAnchor},
-        render_utils::generate_ticks,
-    },
-};
+use kuva::plot::LinePlot;
 use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 
 use super::{
@@ -19,15 +11,13 @@ use super::{
 use crate::{
     Axis, Figure, ReportError,
     caption::significant,
-    frame::{Frame, WIDTH, tick_label},
+    color_bar::{self, ColorBar},
+    frame::{Frame, Head, WIDTH},
     pixels::draw_over,
-    primitives::text,
 };
 
 /// Space at the right for the colour bar, its numbers and its label [px].
 const BAR_MARGIN: f64 = 124.0;
-/// Distance of the colour bar from the plot, and its width [px].
-const BAR_PLACE: (f64, f64) = (20.0, 18.0);
 /// Space above the colour bar for the time [px].
 const TIME: f64 = 46.0;
 /// Height of the part that shows the bodies [px].
@@ -102,7 +92,7 @@ impl Canvas {
     /// Time and depth above the colour bar.
     fn stamp(&self, points: &Points) -> String {
         let [left, top, width, height] = self.place;
-        let x = left + width + BAR_PLACE.0;
+        let x = left + width + color_bar::PLACE.0;
         let total = top + height + 200.0;
         let time = format!("{:.1} µs", points.time * 1e6);
         let mut lines = format!(
@@ -130,18 +120,16 @@ fn draw(title: &str, caption: &str, colors: Colors, view: View, height: f64) -> 
         (-view.radius * 1e3, view.radius * 1e3),
         (-view.depth.1 * 1e3, -view.depth.0 * 1e3),
     );
+    let mut head = Head::new("field", title);
+    head.caption = caption.to_owned();
+    let axes = [
+        &Axis::new("distance from the axis [mm]").range(x.0, x.1),
+        &Axis::new("depth [mm]").range(y.0, y.1).downward(),
+    ];
     let frame = Frame {
-        name: "field",
-        title,
-        caption,
-        x: &Axis::new("distance from the axis [mm]").range(x.0, x.1),
-        y: &Axis::new("depth [mm]").range(y.0, y.1).downward(),
-        x_extent: x,
-        y_extent: y,
         height,
         right_margin: Some(BAR_MARGIN),
-        legend: Vec::new(),
-        marks: Vec::new(),
+        ..Frame::new(&head, axes, (x, y))
     };
     let mut place = [0.0; 4];
     // Axes are drawn only for a plot, so there is one without content.
@@ -152,7 +140,14 @@ fn draw(title: &str, caption: &str, colors: Colors, view: View, height: f64) -> 
             layout.plot_width(),
             layout.plot_height(),
         ];
-        add_bar(scene, layout, &colors);
+        let hex = |[r, g, b]: [u8; 3]| format!("#{r:02x}{g:02x}{b:02x}");
+        let bar = ColorBar {
+            colors: (0..LEVELS).map(|level| hex(colors.band(level))).collect(),
+            ends: colors.range,
+            label: colors.quantity.label(),
+            below_top: TIME,
+        };
+        bar.draw(scene, layout);
     });
     Canvas {
         figure,
@@ -160,61 +155,4 @@ fn draw(title: &str, caption: &str, colors: Colors, view: View, height: f64) -> 
         view,
         place,
     }
-}
-
-fn add_bar(scene: &mut Scene, layout: &ComputedLayout, colors: &Colors) {
-    let left = layout.margin_left + layout.plot_width() + BAR_PLACE.0;
-    let top = layout.margin_top + TIME;
-    let height = layout.plot_height() - TIME;
-    let step = height / LEVELS as f64;
-    for level in 0..LEVELS {
-        let y = top + height - step * (level + 1) as f64;
-        let [r, g, b] = colors.band(level);
-        scene.add(Primitive::Path(Box::new(PathData {
-            d: format!("M{left} {y:.2}h{0}v{1:.2}h-{0}z", BAR_PLACE.1, step + 0.3),
-            fill: Some(Color::from(&*format!("#{r:02x}{g:02x}{b:02x}"))),
-            stroke: Color::None,
-            stroke_width: 0.0,
-            opacity: None,
-            stroke_dasharray: None,
-        })));
-    }
-    scene.add(Primitive::Rect {
-        x: left,
-        y: top,
-        width: BAR_PLACE.1,
-        height,
-        fill: Color::None,
-        stroke: Some(Color::from("black")),
-        stroke_width: Some(1.0),
-        opacity: None,
-    });
-    let right = left + BAR_PLACE.1;
-    let (low, high) = colors.range;
-    for value in generate_ticks(low, high, 7) {
-        let part = (value - low) / (high - low);
-        if !(-1e-9..=1.0 + 1e-9).contains(&part) {
-            continue;
-        }
-        let y = top + height * (1.0 - part);
-        scene.add(Primitive::Line {
-            x1: right,
-            y1: y,
-            x2: right + 4.0,
-            y2: y,
-            stroke: Color::from("black"),
-            stroke_width: 1.0,
-            stroke_dasharray: None,
-        });
-        scene.add(text(
-            (right + 7.0, y + 4.0),
-            &tick_label(value),
-            (12, TextAnchor::Start, None),
-        ));
-    }
-    scene.add(text(
-        (layout.width - 12.0, top + 0.5 * height),
-        colors.quantity.label(),
-        (14, TextAnchor::Middle, Some(-90.0)),
-    ));
 }

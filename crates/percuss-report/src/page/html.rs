@@ -1,6 +1,7 @@
 //! A page as one self-contained HTML file.
 
-use super::{Block, Table};
+use super::{Block, typeset};
+use crate::table::Table;
 
 const STYLE: &str = "\
 :root{color-scheme:light dark;--ink:#1c2024;--soft:#5b6470;--line:#d8dce1;--stripe:#f5f6f8;--paper:#fff;--link:#0b5cad}\
@@ -20,7 +21,8 @@ figcaption{color:var(--soft);font-size:.86rem;margin-top:.3rem}\
 summary{cursor:pointer;color:var(--link)}\
 @media print{details>*{display:block}}";
 
-pub(crate) fn render(page: &[Block<'_>]) -> String {
+/// The page as HTML.
+pub fn render(page: &[Block<'_>]) -> String {
     let title = page.iter().find_map(|block| match block {
         Block::Title(title) => Some(escape(title)),
         _ => None,
@@ -117,16 +119,17 @@ impl Writer {
 
     fn table(&mut self, table: &Table) {
         let class = |number: bool| if number { " class=\"n\"" } else { "" };
-        let numbers: Vec<bool> = table.columns().map(|(_, number)| number).collect();
         self.text += "<div class=\"wide\"><table>\n<thead><tr>";
-        for (name, number) in table.columns() {
-            self.text += &format!("<th{}>{}</th>", class(number), escape(name));
+        for column in &table.columns {
+            let (class, title) = (class(column.numbers), escape(&column.title()));
+            self.text += &format!("<th{class}>{title}</th>");
         }
         self.text += "</tr></thead>\n<tbody>\n";
-        for row in &table.rows {
+        for index in 0..table.len() {
             self.text += "<tr>";
-            for (field, &number) in row.iter().zip(&numbers) {
-                self.text += &format!("<td{}>{}</td>", class(number), escape(field));
+            for (cell, column) in table.row(index).zip(&table.columns) {
+                let cell = escape(&typeset(cell, column.numbers));
+                self.text += &format!("<td{}>{cell}</td>", class(column.numbers));
             }
             self.text += "</tr>\n";
         }
@@ -142,10 +145,11 @@ mod tests {
     fn nothing_of_a_text_becomes_markup() {
         let page = [
             Block::Title("<b>".to_owned()),
-            Block::Table(Table {
-                head: vec!["#a & b".to_owned()],
-                rows: vec![vec!["<script>alert('x')</script>".to_owned()]],
-            }),
+            Block::Table(
+                Table::of(&["<script>alert('x')</script>"])
+                    .numbers("a & b", "", |cell| *cell)
+                    .table(),
+            ),
         ];
         let html = render(&page);
         assert!(!html.contains("<script") && !html.contains("<b>"), "{html}");

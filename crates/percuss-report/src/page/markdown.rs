@@ -1,9 +1,10 @@
 //! A page as Markdown.
 
-use super::{Block, Table};
-use crate::figure::IN_PAGES;
+use super::{Block, typeset};
+use crate::{figure::IN_PAGES, table::Table};
 
-pub(crate) fn render(page: &[Block<'_>]) -> String {
+/// The page as Markdown.
+pub fn render(page: &[Block<'_>]) -> String {
     let parts: Vec<String> = page.iter().filter_map(block).collect();
     parts.join("\n\n") + "\n"
 }
@@ -43,15 +44,22 @@ fn block(block: &Block<'_>) -> Option<String> {
 }
 
 fn table(table: &Table) -> String {
-    let row = |fields: Vec<String>| format!("| {} |\n", fields.join(" | "));
-    let mut text = row(table.columns().map(|(name, _)| escape(name)).collect());
+    let row = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+    let columns = &table.columns;
+    let mut text = row(columns
+        .iter()
+        .map(|column| escape(&column.title()))
+        .collect());
     text += "|";
-    for (_, number) in table.columns() {
-        text += if number { "---:|" } else { "---|" };
+    for column in columns {
+        text += if column.numbers { "---:|" } else { "---|" };
     }
     text.push('\n');
-    for fields in &table.rows {
-        text += &row(fields.iter().map(|field| escape(field)).collect());
+    for index in 0..table.len() {
+        let cells = table.row(index).zip(columns);
+        text += &row(cells
+            .map(|(cell, column)| escape(&typeset(cell, column.numbers)))
+            .collect());
     }
     text.trim_end().to_owned()
 }
@@ -88,10 +96,15 @@ mod tests {
             escape("a|b *c* <d> ballistic_limit _e"),
             r"a\|b \*c\* &lt;d&gt; ballistic_limit \_e"
         );
-        let page = [Block::Table(Table {
-            head: vec!["a".to_owned(), "#n".to_owned()],
-            rows: vec![vec!["x|y".to_owned(), "1\n2".to_owned()]],
-        })];
-        assert_eq!(render(&page), "| a | n |\n|---|---:|\n| x\\|y | 1 2 |\n");
+        let page = [Block::Table(
+            Table::of(&[()])
+                .words("a", |()| "x|y")
+                .numbers("n\nof it", "mm", |()| "-1\n2")
+                .table(),
+        )];
+        assert_eq!(
+            render(&page),
+            "| a | n of it \\[mm\\] |\n|---|---:|\n| x\\|y | \u{2212}1 2 |\n"
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! The columns of a sweep: inputs, outcome, every scalar result, warnings and errors.
 
 use percuss::{
-    judge::Expectation,
+    model_error::Expectation,
     summary::{ResultRecord, Role, result_numbers},
     sweep::{Row, Sweep},
 };

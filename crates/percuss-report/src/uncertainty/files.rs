@@ -9,7 +9,7 @@ use percuss::uncertainty::{
 use crate::{
     ReportError,
     column::{self, Column},
-    replace_file::replace_file,
+    replace_file::replace_files,
 };
 
 /// A quantity at a speed, or of the whole sample.
@@ -36,10 +36,7 @@ struct Influence {
 /// # Errors
 /// [`ReportError::Write`]; [`ReportError::Table`].
 pub fn write_uncertainty(folder: &Path, found: &Uncertainty) -> Result<Vec<PathBuf>, ReportError> {
-    let files = uncertainty_files(found)?.into_iter();
-    files
-        .map(|(name, content)| replace_file(folder, name, &content))
-        .collect()
+    replace_files(folder, uncertainty_files(found)?)
 }
 
 /// The files that [`write_uncertainty`] writes: name and content of each.

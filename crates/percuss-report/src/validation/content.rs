@@ -6,7 +6,7 @@ use percuss::{
 };
 
 use super::{Origin, figures::Drawn, tables};
-use crate::page::{Block, Table};
+use crate::{page::Block, table::Table};
 
 pub(super) fn page<'a>(
     validation: &Validation,
@@ -44,7 +44,7 @@ pub(super) fn page<'a>(
     page.extend(blind(validation));
     page.push(Block::Heading("Suspect rows".to_owned()));
     let suspects = tables::suspects(validation);
-    if suspects.rows.is_empty() {
+    if suspects.is_empty() {
         page.push(Block::Text("There are none.".to_owned()));
     } else {
         page.push(Block::Text(
@@ -99,7 +99,7 @@ fn heading(kind: Kind) -> String {
 fn section<'a>(validation: &Validation, kind: Kind, figures: &'a [Drawn]) -> Vec<Block<'a>> {
     let mut blocks = vec![Block::Heading(heading(kind))];
     let table = tables::models(validation, kind);
-    if table.rows.is_empty() {
+    if table.is_empty() {
         blocks.push(Block::Text("No prediction is counted.".to_owned()));
     } else {
         blocks.push(Block::Table(table));
@@ -178,17 +178,14 @@ fn not_blind(validation: &Validation) -> Vec<String> {
 }
 
 fn blind<'a>(validation: &Validation) -> Vec<Block<'a>> {
-    let mut table = Table::new(&["kind", "model", "split", "#n", "#bias [%]", "#RMS [%]"]);
-    for group in statistics(validation, Grouping::Split) {
-        table.rows.push(vec![
-            heading(group.kind),
-            group.model.to_owned(),
-            group.value,
-            group.errors.count.to_string(),
-            tables::percent(group.errors.bias),
-            tables::percent(group.errors.rms),
-        ]);
-    }
+    let table = Table::of(&statistics(validation, Grouping::Split))
+        .words("kind", |group| heading(group.kind))
+        .words("model", |group| group.model)
+        .words("split", |group| group.value.clone())
+        .numbers("n", "", |group| group.errors.count.to_string())
+        .numbers("bias", "%", |group| tables::percent(group.errors.bias))
+        .numbers("RMS", "%", |group| tables::percent(group.errors.rms))
+        .table();
     let mut exceptions = not_blind(validation);
     if exceptions.is_empty() {
         exceptions.push("none".to_owned());
@@ -230,9 +227,9 @@ fn every_shot<'a>(validation: &Validation) -> Vec<Block<'a>> {
     let mut blocks = vec![Block::Heading("Every shot".to_owned())];
     for kind in Kind::ALL {
         let table = tables::shots(validation, kind);
-        if !table.rows.is_empty() {
+        if !table.is_empty() {
             blocks.push(Block::Folded(
-                format!("{} ({} lines)", heading(kind), table.rows.len()),
+                format!("{} ({} lines)", heading(kind), table.len()),
                 vec![Block::Table(table)],
             ));
         }

@@ -3,7 +3,7 @@
 mod content;
 mod figures;
 mod numbers;
-mod tables;
+pub mod tables;
 
 use std::path::{Path, PathBuf};
 
@@ -11,8 +11,7 @@ use percuss::validate::Validation;
 
 use crate::{
     ReportError,
-    page::{html, markdown},
-    replace_file::replace_file,
+    page::{self, html},
 };
 
 /// What a report says of itself: where its shots come from.
@@ -40,17 +39,9 @@ pub fn write(
 ) -> Result<Vec<PathBuf>, ReportError> {
     let figures = figures::draw(validation);
     let page = content::page(validation, origin, &figures);
-    let mut written = vec![
-        replace_file(folder, "validation.html", html::render(&page).as_bytes())?,
-        replace_file(folder, "validation.md", markdown::render(&page).as_bytes())?,
-    ];
-    for figure in figures.iter().map(|figure| &figure.drawing) {
-        written.push(figure.write_for_page(folder)?);
-    }
-    for (name, content) in numbers::files(validation)? {
-        written.push(replace_file(folder, name, &content)?);
-    }
-    Ok(written)
+    let figures_of_page = figures.iter().map(|figure| &figure.drawing);
+    let files = numbers::files(validation)?;
+    page::write(folder, "validation", &page, figures_of_page, files)
 }
 
 /// The report as one self-contained HTML page.

@@ -9,21 +9,12 @@ use crate::{
 
 /// Names and contents of the files.
 pub(super) fn files(validation: &Validation) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
-    let (predictions, groups) = (validation.records(), validation.all_statistics());
-    let (of_prediction, of_group) = (prediction_columns(), group_columns());
-    let [a, b, c, d] = [
-        "predictions.csv",
-        "predictions.parquet",
-        "statistics.csv",
-        "statistics.parquet",
-    ];
-    let files = [
-        Some((a, column::csv(a, &of_prediction, &predictions)?)),
-        column::parquet(b, &of_prediction, &predictions)?,
-        Some((c, column::csv(c, &of_group, &groups)?)),
-        column::parquet(d, &of_group, &groups)?,
-    ];
-    Ok(files.into_iter().flatten().collect())
+    let names = ["predictions.csv", "predictions.parquet"];
+    let mut files = column::files(names, &prediction_columns(), &validation.records())?;
+    let names = ["statistics.csv", "statistics.parquet"];
+    let groups = validation.all_statistics();
+    files.extend(column::files(names, &group_columns(), &groups)?);
+    Ok(files)
 }
 
 fn prediction_columns() -> Vec<Column<PredictionRecord>> {

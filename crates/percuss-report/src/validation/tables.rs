@@ -9,16 +9,16 @@ use percuss::{
     validate::{self, Errors, Group, Grouping, Prediction, SEPARATOR, Standing, Validation},
 };
 
-use crate::page::Table;
+use crate::table::{Rows, Table};
 
 /// A relative error in per cent.
 pub(super) fn percent(error: f64) -> String {
-    format!("{:.1}", 100.0 * error).replace('-', "\u{2212}")
+    format!("{:.1}", 100.0 * error)
 }
 
 /// A relative error in per cent with its sign.
 fn signed(error: f64) -> String {
-    format!("{:+.1}", 100.0 * error).replace('-', "\u{2212}")
+    format!("{:+.1}", 100.0 * error)
 }
 
 fn of_kind(validation: &Validation, kind: Kind, grouping: Grouping) -> Vec<Group> {
@@ -27,35 +27,30 @@ fn of_kind(validation: &Validation, kind: Kind, grouping: Grouping) -> Vec<Group
     groups
 }
 
-const ERRORS: [&str; 6] = [
-    "#n",
-    "#bias [%]",
-    "#RMS [%]",
-    "#median [%]",
-    "#worst [%]",
-    "worst shot",
-];
-
-fn errors(errors: &Errors) -> Vec<String> {
-    vec![
-        errors.count.to_string(),
-        signed(errors.bias),
-        percent(errors.rms),
-        percent(errors.median_absolute),
-        signed(errors.worst),
-        errors.worst_id.clone(),
-    ]
+/// Columns of errors, of which each row has some.
+fn errors<R>(rows: Rows<'_, R>, of: impl Fn(&R) -> &Errors) -> Rows<'_, R> {
+    rows.numbers("n", "", |row| of(row).count.to_string())
+        .numbers("bias", "%", |row| signed(of(row).bias))
+        .numbers("RMS", "%", |row| percent(of(row).rms))
+        .numbers("median", "%", |row| percent(of(row).median_absolute))
+        .numbers("worst", "%", |row| signed(of(row).worst))
 }
 
-/// One row a model.
-pub(super) fn models(validation: &Validation, kind: Kind) -> Table {
-    let mut table = Table::new(&[&["model"], ERRORS.as_slice()].concat());
-    for group in of_kind(validation, kind, Grouping::All) {
-        let mut row = vec![group.model_in_words()];
-        row.extend(errors(&group.errors));
-        table.rows.push(row);
-    }
-    table
+/// Errors of the models on shots of a kind, one row per model.
+pub fn models(validation: &Validation, kind: Kind) -> Table {
+    let groups = of_kind(validation, kind, Grouping::All);
+    let rows = Table::of(&groups).words("model", Group::model_in_words);
+    errors(rows, |group| &group.errors)
+        .words("worst shot", |group| group.errors.worst_id.clone())
+        .table()
+}
+
+/// Errors on shots of a kind by a property of the shots, one row per model and value of the property.
+pub fn by_property(validation: &Validation, kind: Kind, grouping: Grouping) -> Table {
+    let groups = of_kind(validation, kind, grouping);
+    let heading = format!("by {}", grouping.in_words());
+    let rows = Table::of(&groups).words(heading, |group| group.value.clone());
+    errors(rows, |group| &group.errors).table()
 }
 
 /// One row a group and model; the groups together, for the models to be compared.
@@ -63,74 +58,71 @@ pub(super) fn groups(validation: &Validation, kind: Kind, grouping: Grouping) ->
     let mut groups = of_kind(validation, kind, grouping);
     // A stable sort: within a group the models keep their order.
     groups.sort_by(|a, b| a.value.cmp(&b.value));
-    let parts = grouping.parts().len();
-    let mut table = Table::new(&[grouping.parts(), &["model"], ERRORS.as_slice()].concat());
-    let mut last = String::new();
-    for group in groups {
-        let mut row = if group.value == last {
-            vec![String::new(); parts]
-        } else {
-            let value = group.value.splitn(parts, SEPARATOR);
-            value.map(str::to_owned).collect()
-        };
-        row.push(group.model.to_owned());
-        row.extend(errors(&group.errors));
-        table.rows.push(row);
-        last = group.value;
-    }
-    table
+    let of_value = groups.chunk_by(|a, b| a.value == b.value);
+    // The value stands in the first row of its group.
+    let rows: Vec<(bool, &Group)> = of_value
+        .flat_map(|group| group.iter().enumerate().map(|(i, group)| (i == 0, group)))
+        .collect();
+    let parts = grouping.parts();
+    let rows = Table::of(&rows)
+        .each(parts.iter().enumerate(), |rows, (i, part)| {
+            rows.words(*part, |(first, group)| {
+                let value = group.value.splitn(parts.len(), SEPARATOR).nth(i);
+                value.filter(|_| *first).unwrap_or_default()
+            })
+        })
+        .words("model", |(_, group)| group.model);
+    errors(rows, |(_, group)| &group.errors)
+        .words("worst shot", |(_, group)| group.errors.worst_id.clone())
+        .table()
 }
 
 /// What became of the shots of a kind, for the models that give what it measures.
 pub(super) fn coverage(validation: &Validation, kind: Kind) -> Table {
-    let mut table = Table::new(&[
-        "model",
-        "#shots",
-        "#counted",
-        "#suspect",
-        "#repeated",
-        "#stopped",
-        "#no case",
-        "#not given",
-        "#does not apply",
-        "#failed",
-        "commonest reason",
-    ]);
-    for coverage in validate::coverage(validation)
-        .into_iter()
-        .filter(|c| c.kind == kind && c.is_given())
-    {
-        let mut row = vec![coverage.model.to_owned(), coverage.total().to_string()];
-        row.extend(Standing::ALL.map(|standing| coverage.count(standing).to_string()));
-        let reason = coverage.reason;
-        row.push(reason.map_or_else(String::new, |(reason, count)| format!("{reason} ({count})")));
-        table.rows.push(row);
-    }
-    table
+    const STANDINGS: [&str; 8] = [
+        "counted",
+        "suspect",
+        "repeated",
+        "stopped",
+        "no case",
+        "not given",
+        "does not apply",
+        "failed",
+    ];
+    let mut coverage = validate::coverage(validation);
+    coverage.retain(|coverage| coverage.kind == kind && coverage.is_given());
+    Table::of(&coverage)
+        .words("model", |coverage| coverage.model)
+        .numbers("shots", "", |coverage| coverage.total().to_string())
+        .each(
+            STANDINGS.into_iter().zip(Standing::ALL),
+            |rows, (name, standing)| {
+                rows.numbers(name, "", |coverage| coverage.count(standing).to_string())
+            },
+        )
+        .words("commonest reason", |coverage| {
+            let reason = coverage.reason.as_ref();
+            reason.map_or_else(String::new, |(reason, count)| format!("{reason} ({count})"))
+        })
+        .table()
 }
 
 /// Suspect rows, with what the models say of them.
 pub(super) fn suspects(validation: &Validation) -> Table {
-    let mut table = Table::new(&[
-        "shot",
-        "source",
-        "why",
-        "#measured",
-        "unit",
-        "model and error [%]",
-    ]);
-    for (index, shot) in validation.shots.iter().enumerate() {
-        let Some(flag) = &shot.flag else { continue };
-        table.rows.push(vec![
-            shot.id.clone(),
-            shot.source.clone(),
-            flag.clone(),
-            significant(shot.kind.shown(shot.measured), 5),
-            shot.kind.unit().to_owned(),
-            answers(validation, index),
-        ]);
-    }
-    table
+    let suspects = validation.shots.iter().enumerate();
+    let suspects: Vec<(usize, &Shot)> = suspects.filter(|(_, shot)| shot.flag.is_some()).collect();
+    Table::of(&suspects)
+        .words("shot", |(_, shot)| shot.id.clone())
+        .words("source", |(_, shot)| shot.source.clone())
+        .words("why", |(_, shot)| shot.flag.clone().unwrap_or_default())
+        .numbers("measured", "", |(_, shot)| {
+            significant(shot.kind.shown(shot.measured), 5)
+        })
+        .words("unit", |(_, shot)| shot.kind.unit())
+        .words("model and error [%]", |(index, _)| {
+            answers(validation, *index)
+        })
+        .table()
 }
 
 /// Errors of all models that gave a number for a shot with its main record.
@@ -139,10 +131,11 @@ fn answers(validation: &Validation, shot: usize) -> String {
         .predictions
         .iter()
         .filter(|p| p.shot == shot && p.main_record);
-    let answers: Vec<String> = of_shot
-        .filter_map(|p| Some(format!("{} {}", p.model, signed(p.relative_error?))))
-        .collect();
-    answers.join(", ")
+    let answer = |p: &Prediction| {
+        let error = signed(p.relative_error?).replace('-', "\u{2212}");
+        Some(format!("{} {error}", p.model))
+    };
+    of_shot.filter_map(answer).collect::<Vec<_>>().join(", ")
 }
 
 /// Works that the shots come from.
@@ -151,36 +144,23 @@ pub(super) fn sources(validation: &Validation) -> Table {
     for shot in &validation.shots {
         groups.entry(&shot.source).or_default().push(shot);
     }
-    let mut table = Table::new(&[
-        "source",
-        "work",
-        "#shots",
-        "split",
-        "licence",
-        "what was read",
-    ]);
-    for (source, shots) in groups {
-        let (work, note) = references()
-            .get(source)
-            .map_or_else(Default::default, |reference| {
-                (
-                    format!(
-                        "{}. {}. {}",
-                        reference.label, reference.title, reference.place
-                    ),
-                    reference.note.clone(),
-                )
-            });
-        table.rows.push(vec![
-            source.to_owned(),
-            work,
-            shots.len().to_string(),
-            words(shots.iter().map(|shot| shot.split.name())),
-            words(shots.iter().map(|shot| shot.licence.as_str())),
-            note,
-        ]);
-    }
-    table
+    let groups: Vec<(&str, Vec<&Shot>)> = groups.into_iter().collect();
+    let all = |shots: &[&Shot], of: fn(&Shot) -> &str| words(shots.iter().map(|shot| of(shot)));
+    Table::of(&groups)
+        .words("source", |(source, _)| *source)
+        .words("work", |(source, _)| {
+            references().get(*source).map_or_else(String::new, |work| {
+                format!("{}. {}. {}", work.label, work.title, work.place)
+            })
+        })
+        .numbers("shots", "", |(_, shots)| shots.len().to_string())
+        .words("split", |(_, shots)| all(shots, |shot| shot.split.name()))
+        .words("licence", |(_, shots)| all(shots, |shot| &shot.licence))
+        .words("what was read", |(source, _)| {
+            let work = references().get(*source);
+            work.map_or_else(String::new, |work| work.note.clone())
+        })
+        .table()
 }
 
 /// Different words, each once.
@@ -205,55 +185,44 @@ pub(super) fn shots(validation: &Validation, kind: Kind) -> Table {
         .copied()
         .filter(|model| gave(model))
         .collect();
-    let mut table = Table::new(&["shot", "source", "record", "target", "#speed [m/s]"]);
-    table.head.push(format!("#measured [{}]", kind.unit()));
-    table.head.extend(
-        models
-            .iter()
-            .map(|model| format!("#{model} [{}] (error [%])", kind.unit())),
-    );
-    table
-        .head
-        .extend(["not counted because", "read at"].map(str::to_owned));
     let mut rows: BTreeMap<(usize, bool, &str), Vec<&Prediction>> = BTreeMap::new();
-    for prediction in validation
-        .predictions
-        .iter()
-        .filter(|p| validation.shot(p).kind == kind)
-    {
-        let key = (
-            prediction.shot,
-            !prediction.main_record,
-            prediction.record.as_str(),
-        );
-        rows.entry(key).or_default().push(prediction);
+    for prediction in &validation.predictions {
+        if validation.shot(prediction).kind == kind {
+            let record = prediction.record.as_str();
+            let key = (prediction.shot, !prediction.main_record, record);
+            rows.entry(key).or_default().push(prediction);
+        }
     }
-    for ((index, _, record), predictions) in rows {
-        let shot = &validation.shots[index];
-        let mut row = vec![
-            shot.id.clone(),
-            shot.source.clone(),
-            record.to_owned(),
-            shot.target.name().to_owned(),
-            significant(shot.impact_velocity, 5),
-            significant(kind.shown(shot.measured), 5),
-        ];
-        row.extend(models.iter().map(|model| {
-            predictions
-                .iter()
-                .find(|p| p.model == *model)
-                .map_or_else(String::new, |prediction| answer(prediction))
-        }));
-        row.push(
-            shot.no_case()
-                .or(shot.flag.clone())
-                .or(shot.duplicate_of.as_ref().map(|id| format!("repeats {id}")))
-                .unwrap_or_default(),
-        );
-        row.push(shot.read_at.clone());
-        table.rows.push(row);
-    }
-    table
+    let rows: Vec<(&Shot, &str, Vec<&Prediction>)> = rows
+        .into_iter()
+        .map(|((index, _, record), predictions)| (&validation.shots[index], record, predictions))
+        .collect();
+    let unit = kind.unit();
+    Table::of(&rows)
+        .words("shot", |(shot, ..)| shot.id.clone())
+        .words("source", |(shot, ..)| shot.source.clone())
+        .words("record", |(_, record, _)| *record)
+        .words("target", |(shot, ..)| shot.target.name())
+        .numbers("speed", "m/s", |(shot, ..)| {
+            significant(shot.impact_velocity, 5)
+        })
+        .numbers("measured", unit, |(shot, ..)| {
+            significant(kind.shown(shot.measured), 5)
+        })
+        .each(models, |rows, model| {
+            let heading = format!("{model} [{unit}] (error [%])");
+            rows.numbers(heading, "", |(_, _, predictions)| {
+                let prediction = predictions.iter().find(|p| p.model == model);
+                prediction.map_or_else(String::new, |prediction| answer(prediction))
+            })
+        })
+        .words("not counted because", |(shot, ..)| {
+            let repeats = || shot.duplicate_of.as_ref().map(|id| format!("repeats {id}"));
+            let reason = shot.no_case().or(shot.flag.clone()).or_else(repeats);
+            reason.unwrap_or_default()
+        })
+        .words("read at", |(shot, ..)| shot.read_at.clone())
+        .table()
 }
 
 fn answer(prediction: &Prediction) -> String {

@@ -2,8 +2,10 @@
 //!
 //! Chains are lists of equal length. Ranks do not care about heavy tails, nor about the scale a parameter is measured on.
 
-use super::predictive::quantile;
-use crate::sweep;
+use crate::{
+    statistics::{mean, quantile, sorted, variance},
+    sweep,
+};
 
 /// R-hat of chains \[vehtari2021\]: near 1 where they agree, more than 1.01 where more has to be sampled.
 ///
@@ -29,7 +31,7 @@ pub fn bulk_effective_size(chains: &[Vec<f64>], together: usize) -> f64 {
 /// Effective sample size for the ends of intervals: the smaller of those of being below the 5 % and below the 95 % quantile
 /// \[vehtari2021\]. The rest as for [`bulk_effective_size`].
 pub fn tail_effective_size(chains: &[Vec<f64>], together: usize) -> f64 {
-    let all = chains.concat();
+    let all = sorted(chains.concat());
     let of = |chance| {
         let end = quantile(&all, chance);
         let is_below = map(chains, |value| f64::from(u8::from(value <= end)));
@@ -63,7 +65,7 @@ fn normal_scores(chains: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 /// Distances from the median of all chains.
 fn folded(chains: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let median = quantile(&chains.concat(), 0.5);
+    let median = quantile(&sorted(chains.concat()), 0.5);
     map(chains, |value| (value - median).abs())
 }
 
@@ -140,18 +142,6 @@ fn series_size(series: &[&[f64]]) -> f64 {
     let states = (series.len() * length) as f64;
     // Of chains that alternate the sum may be tiny; more than this would not be believed.
     states / time.max(1.0 / states.log10())
-}
-
-/// Mean of values.
-pub(super) fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
-}
-
-/// Unbiased variance of values.
-pub(super) fn variance(values: &[f64]) -> f64 {
-    let centre = mean(values);
-    let squares: f64 = values.iter().map(|value| (value - centre).powi(2)).sum();
-    squares / (values.len() as f64 - 1.0)
 }
 
 /// Variances of chains.

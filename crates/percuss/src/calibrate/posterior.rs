@@ -7,14 +7,13 @@ use serde::Serialize;
 
 use super::{
     Noise, ParameterRecord, Problem, Sample, Sampling, ScatterRecord, Stage, Watch, cancelled,
-    diagnostics::{mean, variance},
-    fit::Fit,
-    heard,
-    noise::SCATTER,
-    predictive::{CHANCES, quantile},
-    sampler,
+    fit::Fit, heard, noise::SCATTER, predictive::CHANCES, sampler,
 };
-use crate::{Error, sweep};
+use crate::{
+    Error,
+    statistics::{mean, quantile, sorted, variance},
+    sweep,
+};
 
 /// How much wider than the estimated posterior the walkers start: R-hat sees ensembles that have not met.
 const SPREAD: f64 = 2.0;
@@ -44,10 +43,11 @@ pub struct Marginal {
 impl Marginal {
     pub(super) fn of(sample: &Sample, parameter: usize) -> Self {
         let values = sample.values(parameter);
+        let sorted = sorted(values.iter().copied());
         Self {
             mean: mean(&values),
             standard_deviation: variance(&values).sqrt(),
-            quantiles: CHANCES.map(|chance| quantile(&values, chance)),
+            quantiles: CHANCES.map(|chance| quantile(&sorted, chance)),
             r_hat: sample.r_hat(parameter),
             bulk_effective_size: sample.bulk_effective_size(parameter),
             tail_effective_size: sample.tail_effective_size(parameter),
@@ -141,7 +141,8 @@ pub(super) fn shape(problem: &Problem, sample: &Sample) -> (Vec<f64>, DMatrix<f6
         .map(|i| sample.values(i))
         .collect();
     let width = |(values, parameter): (&Vec<f64>, &super::Fitted)| {
-        let half = 0.5 * (quantile(values, 1.0 - ONE_BELOW) - quantile(values, ONE_BELOW));
+        let sorted = sorted(values.iter().copied());
+        let half = 0.5 * (quantile(&sorted, 1.0 - ONE_BELOW) - quantile(&sorted, ONE_BELOW));
         half / parameter.prior_deviation()
     };
     let widths = values.iter().zip(&problem.fitted).map(width).collect();

@@ -6,7 +6,10 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{Counter, Observation, Problem, noise::deviation, sampler::Sample};
-use crate::outcome::BandQuantity;
+use crate::{
+    outcome::BandQuantity,
+    statistics::{quantile, sorted},
+};
 
 /// Most states of the posterior that are put through the model.
 const DRAWS: usize = 400;
@@ -130,7 +133,7 @@ pub(super) fn predictions(
             .collect();
         counter.count();
         let banded = !drawn.is_empty();
-        let model: Vec<f64> = drawn.iter().map(|(value, _)| *value).collect();
+        let model = sorted(drawn.iter().map(|(value, _)| *value));
         let band = |of: &dyn Fn(f64) -> f64| banded.then(|| CHANCES.map(|chance| unit(of(chance))));
         let predictive = band(&|chance| mixture_quantile(&drawn, chance));
         Prediction {
@@ -151,16 +154,6 @@ pub(super) fn predictions(
         }
     };
     problem.observations.par_iter().map(predict).collect()
-}
-
-/// Value that a part of the values lies below, interpolated between neighbours.
-pub(super) fn quantile(values: &[f64], chance: f64) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let place = chance * (sorted.len() - 1) as f64;
-    let (below, part) = (place as usize, place.fract());
-    let next = sorted[(below + 1).min(sorted.len() - 1)];
-    sorted[below] + part * (next - sorted[below])
 }
 
 /// Quantile of normal distributions, given as means and standard deviations, that are equally likely.
@@ -195,8 +188,6 @@ mod tests {
 
     #[test]
     fn quantiles_are_the_tabled_ones() {
-        assert_eq!(quantile(&[3.0, 1.0, 2.0], 0.5), 2.0);
-        assert_eq!(quantile(&[0.0, 1.0], 0.25), 0.25);
         let one = [(10.0, 2.0)];
         assert!(
             (mixture_quantile(&one, 0.975) - (10.0 + 2.0 * 1.959_963_984_540_054)).abs() < 1e-9

@@ -218,7 +218,7 @@ impl Sample {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::calibrate::diagnostics::{mean, variance};
+    use crate::statistics::{mean, variance};
 
     const SAMPLING: Sampling = Sampling {
         ensembles: 4,

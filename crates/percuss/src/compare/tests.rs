@@ -6,44 +6,12 @@ use super::{Watch, compare};
 use crate::{
     Error, NumericalError, Scenario, case,
     guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
+    made_up::MadeUp,
     material::MaterialClass,
     model::{self, Control, Model},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
 };
-
-/// A model whose depth is its factor times the speed.
-struct Fake {
-    name: &'static str,
-    guard: Guard,
-    depth: fn(f64) -> Result<RunResult, Error>,
-}
-
-impl Model for Fake {
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn summary(&self) -> &'static str {
-        "made up"
-    }
-
-    fn guard(&self) -> &'static Guard {
-        Box::leak(Box::new(self.guard))
-    }
-
-    fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        control.report(model::Progress {
-            step: 1,
-            time: 0.0,
-            fraction: 0.5,
-            depth: 0.0,
-        })?;
-        let mut result = (self.depth)(scenario.impact_speed)?;
-        result.model = self.name;
-        Ok(result)
-    }
-}
 
 fn result(outcome: Outcome, depth: f64, residual: f64) -> RunResult {
     RunResult {
@@ -53,15 +21,19 @@ fn result(outcome: Outcome, depth: f64, residual: f64) -> RunResult {
     }
 }
 
-fn deep(speed: f64) -> Result<RunResult, Error> {
-    Ok(result(Outcome::AtRest, 1e-6 * speed, 0.0))
+fn deep(scenario: &Scenario) -> Result<RunResult, Error> {
+    Ok(result(Outcome::AtRest, 1e-6 * scenario.impact_speed, 0.0))
 }
 
-fn through(speed: f64) -> Result<RunResult, Error> {
-    Ok(result(Outcome::Perforated, 1e-2, 0.5 * speed))
+fn through(scenario: &Scenario) -> Result<RunResult, Error> {
+    Ok(result(
+        Outcome::Perforated,
+        1e-2,
+        0.5 * scenario.impact_speed,
+    ))
 }
 
-fn fails(_: f64) -> Result<RunResult, Error> {
+fn fails(_: &Scenario) -> Result<RunResult, Error> {
     Err(NumericalError {
         what: "the depth is not finite".to_owned(),
         step: 7,
@@ -93,10 +65,10 @@ const SLOW: Guard = Guard {
     ..Guard::OPEN
 };
 
-const OPEN: Fake = Fake {
+const OPEN: MadeUp = MadeUp {
     name: "open",
     guard: Guard::OPEN,
-    depth: deep,
+    result: deep,
 };
 
 /// A copper rod of 5 mm on a target: deforming below some 300 m/s, eroding above.
@@ -115,12 +87,12 @@ const SEMI_INFINITE: &str = "material = 'aluminium-2024-t351', thickness = 'semi
 
 #[test]
 fn entries_stand_in_order_and_a_failure_stops_nothing() {
-    let failing = Fake {
+    let failing = MadeUp {
         name: "failing",
-        depth: fails,
+        result: fails,
         ..OPEN
     };
-    let slow = Fake {
+    let slow = MadeUp {
         name: "slow",
         guard: SLOW,
         ..OPEN
@@ -184,12 +156,12 @@ fn a_comparison_is_the_same_every_time() {
 
 #[test]
 fn the_leading_quantity_follows_from_the_target() {
-    let wide = Fake {
+    let wide = MadeUp {
         name: "through",
-        depth: through,
+        result: through,
         ..OPEN
     };
-    let leading = |model: &Fake, target: &str| {
+    let leading = |model: &MadeUp, target: &str| {
         compare(
             &[model],
             &scenario(target, ""),
@@ -230,20 +202,20 @@ fn a_first_choice_is_recommended_if_it_gives_a_result() {
         first_choice,
         ..Guard::OPEN
     };
-    let deforming = Fake {
+    let deforming = MadeUp {
         name: "deforming",
         guard: guard(DEFORMING),
         ..OPEN
     };
-    let eroding = Fake {
+    let eroding = MadeUp {
         name: "eroding",
         guard: guard(ERODING),
         ..OPEN
     };
-    let failing = Fake {
+    let failing = MadeUp {
         name: "failing",
         guard: guard(ERODING),
-        depth: fails,
+        result: fails,
     };
     let at = |models: &[&dyn Model], speed: f64| {
         let scenario = scenario(SEMI_INFINITE, "");
@@ -282,7 +254,7 @@ fn a_first_choice_is_recommended_if_it_gives_a_result() {
 fn a_neighbouring_regime_is_named() {
     const RIGID: &[FirstChoice] = &[first_choice(ProjectileRegime::Rigid)];
     const DEFORMING: &[FirstChoice] = &[first_choice(ProjectileRegime::Deforming)];
-    let rigid = Fake {
+    let rigid = MadeUp {
         name: "rigid",
         guard: Guard {
             first_choice: RIGID,
@@ -290,7 +262,7 @@ fn a_neighbouring_regime_is_named() {
         },
         ..OPEN
     };
-    let soft = Fake {
+    let soft = MadeUp {
         name: "soft",
         guard: Guard {
             first_choice: DEFORMING,

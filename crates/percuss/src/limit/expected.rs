@@ -7,9 +7,9 @@ use serde::Serialize;
 use crate::{
     Scenario,
     guard::NoseKind,
-    judge::{Expectation, quantile},
     material::{Library, Material},
     model::{Model, quick},
+    model_error::Expectation,
     outcome::BandQuantity,
     regime::{ProjectileRegime, Regime, TargetKind},
     scenario::TargetBody,
@@ -181,15 +181,8 @@ fn expected_among(errors: &[&LimitError], plate: &Plate) -> Option<ExpectedLimit
         if alike.len() < FEWEST {
             return None;
         }
-        let mut sorted: Vec<f64> = alike.iter().map(|error| error.error).collect();
-        sorted.sort_by(f64::total_cmp);
         Some(ExpectedLimitError {
-            errors: Expectation {
-                median: quantile(&sorted, 0.5),
-                low: quantile(&sorted, 0.1),
-                high: quantile(&sorted, 0.9),
-                shots: sorted.len(),
-            },
+            errors: Expectation::of(alike.iter().map(|error| error.error)),
             blind: alike.iter().filter(|error| error.is_blind).count(),
             kind,
         })

@@ -11,7 +11,7 @@ use crate::{
     Error,
     chain::closure_in_use,
     fragments::FragmentRecord,
-    judge::expected_error,
+    model_error::expected_error,
     options::TargetClosure,
     outcome::{Outcome, RunResult},
     regime::Regime,

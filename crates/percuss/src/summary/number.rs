@@ -3,7 +3,7 @@
 use super::ResultRecord;
 use crate::{
     fragments::FragmentRecord,
-    judge::Expectation,
+    model_error::Expectation,
     outcome::{Band, Detail, Outcome, RunResult, Termination},
     scenario::Scenario,
     units::ResultUnit,

@@ -10,7 +10,7 @@ use super::number::{
 };
 use crate::{
     fragments::FragmentRecord,
-    judge::Expectation,
+    model_error::Expectation,
     outcome::{Band, Detail as ModelDetail, Outcome, RunResult, Termination},
     scenario::Scenario,
     units::ResultUnit as Unit,

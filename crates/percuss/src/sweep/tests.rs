@@ -4,9 +4,8 @@ use std::{
 
 use super::*;
 use crate::{
-    Scenario,
     guard::Guard,
-    model::Control,
+    made_up::MadeUp,
     outcome::{Outcome, RunResult, Termination},
 };
 
@@ -168,31 +167,22 @@ normal = { mean = '100 m/s', standard_deviation = '200 m/s' }
 }
 
 /// A model with a fault above 300 m/s.
-struct Faulty;
-
-impl Model for Faulty {
-    fn name(&self) -> &'static str {
-        "faulty"
-    }
-    fn summary(&self) -> &'static str {
-        "made up"
-    }
-    fn guard(&self) -> &'static Guard {
-        &Guard::OPEN
-    }
-    fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
+const FAULTY: MadeUp = MadeUp {
+    name: "faulty",
+    guard: Guard::OPEN,
+    result: |scenario| {
         assert!(scenario.impact_speed < 300.0, "a wrong {}", "index");
-        let result = RunResult::new("faulty", "", Outcome::AtRest, Termination::ClosedForm);
-        Ok(result)
-    }
-}
+        let end = Termination::ClosedForm;
+        Ok(RunResult::new("", "", Outcome::AtRest, end))
+    },
+};
 
 #[test]
 fn a_model_that_panics_costs_one_row() {
     let sweep = sweep("panic", "design = 'grid'", LISTS);
     let shots = (0..27).map(|i| sweep.shot(i)).collect();
     let stop = AtomicBool::new(false);
-    let rows = ScalarKernel::new(&Faulty).rows(shots, &stop).unwrap();
+    let rows = ScalarKernel::new(&FAULTY).rows(shots, &stop).unwrap();
     assert_eq!(rows.len(), 27);
     for row in rows {
         let record = row.record.unwrap();

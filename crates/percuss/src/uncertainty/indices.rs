@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::statistics::Estimate;
 use crate::{
-    judge::quantile,
+    statistics::{quantile, sorted},
     sweep::{bits, stream},
 };
 
@@ -77,9 +77,8 @@ pub(super) fn indices(rows: &[Vec<f64>], keys: &[&str], seed: u64) -> Result<Sob
         })
         .collect();
     let estimate = |place: usize| {
-        let mut found: Vec<f64> = resampled.iter().map(|estimates| estimates[place]).collect();
-        found.retain(|value| value.is_finite());
-        found.sort_by(f64::total_cmp);
+        let found = resampled.iter().map(|estimates| estimates[place]);
+        let found = sorted(found.filter(|value| value.is_finite()));
         Estimate {
             value: all[place],
             low: quantile(&found, 0.025),

@@ -8,7 +8,7 @@ use super::{
     quantity::{quantities, quantity},
     statistics::Statistics,
 };
-use crate::{judge::Expectation, outcome::Outcome, summary::ResultNumber, sweep::Row};
+use crate::{model_error::Expectation, outcome::Outcome, summary::ResultNumber, sweep::Row};
 
 /// What the uncertainty of a case's numbers does to its results.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::judge::quantile;
+use crate::statistics::{quantile, sorted};
 
 /// Percentiles that are given of everything.
 pub const PERCENTS: [f64; 7] = [1.0, 5.0, 25.0, 50.0, 75.0, 95.0, 99.0];
@@ -55,8 +55,7 @@ pub struct Statistics {
 impl Statistics {
     /// Those of a sample; `None` when it is empty.
     pub fn of(values: impl Iterator<Item = f64>) -> Option<Self> {
-        let mut sorted: Vec<f64> = values.collect();
-        sorted.sort_by(f64::total_cmp);
+        let sorted = sorted(values);
         let (&smallest, &largest) = (sorted.first()?, sorted.last()?);
         let count = sorted.len() as f64;
         let mean = sorted.iter().sum::<f64>() / count;

@@ -1,19 +1,14 @@
 //! V50 as the mean of equal numbers of the fastest stopped shots and the slowest that went through \[milstd662f\].
 
 use super::{Estimate, Method, Shot, speeds};
-use crate::units::significant;
+use crate::{statistics::sorted, units::significant};
 
 /// Fewest shots of either kind.
 const FEWEST: usize = 2;
 
 /// The mean over as many shots as lie within a span [m/s].
 pub(super) fn of_extremes(shots: &[Shot], span: f64) -> Estimate {
-    let sorted = |perforated| {
-        let mut speeds: Vec<f64> = speeds(shots, perforated).collect();
-        speeds.sort_by(f64::total_cmp);
-        speeds
-    };
-    let (mut stopped, perforated) = (sorted(false), sorted(true));
+    let [mut stopped, perforated] = [false, true].map(|of| sorted(speeds(shots, of)));
     stopped.reverse();
     let method = Method::MeanOfExtremes;
     let most = stopped.len().min(perforated.len());

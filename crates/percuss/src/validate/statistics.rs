@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::statistics::{quantile, sorted};
+
 /// Statistics of relative errors `(predicted − measured)/measured`; they are plain numbers, 0.1 for 10 %.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Errors {
@@ -34,14 +36,12 @@ impl Errors {
                 worst
             }
         })?;
-        let mut magnitudes: Vec<f64> = errors.iter().map(|(error, _)| error.abs()).collect();
-        magnitudes.sort_by(f64::total_cmp);
-        let median_absolute = 0.5 * (magnitudes[(count - 1) / 2] + magnitudes[count / 2]);
+        let magnitudes = sorted(errors.iter().map(|(error, _)| error.abs()));
         Some(Self {
             count,
             bias: mean(&|error| error),
             rms: mean(&|error| error * error).sqrt(),
-            median_absolute,
+            median_absolute: quantile(&magnitudes, 0.5),
             worst,
             worst_id: worst_id.to_owned(),
         })

@@ -1,9 +1,9 @@
 use std::{ops::ControlFlow, sync::Mutex};
 
 use super::*;
-use crate::Scenario;
 use crate::{
     guard::{FittedTo, Guard},
+    made_up::MadeUp,
     material::references,
     model::{Control, MODELS},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
@@ -11,33 +11,24 @@ use crate::{
 };
 
 /// A model whose ballistic limit is ten times the thickness in mm; it gives 450 m/s for 45 mm.
-struct MadeUp;
-
-impl Model for MadeUp {
-    fn name(&self) -> &'static str {
-        "made_up"
-    }
-    fn summary(&self) -> &'static str {
-        "for tests"
-    }
-    fn guard(&self) -> &'static Guard {
-        &Guard {
-            predicts: &[BandQuantity::BallisticLimit],
-            fitted_to: &[FittedTo {
-                sources: &["one"],
-                because: "it was made up there",
-            }],
-            ..Guard::OPEN
-        }
-    }
-    fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
+const MADE_UP: MadeUp = MadeUp {
+    name: "made_up",
+    guard: Guard {
+        predicts: &[BandQuantity::BallisticLimit],
+        fitted_to: &[FittedTo {
+            sources: &["one"],
+            because: "it was made up there",
+        }],
+        ..Guard::OPEN
+    },
+    result: |scenario| {
         let thickness = scenario.target_thickness().unwrap_or(f64::NAN);
         Ok(RunResult {
             ballistic_limit: Some(1e4 * thickness).filter(|limit| *limit < 900.0),
-            ..RunResult::new("made_up", "", Outcome::AtRest, Termination::ClosedForm)
+            ..RunResult::new("", "", Outcome::AtRest, Termination::ClosedForm)
         })
-    }
-}
+    },
+};
 
 const FILE: &str = "\
 id,source,kind,projectile_material,diameter_mm,mass_g,impact_velocity_m_s,target_material,thickness_mm,measured,unit,flag,duplicate_of,obliquity_deg
@@ -54,7 +45,7 @@ h,two,depth,apm2-core,6.2,5.3,300,aluminium-2024-t351,95,3,mm,,,
 fn made_up() -> Validation {
     let shots = shots::read_str("made-up.csv", FILE, Library::built_in()).unwrap();
     let go_on = |_| ControlFlow::Continue(());
-    run(&[&MadeUp], &shots, Library::built_in(), &go_on).unwrap()
+    run(&[&MADE_UP], &shots, Library::built_in(), &go_on).unwrap()
 }
 
 fn close(a: f64, b: f64) {
@@ -187,12 +178,12 @@ fn a_validation_can_be_watched_and_stopped() {
         seen.lock().unwrap().push(fraction);
         ControlFlow::Continue(())
     };
-    run(&[&MadeUp], &shots, Library::built_in(), &watch).unwrap();
+    run(&[&MADE_UP], &shots, Library::built_in(), &watch).unwrap();
     let seen = seen.into_inner().unwrap();
     assert_eq!(seen.len(), 9);
     close(seen.iter().copied().fold(0.0, f64::max), 1.0);
     let stop = |_| ControlFlow::Break(());
-    let stopped = run(&[&MadeUp], &shots, Library::built_in(), &stop);
+    let stopped = run(&[&MADE_UP], &shots, Library::built_in(), &stop);
     assert!(
         matches!(stopped, Err(Error::Cancelled { .. })),
         "{stopped:?}"

@@ -1,12 +1,13 @@
 //! A calibration as text.
 
 use percuss::{
-    calibrate::{Calibration, Marginal, ParameterRecord, Quality},
+    calibrate::{Calibration, Marginal, ParameterRecord},
     units::significant,
 };
+use percuss_report::table::Table;
 
 use crate::{
-    table::{keep_whole, table, text as text_of},
+    table::wrapped,
     terminal::{bold, counted, width, wrap, yellow},
 };
 
@@ -53,57 +54,63 @@ pub fn lines(calibration: &Calibration) -> String {
     calibration.parameters.iter().map(line).collect()
 }
 
+/// A row of the table of parameters.
+struct Row {
+    name: String,
+    prior: String,
+    best: String,
+    posterior: Option<Marginal>,
+}
+
 fn parameters(calibration: &Calibration) -> String {
-    let sampled = calibration.sampling.is_some();
-    let mut header = vec!["parameter", "prior 95 %", "best ± error"];
-    if sampled {
-        header.extend(["posterior 95 %", "R-hat", "bulk", "tail"]);
-    }
-    let mut table = table(header.into_iter().map(str::to_owned).collect());
     let rounded = |value: f64| significant(value, 4);
     let from_to = |low: f64, high: f64| format!("{} to {}", rounded(low), rounded(high));
-    let sampled_cells = |marginal: Option<Marginal>| {
-        let Some(m) = marginal else {
-            return vec![String::new(); 4];
-        };
-        let [low, _, high] = m.quantiles;
-        vec![
-            from_to(low, high),
-            format!("{:.3}", m.r_hat),
-            format!("{:.0}", m.bulk_effective_size),
-            format!("{:.0}", m.tail_effective_size),
-        ]
-    };
     let names = names(&calibration.parameters);
-    for (parameter, name) in calibration.parameters.iter().zip(names) {
-        let error = parameter
-            .standard_error
-            .map_or_else(|| "?".to_owned(), |error| significant(error, 2));
-        let mut row = vec![
-            name,
-            from_to(parameter.prior[0], parameter.prior[2]),
-            format!("{} ± {error}", rounded(parameter.best)),
-        ];
-        if sampled {
-            row.extend(sampled_cells(parameter.posterior));
-        }
-        table.add_row(row);
-    }
+    let parameters = calibration.parameters.iter().zip(names);
+    let mut rows: Vec<Row> = parameters
+        .map(|(parameter, name)| {
+            let error = parameter.standard_error;
+            let error = error.map_or_else(|| "?".to_owned(), |error| significant(error, 2));
+            Row {
+                name,
+                prior: from_to(parameter.prior[0], parameter.prior[2]),
+                best: format!("{} ± {error}", rounded(parameter.best)),
+                posterior: parameter.posterior,
+            }
+        })
+        .collect();
     let scatter = &calibration.scatter;
-    let mut row = vec![
-        "relative scatter [%]".to_owned(),
-        if scatter.estimated { "" } else { "given" }.to_owned(),
-        rounded(100.0 * scatter.best),
-    ];
-    if sampled {
-        row.extend(sampled_cells(scatter.posterior.map(|m| Marginal {
+    rows.push(Row {
+        name: "relative scatter [%]".to_owned(),
+        prior: if scatter.estimated { "" } else { "given" }.to_owned(),
+        best: rounded(100.0 * scatter.best),
+        posterior: scatter.posterior.map(|m| Marginal {
             quantiles: m.quantiles.map(|value| 100.0 * value),
             ..m
-        })));
-    }
-    table.add_row(row);
-    keep_whole(&mut table, 1..if sampled { 6 } else { 3 });
-    text_of(&table)
+        }),
+    });
+    let sampled = calibration.sampling.is_some();
+    let of = |row: &Row, words: &dyn Fn(&Marginal) -> String| {
+        row.posterior.as_ref().map_or_else(String::new, words)
+    };
+    let table = Table::of(&rows)
+        .words("parameter", |row| row.name.clone())
+        .words("prior 95 %", |row| row.prior.clone())
+        .words("best ± error", |row| row.best.clone())
+        .when(sampled, |rows| {
+            rows.words("posterior 95 %", |row| {
+                of(row, &|m| from_to(m.quantiles[0], m.quantiles[2]))
+            })
+            .words("R-hat", |row| of(row, &|m| format!("{:.3}", m.r_hat)))
+            .words("bulk", |row| {
+                of(row, &|m| format!("{:.0}", m.bulk_effective_size))
+            })
+            .words("tail", |row| {
+                of(row, &|m| format!("{:.0}", m.tail_effective_size))
+            })
+        })
+        .table();
+    wrapped(&table, 1..if sampled { 6 } else { 3 })
 }
 
 /// Names for a table: the last part of each key, unless two keys end alike.
@@ -123,28 +130,31 @@ fn names(parameters: &[ParameterRecord]) -> Vec<String> {
 }
 
 fn quality(calibration: &Calibration) -> String {
-    let mut header = vec!["values", "count", "RMS before", "RMS", "bias"];
-    if calibration.sampling.is_some() {
-        header.push("in the 95 % band");
-    }
-    let mut table = table(header.into_iter().map(str::to_owned).collect());
     let percent = |value: f64| format!("{:.1} %", 100.0 * value);
-    let mut row = |name: &str, quality: &Quality| {
-        let mut cells = vec![
-            name.to_owned(),
-            quality.count.to_string(),
-            quality.rms_before.map_or_else(String::new, percent),
-            percent(quality.rms),
-            percent(quality.bias),
-        ];
-        cells.extend(quality.inside.map(|count| count.to_string()));
-        table.add_row(cells);
-    };
-    row("fitted to", &calibration.training);
-    if let Some(quality) = &calibration.hold_out {
-        row("held out", quality);
-    }
-    text_of(&table)
+    let mut rows = vec![("fitted to", &calibration.training)];
+    rows.extend(
+        calibration
+            .hold_out
+            .iter()
+            .map(|quality| ("held out", quality)),
+    );
+    let table = Table::of(&rows)
+        .words("values", |(name, _)| *name)
+        .words("count", |(_, quality)| quality.count.to_string())
+        .words("RMS before", |(_, quality)| {
+            quality.rms_before.map_or_else(String::new, percent)
+        })
+        .words("RMS", |(_, quality)| percent(quality.rms))
+        .words("bias", |(_, quality)| percent(quality.bias))
+        .when(calibration.sampling.is_some(), |rows| {
+            rows.words("in the 95 % band", |(_, quality)| {
+                quality
+                    .inside
+                    .map_or_else(String::new, |count| count.to_string())
+            })
+        })
+        .table();
+    wrapped(&table, [])
 }
 
 fn sample(calibration: &Calibration) -> String {

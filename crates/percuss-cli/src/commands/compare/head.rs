@@ -6,16 +6,12 @@ use percuss::{
     units::significant,
 };
 
-use crate::terminal::{bold, counted, width, wrap};
+use crate::terminal::{bold, counted, paragraph, title, width, wrap};
 
 const LABEL: usize = 13;
 
 /// Case, regime and recommendation; for many speeds once for each range in which they stay the same.
 pub fn text(scenario: &Scenario, comparison: &Comparison) -> String {
-    let title = match scenario.title.is_empty() {
-        true => &scenario.name,
-        false => &scenario.title,
-    };
     let speeds = comparison.speeds();
     let at = match speeds.len() {
         1 => speed_range(&speeds),
@@ -23,11 +19,7 @@ pub fn text(scenario: &Scenario, comparison: &Comparison) -> String {
     };
     let models = counted(comparison.models().len(), "model");
     let line = format!("case {}, impact at {at}, {models}", scenario.name);
-    let mut text = format!(
-        "{}\n{}\n",
-        bold(wrap(title, width(), 0)),
-        wrap(&line, width(), 0)
-    );
+    let mut text = title(scenario) + &paragraph(&line);
     let mut from = 0;
     while from < speeds.len() {
         let same = |i: &usize| {

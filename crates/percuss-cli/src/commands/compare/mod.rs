@@ -14,11 +14,12 @@ use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario,
     compare::{self, Comparison, Watch},
-    model::{self, MODELS, Model},
+    model::{self, MODELS},
 };
 
 use crate::{
     answer::{Answer, AtHand, Hear},
+    by_models,
     failure::Failure,
     output,
     progress::Progress,
@@ -132,14 +133,7 @@ impl Compare {
         speeds: &[f64],
         hear: Hear<'_>,
     ) -> Result<Comparison, Failure> {
-        let models: Vec<&dyn Model> = match self.model.is_empty() {
-            true => model::quick(),
-            false => MODELS
-                .iter()
-                .copied()
-                .filter(|model| self.model.iter().any(|name| name == model.name()))
-                .collect(),
-        };
+        let models = by_models::named(&self.model);
         let mut report = |now: compare::Progress| {
             let words = format!("{} of {} runs", now.finished, now.total);
             hear(now.fraction, &words)

@@ -3,13 +3,10 @@
 use percuss::{
     compare::Comparison, outcome::BandQuantity, summary::ResultRecord, units::significant,
 };
+use percuss_report::table::{Table, number};
 
 use super::shown;
-use crate::{
-    output,
-    table::{Column, blocks},
-    terminal::bold,
-};
+use crate::{output, table::blocks, terminal::bold};
 
 /// Mark of a recommended model.
 pub const RECOMMENDED: &str = "★";
@@ -26,76 +23,44 @@ pub fn text(comparison: &Comparison) -> String {
     let measured = |quantity| comparison.measured(quantity, speed);
     let any_measured = quantities.iter().any(|q| measured(*q).is_some());
     // The last row holds what was measured, if anything was.
-    let column =
-        |heading: String, numbers, cell: &dyn Fn(&ResultRecord) -> String, last: String| {
-            let mut cells: Vec<String> = records.iter().map(|record| cell(record)).collect();
-            cells.extend(any_measured.then_some(last));
-            Column {
-                heading,
-                cells,
-                numbers,
-            }
-        };
-    let models = column(
-        "model".to_owned(),
-        false,
-        &|record| name(comparison, record.model),
-        "experiment".to_owned(),
-    );
-    let mut columns = Vec::new();
+    let mut rows = Table::of(&records)
+        .words("model", |record| name(comparison, record.model))
+        .last(any_measured.then(|| "experiment".to_owned()));
     for quantity in quantities {
         let measured = measured(quantity);
-        columns.push(column(
-            format!(
-                "{}\n[{}]",
-                quantity.in_words().replace(' ', "\n"),
-                quantity.unit()
-            ),
-            true,
-            &|record| number(record.value(quantity)),
-            measured.map_or_else(String::new, |(mean, count)| {
-                measurement(comparison, quantity, mean, count)
-            }),
-        ));
+        let heading = quantity.in_words().replace(' ', "\n");
+        rows = rows
+            .numbers(heading, quantity.unit(), |record| {
+                number(record.value(quantity), 4)
+            })
+            .last(measured.map(|(mean, count)| measurement(comparison, quantity, mean, count)));
         if let Some((measured, _)) = measured.filter(|_| shown::is_given(comparison, quantity)) {
-            columns.push(column(
-                "off by\n[%]".to_owned(),
-                true,
-                &|record| off_by(record.value(quantity), measured),
-                String::new(),
-            ));
+            rows = rows.numbers("off by", "%", |record| {
+                off_by(record.value(quantity), measured)
+            });
         }
     }
-    if records.iter().any(|record| record.band.is_some()) {
-        let cell = |record: &ResultRecord| range(record, comparison.quantities[0]);
-        columns.push(column("range".to_owned(), true, &cell, String::new()));
-    }
-    if records.iter().any(|record| record.expected_error.is_some()) {
-        let cell = |record: &ResultRecord| {
-            let expected = record.expected_error.as_ref();
-            expected.map_or_else(String::new, |expected| {
-                expected.in_words().replace(" %", "")
+    let any = |has: fn(&ResultRecord) -> bool| records.iter().any(|record| has(record));
+    let table = rows
+        .when(any(|record| record.band.is_some()), |rows| {
+            rows.numbers("range", "", |record| {
+                range(record, comparison.quantities[0])
             })
-        };
-        let heading = "expected error\nof the depth\n[%]".to_owned();
-        columns.push(column(heading, true, &cell, String::new()));
-    }
-    columns.push(column(
-        "outcome".to_owned(),
-        false,
-        &|record| record.outcome.in_words().to_owned(),
-        String::new(),
-    ));
-    columns.push(column(
-        "warn-\nings".to_owned(),
-        true,
-        &|record| match record.warnings.len() {
+        })
+        .when(any(|record| record.expected_error.is_some()), |rows| {
+            rows.numbers("expected error\nof the depth", "%", |record| {
+                let expected = record.expected_error.as_ref();
+                expected.map_or_else(String::new, |expected| {
+                    expected.in_words().replace(" %", "")
+                })
+            })
+        })
+        .words("outcome", |record| record.outcome.in_words())
+        .numbers("warn-\nings", "", |record| match record.warnings.len() {
             0 => String::new(),
             count => count.to_string(),
-        },
-        String::new(),
-    ));
-    blocks(&models, columns)
+        });
+    blocks(&table.table())
 }
 
 /// Name of a model, with its mark where it is recommended at any speed.
@@ -110,16 +75,11 @@ pub fn name(comparison: &Comparison, model: &str) -> String {
     }
 }
 
-/// A number of a table; a dash where there is none.
-pub fn number(value: Option<f64>) -> String {
-    value.map_or_else(|| "–".to_owned(), |value| significant(value, 4))
-}
-
 /// Difference from a measured value in per cent, with its sign.
 pub fn off_by(value: Option<f64>, measured: f64) -> String {
     match value {
         Some(value) if measured != 0.0 => format!("{:+.1}", 100.0 * (value / measured - 1.0)),
-        _ => "–".to_owned(),
+        _ => number(None, 0),
     }
 }
 

@@ -1,13 +1,14 @@
 //! Every model at many speeds: a row a speed, a column a model, in as many blocks as the terminal's width asks for.
 
 use percuss::{compare::Comparison, outcome::BandQuantity, units::significant};
+use percuss_report::table::{Table, number};
 
 use super::{
     shown,
-    single::{RECOMMENDED, heading, name, number, off_by},
+    single::{RECOMMENDED, heading, name, off_by},
 };
 use crate::{
-    table::{Column, blocks},
+    table::blocks,
     terminal::{width, wrap},
 };
 
@@ -64,65 +65,46 @@ fn expected_errors(comparison: &Comparison) -> String {
 
 fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) -> String {
     let speeds = comparison.speeds();
+    let measured = |i: usize| {
+        let measured = comparison.measured(quantity, speeds[i]);
+        measured.map(|(value, _)| value)
+    };
     let all: Vec<usize> = (0..speeds.len()).collect();
     let compared: Vec<usize> = all
         .iter()
         .copied()
-        .filter(|&i| comparison.measured(quantity, speeds[i]).is_some())
+        .filter(|i| measured(*i).is_some())
         .collect();
-    let values = |model: &str, rows: &[usize]| -> Vec<Option<f64>> {
-        let values: Vec<_> = comparison
-            .of_model(model)
-            .map(|r| r.value(quantity))
-            .collect();
-        rows.iter().map(|&i| values[i]).collect()
+    let speed = |i: &usize| significant(speeds[*i], 4);
+    let values = |model: &str| -> Vec<Option<f64>> {
+        let records = comparison.of_model(model);
+        records.map(|record| record.value(quantity)).collect()
     };
-    let speed_column = |rows: &[usize]| Column {
-        heading: "speed\n[m/s]".to_owned(),
-        cells: rows.iter().map(|&i| significant(speeds[i], 4)).collect(),
-        numbers: true,
-    };
-    let experiment = |rows: &[usize]| Column {
-        heading: "exper-\niment".to_owned(),
-        cells: rows
-            .iter()
-            .map(|&i| {
-                number(
-                    comparison
-                        .measured(quantity, speeds[i])
-                        .map(|(value, _)| value),
-                )
+    let table = Table::of(&all)
+        .numbers("speed", "m/s", speed)
+        .when(!compared.is_empty(), |rows| {
+            rows.numbers("exper-\niment", "", |&i| number(measured(i), 4))
+        })
+        .each(models, |rows, model| {
+            let values = values(model);
+            rows.numbers(model_heading(comparison, model), "", |&i| {
+                number(values[i], 4)
             })
-            .collect(),
-        numbers: true,
-    };
-    let columns = |rows: &[usize], cell: &dyn Fn(usize, Option<f64>) -> String| -> Vec<Column> {
-        models
-            .iter()
-            .map(|model| Column {
-                heading: model_heading(comparison, model),
-                cells: rows
-                    .iter()
-                    .zip(values(model, rows))
-                    .map(|(&i, value)| cell(i, value))
-                    .collect(),
-                numbers: true,
-            })
-            .collect()
-    };
+        });
     let mut text = heading(&format!("{} [{}]", quantity.in_words(), quantity.unit()));
-    let mut shown = columns(&all, &|_, value| number(value));
-    if !compared.is_empty() {
-        shown.insert(0, experiment(&all));
-    }
-    text += &blocks(&speed_column(&all), shown);
+    text += &blocks(&table.table());
     if !compared.is_empty() && !models.is_empty() {
         text += &heading(&format!("{}, off experiment by [%]", quantity.in_words()));
-        let off = columns(&compared, &|i, value| {
-            let measured = comparison.measured(quantity, speeds[i]);
-            measured.map_or_else(String::new, |(measured, _)| off_by(value, measured))
-        });
-        text += &blocks(&speed_column(&compared), off);
+        let off =
+            Table::of(&compared)
+                .numbers("speed", "m/s", speed)
+                .each(models, |rows, model| {
+                    let values = values(model);
+                    rows.numbers(model_heading(comparison, model), "", |&i| {
+                        measured(i).map_or_else(String::new, |measured| off_by(values[i], measured))
+                    })
+                });
+        text += &blocks(&off.table());
     }
     text
 }
@@ -133,31 +115,18 @@ fn limits(comparison: &Comparison, models: &[&str]) -> String {
     let measured = comparison.measured(quantity, 0.0);
     let title = heading("ballistic limit [m/s]");
     if models.is_empty() {
-        let measured = number(measured.map(|(value, _)| value));
+        let measured = number(measured.map(|(value, _)| value), 4);
         return format!("{title}{measured} measured; no model gives one\n\n");
     }
     let value = |model: &str| comparison.of_model(model).find_map(|r| r.value(quantity));
-    let first = Column {
-        heading: "model".to_owned(),
-        cells: models.iter().map(|model| name(comparison, model)).collect(),
-        numbers: false,
-    };
-    let mut columns = vec![Column {
-        heading: "limit".to_owned(),
-        cells: models.iter().map(|model| number(value(model))).collect(),
-        numbers: true,
-    }];
+    let mut rows = Table::of(models)
+        .words("model", |model| name(comparison, model))
+        .numbers("limit", "", |model| number(value(model), 4));
     if let Some((measured, _)) = measured {
-        columns.push(Column {
-            heading: format!("off {} by [%]", significant(measured, 4)),
-            cells: models
-                .iter()
-                .map(|model| off_by(value(model), measured))
-                .collect(),
-            numbers: true,
-        });
+        let heading = format!("off {} by [%]", significant(measured, 4));
+        rows = rows.numbers(heading, "", |model| off_by(value(model), measured));
     }
-    title + &blocks(&first, columns)
+    title + &blocks(&rows.table())
 }
 
 /// Name of a model over lines that are short.

@@ -4,9 +4,9 @@ use percuss::{
     Error, Scenario, case,
     compare::{Comparison, Watch, compare},
     guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
-    judge::Expectation,
     material::MaterialClass,
     model::{Control, Model},
+    model_error::Expectation,
     outcome::{Band, BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
 };

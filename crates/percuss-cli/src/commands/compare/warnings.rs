@@ -5,22 +5,18 @@ use percuss::{compare::Comparison, summary::ResultRecord};
 use super::kinds::kinds;
 use crate::{
     by_models::by_models,
-    terminal::{width, wrap, yellow},
+    terminal::{self, paragraph},
 };
 
 /// Warnings of the recommended models; where none is recommended, those of all.
 pub fn text(comparison: &Comparison) -> String {
     let mut text: String = lines(comparison)
         .iter()
-        .map(|line| {
-            let wrapped = wrap(&format!("warning: {line}"), width(), 9);
-            let marked = wrapped.replacen("warning:", &yellow("warning:"), 1);
-            format!("{marked}\n\n")
-        })
+        .map(|line| format!("{}\n", terminal::warning(line)))
         .collect();
     if others(comparison) {
         let words = "`percuss run CASE.toml --model NAME` prints the warnings of the others";
-        text += &format!("{}\n\n", wrap(words, width(), 0));
+        text += &format!("{}\n", paragraph(words));
     }
     text
 }

@@ -9,13 +9,14 @@ use percuss::{
     Scenario,
     case::Document,
     limit::{self, LimitOutcome, Limits, Range, Search, Tolerance, Watch},
-    model::{self, MODELS, Model},
+    model::MODELS,
     v50::{self, Shot, V50},
 };
 use serde::Serialize;
 
 use crate::{
     answer::{Answer, AtHand, Hear},
+    by_models,
     failure::Failure,
     output,
     progress::Progress,
@@ -179,14 +180,7 @@ impl Limit {
     }
 
     fn search(&self, scenario: &Scenario, hear: Hear<'_>) -> Result<Limits, Failure> {
-        let models: Vec<&dyn Model> = match self.model.is_empty() {
-            true => model::quick(),
-            false => MODELS
-                .iter()
-                .copied()
-                .filter(|model| self.model.iter().any(|name| name == model.name()))
-                .collect(),
-        };
+        let models = by_models::named(&self.model);
         let search = Search {
             range: self.velocity,
             tolerance: self.tolerance,

@@ -4,9 +4,12 @@ use percuss::{
     limit::{LambertJonasFit, LimitOutcome, Limits, ModelLimit},
     units::significant,
 };
+use percuss_report::table::{Table, number};
+
+use super::table::last_velocity;
 
 use crate::{
-    table::{Column, blocks},
+    table::blocks,
     terminal::{bold, width, wrap},
 };
 
@@ -55,41 +58,23 @@ pub fn inputs(limits: &Limits) -> String {
     if inputs.is_empty() {
         return String::new();
     }
-    let column = |heading: &str, cell: &dyn Fn(&ModelLimit) -> String| Column {
-        heading: heading.to_owned(),
-        cells: inputs.iter().map(|limit| cell(limit)).collect(),
-        numbers: true,
-    };
-    let words = |heading: &str, cell: &dyn Fn(&ModelLimit) -> String| Column {
-        numbers: false,
-        ..column(heading, cell)
-    };
-    let fit = |limit: &ModelLimit, of: fn(&LambertJonasFit) -> f64| {
-        let value = limit.fit.as_ref().map(of);
-        value.map_or_else(|| "–".to_owned(), |value| significant(value, 4))
-    };
-    let first = words("model", &|limit| limit.model.to_owned());
-    let columns = vec![
-        column("input\nlimit\n[m/s]", &|limit| {
+    let fit =
+        |limit: &ModelLimit, of: fn(&LambertJonasFit) -> f64| number(limit.fit.as_ref().map(of), 4);
+    let table = Table::of(&inputs)
+        .words("model", |limit| limit.model)
+        .numbers("input\nlimit", "m/s", |limit| {
             let input = limit.input_limit.map(|input| input.ballistic_limit_m_s);
             input.map_or_else(String::new, |limit| significant(limit, 4))
-        }),
-        words("from", &|limit| {
+        })
+        .words("from", |limit| {
             let input = limit.input_limit.as_ref();
             input.map_or_else(String::new, |input| input.origin_in_words().to_owned())
-        }),
-        column("points", &|limit| limit.curve.len().to_string()),
-        column("to\n[m/s]", &|limit| {
-            let last = limit.curve.last();
-            last.map_or_else(String::new, |p| significant(p.impact_velocity_m_s, 4))
-        }),
-        column("a", &|limit| fit(limit, |fit| fit.a)),
-        column("p", &|limit| fit(limit, |fit| fit.p)),
-    ];
+        })
+        .numbers("points", "", |limit| limit.curve.len().to_string())
+        .numbers("to", "m/s", |limit| last_velocity(limit))
+        .numbers("a", "", |limit| fit(limit, |fit| fit.a))
+        .numbers("p", "", |limit| fit(limit, |fit| fit.p))
+        .table();
     let title = "residual velocity above a given limit (an input, not a prediction of the limit)";
-    format!(
-        "{}\n{}",
-        bold(wrap(title, width(), 0)),
-        blocks(&first, columns)
-    )
+    format!("{}\n{}", bold(wrap(title, width(), 0)), blocks(&table))
 }

@@ -6,19 +6,17 @@ use percuss::{
     units::significant,
     v50::{Estimate, Method, Pattern, V50},
 };
+use percuss_report::table::{Table, number};
 
 use super::{reliance, values};
 use crate::{
-    table::{Column, blocks},
-    terminal::{bold, counted, width, wrap, yellow},
+    by_models::by_models,
+    table::blocks,
+    terminal::{self, bold, counted, paragraph, title, width, wrap},
 };
 
 /// Case, range and tolerance.
 pub fn head(scenario: &Scenario, limits: &Limits, tolerance: Tolerance) -> String {
-    let title = match scenario.title.is_empty() {
-        true => &scenario.name,
-        false => &scenario.title,
-    };
     let line = format!(
         "case {}, searched from {} to {} m/s, brackets of {} or less",
         limits.case,
@@ -26,12 +24,9 @@ pub fn head(scenario: &Scenario, limits: &Limits, tolerance: Tolerance) -> Strin
         significant(limits.searched_m_s.1, 4),
         values::in_words(tolerance)
     );
-    let (title, line) = (wrap(title, width(), 0), wrap(&line, width(), 0));
     let rear_face = limits.rear_face.and_then(RearFace::in_words);
-    let rear_face = rear_face.map_or_else(String::new, |words| {
-        format!("{}\n", wrap(&words, width(), 0))
-    });
-    format!("{}\n{line}\n{rear_face}\n", bold(title))
+    let rear_face = rear_face.map_or_else(String::new, |words| paragraph(&words));
+    format!("{}{}{rear_face}\n", title(scenario), paragraph(&line))
 }
 
 /// Table of limits, warnings, and models without a limit.
@@ -50,10 +45,8 @@ pub fn text(limits: &Limits) -> String {
         let warnings = limit.warnings.iter();
         warnings.map(|warning| (limit.model, warning.clone()))
     });
-    for (models, warning) in grouped(said) {
-        let line = wrap(&format!("warning: {models}: {warning}"), width(), 9);
-        text += &line.replacen("warning:", &yellow("warning:"), 1);
-        text += "\n\n";
+    for line in by_models(said) {
+        text += &format!("{}\n", terminal::warning(&line));
     }
     let reasons = reasons(limits);
     if !reasons.is_empty() {
@@ -72,19 +65,12 @@ fn is_found(limit: &ModelLimit) -> bool {
 
 fn numbers(limits: &Limits, found: &[&ModelLimit]) -> String {
     let measured = limits.measured();
-    let column = |heading: &str, last: &str, cell: &dyn Fn(&ModelLimit) -> String| {
-        let mut cells: Vec<String> = found.iter().map(|limit| cell(limit)).collect();
-        cells.extend(measured.map(|_| last.to_owned()));
-        Column {
-            heading: heading.to_owned(),
-            cells,
-            numbers: true,
-        }
-    };
-    let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| significant(v, 4));
-    let first = Column {
-        numbers: false,
-        ..column("model", "experiment", &|limit| {
+    let measured_words = measured.map(|(value, count)| match count {
+        1 => significant(value, 4),
+        _ => format!("{} (mean of {count})", significant(value, 4)),
+    });
+    let mut rows = Table::of(found)
+        .words("model", |limit| {
             let star = if limits.is_recommended(limit.model) {
                 " ★"
             } else {
@@ -92,18 +78,13 @@ fn numbers(limits: &Limits, found: &[&ModelLimit]) -> String {
             };
             format!("{}{star}", limit.model)
         })
-    };
-    let measured_words = measured.map_or_else(String::new, |(value, count)| match count {
-        1 => significant(value, 4),
-        _ => format!("{} (mean of {count})", significant(value, 4)),
-    });
-    let mut columns = vec![column(
-        "ballistic\nlimit\n[m/s]",
-        &measured_words,
-        &|limit| number(limit.ballistic_limit_m_s),
-    )];
+        .last(measured.map(|_| "experiment".to_owned()))
+        .numbers("ballistic\nlimit", "m/s", |limit| {
+            number(limit.ballistic_limit_m_s, 4)
+        })
+        .last(measured_words);
     if let Some((measured, _)) = measured {
-        columns.push(column("off by\n[%]", "", &|limit| {
+        rows = rows.numbers("off by", "%", |limit| {
             let limit = limit.ballistic_limit_m_s;
             limit.map_or_else(String::new, |v| {
                 // Rounded before it is written, so that no zero is negative.
@@ -112,16 +93,17 @@ fn numbers(limits: &Limits, found: &[&ModelLimit]) -> String {
                     (1000.0 * (v / measured - 1.0)).round() / 10.0 + 0.0
                 )
             })
-        }));
+        });
     }
-    columns.push(column("fastest\nstopped\n[m/s]", "", &|limit| {
-        number(limit.bracket.map(|bracket| bracket.stopped_m_s))
-    }));
-    columns.push(column("slowest\nthrough\n[m/s]", "", &|limit| {
-        number(limit.bracket.map(|bracket| bracket.perforated_m_s))
-    }));
-    columns.push(column("runs", "", &|limit| limit.runs.to_string()));
-    blocks(&first, columns)
+    let table = rows
+        .numbers("fastest\nstopped", "m/s", |limit| {
+            number(limit.bracket.map(|bracket| bracket.stopped_m_s), 4)
+        })
+        .numbers("slowest\nthrough", "m/s", |limit| {
+            number(limit.bracket.map(|bracket| bracket.perforated_m_s), 4)
+        })
+        .numbers("runs", "", |limit| limit.runs.to_string());
+    blocks(&table.table())
 }
 
 /// Numbers of the curves through the residual velocities.
@@ -133,31 +115,25 @@ fn curves(found: &[&ModelLimit]) -> String {
     if fitted.is_empty() {
         return String::new();
     }
-    type Cell<'a> = &'a dyn Fn(&ModelLimit, &LambertJonasFit) -> String;
-    let column = |heading: &str, cell: Cell<'_>| Column {
-        heading: heading.to_owned(),
-        cells: fitted.iter().map(|(limit, fit)| cell(limit, fit)).collect(),
-        numbers: true,
-    };
-    let first = Column {
-        numbers: false,
-        ..column("model", &|limit, _| limit.model.to_owned())
-    };
-    let columns = vec![
-        column("points", &|limit, _| limit.curve.len().to_string()),
-        column("to\n[m/s]", &|limit, _| {
-            let last = limit.curve.last();
-            last.map_or_else(String::new, |p| significant(p.impact_velocity_m_s, 4))
-        }),
-        column("a", &|_, fit| significant(fit.a, 4)),
-        column("p", &|_, fit| significant(fit.p, 4)),
-        column("v_bl\n[m/s]", &|_, fit| {
+    let table = Table::of(&fitted)
+        .words("model", |(limit, _)| limit.model)
+        .numbers("points", "", |(limit, _)| limit.curve.len().to_string())
+        .numbers("to", "m/s", |(limit, _)| last_velocity(limit))
+        .numbers("a", "", |(_, fit)| significant(fit.a, 4))
+        .numbers("p", "", |(_, fit)| significant(fit.p, 4))
+        .numbers("v_bl", "m/s", |(_, fit)| {
             significant(fit.ballistic_limit_m_s, 4)
-        }),
-        column("rms\n[m/s]", &|_, fit| format!("{:.2}", fit.rms_m_s)),
-    ];
+        })
+        .numbers("rms", "m/s", |(_, fit)| format!("{:.2}", fit.rms_m_s))
+        .table();
     let title = "residual velocity: v_r = a (v^p - v_bl^p)^(1/p)";
-    format!("{}\n{}", bold(title), blocks(&first, columns))
+    format!("{}\n{}", bold(title), blocks(&table))
+}
+
+/// Highest impact velocity of a curve.
+pub(super) fn last_velocity(limit: &ModelLimit) -> String {
+    let last = limit.curve.last();
+    last.map_or_else(String::new, |p| significant(p.impact_velocity_m_s, 4))
 }
 
 /// One line for each reason why models have no limit.
@@ -172,22 +148,7 @@ pub fn reasons(limits: &Limits) -> Vec<String> {
         };
         (limit.model, words)
     });
-    let lines = grouped(said).into_iter();
-    lines
-        .map(|(models, words)| format!("{models}: {words}"))
-        .collect()
-}
-
-/// Names that the same is said of, joined, and what is said.
-fn grouped<'a>(said: impl Iterator<Item = (&'a str, String)>) -> Vec<(String, String)> {
-    let mut groups: Vec<(String, String)> = Vec::new();
-    for (name, words) in said {
-        match groups.iter_mut().find(|(_, known)| *known == words) {
-            Some((names, _)) => *names += &format!(", {name}"),
-            None => groups.push((name.to_owned(), words)),
-        }
-    }
-    groups
+    by_models(said)
 }
 
 /// One line a model, for scripts.
@@ -221,40 +182,28 @@ pub fn v50_text(file: &str, v50: &V50) -> String {
         pattern(v50)
     );
     let mut text = format!("{}\n{}\n\n", bold("V50"), wrap(&line, width(), 0));
-    let column = |heading: &str, cell: &dyn Fn(&Estimate) -> String| Column {
-        heading: heading.to_owned(),
-        cells: v50.estimates.iter().map(cell).collect(),
-        numbers: true,
-    };
-    let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| significant(v, 5));
-    let first = Column {
-        numbers: false,
-        ..column("method", &|entry| entry.method.in_words().to_owned())
-    };
     let percent = format!("{:.0} %", 100.0 * v50.confidence);
-    text += &blocks(
-        &first,
-        vec![
-            column("V50\n[m/s]", &|entry| number(entry.v50_m_s)),
-            column(&format!("{percent} interval\n[m/s]"), &interval),
-            column("standard\nerror\n[m/s]", &|entry| {
-                number(entry.standard_error_m_s)
-            }),
-            column("scatter\n[m/s]", &|entry| {
-                number(entry.standard_deviation_m_s)
-            }),
-            column("shots\nused", &|entry| match entry.shots_used {
-                Some(used) => used.to_string(),
-                None if entry.v50_m_s.is_some() => v50.shots.to_string(),
-                None => "–".to_owned(),
-            }),
-            column("span\n[m/s]", &|entry| number(entry.span_m_s)),
-        ],
-    );
+    let table = Table::of(&v50.estimates)
+        .words("method", |entry| entry.method.in_words())
+        .numbers("V50", "m/s", |entry| number(entry.v50_m_s, 5))
+        .numbers(format!("{percent} interval"), "m/s", interval)
+        .numbers("standard\nerror", "m/s", |entry| {
+            number(entry.standard_error_m_s, 5)
+        })
+        .numbers("scatter", "m/s", |entry| {
+            number(entry.standard_deviation_m_s, 5)
+        })
+        .numbers("shots\nused", "", |entry| {
+            let all = entry.v50_m_s.map(|_| v50.shots);
+            let used = entry.shots_used.or(all);
+            used.map_or_else(|| number(None, 0), |used| used.to_string())
+        })
+        .numbers("span", "m/s", |entry| number(entry.span_m_s, 5));
+    text += &blocks(&table.table());
     let said = v50.estimates.iter();
     let said = said.filter_map(|entry| Some((entry.method.in_words(), entry.reason.clone()?)));
-    for (methods, reason) in grouped(said) {
-        text += &format!("{}\n\n", wrap(&format!("{methods}: {reason}"), width(), 2));
+    for line in by_models(said) {
+        text += &format!("{}\n\n", wrap(&line, width(), 2));
     }
     text
 }

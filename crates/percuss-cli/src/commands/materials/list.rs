@@ -1,8 +1,8 @@
-use comfy_table::{CellAlignment, Table, presets};
 use percuss::material::MaterialEntry;
+use percuss_report::table::Table;
 
 use super::MaterialRecord;
-use crate::{failure::Failure, output, terminal};
+use crate::{failure::Failure, output, table::plain, terminal};
 
 /// Widest table, of records with short ids; others get a few lines per material.
 const MAX_WIDTH: usize = 100;
@@ -12,24 +12,21 @@ pub fn list(materials: &[&MaterialEntry], json: bool) -> Result<(), Failure> {
     if json {
         return output::print_json(&records(materials));
     }
-    let mut table = Table::new();
-    table
-        .load_style(presets::NOTHING)
-        .set_header(["id", "family", "law", "density [kg/m3]", "trust"])
-        .add_rows(materials.iter().map(|entry| row(entry)));
-    for column in table.column_iter_mut() {
-        column.set_padding((0, 1));
-    }
-    if let Some(column) = table.column_mut(3) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    let text = table.trim_fmt();
+    let rows: Vec<[String; 5]> = materials.iter().map(|entry| row(entry)).collect();
+    let table = Table::of(&rows)
+        .words("id", |row| row[0].clone())
+        .words("family", |row| row[1].clone())
+        .words("law", |row| row[2].clone())
+        .numbers("density [kg/m3]", "", |row| row[3].clone())
+        .words("trust", |row| row[4].clone())
+        .table();
+    let text = plain(&table, 1);
     // Broken columns are hard to read.
     let widest = text.lines().map(|line| line.chars().count()).max();
-    let room = table.width().map_or(MAX_WIDTH, usize::from).min(MAX_WIDTH);
+    let room = terminal::full_width().map_or(MAX_WIDTH, |width| width.min(MAX_WIDTH));
     match widest > Some(room) {
         true => output::print(&narrow(materials)),
-        false => output::print(&format!("{text}\n")),
+        false => output::print(&text),
     }
 }
 

@@ -4,28 +4,24 @@ use percuss::{
     material::MaterialClass,
     regime::{ProjectileRegime, TargetKind},
 };
+use percuss_report::table::Table;
 
 use super::ModelRecord;
 use crate::{
-    table,
+    table::wrapped,
     terminal::{width, wrap},
 };
 
 /// A row a model.
 pub fn text(models: &[ModelRecord]) -> String {
-    let header = ["model", "what it is", "projectiles", "targets"];
-    let mut all = table::table(header.map(str::to_owned).to_vec());
-    for model in models {
-        all.add_row([
-            model.name.to_owned(),
-            model.summary.to_owned(),
-            projectiles(model),
-            targets(model),
-        ]);
-    }
-    table::keep_whole(&mut all, [0, 2]);
+    let all = Table::of(models)
+        .words("model", |model| model.name)
+        .words("what it is", |model| model.summary)
+        .words("projectiles", projectiles)
+        .words("targets", targets)
+        .table();
     let hint = "`percuss models NAME` says all about one of them; `percuss compare CASE.toml` runs those that apply to a case.";
-    table::text(&all) + &wrap(hint, width(), 0) + "\n"
+    wrapped(&all, [0, 2]) + &wrap(hint, width(), 0) + "\n"
 }
 
 fn projectiles(model: &ModelRecord) -> String {

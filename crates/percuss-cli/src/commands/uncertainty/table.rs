@@ -2,13 +2,16 @@
 
 use percuss::{
     Scenario,
-    uncertainty::{Band, Estimate, Index, Perforation, QuantityResult, TornadoBar, Uncertainty},
+    uncertainty::{
+        Band, Estimate, Index, Perforation, QuantityResult, Statistics, TornadoBar, Uncertainty,
+    },
     units::significant,
 };
+use percuss_report::table::{Table, number};
 
 use crate::{
-    table::{Column, blocks},
-    terminal::{bold, width, wrap, yellow},
+    table::blocks,
+    terminal::{self, bold, paragraph, title},
 };
 
 /// Everything.
@@ -18,10 +21,7 @@ pub fn text(scenario: &Scenario, found: &Uncertainty) -> String {
         text += &influence(found, quantity);
     }
     if let Some(why) = &found.no_indices {
-        text += &format!(
-            "{}\n\n",
-            wrap(&format!("no Sobol' indices: {why}"), width(), 0)
-        );
+        text += &format!("{}\n", paragraph(&format!("no Sobol' indices: {why}")));
     }
     text + &bands(found) + &warnings(found)
 }
@@ -49,45 +49,22 @@ pub fn lines(found: &Uncertainty) -> String {
 }
 
 fn head(scenario: &Scenario, found: &Uncertainty) -> String {
-    let title = match scenario.title.is_empty() {
-        true => &scenario.name,
-        false => &scenario.title,
-    };
     let line = format!(
         "case {}, model {}, statistics of {} shots, seed {}, {} shots in all",
         found.case, found.model, found.samples, found.seed, found.shots
     );
-    let (title, line) = (wrap(title, width(), 0), wrap(&line, width(), 0));
-    format!("{}\n{line}\n\n", bold(title))
-}
-
-fn column(heading: &str, cells: Vec<String>) -> Column {
-    Column {
-        heading: heading.to_owned(),
-        cells,
-        numbers: true,
-    }
-}
-
-fn names(heading: &str, cells: Vec<String>) -> Column {
-    Column {
-        numbers: false,
-        ..column(heading, cells)
-    }
+    format!("{}{}\n", title(scenario), paragraph(&line))
 }
 
 fn inputs(found: &Uncertainty) -> String {
-    let inputs = found.inputs.iter();
     let heading = match found.correlated {
         true => "uncertain (correlated)",
         false => "uncertain",
     };
-    let first = names(
-        heading,
-        inputs.clone().map(|input| input.label.clone()).collect(),
-    );
-    let words = inputs.map(|input| input.distribution.clone()).collect();
-    blocks(&first, vec![names("distribution", words)])
+    let table = Table::of(&found.inputs)
+        .words(heading, |input| input.label.clone())
+        .words("distribution", |input| input.distribution.clone());
+    blocks(&table.table())
 }
 
 fn outcome(found: &Uncertainty) -> String {
@@ -128,82 +105,69 @@ fn spread(found: &Uncertainty) -> String {
     if found.quantities.is_empty() {
         return String::new();
     }
-    let rows = [
-        "all at their medians",
-        "mean",
-        "its standard error",
-        "standard deviation",
-        "5 % lie below",
-        "50 %",
-        "95 %",
-        "shots",
+    type Read = fn(&QuantityResult) -> String;
+    const ROWS: [(&str, Read); 8] = [
+        ("all at their medians", |q| number(q.nominal, 4)),
+        ("mean", |q| significant(q.statistics.mean, 4)),
+        ("its standard error", |q| {
+            significant(q.statistics.standard_error, 2)
+        }),
+        ("standard deviation", |q| {
+            significant(q.statistics.standard_deviation, 3)
+        }),
+        ("5 % lie below", |q| percentile(&q.statistics, 5.0)),
+        ("50 %", |q| percentile(&q.statistics, 50.0)),
+        ("95 %", |q| percentile(&q.statistics, 95.0)),
+        ("shots", |q| q.statistics.shots.to_string()),
     ];
-    let of = |quantity: &QuantityResult| {
-        let s = &quantity.statistics;
-        let at = |percent: f64| significant(s.percentile(percent).value, 4);
-        let cells = vec![
-            value(quantity.nominal),
-            significant(s.mean, 4),
-            significant(s.standard_error, 2),
-            significant(s.standard_deviation, 3),
-            at(5.0),
-            at(50.0),
-            at(95.0),
-            s.shots.to_string(),
-        ];
-        column(&heading(quantity), cells)
-    };
-    let first = names("", rows.map(str::to_owned).to_vec());
-    blocks(&first, found.quantities.iter().map(of).collect())
+    let table =
+        Table::of(&ROWS)
+            .words("", |(name, _)| *name)
+            .each(&found.quantities, |rows, quantity| {
+                rows.numbers(
+                    heading(quantity),
+                    quantity.what().unit.symbol,
+                    |(_, read)| read(quantity),
+                )
+            });
+    blocks(&table.table())
 }
 
-/// Name and unit of a quantity in narrow lines.
+fn percentile(statistics: &Statistics, percent: f64) -> String {
+    significant(statistics.percentile(percent).value, 4)
+}
+
+/// Name of a quantity in narrow lines.
 fn heading(quantity: &QuantityResult) -> String {
-    let what = quantity.what();
-    let words = match what.label.rsplit_once(' ') {
+    let words = quantity.what().label;
+    match words.rsplit_once(' ') {
         Some((start, end)) => format!("{start}\n{end}"),
-        None => what.label.to_owned(),
-    };
-    format!("{words}\n[{}]", what.unit.symbol)
-}
-
-fn value(value: Option<f64>) -> String {
-    value.map_or_else(|| "–".to_owned(), |v| significant(v, 4))
+        None => words.to_owned(),
+    }
 }
 
 fn influence(found: &Uncertainty, quantity: &QuantityResult) -> String {
-    let bars = quantity.tornado.iter();
-    let each = |of: &dyn Fn(&TornadoBar) -> String| bars.clone().map(of).collect();
     let unit = quantity.what().unit.symbol;
-    let first = names("parameter", each(&|bar| found.label(&bar.key).to_owned()));
-    let mut columns = vec![
-        column(&format!("at 5 %\n[{unit}]"), each(&|bar| value(bar.at_low))),
-        column(
-            &format!("at 95 %\n[{unit}]"),
-            each(&|bar| value(bar.at_high)),
-        ),
-    ];
+    let mut rows = Table::of(&quantity.tornado)
+        .words("parameter", |bar| found.label(&bar.key).to_owned())
+        .numbers("at 5 %", unit, |bar| number(bar.at_low, 4))
+        .numbers("at 95 %", unit, |bar| number(bar.at_high, 4));
     if let Some(indices) = &quantity.indices {
-        let index = |key: &str, of: fn(&Index) -> Estimate| {
-            let found = indices.parameters.iter().find(|index| index.key == key);
+        let index = |bar: &TornadoBar, of: fn(&Index) -> Estimate| {
+            let mut all = indices.parameters.iter();
+            let found = all.find(|index| index.key == bar.key);
             found.map_or_else(String::new, |index| with_error(of(index)))
         };
-        columns.push(column(
-            "index,\nfirst order",
-            each(&|bar| index(&bar.key, |i| i.first_order)),
-        ));
-        columns.push(column(
-            "index,\ntotal",
-            each(&|bar| index(&bar.key, |i| i.total)),
-        ));
+        rows = rows
+            .numbers("index,\nfirst order", "", |bar| {
+                index(bar, |i| i.first_order)
+            })
+            .numbers("index,\ntotal", "", |bar| index(bar, |i| i.total));
     }
     let title = format!("what moves the {}", quantity.what().label);
-    let mut text = format!("{}\n{}", bold(title), blocks(&first, columns));
+    let mut text = format!("{}\n{}", bold(title), blocks(&rows.table()));
     if let (Some(why), None) = (&quantity.no_indices, &found.no_indices) {
-        text += &format!(
-            "{}\n\n",
-            wrap(&format!("no Sobol' indices: {why}"), width(), 0)
-        );
+        text += &format!("{}\n", paragraph(&format!("no Sobol' indices: {why}")));
     }
     text
 }
@@ -224,57 +188,43 @@ fn bands(found: &Uncertainty) -> String {
         return String::new();
     }
     let bands = &found.bands;
-    let first = column(
-        "speed\n[m/s]",
-        bands
-            .iter()
-            .map(|b| significant(b.velocity_m_s, 4))
-            .collect(),
-    );
-    let mut columns = Vec::new();
-    if bands
-        .iter()
-        .any(|band| band.perforation.is_some_and(|p| p.perforated > 0))
-    {
-        let cell = |band: &Band| {
-            band.perforation
-                .map_or_else(|| "–".to_owned(), |p| percent(p.probability))
-        };
-        columns.push(column("perforation\n[%]", bands.iter().map(cell).collect()));
-    }
-    for (i, quantity) in found.quantities.iter().enumerate() {
-        for at in [5.0, 50.0, 95.0] {
-            let cell = |band: &Band| {
-                let statistics = band.quantities[i].statistics.as_ref();
-                statistics.map_or_else(
-                    || "–".to_owned(),
-                    |s| significant(s.percentile(at).value, 4),
-                )
-            };
-            let heading = format!("{}\n{at} %", heading(quantity));
-            columns.push(column(&heading, bands.iter().map(cell).collect()));
-        }
-    }
-    if bands.iter().any(|band| band.failed > 0) {
-        columns.push(column(
-            "failed",
-            bands.iter().map(|band| band.failed.to_string()).collect(),
-        ));
-    }
+    let perforates = |band: &Band| band.perforation.is_some_and(|p| p.perforated > 0);
+    let table = Table::of(bands)
+        .numbers("speed", "m/s", |band| significant(band.velocity_m_s, 4))
+        .when(bands.iter().any(perforates), |rows| {
+            rows.numbers("perforation", "%", |band| {
+                let perforation = band.perforation;
+                perforation.map_or_else(|| number(None, 0), |p| percent(p.probability))
+            })
+        })
+        .each(
+            found.quantities.iter().enumerate(),
+            |rows, (i, quantity)| {
+                let unit = quantity.what().unit.symbol;
+                rows.each([5.0, 50.0, 95.0], |rows, at| {
+                    let heading = format!("{}\n[{unit}]\n{at} %", heading(quantity));
+                    rows.numbers(heading, "", |band| {
+                        let statistics = band.quantities[i].statistics.as_ref();
+                        statistics.map_or_else(|| number(None, 0), |s| percentile(s, at))
+                    })
+                })
+            },
+        )
+        .when(bands.iter().any(|band| band.failed > 0), |rows| {
+            rows.numbers("failed", "", |band| band.failed.to_string())
+        });
     let title = format!(
         "over speed, {} shots each; the speed itself is exact",
         bands[0].shots
     );
-    format!("{}\n{}", bold(title), blocks(&first, columns))
+    format!("{}\n{}", bold(title), blocks(&table.table()))
 }
 
 fn warnings(found: &Uncertainty) -> String {
     let mut text = String::new();
     let nominal = found.nominal.warnings.iter();
     for warning in found.warnings.iter().chain(nominal) {
-        let line = wrap(&format!("warning: {warning}"), width(), 9);
-        text += &line.replacen("warning:", &yellow("warning:"), 1);
-        text += "\n\n";
+        text += &format!("{}\n", terminal::warning(warning));
     }
-    text + &wrap(&found.caution(), width(), 0) + "\n"
+    text + &paragraph(&found.caution())
 }

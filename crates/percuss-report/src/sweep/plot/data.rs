@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use percuss::statistics::sorted;
+
 use super::{
     super::{
         manifest::{Manifest, Varied},
@@ -109,9 +111,8 @@ impl<'a> Data<'a> {
 
     /// The different values that a parameter takes, in order.
     pub(super) fn values(&self, parameter: usize) -> Vec<f64> {
-        let mut values = self.rows.inputs[parameter].clone();
-        values.retain(|value| value.is_finite());
-        values.sort_by(f64::total_cmp);
+        let values = self.rows.inputs[parameter].iter().copied();
+        let mut values = sorted(values.filter(|value| value.is_finite()));
         values.dedup();
         values
     }

@@ -1,4 +1,6 @@
 //! Parallel coordinates: every parameter an axis, every shot a line in the colour of its number.
+//!
+//! The plotting library's own have no logarithmic axes, no words in place of numbers, and a colour per group instead of per value.
 
 use std::fmt::Write;
 

@@ -1,0 +1,128 @@
+//! The benchmark in the terminal.
+
+use percuss_report::table::{Table, number};
+use percuss_research::{
+    benchmark::{self, Group, Grouping},
+    benchmark_report::{
+        Benchmark, Origin,
+        tables::{self, signed},
+    },
+};
+
+use crate::{
+    table::plain,
+    terminal::{bold, width, wrap},
+};
+
+/// Spaces between columns.
+const SPACES: u16 = 2;
+
+/// What the command prints: sentences, all errors together, their medians by what may decide them, and the groups asked for.
+pub fn text(compared: &Benchmark, origin: &Origin, by: &[Grouping]) -> String {
+    let verdicts = &compared.verdicts;
+    let mut text = format!(
+        "{}\n{}\n",
+        bold("Depth models against the axisymmetric reference"),
+        wrap(&format!("reference: {}", origin.reference), width(), 2)
+    );
+    for sentence in benchmark::findings(verdicts) {
+        text += &format!("{}\n", wrap(&format!("- {sentence}"), width(), 2));
+    }
+    let refused = compared.references.iter().filter(|r| r.estimate.is_err());
+    let refused = refused.count();
+    if refused > 0 {
+        let sentence = format!(
+            "- {refused} more shots are left out of all numbers: their reference fails the check. `--out DIR` and `--json` list the reasons."
+        );
+        text += &format!("{}\n", wrap(&sentence, width(), 2));
+    }
+    let mut add = |title: &str, table: &Table| {
+        text += &format!("\n{}\n{}", bold(title), plain(table, SPACES));
+    };
+    let all = benchmark::statistics(verdicts, Grouping::All);
+    add("all shots, errors in %", &errors(&all));
+    for &grouping in by {
+        let groups = benchmark::statistics(verdicts, grouping);
+        for value in grouping.values() {
+            let mut own = groups.clone();
+            own.retain(|group| group.value == value);
+            if !own.is_empty() {
+                add(&value, &errors(&own));
+            }
+        }
+    }
+    if by.is_empty() {
+        for grouping in [Grouping::Speed, Grouping::Length, Grouping::Regime] {
+            let title = format!("median error in % by {}", grouping.in_words());
+            let groups = benchmark::statistics(verdicts, grouping);
+            add(&title, &medians(&groups, grouping));
+        }
+        let mut ablation = tables::ablation(&compared.ablation);
+        ablation.columns.remove(1);
+        for column in &mut ablation.columns {
+            column.heading = column.heading.replace("depth at ", "");
+        }
+        let title = "the paper's case one thing at a time: depths in mm, errors in %";
+        add(title, &ablation);
+        let hint = "`--by WHAT` prints all errors by speed, length, regime, materials or the reference's uncertainty; `--out DIR` writes \
+                    all of it with figures.";
+        text += &format!("\n{}\n", wrap(hint, width(), 0));
+    }
+    text
+}
+
+/// Errors in columns that fit 80 characters.
+fn errors(groups: &[Group]) -> Table {
+    Table::of(groups)
+        .words("model", |group| group.contender)
+        .numbers("n", "", |group| group.errors.count.to_string())
+        .numbers("median", "", |group| signed(group.errors.median))
+        .numbers("eight of ten", "", |group| {
+            let errors = &group.errors;
+            format!("{} … {}", signed(errors.low), signed(errors.high))
+        })
+        .numbers("|median|", "", |group| {
+            format!("{:.0}", 100.0 * group.errors.median_absolute)
+        })
+        .numbers("within 25 %", "", |group| {
+            format!("{:.0} %", 100.0 * group.errors.within_25_percent)
+        })
+        .table()
+}
+
+/// A row a contender, a column a group.
+fn medians(groups: &[Group], grouping: Grouping) -> Table {
+    let mut contenders: Vec<&str> = groups.iter().map(|group| group.contender).collect();
+    contenders.dedup();
+    let values = grouping.values().into_iter();
+    let values = values.filter(|value| groups.iter().any(|group| group.value == *value));
+    Table::of(&contenders)
+        .words("model", |contender| *contender)
+        .each(values, |rows, value| {
+            rows.numbers(value.clone(), "", |contender| {
+                let is_own = |group: &&Group| group.contender == *contender && group.value == value;
+                let group = groups.iter().find(is_own);
+                group.map_or_else(|| number(None, 0), |group| signed(group.errors.median))
+            })
+        })
+        .table()
+}
+
+/// A contender in one line for scripts.
+pub fn one_line(group: &Group) -> String {
+    let errors = &group.errors;
+    format!(
+        "contender={} count={} median={} low={} high={} median_absolute={} within_25_percent={}\n",
+        group
+            .contender
+            .replace(": ", ":")
+            .replace(", ", ",")
+            .replace(' ', "-"),
+        errors.count,
+        errors.median,
+        errors.low,
+        errors.high,
+        errors.median_absolute,
+        errors.within_25_percent
+    )
+}

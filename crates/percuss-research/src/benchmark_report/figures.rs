@@ -1,0 +1,174 @@
+//! Error maps, one a contender, and depth over speed, one a pair of materials and length.
+
+use percuss::{
+    model_error::{
+        Verdict, contenders,
+        design::{LENGTHS, SPEEDS},
+    },
+    statistics::{quantile, sorted},
+};
+use percuss_report::{Axis, Figure, HeatMap, LineChart, Series, Style, palette};
+
+use super::tables::signed;
+use crate::benchmark::{PAIRS, pair_name};
+
+/// Length over diameter of the projectiles whose depths are shown in Markdown: one figure a pair of materials suffices there.
+const SHOWN: f64 = 3.0;
+/// Error with the strongest colour.
+const STRONGEST: f64 = 1.0;
+/// Height of an error map [px].
+const MAP_HEIGHT: f64 = 330.0;
+
+/// All figures.
+pub(super) struct Drawn {
+    /// Error maps with the contenders' names.
+    pub(super) maps: Vec<Figure>,
+    /// Depths over speed, those for Markdown first.
+    pub(super) depths: Vec<Figure>,
+    pub(super) more_depths: Vec<Figure>,
+}
+
+impl Drawn {
+    /// Draws all figures for which there are verdicts.
+    pub(super) fn of(verdicts: &[Verdict]) -> Self {
+        let of_length = |wanted: &dyn Fn(f64) -> bool| {
+            let mut drawn = Vec::new();
+            for (projectile, target) in PAIRS {
+                for &length in LENGTHS.iter().filter(|length| wanted(**length)) {
+                    drawn.extend(depths(verdicts, projectile, target, length));
+                }
+            }
+            drawn
+        };
+        Self {
+            maps: contenders()
+                .iter()
+                .filter_map(|contender| map(verdicts, contender.name))
+                .collect(),
+            depths: of_length(&|length| length == SHOWN),
+            more_depths: of_length(&|length| length != SHOWN),
+        }
+    }
+
+    pub(super) fn in_markdown(&self) -> impl Iterator<Item = &Figure> {
+        self.maps.iter().chain(&self.depths)
+    }
+}
+
+/// A name as part of a file's.
+fn stem(name: &str) -> String {
+    let words = name.split(|c: char| !c.is_alphanumeric());
+    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+    words.join("-")
+}
+
+fn map(verdicts: &[Verdict], contender: &str) -> Option<Figure> {
+    let median = |length: f64, speed: f64| {
+        let here = verdicts.iter().filter(|v| {
+            v.contender == contender
+                && v.length_to_diameter == length
+                && v.impact_velocity_m_s == speed
+        });
+        let errors = sorted(here.map(Verdict::error));
+        match errors.is_empty() {
+            true => f64::NAN,
+            false => quantile(&errors, 0.5),
+        }
+    };
+    let rows: Vec<Vec<f64>> = LENGTHS
+        .iter()
+        .map(|&length| SPEEDS.iter().map(|&speed| median(length, speed)).collect())
+        .collect();
+    if rows.iter().flatten().all(|value| value.is_nan()) {
+        return None;
+    }
+    let percent = |value: f64| match value.is_nan() {
+        true => "\u{2013}".to_owned(),
+        false => signed(value).replace('-', "\u{2212}"),
+    };
+    let texts = rows
+        .iter()
+        .map(|row| row.iter().map(|value| percent(*value)).collect())
+        .collect();
+    let axis =
+        |label: &str, values: &[f64]| Axis::new(label).names(values.iter().map(f64::to_string));
+    let range = |values: &[f64]| (0.5, values.len() as f64 + 0.5);
+    let in_percent = rows
+        .into_iter()
+        .map(|row| row.into_iter().map(|value| 100.0 * value).collect())
+        .collect();
+    let map = HeatMap::new(
+        [
+            &format!("error-{}", stem(contender)),
+            &format!("Median error of {contender} against the axisymmetric reference"),
+        ],
+        [axis("impact speed [m/s]", SPEEDS), axis("L/D", LENGTHS)],
+        [range(SPEEDS), range(LENGTHS)],
+        "median error of depth [%]",
+        in_percent,
+    );
+    Some(
+        map.caption("red: too deep, blue: too shallow; over all pairs of materials")
+            .texts(texts)
+            .limit(100.0 * STRONGEST)
+            .height(MAP_HEIGHT)
+            .draw(),
+    )
+}
+
+fn depths(verdicts: &[Verdict], projectile: &str, target: &str, length: f64) -> Option<Figure> {
+    let own: Vec<&Verdict> = verdicts
+        .iter()
+        .filter(|v| {
+            v.projectile == projectile && v.target == target && v.length_to_diameter == length
+        })
+        .collect();
+    let reference: Vec<&Verdict> = SPEEDS
+        .iter()
+        .filter_map(|&speed| own.iter().find(|v| v.impact_velocity_m_s == speed).copied())
+        .collect();
+    if reference.is_empty() {
+        return None;
+    }
+    let chart = LineChart::new(
+        format!("depth-{}-on-{}-{length}", stem(projectile), stem(target)),
+        format!(
+            "Depth over speed: {}, L/D {length}",
+            pair_name(projectile, target)
+        ),
+        Axis::new("impact speed [m/s]"),
+        Axis::new("depth of penetration [mm]").log(),
+    )
+    .caption("bars: what the reference's cells leave uncertain");
+    let chart = contenders()
+        .iter()
+        .enumerate()
+        .fold(chart, |chart, (i, contender)| {
+            let points = own
+                .iter()
+                .filter(|v| v.contender == contender.name)
+                .map(|v| (v.impact_velocity_m_s, v.depth_of_penetration_mm));
+            let points: Vec<(f64, f64)> = points.collect();
+            match points.is_empty() {
+                true => chart,
+                false => chart.series(
+                    Series::new(contender.name, points)
+                        .style(Style::LineAndMarkers)
+                        .symbol(i),
+                ),
+            }
+        });
+    let bars = reference.iter().map(|v| {
+        let size = v.reference_uncertainty_mm;
+        // A logarithmic axis has no place for a bar down to nothing.
+        (size.min(0.9 * v.reference_depth_mm), size)
+    });
+    let points = reference
+        .iter()
+        .map(|v| (v.impact_velocity_m_s, v.reference_depth_mm));
+    let series = Series::new("axi, the reference", points)
+        .style(Style::Markers)
+        .color(palette::EXPERIMENT)
+        .error_bars(bars);
+    Some(chart.series(series).draw())
+}

@@ -1,0 +1,11 @@
+//! The project's own research: what `percuss judge` and `percuss reproduce` compute. Nothing else needs it.
+//!
+//! [`benchmark`] compares every depth model with the axisymmetric model, [`benchmark_report`] writes the comparison; [`paper_case`] is the
+//! seed paper's case by the axisymmetric model and by one-dimensional variants; [`paper`] checks the seed paper item by item, and [`damping`]
+//! its question about damping. Of all this the product uses one file: the benchmark's results, for its estimate of the model error.
+
+pub mod benchmark;
+pub mod benchmark_report;
+pub mod damping;
+pub mod paper;
+pub mod paper_case;

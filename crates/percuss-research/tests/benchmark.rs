@@ -1,0 +1,140 @@
+//! Stored benchmark results: sound references, and depths that the models give now.
+
+use percuss::model_error::{self, Verdict};
+use percuss_research::{
+    benchmark::{self, reference, shots},
+    paper_case::{self, ablation},
+};
+
+#[test]
+fn reference_depths_are_of_the_design_and_close_their_energy_balance() {
+    let (references, shots) = (reference::built_in(), shots());
+    for reference in &references {
+        assert!(
+            shots.iter().any(|shot| reference.is_of(shot)),
+            "of no shot of the design: {reference:?}"
+        );
+        assert!(
+            reference.energy_residual.abs() <= 0.01 && reference.depth_of_penetration_mm > 0.0,
+            "{reference:?}"
+        );
+    }
+    // One mesh says nothing of its error.
+    for shot in shots {
+        let meshes: Vec<u32> = references
+            .iter()
+            .filter(|reference| reference.is_of(&shot))
+            .map(|reference| reference.cells_per_radius)
+            .collect();
+        let mut different = meshes.clone();
+        different.sort_unstable();
+        different.dedup();
+        assert_eq!(meshes.len(), different.len(), "twice on a mesh: {shot:?}");
+        assert!(
+            references.is_empty() || meshes.len() >= 2,
+            "{shot:?}: {meshes:?}"
+        );
+    }
+}
+
+/// An entry that fails the convergence check is in no result, hence in no statistics, figures, findings or expected errors.
+#[test]
+fn a_refused_reference_is_left_out_of_the_stored_results() {
+    let checked = benchmark::check_references(&shots(), &reference::built_in());
+    let refused = checked.iter().filter(|entry| entry.estimate.is_err());
+    assert!(refused.clone().count() > 10);
+    for entry in refused {
+        let stored = model_error::verdicts().iter().any(|v| entry.shot.is_of(v));
+        assert!(!stored, "{entry:?}");
+    }
+}
+
+#[test]
+fn the_study_of_the_papers_case_closes_its_energy_balance_on_every_mesh() {
+    let rows = paper_case::built_in();
+    for &speed in paper_case::SPEEDS {
+        for &(cells, radius) in paper_case::VARIANTS {
+            let of = |row: &&paper_case::Study| {
+                row.impact_velocity_m_s == speed
+                    && row.cells_per_radius == cells
+                    && row.target_radius_mm == radius
+            };
+            assert_eq!(
+                rows.iter().filter(of).count(),
+                1,
+                "{speed} {cells} {radius}"
+            );
+        }
+    }
+    for row in rows {
+        assert!(
+            paper_case::SPEEDS.contains(&row.impact_velocity_m_s),
+            "{row:?}"
+        );
+        assert!(
+            row.energy_residual.abs() <= 0.01 && row.depth_of_penetration_mm > 0.0,
+            "{row:?}"
+        );
+    }
+}
+
+/// Depths are sums over thousands of steps, which another machine rounds differently: 1e-6 is far below any change of a model.
+const SAME: f64 = 1e-6;
+
+#[test]
+fn the_stored_results_are_those_of_the_models() {
+    let now = benchmark::compare(&shots(), &reference::built_in()).unwrap();
+    let stored = model_error::verdicts();
+    let key = |verdict: &Verdict| {
+        let Verdict {
+            contender,
+            projectile,
+            target,
+            length_to_diameter,
+            impact_velocity_m_s,
+            ..
+        } = verdict;
+        format!(
+            "{contender}: {projectile} on {target}, L/D {length_to_diameter}, {impact_velocity_m_s} m/s"
+        )
+    };
+    let keys = |verdicts: &[Verdict]| verdicts.iter().map(key).collect::<Vec<_>>();
+    let remedy = "regenerate the benchmark: see CONTRIBUTING.md";
+    assert_eq!(keys(stored), keys(&now), "{remedy}");
+    for (stored, now) in stored.iter().zip(&now) {
+        let same = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
+        assert!(
+            stored.regime == now.regime
+                && same(stored.depth_of_penetration_mm, now.depth_of_penetration_mm)
+                && same(stored.reference_depth_mm, now.reference_depth_mm)
+                && same(
+                    stored.reference_uncertainty_mm,
+                    now.reference_uncertainty_mm
+                ),
+            "{remedy}: stored {stored:?}, now {now:?}"
+        );
+    }
+}
+
+#[test]
+fn every_variant_of_the_ablation_answers() {
+    let lines = ablation::ablation(&[]).unwrap();
+    assert_eq!(lines.len(), 8 * paper_case::SPEEDS.len(), "{lines:?}");
+    assert!(
+        lines.iter().all(|line| line.depth_of_penetration_mm > 0.0),
+        "{lines:?}"
+    );
+    let depth = |speed: f64, name: &str| {
+        let own =
+            |line: &&ablation::Line| line.impact_velocity_m_s == speed && line.variant == name;
+        lines.iter().find(own).unwrap().depth_of_penetration_mm
+    };
+    for &speed in paper_case::SPEEDS {
+        // What holds the target less lets the rod deeper.
+        assert!(depth(speed, "column") < depth(speed, "column, no border shear"));
+        assert!(
+            depth(speed, "column, no border shear")
+                < depth(speed, "column, no border shear, factor 1")
+        );
+    }
+}

@@ -1,0 +1,5 @@
+//! All integration tests of this crate as one program: what it tests is linked once, not once a file.
+
+mod benchmark;
+mod damping;
+mod paper;
