@@ -41,6 +41,7 @@ pub mod column;
 mod compare_figure;
 mod compare_files;
 mod convergence_figure;
+mod drawing;
 mod error;
 mod field;
 pub mod figure;

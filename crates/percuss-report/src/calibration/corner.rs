@@ -6,9 +6,9 @@ use percuss::{calibrate::Sample, statistics::sorted};
 
 use super::{
     Column,
-    panel::{Drawing, Panel},
+    panel::{HEADS, Panel},
 };
-use crate::{Figure, palette};
+use crate::{Figure, drawing::Drawing, palette};
 
 /// Side of a panel, distance between two and space around all [px].
 const PANEL: f64 = 170.0;
@@ -62,7 +62,7 @@ pub(super) fn figure(sample: &Sample, columns: &[Column]) -> Figure {
         }
     }
     let caption = format!("{} states; blue: the best values", values[0].len());
-    drawing.finish("corner", "Posterior of the parameters", &caption)
+    drawing.finish("corner", ("Posterior of the parameters", &caption), HEADS)
 }
 
 fn range(values: &[f64]) -> (f64, f64) {

@@ -4,9 +4,9 @@ use percuss::calibrate::Sample;
 
 use super::{
     Column,
-    panel::{Drawing, Panel},
+    panel::{HEADS, Panel},
 };
-use crate::{Figure, frame::WIDTH, palette};
+use crate::{Figure, drawing::Drawing, frame::WIDTH, palette};
 
 /// Height of a panel and of what stands above and below all [px].
 const PANEL: f64 = 170.0;
@@ -59,7 +59,7 @@ pub(super) fn figure(sample: &Sample, columns: &[Column]) -> Figure {
                 let y = column.value(step[0]).clamp(panel.y.0, panel.y.1);
                 (panel.map_x(i as f64), panel.map_y(y))
             });
-            drawing.curve(places, color);
+            drawing.curve(places, color, r#"stroke-width="1" stroke-opacity="0.8""#);
         }
         let last = row + 1 == columns.len();
         panel.frame(&mut drawing, last.then_some("step"), Some(&column.label));
@@ -68,5 +68,5 @@ pub(super) fn figure(sample: &Sample, columns: &[Column]) -> Figure {
         "one of {} walkers of each of {} ensembles; the grey steps are not kept",
         sampling.walkers, sampling.ensembles
     );
-    drawing.finish("trace", "Traces of the sample", &caption)
+    drawing.finish("trace", ("Traces of the sample", &caption), HEADS)
 }

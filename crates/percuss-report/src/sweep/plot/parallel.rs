@@ -2,15 +2,13 @@
 //!
 //! The plotting library's own have no logarithmic axes, no words in place of numbers, and a colour per group instead of per value.
 
-use std::fmt::Write;
-
 use kuva::render::render_utils::generate_ticks;
 
 use super::{PlotStyle, data::Data, quantity};
 use crate::{
     Figure,
-    frame::{HEIGHT, WIDTH, plain, tick_label},
-    page::html::escape,
+    drawing::{Drawing, Text, shorten},
+    frame::{HEIGHT, WIDTH, tick_label},
     palette,
 };
 
@@ -39,43 +37,35 @@ pub(super) fn draw(data: &Data<'_>) -> Figure {
     let number = Scale::new(data.rows.values.iter().copied(), false);
     let shots = data.rows.values.len();
     let every = shots.div_ceil(LINES).max(1);
-    let mut svg = String::new();
-    // Writing to a string does not fail.
-    let mut lines = |wanted: bool| {
+    let mut drawing = Drawing::new(width, HEIGHT);
+    for wanted in [true, false] {
         for shot in (0..shots).step_by(every) {
             let value = data.rows.values[shot];
             if value.is_finite() != wanted {
                 continue;
-            }
-            let mut path = String::new();
-            for (axis, (i, scale)) in varied.iter().zip(&scales).enumerate() {
-                let letter = if axis == 0 { 'M' } else { 'L' };
-                let mut value = data.rows.inputs[*i][shot];
-                if !data.is_numeric(*i) {
-                    value += spread(shot);
-                }
-                let y = scale.y(value);
-                let _ = write!(path, "{letter}{:.1} {y:.1}", at(axis));
             }
             let (color, end) = match (wanted, data.rows.failed[shot]) {
                 (true, _) => (hex(number.part(value)), number.y(value)),
                 (false, true) => (palette::FAILED.to_owned(), bottom() + BELOW[0]),
                 (false, false) => (palette::MARK.to_owned(), bottom() + BELOW[1]),
             };
-            let dashes = if wanted {
-                ""
-            } else {
-                r#" stroke-dasharray="4 3""#
+            let places = varied.iter().zip(&scales).map(|(i, scale)| {
+                let value = data.rows.inputs[*i][shot];
+                scale.y(value
+                    + if data.is_numeric(*i) {
+                        0.0
+                    } else {
+                        spread(shot)
+                    })
+            });
+            let places = places.chain([end]).enumerate();
+            let attributes = match wanted {
+                true => r#"stroke-opacity="0.6""#,
+                false => r#"stroke-opacity="0.6" stroke-dasharray="4 3""#,
             };
-            let _ = write!(
-                svg,
-                r#"<path d="{path}L{:.1} {end:.1}" fill="none" stroke="{color}" stroke-opacity="0.6"{dashes}/>"#,
-                at(varied.len())
-            );
+            drawing.curve(places.map(|(axis, y)| (at(axis), y)), &color, attributes);
         }
-    };
-    lines(true);
-    lines(false);
+    }
     for (axis, (i, scale)) in varied.iter().zip(&scales).enumerate() {
         let varied = &data.parameters()[*i];
         let name = match varied.key.rsplit_once('.') {
@@ -86,12 +76,8 @@ pub(super) fn draw(data: &Data<'_>) -> Figure {
             "" => String::new(),
             unit => format!("[{unit}]"),
         };
-        svg += &axis_of(
-            at(axis),
-            &[&name[0], &name[1], &unit],
-            &scale.ticks(data, *i),
-            false,
-        );
+        let name = [&*name[0], &*name[1], &*unit];
+        axis_of(&mut drawing, at(axis), &name, &scale.ticks(data, *i), false);
     }
     let place = at(varied.len());
     let label = quantity::label(data.quantity);
@@ -102,54 +88,29 @@ pub(super) fn draw(data: &Data<'_>) -> Figure {
         format!("[{unit}")
     };
     let (first, second) = halves(name);
-    svg += &bar(place);
-    svg += &axis_of(place, &[&first, &second, &unit], &number.numbers(), true);
+    bar(&mut drawing, place);
+    let name = [&*first, &*second, &*unit];
+    axis_of(&mut drawing, place, &name, &number.numbers(), true);
     let all = data.all();
     for (count, what, color, below) in [
         (all.failed, "failed", palette::FAILED, BELOW[0]),
         (all.without, "no value", palette::MARK, BELOW[1]),
     ] {
         if count > 0 {
-            let text = format!("{what} ({count})");
-            svg += &label_at(
-                place + 10.0,
-                bottom() + below + 4.0,
-                "start",
-                12,
+            let text = Text {
                 color,
-                &text,
-            );
+                ..Text::new(12.0, "start")
+            };
+            let at = (place + 10.0, bottom() + below + 4.0);
+            drawing.text(at, &format!("{what} ({count})"), text);
         }
     }
     let more = match every {
         1 => String::new(),
         _ => format!("one line in {every} drawn"),
     };
-    let chars = |size: f64| (width / (0.6 * size)) as usize;
-    let (title, caption) = (data.title(), data.caption(&more));
-    svg += &label_at(
-        0.5 * width,
-        30.0,
-        "middle",
-        17,
-        "black",
-        &shorten(&title, chars(17.0)),
-    );
-    svg += &label_at(
-        0.5 * width,
-        52.0,
-        "middle",
-        12,
-        "black",
-        &shorten(&caption, chars(12.0)),
-    );
-    Figure {
-        name: data.name(PlotStyle::Parallel),
-        title: format!("{title}: {caption}"),
-        svg: format!(
-            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{HEIGHT}" font-family="DejaVu Sans, Arial, sans-serif"><rect width="{width}" height="{HEIGHT}" fill="white"/>{svg}</svg>"#
-        ),
-    }
+    let texts = (&*data.title(), &*data.caption(&more));
+    drawing.finish(data.name(PlotStyle::Parallel), texts, [30.0, 52.0])
 }
 
 /// Where in the room of its word a line runs, so that not all run through one point.
@@ -240,59 +201,36 @@ impl Scale {
 }
 
 /// An axis with its name above it and its ticks at the left of it, or at the right of the bar of colours.
-fn axis_of(x: f64, name: &[&str], ticks: &[(f64, String)], right: bool) -> String {
-    let mut svg = format!(
-        r#"<path d="M{x:.1} {}V{}" stroke="black" stroke-width="1.2"/>"#,
-        MARGINS[2],
-        bottom()
-    );
+fn axis_of(drawing: &mut Drawing, x: f64, name: &[&str], ticks: &[(f64, String)], right: bool) {
+    drawing.line((x, MARGINS[2]), (x, bottom()), "black", 1.2);
     let lines: Vec<&&str> = name.iter().filter(|line| !line.is_empty()).collect();
     for (i, line) in lines.iter().enumerate() {
         let y = MARGINS[2] - 14.0 - 15.0 * (lines.len() - 1 - i) as f64;
-        svg += &label_at(x, y, "middle", 12, "black", &shorten(line, 19));
+        drawing.text((x, y), &shorten(line, 19), Text::new(12.0, "middle"));
     }
     for (y, text) in ticks {
         let (tick, place, anchor) = match right {
             true => (x + BAR, x + BAR + 8.0, "start"),
             false => (x - 5.0, x - 8.0, "end"),
         };
-        let halo = r#"paint-order="stroke" stroke="white" stroke-width="3" "#;
-        let text = escape(&shorten(text, 20));
-        let _ = write!(
-            svg,
-            r#"<path d="M{tick:.1} {y:.1}h5" stroke="black"/><text x="{place:.1}" y="{:.1}" font-size="11" text-anchor="{anchor}" {halo}>{text}</text>"#,
-            y + 4.0
-        );
+        drawing.line((tick, *y), (tick + 5.0, *y), "black", 1.0);
+        let style = Text {
+            halo: true,
+            ..Text::new(11.0, anchor)
+        };
+        drawing.text((place, y + 4.0), &shorten(text, 20), style);
     }
-    svg
 }
 
 /// The colours of the numbers along their axis.
-fn bar(x: f64) -> String {
+fn bar(drawing: &mut Drawing, x: f64) {
     const STEPS: u32 = 40;
     let height = (bottom() - MARGINS[2]) / f64::from(STEPS);
-    (0..STEPS)
-        .map(|i| {
-            let color = hex((f64::from(i) + 0.5) / f64::from(STEPS));
-            let y = bottom() - height * f64::from(i + 1);
-            format!(
-                r#"<rect x="{x:.1}" y="{y:.2}" width="{BAR}" height="{:.2}" fill="{color}"/>"#,
-                height + 0.3
-            )
-        })
-        .collect()
-}
-
-fn label_at(x: f64, y: f64, anchor: &str, size: u32, color: &str, text: &str) -> String {
-    let text = escape(text);
-    format!(
-        r#"<text x="{x:.1}" y="{y:.1}" font-size="{size}" text-anchor="{anchor}" fill="{color}">{text}</text>"#
-    )
-}
-
-/// A text on one line of at most so many characters.
-fn shorten(text: &str, most: usize) -> String {
-    plain(text, most).replace("\\$", "$")
+    for i in 0..STEPS {
+        let color = hex((f64::from(i) + 0.5) / f64::from(STEPS));
+        let y = bottom() - height * f64::from(i + 1);
+        drawing.area((x, y), (BAR, height + 0.3), &color);
+    }
 }
 
 /// A name on two lines.

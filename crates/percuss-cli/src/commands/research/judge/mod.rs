@@ -124,7 +124,7 @@ struct Record<'a> {
 
 /// What the command found out and wrote.
 struct Found {
-    judgement: Benchmark,
+    compared: Benchmark,
     origin: Origin,
     /// Shots whose reference was to be computed and failed, and why.
     failures: Vec<String>,
@@ -151,14 +151,14 @@ impl Judge {
             return written.print_json(&record(&found), self.quiet);
         }
         if self.quiet {
-            let lines: String = benchmark::statistics(&found.judgement.verdicts, Grouping::All)
+            let lines: String = benchmark::statistics(&found.compared.verdicts, Grouping::All)
                 .iter()
                 .map(table::one_line)
                 .collect();
             return output::print(&lines);
         }
         let by: Vec<Grouping> = self.by.iter().copied().map(Grouping::from).collect();
-        written.print_under(table::text(&found.judgement, &found.origin, &by))
+        written.print_under(table::text(&found.compared, &found.origin, &by))
     }
 
     /// What the command prints with --json.
@@ -204,7 +204,7 @@ impl Judge {
             return Err(refused_all(&reference, &checked));
         }
         let _ = hear(COMPUTED, "running all models on all shots");
-        let judgement = Benchmark::new(&shots, &references, study)?;
+        let compared = Benchmark::new(&shots, &references, study)?;
         let origin = Origin {
             reference,
             command: self.command(),
@@ -212,10 +212,10 @@ impl Judge {
         let mut files = Vec::new();
         if let Some(out) = &self.out {
             let _ = hear(1.0, "drawing figures");
-            files = benchmark_report::write(out, &judgement, &origin)?;
+            files = benchmark_report::write(out, &compared, &origin)?;
         }
         Ok(Found {
-            judgement,
+            compared,
             origin,
             failures,
             files,
@@ -279,23 +279,23 @@ fn refused_all(reference: &str, checked: &[CheckedReference]) -> Failure {
 
 fn record(found: &Found) -> Record<'_> {
     let Found {
-        judgement, origin, ..
+        compared, origin, ..
     } = found;
     Record {
         percuss_version: env!("CARGO_PKG_VERSION"),
         reference: &origin.reference,
         failures: &found.failures,
-        refused: judgement
+        refused: compared
             .references
             .iter()
             .filter_map(CheckedReference::refused)
             .collect(),
-        findings: benchmark::findings(&judgement.verdicts),
+        findings: benchmark::findings(&compared.verdicts),
         statistics: Grouping::ALL
             .iter()
-            .flat_map(|grouping| benchmark::statistics(&judgement.verdicts, *grouping))
+            .flat_map(|grouping| benchmark::statistics(&compared.verdicts, *grouping))
             .collect(),
-        ablation: &judgement.ablation,
-        verdicts: &judgement.verdicts,
+        ablation: &compared.ablation,
+        verdicts: &compared.verdicts,
     }
 }

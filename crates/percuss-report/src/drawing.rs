@@ -1,0 +1,141 @@
+//! Figures that are drawn by hand.
+
+use std::fmt::Write;
+
+use crate::{Figure, frame::plain, page::html::escape};
+
+/// A figure in the making.
+pub(crate) struct Drawing {
+    width: f64,
+    height: f64,
+    svg: String,
+}
+
+/// How a text is set.
+#[derive(Clone, Copy)]
+pub(crate) struct Text<'a> {
+    /// Size [px].
+    pub(crate) size: f64,
+    pub(crate) anchor: &'a str,
+    /// Angle [deg].
+    pub(crate) turned: f64,
+    pub(crate) color: &'a str,
+    /// Whether it has a white border, to be read on lines.
+    pub(crate) halo: bool,
+}
+
+impl<'a> Text<'a> {
+    /// A black text of a size that starts, ends or has its middle (`start`, `end`, `middle`) at its place.
+    pub(crate) fn new(size: f64, anchor: &'a str) -> Self {
+        Self {
+            size,
+            anchor,
+            turned: 0.0,
+            color: "black",
+            halo: false,
+        }
+    }
+}
+
+impl Drawing {
+    pub(crate) fn new(width: f64, height: f64) -> Self {
+        Self {
+            width,
+            height,
+            svg: String::new(),
+        }
+    }
+
+    pub(crate) fn line(&mut self, from: (f64, f64), to: (f64, f64), color: &str, width: f64) {
+        self.curve(
+            [from, to].into_iter(),
+            color,
+            &format!(r#"stroke-width="{width}""#),
+        );
+    }
+
+    /// A line through places, with further attributes.
+    pub(crate) fn curve(
+        &mut self,
+        places: impl Iterator<Item = (f64, f64)>,
+        color: &str,
+        attributes: &str,
+    ) {
+        let mut path = String::new();
+        for (i, (x, y)) in places.enumerate() {
+            let command = if i == 0 { 'M' } else { 'L' };
+            // Writing to a string does not fail.
+            let _ = write!(path, "{command}{x:.1} {y:.1}");
+        }
+        let _ = write!(
+            self.svg,
+            r#"<path d="{path}" stroke="{color}" {attributes} fill="none"/>"#
+        );
+    }
+
+    /// A filled rectangle.
+    pub(crate) fn area(&mut self, place: (f64, f64), size: (f64, f64), color: &str) {
+        self.rectangle(place, size, &format!(r#"fill="{color}""#));
+    }
+
+    /// The outline of a rectangle.
+    pub(crate) fn border(&mut self, place: (f64, f64), size: (f64, f64)) {
+        self.rectangle(place, size, r#"fill="none" stroke="black""#);
+    }
+
+    fn rectangle(&mut self, place: (f64, f64), size: (f64, f64), attributes: &str) {
+        let _ = write!(
+            self.svg,
+            r#"<rect x="{:.2}" y="{:.2}" width="{:.2}" height="{:.2}" {attributes}/>"#,
+            place.0, place.1, size.0, size.1
+        );
+    }
+
+    pub(crate) fn text(&mut self, place: (f64, f64), content: &str, text: Text<'_>) {
+        let Text {
+            size,
+            anchor,
+            turned,
+            color,
+            halo,
+        } = text;
+        let halo = match halo {
+            true => r#" paint-order="stroke" stroke="white" stroke-width="3""#,
+            false => "",
+        };
+        let _ = write!(
+            self.svg,
+            r#"<text x="{0:.1}" y="{1:.1}" font-size="{size}" text-anchor="{anchor}" fill="{color}"{halo} transform="rotate({turned} {0:.1} {1:.1})">{2}</text>"#,
+            place.0,
+            place.1,
+            escape(content)
+        );
+    }
+
+    /// The figure, with title and caption at their heights [px].
+    pub(crate) fn finish(
+        mut self,
+        name: impl Into<String>,
+        (title, caption): (&str, &str),
+        heights: [f64; 2],
+    ) -> Figure {
+        for ((content, size), y) in [(title, 17.0), (caption, 12.0)].into_iter().zip(heights) {
+            let chars = (self.width / (0.6 * size)) as usize;
+            let content = shorten(content, chars);
+            self.text((0.5 * self.width, y), &content, Text::new(size, "middle"));
+        }
+        Figure {
+            name: name.into(),
+            title: format!("{title}: {caption}"),
+            svg: format!(
+                r#"<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" font-family="DejaVu Sans, Arial, sans-serif"><rect width="{0}" height="{1}" fill="white"/>{2}</svg>"#,
+                self.width, self.height, self.svg
+            ),
+        }
+    }
+}
+
+/// A text on one line of at most so many characters.
+pub(crate) fn shorten(text: &str, most: usize) -> String {
+    plain(text, most).replace("\\$", "$")
+}
