@@ -31,6 +31,12 @@ impl Column {
         Self::new(result, ELEMENT_COLUMNS, si_name, &profile.elements)
     }
 
+    /// A column of the state at a gauge by its name in SI units.
+    pub fn of_gauge(result: &Arc<RunResult>, index: usize, si_name: &str) -> Option<Self> {
+        let gauge = result.history.as_ref()?.gauges.get(index)?;
+        Self::new(result, ELEMENT_COLUMNS, si_name, &gauge.states)
+    }
+
     /// A column that stands by itself; `values` belong to `owner`.
     pub fn of_numbers<O: Any + Send + Sync>(owner: &Arc<O>, values: &[f64]) -> Self {
         Self {

@@ -124,6 +124,24 @@ impl RunResult {
         Column::of_samples(&self.result, si_name)
     }
 
+    /// Names of the gauges.
+    fn gauges(&self) -> Vec<String> {
+        let history = self.result.history.iter();
+        let gauges = history.flat_map(|history| &history.gauges);
+        gauges.map(|gauge| gauge.name.clone()).collect()
+    }
+
+    /// Times of the states at a gauge [s].
+    fn gauge_times(&self, index: usize) -> Option<Column> {
+        let gauge = self.result.history.as_ref()?.gauges.get(index)?;
+        Some(Column::of_numbers(&self.result, &gauge.times))
+    }
+
+    /// A column of the states at a gauge by its name in SI units.
+    fn gauge_column(&self, index: usize, si_name: &str) -> Option<Column> {
+        Column::of_gauge(&self.result, index, si_name)
+    }
+
     /// A column of a state along the axis by its name in SI units.
     fn element_column(&self, index: usize, si_name: &str) -> Option<Column> {
         Column::of_elements(&self.result, index, si_name)

@@ -121,6 +121,24 @@ def test_histories_are_those_of_the_program(program: Program, tmp_path: Path) ->
         assert numpy.array_equal(profile[name], last[name]), name
 
 
+def test_gauges_are_those_of_the_program(program: Program, tmp_path: Path) -> None:
+    import pandas
+
+    text = Path("cases/paper-table1/scenario.toml").read_text()
+    file = tmp_path / "gauges.toml"
+    file.write_text(text + "\n[[gauges]]\nname = 'tip'\nposition = '-1 mm'\n[[gauges]]\nposition = '5 mm'\n")
+    assert program("run", file, "--out", tmp_path).returncode == 0
+    written = pandas.read_csv(tmp_path / "gauges.csv")
+    gauges = percuss.run(file).history.gauges
+    assert list(gauges) == ["tip", "gauge 2"]
+    for name, gauge in gauges.items():
+        rows = written[written["gauge"] == name]
+        assert numpy.array_equal(gauge.time_us, rows["time_us"])
+        for column in gauge.names():
+            assert numpy.array_equal(gauge[column], rows[column], equal_nan=True), column
+        assert numpy.array_equal(gauge.si.velocity_m_s, gauge.velocity_m_s)
+
+
 def test_columns_in_si_units_are_the_memory_of_the_result() -> None:
     result = percuss.run("cases/paper-table1/scenario.toml")
     history = result.history

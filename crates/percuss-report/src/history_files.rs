@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use percuss::{
     history::{
-        ELEMENT_COLUMNS, ElementState, HistoryColumn, Profile, Read, SAMPLE_COLUMNS, Sample,
+        ELEMENT_COLUMNS, ElementState, GaugeHistory, HistoryColumn, Profile, Read, SAMPLE_COLUMNS,
+        Sample,
     },
     outcome::RunResult,
     units::ResultUnit as Unit,
@@ -21,7 +22,8 @@ use crate::{
 ///
 /// - `history.csv` and `history.parquet`: velocities, positions, forces and both balances, one row per sample;
 /// - `profiles.parquet`: the state along the axis, a row for each element at each recorded time;
-/// - `final-profile.csv`: that state at the end.
+/// - `final-profile.csv`: that state at the end;
+/// - `gauges.csv` and `gauges.parquet`, where the case has gauges: a row for each gauge and time.
 ///
 /// Column names end with the unit; both formats have the same columns and values.
 ///
@@ -45,7 +47,11 @@ pub fn history_files(result: &RunResult) -> Result<Vec<(&'static str, Vec<u8>)>,
     let rows = |profile: &Profile| {
         let time = profile.time;
         let states = profile.elements.clone().into_iter();
-        states.map(move |state| Place { time, state })
+        states.map(move |state| Place {
+            gauge: String::new(),
+            time,
+            state,
+        })
     };
     let all: Vec<Place> = history.profiles.iter().flat_map(rows).collect();
     let last: Vec<Place> = history.profiles.last().into_iter().flat_map(rows).collect();
@@ -57,13 +63,36 @@ pub fn history_files(result: &RunResult) -> Result<Vec<(&'static str, Vec<u8>)>,
     files.extend(column::parquet(parquet, &samples, &history.samples)?);
     files.extend(column::parquet(profiles, &elements, &all)?);
     files.push((end, column::csv(end, &elements, &last)?));
+    if !history.gauges.is_empty() {
+        let (csv, parquet) = ("gauges.csv", "gauges.parquet");
+        let rows: Vec<Place> = history.gauges.iter().flat_map(readings).collect();
+        let columns = gauge_columns();
+        files.push((csv, column::csv(csv, &columns, &rows)?));
+        files.extend(column::parquet(parquet, &columns, &rows)?);
+    }
     Ok(files)
 }
 
-/// An element at a time.
+/// An element, or a gauge, at a time.
 struct Place {
+    /// Name of the gauge; empty of an element.
+    gauge: String,
     time: f64,
     state: ElementState,
+}
+
+fn readings(gauge: &GaugeHistory) -> impl Iterator<Item = Place> + '_ {
+    let rows = gauge.times.iter().zip(&gauge.states);
+    rows.map(|(&time, &state)| Place {
+        gauge: gauge.name.clone(),
+        time,
+        state,
+    })
+}
+
+fn gauge_columns() -> Vec<Column<Place>> {
+    let gauge = Column::text("gauge", |place: &Place| place.gauge.clone());
+    std::iter::once(gauge).chain(element_columns()).collect()
 }
 
 fn sample_columns() -> Vec<Column<Sample>> {

@@ -21,7 +21,7 @@ const CELLS: [usize; 2] = [300, 220];
 /// Draws all figures that a result has data for.
 ///
 /// Against time: `depth-time` (a target that can be penetrated), `length-time` (a rigid wall, or a projectile that
-/// erodes), `velocity-time`, `force-time` and `energy-time`. Along the axis: `strain-profile`, `temperature-profile` (where anything became hotter), `stress-xt` and
+/// erodes), `velocity-time`, `force-time`, `energy-time`, and `gauge-stress-time` and `gauge-velocity-time` (a case with gauges). Along the axis: `strain-profile`, `temperature-profile` (where anything became hotter), `stress-xt` and
 /// `rod-shape`, or `final-shape` of a model that knows crater and projectile in two dimensions. A run in which nothing moves has but `strain-profile` and `rod-shape`.
 ///
 /// # Errors
@@ -61,6 +61,8 @@ pub fn run_charts(
         charts.push(velocity.into());
         charts.extend(time_figures::force(history, result, &caption).map(Chart::from));
         charts.extend(time_figures::energy(history, &caption).map(Chart::from));
+        let gauges = time_figures::gauges(history, &caption);
+        charts.extend(gauges.into_iter().map(Chart::from));
     }
     let along = match result.shapes {
         Some(_) => Along::Space,

@@ -123,6 +123,7 @@ mod tests {
             plastic_strain: 0.0,
             diameter: 1.0,
             temperature: 300.0,
+            velocity: 0.0,
         }
     }
 

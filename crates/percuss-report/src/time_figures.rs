@@ -1,7 +1,7 @@
 //! Figures against time.
 
 use percuss::{
-    history::{History, Sample},
+    history::{ElementState, History, Sample},
     outcome::{PLANE_IMPACT, RunResult},
 };
 
@@ -107,6 +107,37 @@ pub(crate) fn force(history: &History, result: &RunResult, caption: &str) -> Opt
         chart = chart.series(curve.width(RINGING));
     }
     (struck || behind).then_some(chart)
+}
+
+/// Axial stress and velocity at the gauges; none where the case has no gauges.
+pub(crate) fn gauges(history: &History, caption: &str) -> Vec<LineChart> {
+    if history.gauges.is_empty() {
+        return Vec::new();
+    }
+    let of = |name, title, axis, value: fn(&ElementState) -> f64| {
+        history
+            .gauges
+            .iter()
+            .fold(chart(name, title, axis, caption), |chart, gauge| {
+                let points = gauge.times.iter().zip(&gauge.states);
+                let points = points.map(|(time, state)| (time * 1e6, value(state)));
+                chart.series(Series::new(gauge.name.clone(), points).width(RINGING))
+            })
+    };
+    vec![
+        of(
+            "gauge-stress-time",
+            "Axial stress at gauges against time",
+            "axial stress, compression positive [MPa]",
+            |state| state.stress * 1e-6,
+        ),
+        of(
+            "gauge-velocity-time",
+            "Velocity at gauges against time",
+            "velocity [m/s]",
+            |state| state.velocity,
+        ),
+    ]
 }
 
 /// The energy book in percent of the initial energy; `None` when nothing moved.

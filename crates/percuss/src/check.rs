@@ -163,6 +163,8 @@ pub mod limits {
     pub const LENGTH: Limits = limits(1e-5, 100.0);
     /// Distance between two layers [m].
     pub const GAP: Limits = limits(0.0, 100.0);
+    /// Position of a gauge [m].
+    pub const GAUGE_POSITION: Limits = limits(-100.0, 400.0);
     /// Diameter [m].
     pub const DIAMETER: Limits = limits(1e-5, 10.0);
     /// Mass [kg].

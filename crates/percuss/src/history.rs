@@ -63,6 +63,44 @@ pub struct ElementState {
     pub diameter: f64,
     /// Temperature [K].
     pub temperature: f64,
+    /// Axial velocity, into the target positive [m/s].
+    pub velocity: f64,
+}
+
+impl ElementState {
+    /// A state of a part without numbers: of a place that has eroded.
+    pub(crate) fn gone(part: usize, initial_position: f64) -> Self {
+        let none = f64::NAN;
+        Self {
+            part,
+            initial_position,
+            position: none,
+            length: none,
+            stress: none,
+            strain: none,
+            plastic_strain: none,
+            diameter: none,
+            temperature: none,
+            velocity: none,
+        }
+    }
+
+    /// The state between two others of one part, at a fraction of the way from this one.
+    pub(crate) fn between(&self, ahead: &Self, fraction: f64) -> Self {
+        let mixed = |of: fn(&Self) -> f64| of(self) + fraction * (of(ahead) - of(self));
+        Self {
+            part: self.part,
+            initial_position: mixed(|e| e.initial_position),
+            position: mixed(|e| e.position),
+            length: mixed(|e| e.length),
+            stress: mixed(|e| e.stress),
+            strain: mixed(|e| e.strain),
+            plastic_strain: mixed(|e| e.plastic_strain),
+            diameter: mixed(|e| e.diameter),
+            temperature: mixed(|e| e.temperature),
+            velocity: mixed(|e| e.velocity),
+        }
+    }
 }
 
 /// State along the axis at one moment.
@@ -81,6 +119,28 @@ pub struct History {
     pub samples: Vec<Sample>,
     /// State along the axis against time.
     pub profiles: Vec<Profile>,
+    /// State at each gauge of the case at the times of the samples.
+    pub gauges: Vec<GaugeHistory>,
+}
+
+/// A point of the material on the axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GaugePlace {
+    /// Name in results.
+    pub name: String,
+    /// Position before the impact, below the struck face [m]; negative in the projectile.
+    pub position: f64,
+}
+
+/// History of the material at a gauge.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct GaugeHistory {
+    /// Name of the gauge.
+    pub name: String,
+    /// Times [s]: those of the samples.
+    pub times: Vec<f64>,
+    /// State of the material; not a number once it has eroded.
+    pub states: Vec<ElementState>,
 }
 
 /// Samples kept lie between this number and half of it.
@@ -97,9 +157,16 @@ pub(crate) struct Recorder {
 }
 
 impl Recorder {
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(gauges: &[GaugePlace]) -> Self {
+        let gauge = |place: &GaugePlace| GaugeHistory {
+            name: place.name.clone(),
+            ..GaugeHistory::default()
+        };
         Self {
-            history: History::default(),
+            history: History {
+                gauges: gauges.iter().map(gauge).collect(),
+                ..History::default()
+            },
             sample_stride: 1,
             profile_stride: 1,
         }
@@ -113,10 +180,19 @@ impl Recorder {
         step.is_multiple_of(self.profile_stride)
     }
 
-    pub(crate) fn sample(&mut self, sample: Sample) {
+    /// Adds a sample, with the states at all gauges.
+    pub(crate) fn sample(&mut self, sample: Sample, gauges: Vec<ElementState>) {
+        for (history, state) in self.history.gauges.iter_mut().zip(gauges) {
+            history.times.push(sample.time);
+            history.states.push(state);
+        }
         self.history.samples.push(sample);
         if self.history.samples.len() > MOST_SAMPLES {
             thin(&mut self.history.samples);
+            for history in &mut self.history.gauges {
+                thin(&mut history.times);
+                thin(&mut history.states);
+            }
             self.sample_stride *= 2;
         }
     }
@@ -130,8 +206,18 @@ impl Recorder {
     }
 
     /// The history with its last moment, which the stride may have passed over.
-    pub(crate) fn finish(mut self, sample: Sample, profile: Profile) -> History {
+    pub(crate) fn finish(
+        mut self,
+        sample: Sample,
+        gauges: Vec<ElementState>,
+        profile: Profile,
+    ) -> History {
         if self.history.samples.last().map(|last| last.step) != Some(sample.step) {
+            // What is complete is not thinned out any more.
+            for (history, state) in self.history.gauges.iter_mut().zip(gauges) {
+                history.times.push(sample.time);
+                history.states.push(state);
+            }
             self.history.samples.push(sample);
         }
         if self.history.profiles.last().map(|last| last.time) != Some(profile.time) {
@@ -155,7 +241,7 @@ mod tests {
 
     #[test]
     fn a_long_run_keeps_few_entries_evenly_spread() {
-        let mut recorder = Recorder::new();
+        let mut recorder = Recorder::new(&[]);
         for step in 0..100_000 {
             if recorder.wants_profile(step) {
                 recorder.profile(Profile {

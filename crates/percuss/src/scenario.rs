@@ -3,6 +3,7 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
+    history::GaugePlace,
     material::Material,
     options::{ModelOptions, TargetClosure},
     outcome::BandQuantity,
@@ -34,6 +35,8 @@ pub struct Scenario {
     pub resistance_reason: Option<String>,
     /// Options of the models.
     pub options: ModelOptions,
+    /// Points of the material at which a numerical run keeps a time history.
+    pub gauges: Vec<GaugePlace>,
     /// Tables of models that are not part of percuss.
     pub extensions: Extensions,
     /// What was measured, for comparison; no model sees it.

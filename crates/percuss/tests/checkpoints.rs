@@ -53,7 +53,9 @@ const SPALL: &str = r#"
 "#;
 
 fn scenario(text: &str) -> Scenario {
-    case::load_str("checkpoints", text).unwrap()
+    // Histories at gauges continue too.
+    let gauges = "[[gauges]]\nposition = '-1 mm'\n[[gauges]]\nposition = '2 mm'\n";
+    case::load_str("checkpoints", &format!("{text}\n{gauges}")).unwrap()
 }
 
 fn run(model: &str, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {

@@ -17,6 +17,7 @@ mod elastic_bars;
 mod eroding_rods;
 mod fdm_planar;
 mod fdm_rod;
+mod gauges;
 mod hot_rod;
 mod invariants;
 mod layers;

@@ -30,7 +30,7 @@ from .errors import (
     UsageError,
     WriteError,
 )
-from .history import History, Profile, SiColumns
+from .history import Gauge, History, Profile, SiColumns
 from .judgement import Judgement, judge
 from .library import Material, Model, material, materials, model, models, new, schema
 from .progress import Progress
@@ -49,6 +49,7 @@ __all__ = [
     "Comparison",
     "Convergence",
     "Drawing",
+    "Gauge",
     "History",
     "Judgement",
     "Limits",

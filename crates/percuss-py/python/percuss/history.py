@@ -145,6 +145,37 @@ class Profile(ElementColumns, _Rows):
         return f"<Profile at {self.time_us:.4g} us, {len(self.part)} elements>"
 
 
+class Gauge(ElementColumns, _Rows):
+    """State of the material at a gauge of the case against time, a value per moment of the history.
+
+    The gauge moves with the material; its values are not a number once that has eroded.
+
+    Attributes
+    ----------
+    {fields}
+    """
+
+    _fields = {field.name: field for field in _percuss.element_columns()}
+
+    def __init__(self, native: _percuss.RunResult, index: int, name: str) -> None:
+        self._native = native
+        self._index = index
+        #: Name of the gauge.
+        self.name = name
+
+    @property
+    def time_us(self) -> Array:
+        """Times [us]."""
+        times: Array = numpy.asarray(self._native.gauge_times(self._index)) * _TIME.per_si
+        return times
+
+    def _memory(self, si_name: str) -> _percuss.Column | None:
+        return self._native.gauge_column(self._index, si_name)
+
+    def __repr__(self) -> str:
+        return f"<Gauge {self.name!r}, {len(self.part)} moments>"
+
+
 class History(SampleColumns, _Rows):
     """Scalars against time. A long run thins its history out, so the steps between moments are not all alike.
 
@@ -177,11 +208,17 @@ class History(SampleColumns, _Rows):
         """The state along the axis at some moments, from the first to the last."""
         return [Profile(self._native, index) for index in range(self._native.profiles())]
 
+    @property
+    def gauges(self) -> dict[str, Gauge]:
+        """The state at each gauge of the case against time, by its name."""
+        names = enumerate(self._native.gauges())
+        return {name: Gauge(self._native, index, name) for index, name in names}
+
     def __repr__(self) -> str:
         return f"<History of {len(self)} moments, {self._native.profiles()} profiles>"
 
 
 _TIME = History._fields["time_us"]
 
-for _kind in (Profile, History):
+for _kind in (Profile, Gauge, History):
     fields.document(_kind, _kind._fields.values())

@@ -375,6 +375,7 @@ mod tests {
             plastic_strain: 0.25,
             diameter: 4e-3,
             temperature: 300.0,
+            velocity: 0.0,
         };
         let frame = Frame {
             number: 0,

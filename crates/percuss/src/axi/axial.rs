@@ -62,7 +62,7 @@ fn along_axis(part: usize, body: &Body, cell: f64) -> Vec<ElementState> {
     };
     let (first, last) = ((tail / cell).floor() as isize, (tip / cell).ceil() as isize);
     let rows = (last - first).max(0) as usize;
-    let mut sums = vec![[0.0_f64; 6]; rows];
+    let mut sums = vec![[0.0_f64; 7]; rows];
     for particle in body
         .particles
         .iter()
@@ -82,6 +82,7 @@ fn along_axis(part: usize, body: &Body, cell: f64) -> Vec<ElementState> {
             particle.plastic_strain,
             strain,
             particle.temperature,
+            particle.velocity[1],
         ];
         for (entry, value) in sum.iter_mut().zip(values) {
             *entry += mass * value;
@@ -99,8 +100,15 @@ fn along_axis(part: usize, body: &Body, cell: f64) -> Vec<ElementState> {
         .map(|(row, sum)| {
             let at = first + row as isize;
             let area = 0.5 * (section(at) + section(at + 1));
-            let [_, position, stress, plastic_strain, strain, temperature] =
-                sum.map(|value| value / sum[0]);
+            let [
+                _,
+                position,
+                stress,
+                plastic_strain,
+                strain,
+                temperature,
+                velocity,
+            ] = sum.map(|value| value / sum[0]);
             ElementState {
                 part,
                 initial_position: position,
@@ -111,7 +119,32 @@ fn along_axis(part: usize, body: &Body, cell: f64) -> Vec<ElementState> {
                 plastic_strain,
                 diameter: 2.0 * (area / std::f64::consts::PI).sqrt(),
                 temperature,
+                velocity,
             }
         })
         .collect()
+}
+
+/// State at a gauge that is at a position now [m] and was at another one before the impact [m]: between the two rows of cells around it.
+pub(super) fn at_gauge(
+    rows: &[ElementState],
+    body: usize,
+    position: f64,
+    initial: f64,
+) -> ElementState {
+    let own = || rows.iter().filter(|row| row.part == body);
+    let behind = own().rfind(|row| row.position <= position);
+    let ahead = own().find(|row| row.position > position);
+    let state = match (behind, ahead) {
+        (Some(a), Some(b)) => a.between(b, (position - a.position) / (b.position - a.position)),
+        (Some(end), None) | (None, Some(end)) if (end.position - position).abs() < end.length => {
+            *end
+        }
+        _ => ElementState::gone(body, initial),
+    };
+    ElementState {
+        initial_position: initial,
+        position,
+        ..state
+    }
 }

@@ -6,7 +6,7 @@ use super::{axial, crater, end::Window, results, setup::build, solver::Grid};
 use crate::{
     Error, Refusal, Scenario,
     error::NumericalError,
-    history::{Profile, Sample},
+    history::{ElementState, Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
     material::Material,
     options::{AxiOptions, Eos},
@@ -16,6 +16,7 @@ use crate::{
         archive::Archive,
         driver::{Audit, BalanceTolerance, Drive, Extremes, Retry, Solver, slowed},
         frames::Fields,
+        gauge::Gauge,
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
     },
@@ -40,6 +41,10 @@ pub(crate) struct Axisymmetric<'a> {
     touches: bool,
     /// Time before the last step [s].
     before: f64,
+    /// Current positions of the gauges [m], which move with the material on the axis.
+    gauges: Vec<f64>,
+    /// Body of each gauge.
+    gauge_bodies: Vec<usize>,
 }
 
 /// A run of the model.
@@ -103,7 +108,17 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
 
     fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
         let grid = build(scenario, courant);
+        let rows = match scenario.gauges.is_empty() {
+            true => Vec::new(),
+            false => axial::profile(&grid).elements,
+        };
+        let gauges = scenario.gauges.iter().map(|place| place.position);
         Ok(Self {
+            gauge_bodies: gauges
+                .clone()
+                .map(|position| Gauge::new(position, &rows).part)
+                .collect(),
+            gauges: gauges.collect(),
             scenario,
             touches: grid.deferred.contact_force > 0.0,
             grid,
@@ -147,6 +162,10 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
 
     fn probe(&mut self, monitor: &RunMonitor) -> Probe {
         let grid = &self.grid;
+        for (gauge, &body) in self.gauges.iter_mut().zip(&self.gauge_bodies) {
+            let velocity = crater::axis_velocity(&grid.bodies[body], *gauge, grid.cell);
+            *gauge += velocity * (grid.time - self.before);
+        }
         let before = self.depth;
         if grid.bodies.len() > 1 {
             match crater::floor(&grid.bodies[1..], grid.cell) {
@@ -204,6 +223,19 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
         axial::sample(&self.grid, self.depth)
     }
 
+    fn gauges(&self, gauges: &[Gauge]) -> Vec<ElementState> {
+        if gauges.is_empty() {
+            return Vec::new();
+        }
+        let rows = axial::profile(&self.grid).elements;
+        let places = gauges.iter().zip(&self.gauges).zip(&self.gauge_bodies);
+        places
+            .map(|((gauge, &position), &body)| {
+                axial::at_gauge(&rows, body, position, gauge.position)
+            })
+            .collect()
+    }
+
     fn profile(&self) -> Profile {
         axial::profile(&self.grid)
     }
@@ -220,6 +252,7 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
         archive.item(&mut self.window)?;
         archive.item(&mut self.depth)?;
         archive.item(&mut self.touches)?;
+        archive.item(&mut self.gauges)?;
         self.grid.archive(archive)
     }
 

@@ -10,7 +10,7 @@ use crate::{
     inputs::UncertainInputs,
     material::MaterialTable,
     options::{ModelOptions, with_model_options},
-    problem::{Experiment, Extensions, Projectile, Target},
+    problem::{Experiment, Extensions, Gauge, Projectile, Target},
 };
 
 macro_rules! case_with_model_options {
@@ -38,6 +38,9 @@ macro_rules! case_with_model_options {
                 #[serde(default)]
                 pub $name: $options,
             )*
+            /// Points of the material at which a numerical run keeps a time history.
+            #[serde(default, skip_serializing_if = "Vec::is_empty")]
+            pub gauges: Vec<Gauge>,
             /// Tables of models that are not part of percuss, by name; only those models read them.
             #[serde(default, skip_serializing_if = "Extensions::is_empty")]
             pub extensions: Extensions,
@@ -64,6 +67,7 @@ macro_rules! case_with_model_options {
                     projectile,
                     target,
                     $($name: Default::default(),)*
+                    gauges: Vec::new(),
                     extensions: Extensions::default(),
                     experiments: Vec::new(),
                     uncertainty: None,

@@ -8,6 +8,7 @@ use crate::{
     document::Document,
     error::Error,
     material::Library,
+    problem::Gauge,
     scenario::Scenario,
 };
 
@@ -161,6 +162,7 @@ impl Case {
         self.projectile.check(&mut check.within("projectile"));
         self.target.check(&mut check.within("target"));
         self.check_model_options(check);
+        Gauge::check_all(&self.gauges, check);
         for (i, experiment) in self.experiments.iter().enumerate() {
             let mut check = check.within(&format!("experiments.{i}"));
             experiment.check(&mut check, &self.target);

@@ -26,7 +26,7 @@ pub use crate::{
         SmallStrainStiffness, TargetClosure,
     },
     problem::{
-        BackFace, Experiment, Extensions, Layer, LayerInterface, Nose, Projectile, SourceKeys,
-        Support, Target, Thickness, Uncertainty,
+        BackFace, Experiment, Extensions, Gauge, Layer, LayerInterface, Nose, Projectile,
+        SourceKeys, Support, Target, Thickness, Uncertainty,
     },
 };

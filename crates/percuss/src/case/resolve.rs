@@ -4,10 +4,13 @@ use super::Case;
 use crate::{
     chain,
     check::{Check, limits},
+    history::GaugePlace,
     material::{Library, MaterialEntry},
     options::Scheme,
-    problem::{BackFace, Experiment, Layer, Nose, Thickness, Uncertainty},
-    scenario::{Given, Measurement, Plate, PlateEdge, Rod, Scenario, TargetBody},
+    problem::{BackFace, Experiment, Gauge, Layer, Nose, Thickness, Uncertainty},
+    scenario::{
+        Given, Measurement, Plate, PlateEdge, Rod, Scenario, TargetBody, modelled_thickness,
+    },
     units::{Length, Mass, Quantity, Velocity},
 };
 
@@ -36,6 +39,7 @@ pub(super) fn resolve(
         resistance: None,
         resistance_reason: None,
         options,
+        gauges: Vec::new(),
         extensions: case.extensions,
         experiments: case.experiments.iter().filter_map(measurement).collect(),
         given,
@@ -45,7 +49,38 @@ pub(super) fn resolve(
         scenario.options.chain.target_elements = thin_target_elements(&scenario);
     }
     chain::choose_target_closure(&mut scenario);
+    scenario.gauges = gauges(&case.gauges, &scenario, check);
     Some(scenario)
+}
+
+/// Gauges, each of which lies in a body.
+fn gauges(gauges: &[Gauge], scenario: &Scenario, check: &mut Check<'_>) -> Vec<GaugePlace> {
+    let behind = -scenario.projectile.length;
+    let ahead = match &scenario.target {
+        TargetBody::Layers { layers, .. } => layers
+            .iter()
+            .map(|plate| plate.gap + modelled_thickness(plate, scenario))
+            .sum(),
+        _ => 0.0,
+    };
+    for (i, gauge) in gauges.iter().enumerate() {
+        if !(behind..=ahead).contains(&gauge.position.si()) {
+            check.fail(
+                &format!("gauges.{i}.position"),
+                format!("{} lies in no body", gauge.position),
+                format!(
+                    "allowed: {} (rear end of the projectile) to {} (end of the modelled target)",
+                    Length::new(behind),
+                    Length::new(ahead)
+                ),
+            );
+        }
+    }
+    let place = |(i, gauge): (usize, &Gauge)| GaugePlace {
+        name: gauge.name(i),
+        position: gauge.position.si(),
+    };
+    gauges.iter().enumerate().map(place).collect()
 }
 
 /// Elements through a target so thin that the default number would make them far shorter than the projectile's: a fourth of

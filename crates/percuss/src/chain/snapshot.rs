@@ -70,6 +70,7 @@ impl State {
                     plastic_strain: self.elements[e].plastic_strain,
                     diameter: 2.0 * (self.elements[e].area(part) / PI).sqrt(),
                     temperature: self.elements[e].temperature,
+                    velocity: 0.5 * (self.nodes[node].velocity + self.nodes[node + 1].velocity),
                 });
             }
         }

@@ -107,6 +107,7 @@ pub static ELEMENT_COLUMNS: &[HistoryColumn<ElementState>] = columns! { ElementS
     "plastic_strain" NONE Number plastic_strain, "Equivalent plastic strain.";
     "diameter" MM Number diameter, "Current diameter.";
     "temperature" K Number temperature, "Temperature.";
+    "velocity" M_S Number velocity, "Axial velocity, into the target positive.";
 };
 
 #[cfg(test)]

@@ -2,10 +2,12 @@
 
 mod experiment;
 mod extensions;
+mod gauge;
 mod projectile;
 mod target;
 
 pub use experiment::{Experiment, SourceKeys, Uncertainty};
 pub use extensions::Extensions;
+pub use gauge::Gauge;
 pub use projectile::{Nose, Projectile};
 pub use target::{BackFace, Layer, LayerInterface, Support, Target, Thickness};

@@ -6,6 +6,7 @@ use super::{
     checkpoint,
     courant_retry::{AttemptError, CourantRetry},
     frames::{Fields, Frame, FrameClock},
+    gauge::Gauge,
     go_on,
     limits::Limits,
     monitor::{Clock, Probe, RunMonitor},
@@ -13,7 +14,7 @@ use super::{
 use crate::{
     Error, Scenario,
     error::NumericalError,
-    history::{Profile, Recorder, Sample},
+    history::{ElementState, Profile, Recorder, Sample},
     ledger::{EnergyLedger, MomentumLedger},
     outcome::{Numerics, Outcome, RunResult, Termination},
 };
@@ -72,6 +73,19 @@ pub(crate) trait Solver<'a>: Sized {
     fn event(&mut self, monitor: &RunMonitor) -> Result<Option<Termination>, NumericalError>;
 
     fn sample(&self, monitor: &RunMonitor) -> Sample;
+
+    /// States at gauges.
+    fn gauges(&self, gauges: &[Gauge]) -> Vec<ElementState> {
+        if gauges.is_empty() {
+            return Vec::new();
+        }
+        match self.fields() {
+            Fields::Elements(elements) => {
+                gauges.iter().map(|gauge| gauge.read(&elements)).collect()
+            }
+            Fields::Particles { .. } => Vec::new(),
+        }
+    }
 
     fn profile(&self) -> Profile;
 
@@ -144,6 +158,7 @@ pub(crate) struct Drive<'a, S> {
     pub(crate) limits: Limits,
     courant: CourantRetry,
     recorder: Option<Recorder>,
+    gauges: Vec<Gauge>,
     frames: FrameClock,
 }
 
@@ -163,9 +178,17 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
 
     fn with_courant(scenario: &'a Scenario, courant: CourantRetry) -> Result<Self, Error> {
         let solver = S::build(scenario, courant.number())?;
+        let elements = match solver.fields() {
+            Fields::Elements(elements) if !scenario.gauges.is_empty() => elements,
+            _ => Vec::new(),
+        };
+        let gauges = scenario.gauges.iter();
         Ok(Self {
             scenario,
             limits: solver.limits(),
+            gauges: gauges
+                .map(|place| Gauge::new(place.position, &elements))
+                .collect(),
             solver,
             monitor: RunMonitor::default(),
             courant,
@@ -210,7 +233,7 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
         control: &mut Control<'_>,
     ) -> Result<RunResult, AttemptError> {
         if start {
-            self.recorder = control.record.then(Recorder::new);
+            self.recorder = control.record.then(|| Recorder::new(&self.scenario.gauges));
             self.record();
         }
         self.show(control)?;
@@ -356,8 +379,10 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
             momentum_residual: monitor.balance_error.momentum,
         });
         let recorder = self.recorder.take();
-        result.history =
-            recorder.map(|recorder| recorder.finish(solver.sample(monitor), solver.profile()));
+        result.history = recorder.map(|recorder| {
+            let gauges = solver.gauges(&self.gauges);
+            recorder.finish(solver.sample(monitor), gauges, solver.profile())
+        });
         solver.complete(&mut result, monitor);
         Ok(result)
     }
@@ -368,7 +393,8 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
         };
         let step = self.solver.clock().step;
         if recorder.wants_sample(step) {
-            recorder.sample(self.solver.sample(&self.monitor));
+            let gauges = self.solver.gauges(&self.gauges);
+            recorder.sample(self.solver.sample(&self.monitor), gauges);
         }
         if recorder.wants_profile(step) {
             recorder.profile(self.solver.profile());

@@ -6,6 +6,7 @@ mod control;
 mod courant_retry;
 pub(crate) mod driver;
 pub mod frames;
+pub(crate) mod gauge;
 mod input_limit;
 pub(crate) mod limits;
 pub(crate) mod monitor;

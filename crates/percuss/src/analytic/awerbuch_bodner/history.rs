@@ -21,6 +21,7 @@ pub(super) fn of(impact: &Impact, shot: &Shot, length: f64) -> History {
     History {
         samples,
         profiles: Vec::new(),
+        gauges: Vec::new(),
     }
 }
 

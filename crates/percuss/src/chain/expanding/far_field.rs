@@ -48,6 +48,7 @@ struct Spring {
 pub(super) struct Strained {
     pub(super) middle: f64,
     pub(super) displacement: f64,
+    pub(super) velocity: f64,
     pub(super) length: f64,
     pub(super) strain: f64,
     pub(super) stress: f64,
@@ -56,9 +57,10 @@ pub(super) struct Strained {
 }
 
 impl Strained {
-    /// Adds the displacement [m] and the strain of other waves.
-    pub(super) fn superpose(&mut self, [displacement, strain]: [f64; 2]) {
+    /// Adds the displacement [m], the strain and the velocity [m/s] of other waves.
+    pub(super) fn superpose(&mut self, [displacement, strain, velocity]: [f64; 3]) {
         self.displacement += displacement;
+        self.velocity += velocity;
         self.strain += strain;
         self.stress += self.modulus * strain;
     }
@@ -193,6 +195,7 @@ impl FarField {
             .map(|(spring, pair)| Strained {
                 middle: spring.middle,
                 displacement: 0.5 * (pair[0].position + pair[1].position),
+                velocity: 0.5 * (pair[0].velocity + pair[1].velocity),
                 length: spring.length,
                 strain: (pair[0].position - pair[1].position) / spring.length,
                 stress: spring.force[1] / spring.area,

@@ -137,25 +137,26 @@ impl RearFace {
         self.sign.powi(j) / self.cone.stretch(2.0 * f64::from(j) * self.thickness)
     }
 
-    /// Displacement [m] and compressive strain that reflected waves add at a depth [m].
-    pub(super) fn reflected(&self, depth: f64, time: f64) -> [f64; 2] {
+    /// Displacement [m], compressive strain and velocity [m/s] that reflected waves add at a depth [m].
+    pub(super) fn reflected(&self, depth: f64, time: f64) -> [f64; 3] {
         let transits = time * self.speed / self.thickness;
         let echoes = (0.5 * (transits + 1.0)).ceil() as i32;
-        let mut sum = [0.0; 2];
+        let mut sum = [0.0; 3];
         for j in 1..=echoes.min(MOST_ECHOES as i32) {
             let image = 2.0 * f64::from(j) * self.thickness;
             // One of the two waves runs towards the struck face: the other way round, so that its strain has the other sign.
             for (place, direction) in [(image + depth, 1.0), (image - depth, -1.0)] {
-                let [displacement, strain] = self.outgoing_at(place, time);
+                let [displacement, strain, velocity] = self.outgoing_at(place, time);
                 sum[0] += self.sign.powi(j) * displacement;
                 sum[1] += self.sign.powi(j) * direction * strain;
+                sum[2] += self.sign.powi(j) * velocity;
             }
         }
         sum
     }
 
-    /// Displacement [m] and compressive strain of the outgoing wave at a depth of the unfolded cone [m].
-    fn outgoing_at(&self, depth: f64, time: f64) -> [f64; 2] {
+    /// Displacement [m], compressive strain and velocity [m/s] of the outgoing wave at a depth of the unfolded cone [m].
+    fn outgoing_at(&self, depth: f64, time: f64) -> [f64; 3] {
         let line = &self.outgoing;
         let at = time - depth / self.speed;
         let half = 0.5 * line.spacing();
@@ -163,7 +164,7 @@ impl RearFace {
         let share = 1.0 / self.cone.stretch(depth);
         let strain =
             share / self.cone.distance_to_apex(depth) * line.at(at) + share * velocity / self.speed;
-        [share * line.at(at), strain]
+        [share * line.at(at), strain, share * velocity]
     }
 
     /// Velocity of a free rear face on the axis [m/s].

@@ -258,6 +258,7 @@ pub(super) fn profile(state: &State) -> Profile {
         plastic_strain: slice.plastic_strain,
         diameter: 2.0 * slice.radius,
         temperature: slice.temperature,
+        velocity: 0.5 * (nodes[0].velocity + nodes[1].velocity),
     });
     let far_field = state.far_field.strained().map(|mut spring| {
         if let Some(face) = &state.rear_face {
@@ -273,6 +274,7 @@ pub(super) fn profile(state: &State) -> Profile {
             plastic_strain: 0.0,
             diameter: 2.0 * (spring.area / std::f64::consts::PI).sqrt(),
             temperature: state.far_field.temperature,
+            velocity: spring.velocity,
         }
     });
     Profile {

@@ -72,7 +72,7 @@ impl Published<'_> {
                      springs: &Springs,
                      area: f64,
                      diameter: f64,
-                     moved: f64| {
+                     [moved, velocity]: [f64; 2]| {
             ElementState {
                 part,
                 initial_position: centre,
@@ -83,6 +83,7 @@ impl Published<'_> {
                 plastic_strain: 0.0,
                 diameter,
                 temperature: self.scenario.projectile.material.room_temperature.si(),
+                velocity,
             }
         };
         let rod = &self.scenario.projectile;
@@ -93,6 +94,7 @@ impl Published<'_> {
             let (behind, ahead) = (self.rod_displacement[i], self.rod_displacement[i - 1]);
             let centre = -(i as f64) * self.rod.length;
             let moved = 0.5 * (ahead + behind);
+            let velocity = 0.5 * (self.rod_velocity[i] + self.rod_velocity[i - 1]);
             elements.push(state(
                 0,
                 centre,
@@ -100,13 +102,14 @@ impl Published<'_> {
                 &self.rod,
                 rod.area(),
                 rod.diameter,
-                moved,
+                [moved, velocity],
             ));
         }
         for i in 1..self.target_displacement.len() {
             let (behind, ahead) = (self.target_displacement[i - 1], self.target_displacement[i]);
             let centre = i as f64 * self.target.length;
             let moved = 0.5 * (ahead + behind);
+            let velocity = 0.5 * (self.target_velocity[i - 1] + self.target_velocity[i]);
             elements.push(state(
                 1,
                 centre,
@@ -114,7 +117,7 @@ impl Published<'_> {
                 &self.target,
                 column_area,
                 column,
-                moved,
+                [moved, velocity],
             ));
         }
         Profile {

@@ -88,6 +88,7 @@ impl<L: Law> Grid<L> {
                     plastic_strain: view.plastic_strain,
                     diameter: view.diameter,
                     temperature: view.temperature,
+                    velocity: 0.5 * (self.nodes[c + s].velocity + self.nodes[c + s + 1].velocity),
                 });
             }
         }

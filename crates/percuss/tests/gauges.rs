@@ -1,0 +1,152 @@
+//! Gauges: waves arrive when and as strong as they must, in every numerical solver.
+
+use percuss::{
+    Error, case,
+    history::{ElementState, GaugeHistory},
+    model::{self, Control},
+};
+
+/// An elastic rod of steel on a bar of the same section; wave speed 5000 m/s, impedance ρc = 40 MPa s/m.
+const BARS: &str = r#"
+    [projectile]
+    material = "bar"
+    length = "50 mm"
+    diameter = "10 mm"
+    velocity = "10 m/s"
+    [target]
+    material = "bar"
+    thickness = "100 mm"
+    back_face = "free"
+    [[gauges]]
+    name = "rod"
+    position = "-25 mm"
+    [[gauges]]
+    position = "50 mm"
+    [materials.bar]
+    name = "elastic bar"
+    density = "8000 kg/m3"
+    youngs_modulus = "200 GPa"
+    poissons_ratio = 0.0
+    strength.elastic = {}
+"#;
+
+fn gauges(model: &str, text: &str) -> Vec<GaugeHistory> {
+    let scenario = case::load_str("bars", text).unwrap_or_else(|error| panic!("{error}"));
+    let model = model::model(model).unwrap();
+    let result = model::run(model, &scenario, &mut Control::recording())
+        .unwrap_or_else(|error| panic!("{error}"));
+    result.history.unwrap().gauges
+}
+
+/// State at a time [s].
+fn at(gauge: &GaugeHistory, time: f64) -> ElementState {
+    let index = gauge.times.partition_point(|&t| t < time);
+    gauge.states[index.min(gauge.states.len() - 1)]
+}
+
+/// At 5000 m/s the wave reaches the gauge in the rod after 5 us and that in the bar after 10 us; behind it the velocity is half the
+/// impact velocity and the stress ρ c V / 2 = 200 MPa. The release from the rod's rear end follows 15 and 20 us after the impact.
+fn check(model: &str, gauges: &[GaugeHistory], tolerance: f64) {
+    let [rod, bar] = gauges else {
+        panic!("{gauges:?}");
+    };
+    assert_eq!((rod.name.as_str(), bar.name.as_str()), ("rod", "gauge 2"));
+    for (gauge, times, velocities, stresses) in [
+        (rod, [3e-6, 10e-6], [10.0, 5.0], [0.0, 200e6]),
+        (bar, [8e-6, 15e-6], [0.0, 5.0], [0.0, 200e6]),
+    ] {
+        assert_eq!(gauge.times.len(), gauge.states.len());
+        for i in 0..2 {
+            let state = at(gauge, times[i]);
+            println!(
+                "{model}, {}, {:.0} us: {:.3} m/s, {:.1} MPa",
+                gauge.name,
+                times[i] * 1e6,
+                state.velocity,
+                state.stress * 1e-6
+            );
+            assert!(
+                (state.velocity - velocities[i]).abs() < tolerance * 10.0,
+                "{model}"
+            );
+            assert!(
+                (state.stress - stresses[i]).abs() < tolerance * 400e6,
+                "{model}"
+            );
+        }
+    }
+    assert_eq!(rod.states[0].initial_position, -25e-3);
+    assert!((bar.states[0].position - 50e-3).abs() < 1e-9);
+}
+
+#[test]
+fn a_wave_in_bars_arrives_at_the_gauges_of_every_one_dimensional_solver() {
+    let column = "[chain]\ntarget_closure = 'column'\nborder_shear = 0.0\nconstraint_factor = 1.0\n\
+                  projectile_elements = 100\ntarget_elements = 200\nend_time = '18 us'";
+    check(
+        "chain",
+        &gauges("chain", &format!("{BARS}\n{column}")),
+        0.08,
+    );
+    let rod = "[fdm]\nborder_shear = 0.0\nprojectile_elements = 100\ntarget_elements = 200\nend_time = '18 us'";
+    check("fdm", &gauges("fdm", &format!("{BARS}\n{rod}")), 0.08);
+}
+
+#[test]
+fn a_plane_wave_arrives_at_the_gauges_of_material_points() {
+    // Without lateral strain by Poisson's ratio the bars of the axisymmetric model are the same ones.
+    let text = format!(
+        "{BARS}\n[axi]\ncells_per_radius = 8\ntarget_radius = '5 mm'\nedge = 'free'\ncourant = 0.3\nend_time = '18 us'"
+    );
+    check("axi", &gauges("axi", &text), 0.15);
+}
+
+#[test]
+fn a_gauge_moves_with_the_material_and_ends_with_its_element() {
+    let text = r#"
+        projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "500 m/s" }
+        target = { material = "aluminium-2024-t351", thickness = "50 mm" }
+        chain = { target_closure = "column", erosion_strain = 1.0 }
+        gauges = [{ position = "-0.2 mm" }, { position = "-12 mm" }]
+        "#;
+    let gauges = gauges("chain", text);
+    let last = |gauge: &GaugeHistory| gauge.states[gauge.states.len() - 1];
+    assert!(last(&gauges[0]).position.is_nan(), "it has eroded");
+    let moved = last(&gauges[1]).position + 12e-3;
+    assert!(moved > 1e-3, "{moved}");
+    assert!(
+        gauges[1]
+            .states
+            .iter()
+            .all(|state| state.velocity.is_finite())
+    );
+}
+
+#[test]
+fn a_gauge_outside_the_bodies_is_refused() {
+    for (gauge, key, words) in [
+        (
+            "position = \"-60 mm\"",
+            "gauges.0.position",
+            "lies in no body",
+        ),
+        ("position = \"120 mm\"", "gauges.0.position", "to 100 mm"),
+        ("position = \"500 m\"", "gauges.0.position", "out of range"),
+        (
+            "position = \"1 mm\"\nname = \" \"",
+            "gauges.0.name",
+            "empty",
+        ),
+    ] {
+        let (head, _) = BARS.split_once("    [[gauges]]").unwrap();
+        let (_, material) = BARS.split_once("    [materials.bar]").unwrap();
+        let text = format!("{head}[[gauges]]\n{gauge}\n[materials.bar]{material}");
+        match case::load_str("bars", &text) {
+            Err(Error::Input(error)) => {
+                assert_eq!(error.key, key);
+                assert!(error.to_string().contains(words), "{error}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}
