@@ -149,7 +149,10 @@ def test_what_has_no_effect_is_refused(program: Program, tmp_path: Path) -> None
     for given in ({"field": "speed"}, {"fields": True}, {"animation": True}, {"resume": True}, {"checkpoint": 60.0}):
         with pytest.raises(percuss.UsageError, match="--out <DIR>"):
             percuss.run(TAYLOR, **given)
-        with pytest.raises(percuss.UsageError, match="has no effect with model `chain`"):
+        with pytest.raises(percuss.UsageError, match="has no effect with model `taylor`, which does not step through time"):
+            percuss.run(TAYLOR, model="taylor", out=tmp_path, **given)
+    for given in ({"field": "speed"}, {"animation": True}):
+        with pytest.raises(percuss.UsageError, match="has no effect with model `chain`, whose fields are one-dimensional"):
             percuss.run(TAYLOR, out=tmp_path, **given)
     with pytest.raises(percuss.UsageError, match="leave out `out`"):
         percuss.run(TAYLOR, out=tmp_path, projectile_law=lambda *_: 3e8)

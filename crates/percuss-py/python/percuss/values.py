@@ -111,3 +111,4 @@ class ElementColumns:
     plastic_strain: Array
     diameter_mm: Array
     temperature_k: Array
+    velocity_m_s: Array
