@@ -1,4 +1,24 @@
 //! Model `chain`: the 1-D discrete element model, point masses joined by normal springs.
+//!
+//! Three solvers, each driven by [`Drive`](crate::solver): the target column (`column`), the expanding cavity (`expanding`) and the seed paper's
+//! scheme (`published`), which shares dry friction alone with the others, so that it stays as printed. `closure` chooses the target resistance model
+//! of a case that names none; `explain` computes the alternatives beside a run.
+//!
+//! The column: `mesh` turns a scenario into a `state` of nodes and elements, in segments that touch, separate and meet again. `part` has what is the same
+//! for all of a body; `cone` and `penetration` are a target that widens. A step (`solver`) is
+//!
+//! 1. kick: new velocities from forces, with `damping`, `friction` and what `contact` does at every `interface`;
+//! 2. drift: new positions and strains, and the constitutive update of each `element`;
+//! 3. `erosion`, then `fracture` by a failure law.
+//!
+//! A plate that fails by plugging adds `plug`, which joins nodes to the shear bands around them (`shear_band`, `band`, `band_law`, `shear_zone`,
+//! `adiabatic`) and to a plate that dishes (`dishing`, `dishing_mesh`, `plate_section`). `end` finds the end and the outcome.
+//!
+//! Velocities are half a step behind positions. The work of a kick is force times the mean of the velocities before and after it, so that the
+//! energy balance closes to rounding in small strain. A jump of velocity in a contact is accounted for with the half drift that it displaces.
+//!
+//! `batch` advances eight columns side by side and leaves rare events to the single run. A change of the step has to be made in both; a test
+//! compares their bits.
 
 mod adiabatic;
 mod band;
