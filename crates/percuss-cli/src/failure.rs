@@ -174,11 +174,14 @@ impl Failure {
             }
             Self::Stopped { time_us } => {
                 let what = format!("the run was stopped at {time_us:.1} us and left a checkpoint");
-                message(&what, "the same command with `--resume` goes on from there")
+                message(
+                    &what,
+                    "the same command with `--resume` continues from there",
+                )
             }
             Self::SweepStopped { done, shots } => message(
                 &format!("the sweep was stopped with {done} of {shots} shots done"),
-                "the same command with `--resume` goes on from there",
+                "the same command with `--resume` continues from there",
             ),
             Self::Interrupted(what) => {
                 message(&format!("{what} was stopped and left no result"), "")

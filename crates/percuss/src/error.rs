@@ -50,7 +50,7 @@ pub enum Error {
     #[error("{0}")]
     Fault(String),
     /// A checkpoint cannot be used.
-    #[error("cannot go on from the checkpoint: {reason}")]
+    #[error("cannot continue from the checkpoint: {reason}")]
     Checkpoint {
         /// Why, in words.
         reason: String,

@@ -1,7 +1,7 @@
 //! First-order impact and penetration mechanics: what strikes what, how fast, how deep it goes, and how far to trust that.
 //!
 //! A [`Scenario`] comes from a case file; a [`model::Model`] computes it; a [`outcome::RunResult`] carries the numbers, the
-//! energy and momentum books and the warnings. Everything inside is in SI units, compression positive.
+//! energy and momentum balances and the warnings. Everything inside is in SI units, compression positive.
 //!
 //! ```
 //! use percuss::{case, model::{self, Control}};
@@ -19,7 +19,7 @@
 //!
 //! A case is also built without a text: [`case::Case::scenario`]. A model, a strength law, a failure law or a resistance law of your own
 //! implements [`model::Model`], [`material::StrengthLaw`], [`material::FailureLaw`] or [`resistance::ResistanceLaw`]; the options of
-//! such a model stand in the case under `extensions`. The folder `examples/own-model` of the repository has one of each.
+//! such a model stand in the case under `extensions`. The folder `examples/own-model` of the repository has one of each of the first three.
 
 pub mod analytic;
 pub mod axi;

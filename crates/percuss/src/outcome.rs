@@ -1,4 +1,4 @@
-//! What a run says: how the shot ended, the numbers, the books and the warnings.
+//! Result of a run: outcome, numbers, balances and warnings.
 
 use serde::Serialize;
 
@@ -169,7 +169,7 @@ pub struct RunResult {
     pub fragments: Vec<Fragment>,
     /// Numbers that this model alone has, in its own order.
     pub details: Vec<Detail>,
-    /// Steps and books of a model that steps through time on a mesh.
+    /// Steps and balances of a model that steps through time on a mesh.
     pub numerics: Option<Numerics>,
     /// Crater and projectile at the end, from a model that has fields.
     pub shapes: Option<Shapes>,
@@ -260,7 +260,7 @@ pub struct Detail {
     pub value: f64,
 }
 
-/// Steps and books of a model that steps through time on a mesh.
+/// Steps and balances of a model that steps through time on a mesh.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Numerics {
@@ -315,7 +315,7 @@ impl RunResult {
         }
     }
 
-    /// Steps and books of a model that steps through time on a mesh.
+    /// Steps and balances of a model that steps through time on a mesh.
     ///
     /// # Panics
     /// When the model has none: a formula.

@@ -60,10 +60,10 @@ def run(
     frames : int, optional
         Most frames of ``fields`` and ``animation``, 2 to 1000; 64 when not given.
     checkpoint : float or str, optional
-        How often a model of two dimensions leaves a checkpoint in ``out`` [s], or a text such as ``"5 min"``; 60 s when not given.
+        How often a numerical model leaves a checkpoint in ``out`` [s], or a text such as ``"5 min"``; 60 s when not given.
         Ctrl-C leaves one as well.
     resume : bool
-        Whether to go on from the checkpoint in ``out``; without one there, the run starts at the beginning.
+        Whether to continue from the checkpoint in ``out``; without one there, the run starts at the beginning.
     progress : callable or bool, optional
         Called with the part done, 0 to 1, and a few words; ``True`` and ``False`` show a bar or none. When not given, a bar of tqdm
         is shown after a second, where tqdm is installed and somebody sees it.
@@ -86,7 +86,7 @@ def run(
     NotApplicableError
         When the model is not made for the case; :func:`compare` says which are.
     NumericalError
-        When the solution fails or its books do not balance.
+        When the solution fails or its balances do not close.
 
     Examples
     --------

@@ -36,7 +36,7 @@ class MaterialError(CaseError):
 
 
 class NumericalError(PercussError, ArithmeticError):
-    """The numerical solution failed, or its books do not balance.
+    """The numerical solution failed, or its balances do not close.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-//! The end of a step: `Watch::follow` in every lane, and which lanes the single run has to look at.
+//! The end of a step: `RunMonitor::follow` in every lane, and which lanes the single run has to look at.
 
 use super::{
     bundle::{Back, Bundle},

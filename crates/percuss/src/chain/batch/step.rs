@@ -1,4 +1,4 @@
-//! One step of every lane: `State::advance` and `Watch::follow` of a column, in the same order.
+//! One step of every lane: `State::advance` and `RunMonitor::follow` of a column, in the same order.
 
 use super::bundle::Bundle;
 use crate::{

@@ -1,4 +1,4 @@
-//! The crater floor: what goes on between the tip of the projectile and the far_field.
+//! The crater floor: what goes on between the tip of the projectile and the far field.
 
 use serde::{Deserialize, Serialize};
 
@@ -51,7 +51,7 @@ pub(super) struct CraterFloor {
     density: f64,
     pub(super) contact: Contact,
     pub(super) depth: f64,
-    /// Speed at which it advances into the far_field, never negative [m/s].
+    /// Speed at which it advances into the far field, never negative [m/s].
     pub(super) speed: f64,
     /// Lengths of what eroded, which stands between the tip and the floor no more [m].
     pub(super) lost_length: f64,
