@@ -59,7 +59,7 @@ fn head(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text: &m
     let mut line = format!(
         "case {}, impact at {}, model {}",
         scenario.name,
-        Velocity::new(scenario.impact_speed),
+        Velocity::new(scenario.impact_velocity),
         result.model,
     );
     if !result.scheme.is_empty() {

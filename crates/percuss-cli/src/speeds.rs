@@ -59,7 +59,7 @@ impl Speeds {
     pub fn of(&self, scenario: &Scenario) -> Result<Vec<f64>, Failure> {
         let Self::Given(speeds) = self else {
             let measured = scenario.experiments.iter();
-            let mut speeds = sorted(measured.filter_map(|m| m.impact_speed));
+            let mut speeds = sorted(measured.filter_map(|m| m.impact_velocity));
             speeds.dedup();
             if speeds.is_empty() {
                 return Err(Failure::Usage {

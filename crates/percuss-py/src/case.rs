@@ -70,7 +70,7 @@ impl Case {
     /// Its impact speed [m/s].
     #[getter]
     fn impact_velocity_m_s(&self) -> f64 {
-        self.scenario.impact_speed
+        self.scenario.impact_velocity
     }
 
     /// What the file says.

@@ -12,10 +12,10 @@ pub(crate) fn lines(scenario: &Scenario, quantity: BandQuantity, history: &Histo
     let (Some(first), Some(last)) = (history.samples.first(), history.samples.last()) else {
         return Vec::new();
     };
-    let speed = scenario.impact_speed;
+    let speed = scenario.impact_velocity;
     let of_this_shot = scenario.experiments.iter().filter(|measured| {
         let same = |at: f64| (at - speed).abs() <= SAME_SPEED * speed;
-        measured.quantity == quantity && measured.impact_speed.is_some_and(same)
+        measured.quantity == quantity && measured.impact_velocity.is_some_and(same)
     });
     of_this_shot
         .map(|measured| {

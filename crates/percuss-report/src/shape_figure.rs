@@ -58,7 +58,7 @@ pub(crate) fn shape_chart(scenario: &Scenario, shapes: &Shapes) -> LineChart {
         Axis::new("distance from the axis [mm]"),
         Axis::new("depth [mm]").downward(),
     )
-    .caption(caption(scenario, Some(scenario.impact_speed)));
+    .caption(caption(scenario, Some(scenario.impact_velocity)));
     if solid {
         let name = match scenario.target_thickness() {
             Some(_) => "target, struck side",

@@ -36,7 +36,7 @@ impl Model for Fake {
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let speed = scenario.impact_speed / 1000.0;
+        let speed = scenario.impact_velocity / 1000.0;
         let depth_mm = self.scale * 30.0 * speed * speed / (1.0 + speed);
         let mut result = RunResult::new(self.name, "", Outcome::AtRest, Termination::ClosedForm);
         result.depth_of_penetration = Some(depth_mm * 1e-3);

@@ -143,7 +143,7 @@ impl Regime {
     pub fn of(scenario: &Scenario) -> Self {
         let rod = &scenario.projectile;
         let target = TargetKind::of(scenario);
-        let speed = scenario.impact_speed;
+        let speed = scenario.impact_velocity;
         let Some(strength) = rod.material.flow_stress(STRENGTH_STRAIN) else {
             return Self {
                 projectile: ProjectileRegime::Rigid,

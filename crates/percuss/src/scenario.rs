@@ -23,7 +23,7 @@ pub struct Scenario {
     /// What strikes.
     pub projectile: Rod,
     /// Impact speed [m/s].
-    pub impact_speed: f64,
+    pub impact_velocity: f64,
     /// Angle between the path and the normal of the struck face [rad].
     pub obliquity: f64,
     /// What is struck.
@@ -60,7 +60,7 @@ pub struct Measurement {
     /// What was measured.
     pub quantity: BandQuantity,
     /// Impact speed [m/s]; `None` for a ballistic limit without one.
-    pub impact_speed: Option<f64>,
+    pub impact_velocity: Option<f64>,
     /// The value [m or m/s].
     pub value: f64,
     /// How far it may be off, either way [m or m/s].
@@ -147,9 +147,9 @@ pub struct Plate {
 
 impl Scenario {
     /// The same case at another impact speed [m/s].
-    pub fn at_speed(&self, impact_speed: f64) -> Self {
+    pub fn at_speed(&self, impact_velocity: f64) -> Self {
         Self {
-            impact_speed,
+            impact_velocity,
             ..self.clone()
         }
     }

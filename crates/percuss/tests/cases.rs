@@ -23,7 +23,7 @@ fn run(folder: &Path, expected: &Expected, velocity: Option<f64>) -> (Scenario, 
         case::load(folder.join("scenario.toml")).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(scenario.name, folder.file_name().unwrap().to_string_lossy());
     if let Some(velocity) = velocity {
-        scenario.impact_speed = velocity;
+        scenario.impact_velocity = velocity;
     }
     let model = model::model(&expected.model).unwrap();
     let result = model::run(model, &scenario, &mut Control::recording())

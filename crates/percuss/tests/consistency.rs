@@ -174,7 +174,11 @@ fn run(model: &dyn Model, scenario: &Scenario) -> Option<RunResult> {
             assert!(!refusal.reason.is_empty(), "{}", model.name());
             None
         }
-        Err(error) => panic!("{} at {} m/s: {error}", model.name(), scenario.impact_speed),
+        Err(error) => panic!(
+            "{} at {} m/s: {error}",
+            model.name(),
+            scenario.impact_velocity
+        ),
     }
 }
 

@@ -24,7 +24,7 @@ fn step_through(
     let resistance = cylindrical_cavity_pressure(plate).unwrap();
     let density = plate.density.si();
     let mass = scenario.projectile.mass;
-    let mut square = scenario.impact_speed.powi(2);
+    let mut square = scenario.impact_velocity.powi(2);
     let (steps, panels) = (4000, 400);
     let step = (thickness + nose_length) / f64::from(steps);
     for i in 0..steps {

@@ -61,7 +61,7 @@ impl Model for ConstantResistance {
             .pressure(scenario)
             .map_err(|refusal| Error::not_applicable(self.name(), refusal))?;
         let rod = &scenario.projectile;
-        let energy = 0.5 * rod.mass * scenario.impact_speed.powi(2);
+        let energy = 0.5 * rod.mass * scenario.impact_velocity.powi(2);
         let mut result = RunResult::new(self.name(), "", Outcome::AtRest, Termination::ClosedForm);
         result.depth_of_penetration = Some(energy / (rod.area() * pressure));
         Ok(result)

@@ -18,8 +18,8 @@ const BLOCK: usize = 64;
 pub(crate) fn scenarios(case: &str, count: u32) -> Outcome<Vec<Scenario>> {
     let scenario = case::load(Path::new(case))?;
     let speeds = (0..count).map(|i| 150.0 + 250.0 * (f64::from(i) + 0.5) / f64::from(count));
-    let scenarios = speeds.map(|impact_speed| Scenario {
-        impact_speed,
+    let scenarios = speeds.map(|impact_velocity| Scenario {
+        impact_velocity,
         ..scenario.clone()
     });
     Ok(scenarios.collect())
@@ -32,7 +32,7 @@ pub(crate) fn side_by_side(scenarios: &[Scenario]) -> Outcome<u64> {
     let blocks = scenarios.par_chunks(BLOCK).map(|block| {
         let shots = block.iter().enumerate().map(|(i, scenario)| Shot {
             index: i as u64,
-            inputs: vec![scenario.impact_speed],
+            inputs: vec![scenario.impact_velocity],
             scenario: Ok(scenario.clone()),
         });
         let rows = kernel.rows(shots.collect(), &stop);

@@ -108,7 +108,7 @@ fn canvas(scenario: &Scenario, quantity: FieldQuantity, span: &Span) -> (Canvas,
     };
     let canvas = Canvas::new(
         &format!("{}{bodies}", label(quantity)),
-        &caption(scenario, Some(scenario.impact_speed)),
+        &caption(scenario, Some(scenario.impact_velocity)),
         colors,
         view(scenario, span),
     );

@@ -73,7 +73,7 @@ pub(super) fn bands(
         .experiments
         .iter()
         .filter(|m| of_name(m.quantity) == what.name)
-        .filter_map(|m| Some((m.impact_speed?, m)))
+        .filter_map(|m| Some((m.impact_velocity?, m)))
         .collect();
     if !measured.is_empty() {
         let points = measured
@@ -131,7 +131,7 @@ pub(super) fn perforation(scenario: &Scenario, found: &Uncertainty) -> Option<Li
         .iter()
         .filter(|m| m.quantity == BandQuantity::ResidualVelocity);
     let shots: Vec<(f64, f64)> = shots
-        .filter_map(|m| Some((m.impact_speed?, if m.value > 0.0 { 100.0 } else { 0.0 })))
+        .filter_map(|m| Some((m.impact_velocity?, if m.value > 0.0 { 100.0 } else { 0.0 })))
         .collect();
     if !shots.is_empty() {
         chart = chart.series(

@@ -100,7 +100,7 @@ const SHEAR: f64 = 0.577;
 
 fn scenario(base: &Scenario, key: Key) -> Scenario {
     let mut scenario = base.clone();
-    scenario.impact_speed = key.speed;
+    scenario.impact_velocity = key.speed;
     scenario.options.chain.projectile_elements = Some(key.mesh.0);
     scenario.options.chain.target_elements = Some(key.mesh.1);
     scenario.options.chain.border_shear = Some(key.shear);

@@ -17,7 +17,7 @@ const SPEEDS: usize = 60;
 pub(super) fn compared(job: &Job<'_>) -> Result<Study, Problem> {
     let scenario = job.scenario()?;
     let speeds = match job.asked.speeds {
-        None => vec![scenario.impact_speed],
+        None => vec![scenario.impact_velocity],
         Some((from, to, count)) => speeds(from, to, count)?,
     };
     let mut report = |now: compare::Progress| {

@@ -28,7 +28,7 @@ impl<'a> DeepShot<'a> {
         };
         Some(Self {
             rod: &scenario.projectile,
-            speed: scenario.impact_speed,
+            speed: scenario.impact_velocity,
             target: &plate.material,
         })
     }
@@ -63,7 +63,7 @@ pub(super) fn at_rest(
         projectile_final_mass: Some(scenario.projectile.mass),
         time_to_rest: stop.time,
         end_time: stop.time,
-        peak_force: Some(if scenario.impact_speed > 0.0 {
+        peak_force: Some(if scenario.impact_velocity > 0.0 {
             stop.peak_force
         } else {
             0.0
@@ -74,7 +74,7 @@ pub(super) fn at_rest(
 
 /// Why a formula ends.
 pub(super) fn termination(scenario: &Scenario) -> Termination {
-    if scenario.impact_speed > 0.0 {
+    if scenario.impact_velocity > 0.0 {
         Termination::ClosedForm
     } else {
         Termination::NothingMoves

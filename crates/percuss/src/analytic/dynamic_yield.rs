@@ -78,7 +78,7 @@ pub(super) fn dynamic_yield(
     shorten: impl Fn(f64) -> Shortening,
 ) -> Result<DynamicYield, Refusal> {
     let rod = &scenario.projectile;
-    let speed = scenario.impact_speed;
+    let speed = scenario.impact_velocity;
     let number = |stress: f64| rod.material.density.si() * speed * speed / stress;
     let reached = |stress: f64| {
         let Shortening { length, strain } = shorten(number(stress));

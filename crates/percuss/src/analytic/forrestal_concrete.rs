@@ -144,9 +144,9 @@ impl Model for ForrestalConcrete {
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
         let phases = Self::phases(scenario)
             .map_err(|refusal| Error::not_applicable(self.name(), refusal))?;
-        let stop = phases.stop(scenario.impact_speed);
+        let stop = phases.stop(scenario.impact_velocity);
         let mut result = at_rest(self.name(), "crater-and-tunnel", scenario, stop);
-        let square = phases.tunnel_speed_squared(scenario.impact_speed);
+        let square = phases.tunnel_speed_squared(scenario.impact_velocity);
         result.details = vec![
             detail("strength S f_c", "MPa", phases.strength * 1e-6),
             detail("nose factor N", "", phases.nose),
@@ -154,7 +154,7 @@ impl Model for ForrestalConcrete {
             detail("speed into the tunnel", "m/s", square.max(0.0).sqrt()),
             detail("depth to diameter", "", stop.depth / phases.diameter),
         ];
-        if square <= 0.0 && scenario.impact_speed > 0.0 {
+        if square <= 0.0 && scenario.impact_velocity > 0.0 {
             result.warnings.push(
                 "the projectile stops in the crater, where the depth rests on a force that grows linearly with depth".to_owned(),
             );

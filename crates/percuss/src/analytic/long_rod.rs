@@ -48,7 +48,7 @@ impl<'a> LongRod<'a> {
         Some(Self {
             length: rod.mass / (rod.material.density.si() * rod.area()),
             diameter: rod.diameter,
-            speed: scenario.impact_speed,
+            speed: scenario.impact_velocity,
             projectile: &rod.material,
             target: &plate.material,
         })

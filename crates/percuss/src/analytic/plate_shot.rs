@@ -36,7 +36,7 @@ impl<'a> PlateShot<'a> {
         };
         Some(Self {
             mass: scenario.projectile.mass,
-            speed: scenario.impact_speed,
+            speed: scenario.impact_velocity,
             diameter: scenario.projectile.diameter,
             thickness: layer.thickness? / scenario.obliquity.cos(),
             plate: &layer.material,

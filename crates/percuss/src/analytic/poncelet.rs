@@ -89,7 +89,7 @@ impl Model for Poncelet {
             strength,
             inertia,
         };
-        let stop = motion.embedded(scenario.impact_speed);
+        let stop = motion.embedded(scenario.impact_velocity);
         let mut result = at_rest(self.name(), "momentum-balance", scenario, stop);
         result.details = vec![
             detail("resistance R", "MPa", strength * 1e-6),

@@ -134,7 +134,7 @@ impl Model for Taylor {
             .yield_stress(scenario)
             .map_err(|refusal| Error::not_applicable(self.name(), refusal))?;
         let rod = &scenario.projectile;
-        let number = rod.material.density.si() * scenario.impact_speed.powi(2) / dynamic.stress;
+        let number = rod.material.density.si() * scenario.impact_velocity.powi(2) / dynamic.stress;
         let shape = TaylorRod::new(number);
         let mut result = on_wall(
             self.name(),
@@ -194,7 +194,7 @@ pub(super) fn on_wall(
 ) -> RunResult {
     let rod = &scenario.projectile;
     let impedance = rod.material.density.si() * rod.material.bar_wave_speed();
-    let yields = impedance * scenario.impact_speed > dynamic.stress;
+    let yields = impedance * scenario.impact_velocity > dynamic.stress;
     let mut result = RunResult {
         residual_velocity: Some(0.0),
         projectile_final_length: Some(rod.length),
@@ -211,9 +211,9 @@ pub(super) fn on_wall(
         result.warnings = dynamic.warnings(&rod.material);
     } else {
         result.projectile_final_diameter = Some(rod.diameter);
-        if scenario.impact_speed > 0.0 {
+        if scenario.impact_velocity > 0.0 {
             result.outcome = Outcome::Rebounded;
-            result.residual_velocity = Some(-scenario.impact_speed);
+            result.residual_velocity = Some(-scenario.impact_velocity);
             result.warnings.push(
                 "an elastic wave of this speed does not reach the yield stress: the rod keeps its length and bounces".to_owned(),
             );

@@ -89,7 +89,7 @@ impl Model for WilkinsGuinan {
             .map_err(|refusal| Error::not_applicable(self.name(), refusal))?;
         let rod = &scenario.projectile;
         let front = Self::front(scenario);
-        let number = rod.material.density.si() * scenario.impact_speed.powi(2) / dynamic.stress;
+        let number = rod.material.density.si() * scenario.impact_velocity.powi(2) / dynamic.stress;
         let length = wilkins_guinan_length(number, front);
         let mut result = on_wall(self.name(), "standing-front", scenario, &dynamic, length);
         let front_mm = front * rod.length * 1e3;

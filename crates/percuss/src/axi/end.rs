@@ -49,7 +49,7 @@ impl Window {
             + accumulated.contact;
         let flow = (dissipation - self.dissipation) / accumulated.initial_energy;
         let deepening = monitor.largest_depth > self.depth * (1.0 + 1e-3);
-        let slowing = (self.speed - speed).abs() / scenario.impact_speed;
+        let slowing = (self.speed - speed).abs() / scenario.impact_velocity;
         self.start = grid.time;
         self.dissipation = dissipation;
         self.depth = monitor.largest_depth;
@@ -60,7 +60,7 @@ impl Window {
         }
         // What still rings changes neither depth nor length.
         let over = monitor.at_rest.is_some() && !deepening && flow <= QUIET_FRACTION;
-        over.then_some(if speed < -REST_FRACTION * scenario.impact_speed {
+        over.then_some(if speed < -REST_FRACTION * scenario.impact_velocity {
             Termination::Parted
         } else {
             Termination::Quiescent
@@ -73,7 +73,7 @@ impl Window {
         termination: Termination,
         grid: &Grid,
         monitor: &RunMonitor,
-        impact_speed: f64,
+        impact_velocity: f64,
     ) -> Outcome {
         let projectile = &grid.sums[0];
         if termination == Termination::NothingMoves {
@@ -82,7 +82,7 @@ impl Window {
         if projectile.mass <= 0.0 {
             return Outcome::ProjectileEroded;
         }
-        let ratio = projectile.momentum / (projectile.mass * impact_speed);
+        let ratio = projectile.momentum / (projectile.mass * impact_velocity);
         if self.perforated && ratio > REST_FRACTION {
             return Outcome::Perforated;
         }

@@ -205,7 +205,7 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
 
     fn progress(&self) -> f64 {
         let projectile = &self.grid.sums[0];
-        let speed = self.scenario.impact_speed;
+        let speed = self.scenario.impact_velocity;
         let slowed = slowed((projectile.mass, projectile.momentum), speed);
         // A plate slows its projectile but a little: there the way through it counts.
         let passed = self.scenario.target_thickness().map_or(0.0, |thickness| {
@@ -257,10 +257,10 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
     }
 
     fn outcome(&self, termination: Termination, monitor: &RunMonitor) -> (Outcome, String) {
-        let impact_speed = self.scenario.impact_speed;
+        let impact_velocity = self.scenario.impact_velocity;
         let outcome = self
             .window
-            .outcome(termination, &self.grid, monitor, impact_speed);
+            .outcome(termination, &self.grid, monitor, impact_velocity);
         (outcome, String::new())
     }
 

@@ -79,7 +79,7 @@ fn expected_depth(scenario: &Scenario, layers: &[Plate]) -> f64 {
     let target = &layers[layers.len() - 1].material;
     let density = rod.material.density.si();
     let jet = 1.2 * rod.length * (density / target.density.si()).sqrt();
-    let kinetic = 0.5 * density * scenario.impact_speed.powi(2) * rod.length;
+    let kinetic = 0.5 * density * scenario.impact_velocity.powi(2) * rod.length;
     match target.flow_stress(0.2) {
         Some(stress) => jet.min(kinetic / (3.0 * stress)),
         None => jet,
@@ -229,7 +229,7 @@ pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
     let spacing = cell / f64::from(options.particles_per_side());
     let rod = &scenario.projectile;
     let rod_law = law(&rod.material, scenario);
-    let particles = projectile(rod, &rod_law, spacing, scenario.impact_speed);
+    let particles = projectile(rod, &rod_law, spacing, scenario.impact_velocity);
     let mut bodies = vec![Body::new(rod_law, particles)];
     let mut supports = vec![Supports {
         wall: scenario.target == TargetBody::RigidWall,

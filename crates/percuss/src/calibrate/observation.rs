@@ -22,7 +22,7 @@ pub struct Observation {
     /// What was measured.
     pub quantity: BandQuantity,
     /// Impact speed [m/s].
-    pub impact_speed: f64,
+    pub impact_velocity: f64,
     /// The measured value [m or m/s].
     pub measured: f64,
     /// Its standard deviation, where it is stated [m or m/s].
@@ -68,7 +68,9 @@ impl Observations {
                 id: format!("{} {}", scenario.name, i + 1),
                 sources: experiment.sources.clone(),
                 quantity: experiment.quantity,
-                impact_speed: experiment.impact_speed.unwrap_or(scenario.impact_speed),
+                impact_velocity: experiment
+                    .impact_velocity
+                    .unwrap_or(scenario.impact_velocity),
                 measured: experiment.value,
                 uncertainty: experiment.uncertainty,
                 held_out: false,
@@ -120,7 +122,7 @@ impl Observations {
                 id: shot.id.clone(),
                 sources: vec![shot.source.clone()],
                 quantity: shot.kind.quantity(),
-                impact_speed: shot.impact_velocity,
+                impact_velocity: shot.impact_velocity,
                 measured: shot.measured,
                 uncertainty: shot.uncertainty,
                 held_out: false,
@@ -190,13 +192,13 @@ impl Observation {
             let words = findings.into_iter().map(|finding| finding.message);
             words.collect::<Vec<_>>().join("; ")
         })?;
-        Ok(scenario.at_speed(self.impact_speed))
+        Ok(scenario.at_speed(self.impact_velocity))
     }
 
     /// What a relative scatter is a part of: the measured value, or the impact speed for a speed behind the target, which may be 0.
     pub(super) fn scale(&self) -> f64 {
         match self.quantity {
-            BandQuantity::ResidualVelocity => self.impact_speed,
+            BandQuantity::ResidualVelocity => self.impact_velocity,
             _ => self.measured,
         }
     }

@@ -142,7 +142,7 @@ pub(super) fn predictions(
             held_out: observation.held_out,
             quantity: observation.quantity,
             unit: observation.quantity.unit(),
-            impact_velocity_m_s: observation.impact_speed,
+            impact_velocity_m_s: observation.impact_velocity,
             measured: unit(observation.measured),
             uncertainty: observation.uncertainty.map(unit),
             before: problem.as_written(observation).map(unit),

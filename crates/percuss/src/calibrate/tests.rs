@@ -280,7 +280,7 @@ fn shots_become_the_same_scenarios_as_elsewhere() {
         close(found.projectile.mass, exact.projectile.mass);
         close(found.projectile.length, exact.projectile.length);
         close(found.projectile.diameter, exact.projectile.diameter);
-        close(found.impact_speed, exact.impact_speed);
+        close(found.impact_velocity, exact.impact_velocity);
         assert_eq!(found.projectile.material, exact.projectile.material);
     }
 }

@@ -33,7 +33,7 @@ pub(super) fn resolve(
         title: case.title,
         sources: case.sources,
         projectile: projectile?,
-        impact_speed: case.projectile.velocity.si(),
+        impact_velocity: case.projectile.velocity.si(),
         obliquity: case.projectile.obliquity(),
         target: target?,
         resistance: None,
@@ -97,7 +97,7 @@ fn measurement(experiment: &Experiment) -> Option<Measurement> {
     let (quantity, value) = experiment.measured()?;
     Some(Measurement {
         quantity,
-        impact_speed: experiment.velocity.map(Velocity::si),
+        impact_velocity: experiment.velocity.map(Velocity::si),
         value,
         uncertainty: experiment.uncertainty.map(Uncertainty::si),
         sources: experiment.source.0.clone(),

@@ -53,13 +53,13 @@ impl<'a> Column<'a> {
         let mut longest_step = f64::INFINITY;
         let erosion_strain = match options.erosion_closure() {
             ErosionClosure::Tate => {
-                longest_step = tate::longest_step(&state, scenario.impact_speed);
+                longest_step = tate::longest_step(&state, scenario.impact_velocity);
                 tate::USED_UP_STRAIN
             }
             ErosionClosure::Strain => erosion_strain(options),
         };
         let control = StepControl::new(options, courant, erosion_strain, longest_step);
-        state.stable_step *= control.first_step_factor(&state, scenario.impact_speed);
+        state.stable_step *= control.first_step_factor(&state, scenario.impact_velocity);
         Self {
             scenario,
             state,
@@ -141,7 +141,7 @@ impl<'a> Solver<'a> for Column<'a> {
         }
         // The tail is the last to hear of the impact: no need to sum up before it slows down.
         let tail = state.segments[0].first_node;
-        state.nodes[tail].velocity < 0.5 * self.scenario.impact_speed
+        state.nodes[tail].velocity < 0.5 * self.scenario.impact_velocity
             && state.projectile_motion().1 <= 0.0
     }
 
@@ -154,7 +154,10 @@ impl<'a> Solver<'a> for Column<'a> {
     }
 
     fn progress(&self) -> f64 {
-        slowed(self.state.projectile_motion(), self.scenario.impact_speed)
+        slowed(
+            self.state.projectile_motion(),
+            self.scenario.impact_velocity,
+        )
     }
 
     fn check(&self, monitor: &RunMonitor) -> Result<(), NumericalError> {
@@ -215,9 +218,9 @@ impl<'a> Solver<'a> for Column<'a> {
     }
 
     fn outcome(&self, termination: Termination, monitor: &RunMonitor) -> (Outcome, String) {
-        let impact_speed = self.scenario.impact_speed;
+        let impact_velocity = self.scenario.impact_velocity;
         self.window
-            .outcome(termination, &self.state, monitor, impact_speed)
+            .outcome(termination, &self.state, monitor, impact_velocity)
     }
 
     fn extremes(&self) -> Extremes {

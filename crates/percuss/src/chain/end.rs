@@ -112,7 +112,7 @@ impl Window {
             return flow <= QUIET_FRACTION && !deepening;
         }
         let meets =
-            |from: usize| approaches(state, from, end_time - state.time, scenario.impact_speed);
+            |from: usize| approaches(state, from, end_time - state.time, scenario.impact_velocity);
         if !touched {
             return flow <= PARTED_FRACTION && !meets(0);
         }
@@ -122,12 +122,13 @@ impl Window {
             // Projectile and plug may fly on together; pieces of one of them that meet among themselves change nothing.
             let [tip_speed, face_speed] =
                 [tip, face].map(|s| state.mean_velocity(state.segments[s]));
-            let together = (tip_speed - face_speed).abs() <= REST_FRACTION * scenario.impact_speed;
+            let together =
+                (tip_speed - face_speed).abs() <= REST_FRACTION * scenario.impact_velocity;
             let parted = !state.interfaces[tip].closed && !meets(0);
             return flow <= PARTED_FRACTION && (parted || together && !meets(face));
         }
         // A projectile that is still being pushed back has not got its rebound speed yet.
-        let still = (momentum / mass).abs() <= REST_FRACTION * scenario.impact_speed;
+        let still = (momentum / mass).abs() <= REST_FRACTION * scenario.impact_velocity;
         let layers_rest = || state.tip_segment().is_none_or(|tip| !meets(tip + 1));
         monitor.at_rest.is_some() && !deepening && still && flow <= QUIET_FRACTION && layers_rest()
     }
@@ -138,7 +139,7 @@ impl Window {
         termination: Termination,
         state: &State,
         monitor: &RunMonitor,
-        impact_speed: f64,
+        impact_velocity: f64,
     ) -> (Outcome, String) {
         let (mass, momentum) = state.projectile_motion();
         if let Some(time) = self.passed_back_face.filter(|_| state.hold.is_none()) {
@@ -152,7 +153,7 @@ impl Window {
             return (Outcome::AtRest, "the impact speed is zero".to_owned());
         }
         let percent = REST_FRACTION * 100.0;
-        let ratio = momentum / (mass * impact_speed);
+        let ratio = momentum / (mass * impact_velocity);
         let speed = match mass > 0.0 {
             true => format!(
                 "the projectile's mean speed at the end is {} % of the impact speed",
@@ -164,7 +165,7 @@ impl Window {
         // What flies free is held no more, however the run was ended.
         if state.left_the_plate() {
             let (_, plug_speed) = state.plug_motion();
-            let plug = plug_speed / impact_speed;
+            let plug = plug_speed / impact_velocity;
             let free = match state.plug_free_since() {
                 Some(time) => format!(
                     "the whole shear band had failed at {} us",
@@ -212,7 +213,7 @@ impl Window {
 /// Whether pieces in free flight will meet within a time at one of the interfaces from a given one on.
 ///
 /// A target whose back face is held rings without end: there only layers that approach by a hundredth of the impact speed count.
-fn approaches(state: &State, from: usize, horizon: f64, impact_speed: f64) -> bool {
+fn approaches(state: &State, from: usize, horizon: f64, impact_velocity: f64) -> bool {
     let Some(tip) = state.tip_segment() else {
         return false;
     };
@@ -237,7 +238,7 @@ fn approaches(state: &State, from: usize, horizon: f64, impact_speed: f64) -> bo
                 state.mean_velocity(ahead)
             };
             let least = if is_held && s > tip {
-                REST_FRACTION * impact_speed
+                REST_FRACTION * impact_velocity
             } else {
                 0.0
             };

@@ -149,13 +149,13 @@ pub(super) fn build(scenario: &Scenario) -> State {
     }
     state.constrain_plug(scenario);
     for node in &mut state.nodes[..=rod_elements] {
-        node.velocity = scenario.impact_speed;
+        node.velocity = scenario.impact_velocity;
     }
     // At the first step the elements at the interface see the whole impact speed.
     if state.parts[0].kinematics == Kinematics::Logarithmic {
         let lengths = state.elements.iter().map(|element| element.rest_length);
         let smallest = lengths.fold(f64::INFINITY, f64::min);
-        let first_step = LARGEST_STRAIN_STEP * smallest / scenario.impact_speed;
+        let first_step = LARGEST_STRAIN_STEP * smallest / scenario.impact_velocity;
         state.stable_step = state.stable_step.min(first_step);
     }
     state.accumulated.initial_energy = state.energy().kinetic_projectile;

@@ -56,7 +56,7 @@ pub(super) fn band_laws(scenario: &Scenario) -> Result<Option<Vec<BandLaw>>, Ref
     let radius = 0.5 * column_diameter;
     let laws: Result<_, _> = layers
         .iter()
-        .map(|plate| BandLaw::new(plate, radius, scenario.impact_speed, options))
+        .map(|plate| BandLaw::new(plate, radius, scenario.impact_velocity, options))
         .collect();
     laws.map(Some)
 }

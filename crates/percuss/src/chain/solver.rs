@@ -68,15 +68,15 @@ impl StepControl {
     }
 
     /// Factor on the stable step of the undamped chain at the moment of impact.
-    pub(super) fn first_step_factor(&self, state: &State, impact_speed: f64) -> f64 {
+    pub(super) fn first_step_factor(&self, state: &State, impact_velocity: f64) -> f64 {
         let slowness = state.parts.iter().map(|part| part.slowness);
-        damped_limit(self.viscous_ratio(impact_speed, slowness.fold(0.0, f64::max)))
+        damped_limit(self.viscous_ratio(impact_velocity, slowness.fold(0.0, f64::max)))
     }
 
     /// Factor on the stable step of anything undamped, as long as nothing approaches faster than the impact [m/s], for the largest of some
     /// slownesses [s/m].
-    pub(super) fn step_factor(&self, impact_speed: f64, slowness: f64) -> f64 {
-        self.damped(damped_limit(self.viscous_ratio(impact_speed, slowness)))
+    pub(super) fn step_factor(&self, impact_velocity: f64, slowness: f64) -> f64 {
+        self.damped(damped_limit(self.viscous_ratio(impact_velocity, slowness)))
     }
 
     /// Damping ratio of a spring whose ends approach at a speed [m/s], with the inverse of its wave speed [s/m].

@@ -77,7 +77,7 @@ pub(super) fn warnings_of_cavity(
         warnings.push(OUT_OF_TIME.to_owned());
     }
     let depth = result.depth_of_penetration.unwrap_or(0.0);
-    if depth == 0.0 && scenario.impact_speed > 0.0 {
+    if depth == 0.0 && scenario.impact_velocity > 0.0 {
         warnings.push("the target stays elastic: it keeps no dent".to_owned());
     }
     if scenario.resistance.is_some() {
@@ -230,7 +230,7 @@ fn warn_of_cone(scenario: &Scenario, layers: &[Plate], depth: f64, warnings: &mu
         && resistance > strength
     {
         let threshold = (2.0 * (resistance - strength) / rod.material.density.si()).sqrt();
-        let ratio = scenario.impact_speed / threshold;
+        let ratio = scenario.impact_velocity / threshold;
         if (1.0 / THRESHOLD_EDGE..THRESHOLD_EDGE).contains(&ratio) {
             warnings.push(format!(
                 "the impact is near the threshold of penetration ({}), where the projectile begins to be turned back: the depth is \

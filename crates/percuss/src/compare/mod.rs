@@ -83,7 +83,7 @@ impl ExperimentRecord {
     pub(crate) fn all(scenario: &Scenario) -> Vec<Self> {
         let record = |measured: &Measurement| Self {
             quantity: measured.quantity,
-            impact_velocity_m_s: measured.impact_speed,
+            impact_velocity_m_s: measured.impact_velocity,
             value: measured.quantity.in_unit(measured.value),
             uncertainty: measured.uncertainty.map(|u| measured.quantity.in_unit(u)),
             sources: measured.sources.clone(),
@@ -126,7 +126,7 @@ pub fn compare(
         regime: shots
             .into_iter()
             .map(|(scenario, regime)| SpeedRegime {
-                impact_velocity_m_s: scenario.impact_speed,
+                impact_velocity_m_s: scenario.impact_velocity,
                 regime,
             })
             .collect(),

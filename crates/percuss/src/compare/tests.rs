@@ -22,14 +22,18 @@ fn result(outcome: Outcome, depth: f64, residual: f64) -> RunResult {
 }
 
 fn deep(scenario: &Scenario) -> Result<RunResult, Error> {
-    Ok(result(Outcome::AtRest, 1e-6 * scenario.impact_speed, 0.0))
+    Ok(result(
+        Outcome::AtRest,
+        1e-6 * scenario.impact_velocity,
+        0.0,
+    ))
 }
 
 fn through(scenario: &Scenario) -> Result<RunResult, Error> {
     Ok(result(
         Outcome::Perforated,
         1e-2,
-        0.5 * scenario.impact_speed,
+        0.5 * scenario.impact_velocity,
     ))
 }
 

@@ -105,7 +105,7 @@ impl Measure {
                 Some(length / rod.diameter)
             }
             Self::ThicknessToDiameter => Some(scenario.target_thickness()? / rod.diameter),
-            Self::ImpactSpeed => Some(scenario.impact_speed),
+            Self::ImpactSpeed => Some(scenario.impact_velocity),
             Self::Obliquity => Some(scenario.obliquity.to_degrees()),
         }
     }

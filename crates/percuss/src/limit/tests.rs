@@ -53,7 +53,7 @@ impl Model for Made {
         &Guard::OPEN
     }
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let speed = scenario.impact_speed;
+        let speed = scenario.impact_velocity;
         let outcome = (self.outcome)(speed);
         if outcome == Outcome::NotApplicable {
             return Err(Error::not_applicable("made", "too fast for it"));

@@ -182,7 +182,12 @@ mod tests {
         ] {
             let case = scenario(projectile, target);
             let chosen = default_model(&case).unwrap_or_else(|error| panic!("{target}: {error}"));
-            let compared = compare(&quick(), &case, &[case.impact_speed], &mut Watch::default());
+            let compared = compare(
+                &quick(),
+                &case,
+                &[case.impact_velocity],
+                &mut Watch::default(),
+            );
             let compared = compared.unwrap();
             let results = compared.results.iter().find(|result| result.is_result());
             let first = compared.recommended[0].models.first();

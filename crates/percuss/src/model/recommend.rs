@@ -128,7 +128,7 @@ pub(crate) fn recommend(
         }
     };
     Recommendation {
-        impact_velocity_m_s: scenario.impact_speed,
+        impact_velocity_m_s: scenario.impact_velocity,
         models,
         note: (!notes.is_empty()).then(|| notes.join("; ")),
     }

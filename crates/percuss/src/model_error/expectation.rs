@@ -100,12 +100,12 @@ pub fn expectation(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> O
             .zip(last)
             .is_some_and(|(first, last)| (first..=last).contains(&value))
     };
-    if !inside(scenario.impact_speed, design::SPEEDS) || !inside(length, design::LENGTHS) {
+    if !inside(scenario.impact_velocity, design::SPEEDS) || !inside(length, design::LENGTHS) {
         return None;
     }
     let contender = Contender::of(model, scenario)?;
     let verdicts = INDEX.get(&(contender.name, regime.projectile))?;
-    among(verdicts, scenario.impact_speed, length)
+    among(verdicts, scenario.impact_velocity, length)
 }
 
 /// Whether a target acts like the semi-infinite ones of the design, as long as the crater does not reach the rear face.

@@ -342,7 +342,7 @@ mod tests {
             panic!("{:?}", scenario.experiments);
         };
         assert_eq!(experiment.quantity, BandQuantity::DepthOfPenetration);
-        assert_eq!(experiment.impact_speed, Some(500.0));
+        assert_eq!(experiment.impact_velocity, Some(500.0));
         assert!((experiment.value - 4e-3).abs() < 1e-18);
         assert!((experiment.uncertainty.unwrap() - 1e-4).abs() < 1e-18);
         assert_eq!(experiment.sources, ["a", "b"]);
@@ -354,7 +354,7 @@ mod tests {
     fn a_ballistic_limit_needs_no_speed() {
         let scenario = load(PLATE, "ballistic_limit = '1000 ft/s'\nsource = 'a'").unwrap();
         let experiment = &scenario.experiments[0];
-        assert_eq!(experiment.impact_speed, None);
+        assert_eq!(experiment.impact_velocity, None);
         assert!((experiment.value - 304.8).abs() < 1e-9);
     }
 

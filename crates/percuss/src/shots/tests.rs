@@ -121,7 +121,7 @@ fn every_usable_normal_shot_is_a_case() {
         for record in &shot.projectile_materials {
             let scenario = shot.scenario(record, Library::built_in()).unwrap();
             assert_eq!(scenario.name, shot.id);
-            assert_eq!(scenario.impact_speed, shot.impact_velocity);
+            assert_eq!(scenario.impact_velocity, shot.impact_velocity);
             cases += 1;
         }
     }

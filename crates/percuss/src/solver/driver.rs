@@ -237,7 +237,7 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
             self.record();
         }
         self.show(control)?;
-        let termination = if self.scenario.impact_speed == 0.0 {
+        let termination = if self.scenario.impact_velocity == 0.0 {
             Termination::NothingMoves
         } else {
             loop {
@@ -475,9 +475,9 @@ impl Clock {
 }
 
 /// Part of its speed that a projectile of a mass [kg] and a momentum [N s] has lost.
-pub(crate) fn slowed((mass, momentum): (f64, f64), impact_speed: f64) -> f64 {
+pub(crate) fn slowed((mass, momentum): (f64, f64), impact_velocity: f64) -> f64 {
     if mass > 0.0 {
-        1.0 - momentum / (mass * impact_speed)
+        1.0 - momentum / (mass * impact_velocity)
     } else {
         1.0
     }

@@ -68,7 +68,7 @@ impl FrameClock {
     pub(crate) fn new(scenario: &Scenario) -> Self {
         let rod = &scenario.projectile;
         let waves = 6.0 * rod.length / rod.material.bar_wave_speed();
-        let passage = rod.length / scenario.impact_speed.max(1.0);
+        let passage = rod.length / scenario.impact_velocity.max(1.0);
         Self {
             interval: waves.min(passage) / FRAMES,
             next: 0,

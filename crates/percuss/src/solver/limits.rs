@@ -30,7 +30,7 @@ impl Limits {
 /// Many times what waves and the projectile take through all bodies [s].
 fn default_end_time(scenario: &Scenario) -> f64 {
     let rod = &scenario.projectile;
-    let speed = scenario.impact_speed.max(1.0);
+    let speed = scenario.impact_velocity.max(1.0);
     let mut time = 2.0 * rod.length / rod.material.bar_wave_speed() + 2.0 * rod.length / speed;
     match &scenario.target {
         TargetBody::Layers { layers, .. } => {

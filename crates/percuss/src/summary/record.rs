@@ -100,7 +100,7 @@ result_record! {
 
         /// Impact velocity.
         impact_velocity_m_s: f64
-            = number("impact velocity", Unit::M_S, Input), |case, _| case.impact_speed;
+            = number("impact velocity", Unit::M_S, Input), |case, _| case.impact_velocity;
 
         /// Depth of the crater floor when the projectile's momentum is used up.
         depth_of_penetration_mm: Option<f64>
@@ -202,7 +202,7 @@ result_record! {
 
         /// Kinetic energy at impact.
         impact_energy_j: f64
-            = number("kinetic energy at impact", Unit::J, Input), |case, _| 0.5 * case.projectile.mass * case.impact_speed.powi(2);
+            = number("kinetic energy at impact", Unit::J, Input), |case, _| 0.5 * case.projectile.mass * case.impact_velocity.powi(2);
 
         /// Energy balance error: largest part of the initial energy that is not accounted for.
         energy_residual: Option<f64>

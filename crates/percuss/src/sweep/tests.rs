@@ -65,7 +65,7 @@ fn a_grid_has_every_combination_and_its_last_parameter_varies_fastest() {
     let all: BTreeSet<String> = (0..27).map(|i| format!("{:?}", at(i))).collect();
     assert_eq!(all.len(), 27);
     let scenario = sweep.shot(12).scenario.unwrap();
-    assert_eq!(scenario.impact_speed, 200.0);
+    assert_eq!(scenario.impact_velocity, 200.0);
     assert_eq!(scenario.options.chain.target_elements, Some(60));
     assert_eq!(scenario.projectile.length, 1e-3);
     let columns: Vec<String> = sweep.axes.iter().map(Axis::column).collect();
@@ -171,7 +171,7 @@ const FAULTY: MadeUp = MadeUp {
     name: "faulty",
     guard: Guard::OPEN,
     result: |scenario| {
-        assert!(scenario.impact_speed < 300.0, "a wrong {}", "index");
+        assert!(scenario.impact_velocity < 300.0, "a wrong {}", "index");
         let end = Termination::ClosedForm;
         Ok(RunResult::new("", "", Outcome::AtRest, end))
     },

@@ -146,7 +146,7 @@ impl Compare {
 
     fn speeds(&self, scenario: &Scenario) -> Result<Vec<f64>, Failure> {
         match &self.velocity {
-            None => Ok(vec![scenario.impact_speed]),
+            None => Ok(vec![scenario.impact_velocity]),
             Some(speeds) => speeds.of(scenario),
         }
     }

@@ -33,7 +33,7 @@ impl Model for Fake {
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let depth = self.depth_mm * scenario.impact_speed / 1000.0;
+        let depth = self.depth_mm * scenario.impact_velocity / 1000.0;
         let mut result = RunResult::new(self.name, "", Outcome::AtRest, Termination::ClosedForm);
         result.warnings.push(
             "it is made up, and this is a long warning that has to be broken into lines".to_owned(),

@@ -28,7 +28,7 @@ pub fn rows(
     let mut watch = Watch {
         progress: Some(&mut report),
     };
-    let found = compare::compare(&models, scenario, &[scenario.impact_speed], &mut watch)?;
+    let found = compare::compare(&models, scenario, &[scenario.impact_velocity], &mut watch)?;
     Ok(shown(&found))
 }
 

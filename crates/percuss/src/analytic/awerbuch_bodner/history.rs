@@ -30,7 +30,7 @@ fn sample(
     moment: &Moment,
     contact_force: f64,
     step: u64,
-    impact_speed: f64,
+    impact_velocity: f64,
     length: f64,
 ) -> Sample {
     let kinetic_projectile = 0.5 * impact.mass * moment.speed.powi(2);
@@ -48,7 +48,7 @@ fn sample(
         contact_force,
         back_force: 0.0,
         energy: EnergyLedger {
-            initial: 0.5 * impact.mass * impact_speed.powi(2),
+            initial: 0.5 * impact.mass * impact_velocity.powi(2),
             kinetic_projectile,
             kinetic_target: impact.kinetic_energy(moment) - kinetic_projectile,
             plastic_target: moment.crushing_work,
@@ -57,7 +57,7 @@ fn sample(
             ..EnergyLedger::default()
         },
         momentum: MomentumLedger {
-            initial: impact.mass * impact_speed,
+            initial: impact.mass * impact_velocity,
             projectile: impact.mass * moment.speed,
             target: impact.target_momentum(moment),
             border_shear: moment.impulse,

@@ -193,7 +193,7 @@ impl Impact {
     fn push_plug(
         &self,
         start: Moment,
-        impact_speed: f64,
+        impact_velocity: f64,
         mut moments: Option<&mut Vec<(Moment, f64)>>,
     ) -> (Moment, Option<f64>) {
         let mut now = start;
@@ -201,7 +201,7 @@ impl Impact {
         for _ in 0..MOST_STEPS {
             let closing = now.speed - now.plug_speed;
             let rest = self.thickness - now.crushed;
-            if closing <= NOTHING * impact_speed || rest <= NOTHING * self.thickness {
+            if closing <= NOTHING * impact_velocity || rest <= NOTHING * self.thickness {
                 break;
             }
             if let Some(moments) = &mut moments {
@@ -209,7 +209,7 @@ impl Impact {
             }
             let rates = self.rates(&now);
             let braking = rates.plug_speed - rates.speed;
-            let step = (self.thickness / impact_speed / STEPS)
+            let step = (self.thickness / impact_velocity / STEPS)
                 .min(STEP * closing / braking.max(f64::MIN_POSITIVE))
                 .min(STEP * rest / closing);
             let next = self.step(&now, &rates, step);

@@ -17,7 +17,7 @@ pub(crate) fn accepts(scenario: &Scenario) -> bool {
         prepared.hardening().is_some()
     };
     scenario.resistance.is_none()
-        && scenario.impact_speed > 0.0
+        && scenario.impact_velocity > 0.0
         && accepts_options(&scenario.options.chain)
         && single_layer(&scenario.target).is_some_and(is_power)
         && is_power(&scenario.projectile.material)

@@ -81,7 +81,7 @@ pub(crate) fn run(
         shots.sort_by(|&a, &b| {
             let [a, b] = [a, b].map(|shot| scenarios[shot]);
             let by_reach = reach(a).total_cmp(&reach(b));
-            by_reach.then(a.impact_speed.total_cmp(&b.impact_speed))
+            by_reach.then(a.impact_velocity.total_cmp(&b.impact_velocity))
         });
         let mut scheduler = BatchScheduler {
             bundle: Bundle::new(mesh),

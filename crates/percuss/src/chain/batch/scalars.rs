@@ -92,7 +92,7 @@ impl LaneScalars {
             .end_time(run.solver.scenario)
             .min(run.limits.end_time);
         self.slow_tail.0[lane] = match monitor.at_rest {
-            None => 0.5 * run.solver.scenario.impact_speed,
+            None => 0.5 * run.solver.scenario.impact_velocity,
             Some(_) => f64::NEG_INFINITY,
         };
     }

@@ -13,7 +13,7 @@ pub(super) fn plane_impact_force(scenario: &Scenario) -> Option<f64> {
         return None;
     };
     let (rod, target) = (&scenario.projectile, &layers.first()?.material);
-    let speed = scenario.impact_speed;
+    let speed = scenario.impact_velocity;
     if speed > 0.0 && scenario.resistance.is_none() {
         plane_impact::force(&rod.material, target, speed, rod.area())
     } else {

@@ -116,7 +116,7 @@ impl<'a> Cavity<'a> {
         let temperature = projectile
             .temperature
             .unwrap_or(projectile.material.room_temperature.si());
-        let speed = scenario.impact_speed;
+        let speed = scenario.impact_velocity;
         let count = options.projectile_elements();
         let rod = Rod::new(metal, count, projectile.length, area, temperature, speed);
         let radius = (area / std::f64::consts::PI).sqrt();
@@ -245,7 +245,7 @@ impl<'a> Solver<'a> for Cavity<'a> {
     }
 
     fn progress(&self) -> f64 {
-        slowed(self.state.rod.motion(), self.scenario.impact_speed)
+        slowed(self.state.rod.motion(), self.scenario.impact_velocity)
     }
 
     fn event(&mut self, monitor: &RunMonitor) -> Result<Option<Termination>, NumericalError> {
@@ -270,8 +270,8 @@ impl<'a> Solver<'a> for Cavity<'a> {
     }
 
     fn outcome(&self, termination: Termination, monitor: &RunMonitor) -> (Outcome, String) {
-        let impact_speed = self.scenario.impact_speed;
-        results::outcome(termination, &self.state, monitor, impact_speed)
+        let impact_velocity = self.scenario.impact_velocity;
+        results::outcome(termination, &self.state, monitor, impact_velocity)
     }
 
     fn extremes(&self) -> Extremes {

@@ -61,14 +61,14 @@ impl Window {
         monitor.at_rest?;
         if state
             .rod
-            .pieces_approach(REST_FRACTION * scenario.impact_speed)
+            .pieces_approach(REST_FRACTION * scenario.impact_velocity)
         {
             return None;
         }
         if !touched && momentum <= 0.0 {
             return Some(Termination::Parted);
         }
-        let still = (momentum / mass).abs() <= REST_FRACTION * scenario.impact_speed;
+        let still = (momentum / mass).abs() <= REST_FRACTION * scenario.impact_velocity;
         (still && touched).then_some(Termination::Quiescent)
     }
 }
@@ -78,7 +78,7 @@ pub(super) fn outcome(
     termination: Termination,
     state: &State,
     monitor: &RunMonitor,
-    impact_speed: f64,
+    impact_velocity: f64,
 ) -> (Outcome, String) {
     let (mass, momentum) = state.rod.motion();
     match termination {
@@ -102,7 +102,7 @@ pub(super) fn outcome(
         }
         _ => {}
     }
-    let ratio = momentum / (mass * impact_speed);
+    let ratio = momentum / (mass * impact_velocity);
     let speed = format!(
         "the projectile's mean speed at the end is {} % of the impact speed",
         significant(100.0 * ratio, 3)

@@ -146,7 +146,7 @@ impl<'a> Published<'a> {
                 PublishedTimeStep::Table1 => 1.0,
                 PublishedTimeStep::Equation21 => 2.0,
             };
-        let speed = scenario.impact_speed;
+        let speed = scenario.impact_velocity;
         let mut target_velocity = vec![0.0; target_elements];
         if options.interface != Interface::Chain {
             target_velocity[0] = speed;
@@ -412,7 +412,7 @@ impl<'a> Solver<'a> for Published<'a> {
     }
 
     fn progress(&self) -> f64 {
-        1.0 - self.rod_velocity[0] / self.scenario.impact_speed
+        1.0 - self.rod_velocity[0] / self.scenario.impact_velocity
     }
 
     /// The run ends when the first mass of the penetrator stops, section 3.6 of the paper.

@@ -25,8 +25,8 @@ pub(super) fn outcome(impact: &PlanarImpact<'_>, termination: Termination) -> Ou
     match termination {
         Termination::NothingMoves => Outcome::AtRest,
         Termination::EndTime | Termination::StepLimit => Outcome::OutOfTime,
-        _ if velocity < -REST_FRACTION * impact.scenario.impact_speed => Outcome::Rebounded,
-        _ if velocity > REST_FRACTION * impact.scenario.impact_speed => Outcome::Separated,
+        _ if velocity < -REST_FRACTION * impact.scenario.impact_velocity => Outcome::Rebounded,
+        _ if velocity > REST_FRACTION * impact.scenario.impact_velocity => Outcome::Separated,
         _ => Outcome::AtRest,
     }
 }
@@ -53,7 +53,7 @@ fn details(impact: &PlanarImpact<'_>) -> Vec<Detail> {
         _ => None,
     };
     let projectile = &scenario.projectile.material;
-    if let Some((speed, pressure)) = impedance_match(projectile, front, scenario.impact_speed) {
+    if let Some((speed, pressure)) = impedance_match(projectile, front, scenario.impact_velocity) {
         details.push(detail("impedance match: particle speed", "m/s", speed));
         details.push(detail(
             "impedance match: pressure without strength",

@@ -157,7 +157,7 @@ fn build(scenario: &Scenario) -> Option<(Grid<PlanarLaw>, f64, InterfaceForce)> 
     let flyer = law(&rod.material, scenario)?;
     let mut passage = rod.length / flyer.wave_speed_at_rest();
     let mut slabs = vec![slab(flyer, -rod.length, rod.length, projectile as usize)];
-    slabs[0].velocity = scenario.impact_speed;
+    slabs[0].velocity = scenario.impact_velocity;
     let mut end = End::Driven(0.0);
     match &scenario.target {
         TargetBody::Layers {
@@ -183,7 +183,7 @@ fn build(scenario: &Scenario) -> Option<(Grid<PlanarLaw>, f64, InterfaceForce)> 
         }
         _ => slabs.push(slab(law(&rod.material, scenario)?, 0.0, 0.0, 0)),
     }
-    let interface = InterfaceForce::new(&slabs, scenario.impact_speed);
+    let interface = InterfaceForce::new(&slabs, scenario.impact_velocity);
     Some((Grid::new(slabs, [End::Free, end]), passage, interface))
 }
 
@@ -263,7 +263,7 @@ impl<'a> Solver<'a> for PlanarImpact<'a> {
     }
 
     fn is_at_rest(&self) -> bool {
-        audit::is_at_rest(&self.grid, self.scenario.impact_speed)
+        audit::is_at_rest(&self.grid, self.scenario.impact_velocity)
     }
 
     fn energy(&self) -> EnergyLedger {

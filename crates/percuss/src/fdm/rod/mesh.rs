@@ -60,7 +60,7 @@ pub(super) fn build(scenario: &Scenario, options: &FdmOptions) -> Grid<RodLaw> {
         .projectile_elements
         .unwrap_or(ChainOptions::PROJECTILE_ELEMENTS) as usize;
     let mut slabs = vec![slab(projectile, -rod.length, rod.length, cells)];
-    slabs[0].velocity = scenario.impact_speed;
+    slabs[0].velocity = scenario.impact_velocity;
     let mut end = End::Free;
     let mut tip_pressure = 0.0;
     match &scenario.target {

@@ -71,7 +71,7 @@ pub(super) fn outcome(rod: &Rod<'_>, termination: Termination, monitor: &RunMoni
         _ => {}
     }
     let (mass, momentum) = rod.grid.motion(0);
-    let ratio = momentum / (mass * rod.scenario.impact_speed);
+    let ratio = momentum / (mass * rod.scenario.impact_velocity);
     if ratio < -REST_FRACTION {
         Outcome::Rebounded
     } else if ratio > REST_FRACTION {

@@ -87,7 +87,7 @@ impl Rod<'_> {
         }
         // A projectile that is still being pushed back has not got its rebound speed yet.
         let (mass, momentum) = self.grid.motion(0);
-        let still = (momentum / mass).abs() <= REST_FRACTION * self.scenario.impact_speed;
+        let still = (momentum / mass).abs() <= REST_FRACTION * self.scenario.impact_velocity;
         let deepening = monitor.largest_depth > before.depth * (1.0 + 1e-9);
         monitor.at_rest.is_some() && !deepening && still && flow <= QUIET_FRACTION
     }
@@ -161,7 +161,7 @@ impl<'a> Solver<'a> for Rod<'a> {
     }
 
     fn is_at_rest(&self) -> bool {
-        audit::is_at_rest(&self.grid, self.scenario.impact_speed)
+        audit::is_at_rest(&self.grid, self.scenario.impact_velocity)
     }
 
     fn energy(&self) -> EnergyLedger {
@@ -173,7 +173,7 @@ impl<'a> Solver<'a> for Rod<'a> {
     }
 
     fn progress(&self) -> f64 {
-        slowed(self.grid.motion(0), self.scenario.impact_speed)
+        slowed(self.grid.motion(0), self.scenario.impact_velocity)
     }
 
     fn check(&self, monitor: &RunMonitor) -> Result<(), NumericalError> {

@@ -83,7 +83,7 @@ const LINEAR: Linear = Linear {
 
 fn linear(scenario: &crate::Scenario) -> f64 {
     let inputs = [
-        scenario.impact_speed,
+        scenario.impact_velocity,
         1e3 * scenario.target_thickness().unwrap(),
         match scenario.options.chain.constraint_factor() {
             ConstraintFactor::Value(factor) => factor,
@@ -105,7 +105,7 @@ impl Kernel for Linear {
                 time_us: 0.0,
             };
             let mut record = ResultRecord::without_result(&scenario, "chain", &error);
-            if scenario.impact_speed <= self.fails_above {
+            if scenario.impact_velocity <= self.fails_above {
                 record.outcome = Outcome::AtRest;
                 record.reason = None;
                 record.depth_of_penetration_mm = Some(linear(&scenario));
