@@ -150,3 +150,31 @@ fn a_gauge_outside_the_bodies_is_refused() {
         }
     }
 }
+
+#[test]
+fn a_gauge_below_the_modelled_target_is_reported() {
+    let text = r#"
+        projectile = { material = "copper", length = "6 mm", diameter = "4 mm", velocity = "300 m/s" }
+        target = { material = "aluminium-2024-t351", thickness = "semi-infinite" }
+        axi = { cells_per_radius = 4, target_radius = "12 mm", target_depth = "14 mm", end_time = "2 us" }
+        gauges = [{ position = "20 mm" }, { position = "5 mm" }]
+        "#;
+    let scenario = case::load_str("deep", text).unwrap();
+    let axi = model::model("axi").unwrap();
+    let result = model::run(axi, &scenario, &mut Control::recording()).unwrap();
+    let told: Vec<_> = result
+        .warnings
+        .iter()
+        .filter(|warning| warning.contains("gauge"))
+        .collect();
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].contains("`gauge 1`") && told[0].contains("`axi.target_depth`"));
+    let gauges = result.history.unwrap().gauges;
+    assert!(gauges[0].states.iter().all(|state| state.stress.is_nan()));
+    assert!(
+        gauges[1]
+            .states
+            .iter()
+            .all(|state| state.stress.is_finite())
+    );
+}

@@ -5,7 +5,7 @@ use crate::{
     outcome::{Detail, RunResult},
     scenario::TargetBody,
     shapes::Shapes,
-    solver::{Particle, driver::Extremes, monitor::RunMonitor},
+    solver::{Particle, interface::Extremes, monitor::RunMonitor},
 };
 
 /// Part of a cell by which a surface must lie below the original face to be a crater.

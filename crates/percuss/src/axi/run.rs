@@ -14,9 +14,10 @@ use crate::{
     scenario::{Plate, TargetBody},
     solver::{
         archive::Archive,
-        driver::{Audit, BalanceTolerance, Drive, Extremes, Retry, Solver, slowed},
+        driver::Drive,
         frames::Fields,
         gauge::Gauge,
+        interface::{Audit, BalanceTolerance, Extremes, Retry, Solver, slowed},
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
     },

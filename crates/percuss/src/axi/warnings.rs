@@ -59,6 +59,17 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
             ));
         }
     }
+    let modelled = extent(run.scenario).map_or(0.0, |extent| extent.layers.iter().sum::<f64>());
+    for gauge in &run.scenario.gauges {
+        if gauge.position > modelled {
+            warnings.push(format!(
+                "`{}` has no values: it lies {:.3} mm deep, and the modelled target ends at {:.3} mm: raise `axi.target_depth`",
+                gauge.name,
+                1e3 * gauge.position,
+                1e3 * modelled
+            ));
+        }
+    }
     if holds_a_plate(run.scenario) {
         warnings.push(
             "the back face of the plate is held, which is what `target.back_face` is unless it is given: a plate that may bend, bulge or be perforated needs `back_face = \"free\""

@@ -10,8 +10,9 @@ use crate::{
     outcome::{Outcome, RunResult, Termination},
     solver::{
         archive::Archive,
-        driver::{Audit, BalanceTolerance, Drive, Extremes, Retry, Solver, slowed},
+        driver::Drive,
         frames::Fields,
+        interface::{Audit, BalanceTolerance, Extremes, Retry, Solver, slowed},
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
     },

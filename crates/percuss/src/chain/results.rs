@@ -9,7 +9,7 @@ use crate::{
     fragments::Fragment,
     outcome::{Detail, RunResult},
     scenario::{Scenario, TargetBody},
-    solver::{driver::Extremes, monitor::RunMonitor},
+    solver::{interface::Extremes, monitor::RunMonitor},
 };
 
 /// What a result is made of.

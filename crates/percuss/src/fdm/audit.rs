@@ -4,7 +4,7 @@ use super::grid::{Grid, Law, View};
 use crate::{
     error::NumericalError,
     solver::{
-        driver::{Audit, BalanceTolerance, Extremes, Retry},
+        interface::{Audit, BalanceTolerance, Extremes, Retry},
         monitor::{Probe, RunMonitor},
     },
 };

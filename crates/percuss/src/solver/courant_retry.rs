@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::driver::Retry;
+use super::interface::Retry;
 use crate::{Error, error::NumericalError, units::significant};
 
 /// Why an attempt at a run gave no result.

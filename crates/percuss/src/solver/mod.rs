@@ -8,6 +8,7 @@ pub(crate) mod driver;
 pub mod frames;
 pub(crate) mod gauge;
 mod input_limit;
+pub(crate) mod interface;
 pub(crate) mod limits;
 pub(crate) mod monitor;
 mod particle;

@@ -49,7 +49,8 @@ use crate::{
     scenario::{Plate, TargetBody, modelled_thickness},
     solver::{
         archive::Archive,
-        driver::{Audit, Drive, Extremes, Retry, Solver, slowed},
+        driver::Drive,
+        interface::{Audit, Extremes, Retry, Solver, slowed},
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
     },

@@ -22,7 +22,8 @@ use crate::{
     outcome::{Outcome, RunResult, Termination},
     solver::{
         archive::Archive,
-        driver::{Audit, BalanceTolerance, Drive, Extremes, Retry, Solver},
+        driver::Drive,
+        interface::{Audit, BalanceTolerance, Extremes, Retry, Solver},
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
     },

@@ -22,7 +22,8 @@ use crate::{
     scenario::{TargetBody, modelled_thickness},
     solver::{
         archive::Archive,
-        driver::{Audit, Drive, Extremes, Solver},
+        driver::Drive,
+        interface::{Audit, Extremes, Solver},
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
     },

@@ -16,7 +16,8 @@ use crate::{
     outcome::{Outcome, RunResult, Termination},
     solver::{
         archive::Archive,
-        driver::{Audit, Drive, Extremes, Solver, slowed},
+        driver::Drive,
+        interface::{Audit, Extremes, Solver, slowed},
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
     },
