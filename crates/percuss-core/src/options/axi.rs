@@ -17,6 +17,7 @@ use crate::{
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[schemars(transform = axi_in_schema)]
+#[non_exhaustive]
 pub struct AxiOptions {
     /// Cells along the projectile's radius.
     pub cells_per_radius: Option<u32>,

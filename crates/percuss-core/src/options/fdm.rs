@@ -21,6 +21,7 @@ use crate::{
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[schemars(transform = fdm_in_schema)]
+#[non_exhaustive]
 pub struct FdmOptions {
     /// Geometry of the impact.
     pub geometry: Geometry,

@@ -8,6 +8,7 @@ use crate::units::Mass;
 /// Readings of the paper where its text leaves a choice.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct PublishedOptions {
     /// How rod and target are joined.
     pub interface: Interface,

@@ -27,6 +27,7 @@ pub enum BorderShearLaw {
 /// The band around a plug.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct ShearBandOptions {
     /// Width of a band that shears evenly [m]; when not given, the shear spreads as equilibrium, hardening and rate say.
     pub width: Option<Length>,

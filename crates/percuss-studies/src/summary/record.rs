@@ -77,6 +77,7 @@ fn numerics(run: Option<&RunResult>) -> Option<&crate::outcome::Numerics> {
 result_record! {
     /// Results of one model. The names are stable; a number that the model does not give is null.
     #[derive(Debug, Clone, PartialEq, Serialize)]
+    #[non_exhaustive]
     pub struct ResultRecord {
         /// Name of the model.
         model: &'static str;
