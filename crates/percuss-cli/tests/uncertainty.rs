@@ -7,11 +7,11 @@ use tempfile::TempDir;
 use crate::support::{Said, flat, folder_with, json, names_in, percuss, refuses_all_of};
 
 const CASE: &str = "
-projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }
+projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '230 m/s' }
 target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
 chain = { projectile_elements = 20, target_elements = 40 }
 [[uncertainty.parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 normal = { mean = '230 m/s', standard_deviation = '3 m/s' }
 [[uncertainty.parameter]]
 key = 'projectile.length'
@@ -19,19 +19,19 @@ uniform = { from = '12.5 mm', to = '13 mm' }
 ";
 const CORRELATION: &str = "
 [uncertainty.correlation]
-parameters = ['projectile.velocity', 'projectile.length']
+parameters = ['projectile.impact_velocity', 'projectile.length']
 matrix = [[1, 0.5], [0.5, 1]]
 ";
 const BLUNT: &str = "
-projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', velocity = '187 m/s' }
+projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', impact_velocity = '187 m/s' }
 target = { material = 'weldox-460-e', thickness = '12 mm', back_face = 'free' }
 recht_ipson = { ballistic_limit = '184.5 m/s' }
 [[experiments]]
-velocity = '184.8 m/s'
+impact_velocity = '184.8 m/s'
 residual_velocity = '0 m/s'
 source = 'borvik2002a'
 [[uncertainty.parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 normal = { mean = '187 m/s', standard_deviation = '5 m/s' }
 [[uncertainty.parameter]]
 key = 'recht_ipson.ballistic_limit'
@@ -176,7 +176,8 @@ fn a_folder_holds_numbers_and_figures() {
     let samples = fs::read_to_string(found.join("samples.csv")).unwrap();
     assert_eq!(samples.lines().count(), 1025);
     assert!(
-        samples.starts_with("projectile.velocity_m_s,recht_ipson.ballistic_limit_m_s,outcome,"),
+        samples
+            .starts_with("projectile.impact_velocity_m_s,recht_ipson.ballistic_limit_m_s,outcome,"),
         "{samples}"
     );
     let object = json(&fs::read_to_string(found.join("uncertainty.json")).unwrap());

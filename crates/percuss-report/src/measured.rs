@@ -50,7 +50,7 @@ mod tests {
             format!("[[experiments]]\nvelocity = \"{speed} m/s\"\nsource = \"a\"\n{more}\n")
         };
         let text = [
-            "projectile = { material = \"copper\", length = \"20 mm\", diameter = \"5 mm\", velocity = \"200 m/s\" }\n",
+            "projectile = { material = \"copper\", length = \"20 mm\", diameter = \"5 mm\", impact_velocity = \"200 m/s\" }\n",
             "target = { rigid_wall = true }\n",
             &shot(
                 200,

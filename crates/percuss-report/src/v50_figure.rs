@@ -1,6 +1,6 @@
 //! Figure of shots that were stopped or went through, and of the chance of going through.
 
-use percuss::v50::{Estimate, Method, Shot, V50, chance};
+use percuss::v50::{Estimate, Method, Test, V50, chance};
 
 use crate::{Axis, Figure, LineChart, Mark, Series, Style, caption::significant, palette};
 
@@ -8,7 +8,7 @@ use crate::{Axis, Figure, LineChart, Mark, Series, Style, caption::significant, 
 const POINTS: u32 = 200;
 
 /// Draws shots, the likeliest chances of going through and V50 with its interval, as `v50`.
-pub fn v50_figure(name: &str, shots: &[Shot], v50: &V50) -> Figure {
+pub fn v50_figure(name: &str, shots: &[Test], v50: &V50) -> Figure {
     let mut chart = LineChart::new(
         "v50",
         format!("Shots stopped and gone through: {name}"),
@@ -19,7 +19,10 @@ pub fn v50_figure(name: &str, shots: &[Shot], v50: &V50) -> Figure {
     let (slowest, fastest) = shots
         .iter()
         .fold((f64::MAX, f64::MIN), |(low, high), shot| {
-            (low.min(shot.speed), high.max(shot.speed))
+            (
+                low.min(shot.impact_velocity),
+                high.max(shot.impact_velocity),
+            )
         });
     let margin = 0.15 * (fastest - slowest);
     let speeds = (0..=POINTS).map(|i| {
@@ -46,7 +49,7 @@ pub fn v50_figure(name: &str, shots: &[Shot], v50: &V50) -> Figure {
         let kind = shots.iter().filter(|shot| shot.perforated == perforated);
         let height = f64::from(u8::from(perforated));
         chart = chart.series(
-            Series::new(words, kind.map(|shot| (shot.speed, height)))
+            Series::new(words, kind.map(|shot| (shot.impact_velocity, height)))
                 .style(Style::Markers)
                 .color(color),
         );

@@ -123,15 +123,15 @@ fn comparison(case: &str, speeds: &[f64]) -> (Scenario, Comparison) {
 }
 
 const CASE: &str = "
-projectile = { material = 'copper', length = '40 mm', diameter = '5 mm', velocity = '1000 m/s' }
+projectile = { material = 'copper', length = '40 mm', diameter = '5 mm', impact_velocity = '1000 m/s' }
 target = { material = 'aluminium-2024-t351', thickness = 'semi-infinite' }
 [[experiments]]
-velocity = '1000 m/s'
+impact_velocity = '1000 m/s'
 depth_of_penetration = '16 mm'
 uncertainty = '1.5 mm'
 source = 'a'
 [[experiments]]
-velocity = '500 m/s'
+impact_velocity = '500 m/s'
 depth_of_penetration = '5 mm'
 source = 'a'
 ";

@@ -142,7 +142,7 @@ pub(crate) fn answer(
         .iter()
         .map(|note| ("model".to_owned(), note.clone()));
     let resistance = result
-        .target_closure_choice
+        .target_resistance_choice
         .iter()
         .map(|note| ("target resistance".to_owned(), note.clone()));
     let rows = [

@@ -9,11 +9,11 @@ use percuss::{
     sweep::{BatchKernel, Kernel, Shot},
 };
 
-const COLUMN: &str = "target_closure = \"column\"";
+const COLUMN: &str = "target_resistance = \"column\"";
 
 fn paper(velocity: f64, elements: (u32, u32), options: &str) -> Scenario {
     let text = format!(
-        "projectile = {{ material = \"copper\", length = \"12.74 mm\", diameter = \"4.8 mm\", velocity = \"{velocity} m/s\" }}\n\
+        "projectile = {{ material = \"copper\", length = \"12.74 mm\", diameter = \"4.8 mm\", impact_velocity = \"{velocity} m/s\" }}\n\
          target = {{ material = \"aluminium-2024-t351\", thickness = \"25 mm\" }}\n\
          [chain]\nprojectile_elements = {}\ntarget_elements = {}\n{options}\n",
         elements.0, elements.1

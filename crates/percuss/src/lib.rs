@@ -7,7 +7,7 @@
 //! use percuss::{case, model::{self, Control}};
 //!
 //! let scenario = case::load_str("example", r#"
-//!     projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+//!     projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
 //!     target = { material = "aluminium-2024-t351", thickness = "25 mm" }
 //! "#)?;
 //! let result = model::run(model::model("chain")?, &scenario, &mut Control::default())?;

@@ -126,7 +126,7 @@ pub struct RunResult {
     pub model_choice: Option<String>,
     /// Why the target resistance model is not the usual one, of a case that names none, and the depth by that one if it differs by more than a
     /// tenth; `None` otherwise.
-    pub target_closure_choice: Option<String>,
+    pub target_resistance_choice: Option<String>,
     /// How the shot ended.
     pub outcome: Outcome,
     /// What the outcome was told by, in words; empty where the model names nothing beyond its termination.

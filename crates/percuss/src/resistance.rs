@@ -27,7 +27,7 @@ pub trait ResistanceLaw {
 /// }
 ///
 /// let mut scenario = case::load_str("shot", "
-///     projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }
+///     projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '230 m/s' }
 ///     target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
 /// ")?;
 /// scenario.resistance = Some(OwnResistance(Arc::new(Constant)));

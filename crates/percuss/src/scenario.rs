@@ -5,7 +5,7 @@ use std::{f64::consts::PI, sync::Arc};
 use crate::{
     history::GaugePlace,
     material::Material,
-    options::{ModelOptions, TargetClosure},
+    options::{ModelOptions, TargetResistanceModel},
     outcome::BandQuantity,
     problem::{BackFace, Extensions, LayerInterface, Nose, Support},
     resistance::OwnResistance,
@@ -50,8 +50,8 @@ pub struct Scenario {
 pub struct Given {
     /// `target.back_face`.
     pub rear_face: bool,
-    /// `chain.target_closure`.
-    pub target_closure: bool,
+    /// `chain.target_resistance`.
+    pub target_resistance: bool,
 }
 
 /// A measured value of one quantity, in SI units.
@@ -156,8 +156,8 @@ impl Scenario {
 
     /// Makes a column the target resistance model, unless the case gives one: a study varies a key that only a column has.
     pub(crate) fn choose_column(&mut self, key: &str) {
-        if !self.given.target_closure {
-            self.options.chain.target_closure = Some(TargetClosure::Column);
+        if !self.given.target_resistance {
+            self.options.chain.target_resistance = Some(TargetResistanceModel::Column);
             self.resistance_reason = Some(format!("`{key}` is varied, and only a column has it"));
         }
     }

@@ -12,7 +12,7 @@ use percuss::{
 fn scenario(speed: &str) -> Scenario {
     let text = format!(
         r#"
-        projectile = {{ material = "copper", length = "6 mm", diameter = "4 mm", velocity = "{speed}" }}
+        projectile = {{ material = "copper", length = "6 mm", diameter = "4 mm", impact_velocity = "{speed}" }}
         target = {{ material = "aluminium-2024-t351", thickness = "semi-infinite" }}
         [axi]
         cells_per_radius = 4

@@ -22,7 +22,7 @@ fn a_case_built_in_code_is_that_of_the_same_text() {
         material = "copper"
         length = "12.74 mm"
         diameter = "4.8 mm"
-        velocity = "230 m/s"
+        impact_velocity = "230 m/s"
         nose = "hemisphere"
         [target]
         back_face = "free"
@@ -83,7 +83,7 @@ struct Options {
 #[test]
 fn a_table_of_another_model_is_read_and_written() {
     let text = r#"
-        projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+        projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
         target = { rigid_wall = true }
         extensions.mine = { factor = 2.5 }
         "#;

@@ -40,7 +40,10 @@ fn compute(folder: &Path, expected: &Expected) -> f64 {
             bracket.each_ref().map(|velocity| velocity.si()),
         );
     }
-    let velocity = expected.velocity.as_ref().map(|velocity| velocity.si());
+    let velocity = expected
+        .impact_velocity
+        .as_ref()
+        .map(|velocity| velocity.si());
     let (scenario, result) = run(folder, expected, velocity);
     let span = expected.mean_from.as_ref().zip(expected.mean_to.as_ref());
     let span = span.map(|(from, to)| (from.si(), to.si()));

@@ -151,7 +151,7 @@ fn stress_past_yield() {
     let (modulus, density, yield_stress, hardening) = (100e9_f64, 8000.0, 200e6, 5e9_f64);
     let case = format!(
         r#"
-        projectile = {{ material = "bilinear", length = "50 mm", diameter = "5 mm", velocity = "40 m/s" }}
+        projectile = {{ material = "bilinear", length = "50 mm", diameter = "5 mm", impact_velocity = "40 m/s" }}
         target = {{ rigid_wall = true }}
         [chain]
         projectile_elements = 800

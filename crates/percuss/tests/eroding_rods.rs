@@ -67,7 +67,7 @@ impl Shot {
         let metal = |id, density| plastic_metal(id, density, YOUNGS_MODULUS_GPA, FLOW_STRESS_MPA);
         format!(
             r#"
-            projectile = {{ material = "rod", length = "{} mm", diameter = "{DIAMETER_MM} mm", velocity = "{} m/s" }}
+            projectile = {{ material = "rod", length = "{} mm", diameter = "{DIAMETER_MM} mm", impact_velocity = "{} m/s" }}
             target = {{ material = "target", thickness = "{} mm", back_face = "non-reflecting" }}
             [chain]
             constraint_factor = {}
@@ -158,7 +158,7 @@ impl Shot {
     }
 }
 
-const CLOSURE: &str = "erosion_closure = \"tate\"";
+const CLOSURE: &str = "erosion_criterion = \"tate\"";
 /// The same mesh as by default, without the border shear that Tate has no counterpart of.
 const DEFAULT: &str = "border_shear = 0.0";
 

@@ -474,7 +474,7 @@ fn elastic_plates_spall_where_and_when_the_releases_meet() {
 fn shot(length_mm: f64, material: &str, velocity: f64, fdm: &str) -> String {
     format!(
         r#"
-        projectile = {{ material = "{material}", length = "{length_mm} mm", diameter = "60 mm", velocity = "{velocity} m/s" }}
+        projectile = {{ material = "{material}", length = "{length_mm} mm", diameter = "60 mm", impact_velocity = "{velocity} m/s" }}
         target = {{ material = "{material}", thickness = "6 mm", back_face = "free" }}
         [fdm]
         geometry = "planar"
@@ -526,7 +526,7 @@ fn the_plateau_of_the_interface_stress_is_the_exact_one() {
     for cells in [25, 50, 100, 200, 400] {
         let result = fdm_recorded(&format!(
             r#"
-            projectile = {{ material = "a", length = "3 mm", diameter = "60 mm", velocity = "{} m/s" }}
+            projectile = {{ material = "a", length = "3 mm", diameter = "60 mm", impact_velocity = "{} m/s" }}
             target = {{ material = "a", thickness = "6 mm", back_face = "free" }}
             fdm = {{ geometry = "planar", projectile_elements = {cells} }}
             [materials.a]
@@ -569,7 +569,7 @@ fn the_plateau_is_the_impedance_match_of_unlike_plates() {
         for cells in [50, 100, 200] {
             let result = fdm_recorded(&format!(
                 r#"
-                projectile = {{ material = "{flyer}", length = "3 mm", diameter = "60 mm", velocity = "800 m/s" }}
+                projectile = {{ material = "{flyer}", length = "3 mm", diameter = "60 mm", impact_velocity = "800 m/s" }}
                 target = {{ material = "{target}", thickness = "3 mm", back_face = "free" }}
                 fdm = {{ geometry = "planar", projectile_elements = {cells} }}
                 {metals}

@@ -24,7 +24,7 @@ fn case(velocity: f64, rod_mm: f64, layers: &str, back_face: &str, options: &str
         )
     };
     format!(
-        "projectile = {{ material = \"steel\", length = \"{rod_mm} mm\", diameter = \"10 mm\", velocity = \"{velocity} m/s\" }}\n\
+        "projectile = {{ material = \"steel\", length = \"{rod_mm} mm\", diameter = \"10 mm\", impact_velocity = \"{velocity} m/s\" }}\n\
          target = {{ layers = [{layers}], back_face = \"{back_face}\" }}\n[chain]\n{options}\n{}{}{}",
         material("steel", STEEL, "elastic = {}"),
         material("light", LIGHT, "elastic = {}"),

@@ -30,6 +30,7 @@ mod plugging;
 mod prototype;
 mod published;
 mod remnant;
+mod renamed;
 mod rigid_penetration;
 mod rod_on_wall;
 mod separation;

@@ -158,7 +158,7 @@ class Limits(Result):
         V50 of shots that scatter, when a file of them was given: ``estimates``, an entry a ``method`` with ``v50_m_s`` and the ends of
         its interval, ``low_m_s`` and ``high_m_s`` [m/s].
     shots : list of Record or None
-        Those shots: ``velocity_m_s`` [m/s] and whether they ``perforated``.
+        Those shots: ``impact_velocity_m_s`` [m/s] and whether they ``perforated``.
     """
 
     case: str

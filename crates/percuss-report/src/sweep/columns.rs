@@ -26,7 +26,11 @@ pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
     columns.push(text("outcome", |r| word(&r.outcome), "failed"));
     columns.push(text("termination", |r| word(&r.termination), ""));
     columns.push(text("scheme", |r| r.scheme.to_owned(), ""));
-    columns.push(text("target_closure", |r| word(&r.target_closure), ""));
+    columns.push(text(
+        "target_resistance",
+        |r| word(&r.target_resistance),
+        "",
+    ));
     columns.push(text(
         "criterion",
         |r| r.criterion.clone().unwrap_or_default(),
@@ -111,7 +115,7 @@ mod tests {
 
     use super::columns;
 
-    const CASE: &str = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }\n\
+    const CASE: &str = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '230 m/s' }\n\
                         target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n";
 
     /// Results that are no number, and the columns that hold them.
@@ -121,8 +125,8 @@ mod tests {
         ("scheme", &["scheme"]),
         // A sweep names its model.
         ("model_choice", &[]),
-        ("target_closure", &["target_closure"]),
-        ("target_closure_choice", &[]),
+        ("target_resistance", &["target_resistance"]),
+        ("target_resistance_choice", &[]),
         ("outcome", &["outcome"]),
         ("criterion", &["criterion"]),
         ("termination", &["termination"]),
@@ -145,12 +149,12 @@ mod tests {
     #[test]
     fn columns_are_the_fields_of_a_result_and_nothing_else() {
         let file = "title = 'speeds'\nbase = 'case.toml'\nmodel = 'chain'\ndesign = 'grid'\n\
-                    [[parameter]]\nkey = 'projectile.velocity'\nvalues = ['200 m/s', '230 m/s']\n";
+                    [[parameter]]\nkey = 'projectile.impact_velocity'\nvalues = ['200 m/s', '230 m/s']\n";
         let (file, case) = (Document::new("sweep", file), Document::new("case", CASE));
         let sweep = Sweep::of(&file, &case).unwrap();
         let columns = columns(&sweep);
         let found: BTreeSet<&str> = columns.iter().map(|column| column.name()).collect();
-        let mut expected = BTreeSet::from(["shot", "projectile.velocity_m_s"]);
+        let mut expected = BTreeSet::from(["shot", "projectile.impact_velocity_m_s"]);
         for field in RESULT_FIELDS {
             let held = NO_NUMBERS.iter().find(|(name, _)| *name == field.name);
             match (&field.number, held) {

@@ -62,7 +62,7 @@ pub fn uncertainty_files(found: &Uncertainty) -> Result<Vec<(&'static str, Vec<u
     if !found.bands.is_empty() {
         let of_band = found.bands.iter().flat_map(|band| {
             band.quantities.iter().map(|q| Spread {
-                speed: Some(band.velocity_m_s),
+                speed: Some(band.impact_velocity_m_s),
                 quantity: q.quantity,
                 statistics: q.statistics.clone(),
             })

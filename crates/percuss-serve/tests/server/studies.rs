@@ -126,7 +126,7 @@ fn a_draft_has_the_charts_in_view_and_the_same_numbers() {
 #[test]
 fn limits_are_those_of_the_library_and_say_what_they_rest_on() {
     let served = Served::new(Options::default());
-    let text = "projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', velocity = '300 m/s' }\n\
+    let text = "projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', impact_velocity = '300 m/s' }\n\
                 target = { material = 'aluminium-2024-t351', thickness = '12 mm' }\n\
                 chain = { projectile_elements = 8, target_elements = 6 }\n\
                 fdm = { projectile_elements = 8, target_elements = 6 }\n";

@@ -105,7 +105,7 @@ mod tests {
         let scenario = case::load_str(
             "jet",
             r#"
-            projectile = { material = "a", length = "100 mm", diameter = "5 mm", velocity = "6 km/s" }
+            projectile = { material = "a", length = "100 mm", diameter = "5 mm", impact_velocity = "6 km/s" }
             target = { material = "b", thickness = "semi-infinite" }
             [materials.a]
             name = "a"

@@ -196,7 +196,7 @@ mod tests {
                 "rod",
                 &format!(
                     r#"
-                    projectile = {{ material = "rod", length = "100 mm", diameter = "5 mm", velocity = "{speed} m/s" }}
+                    projectile = {{ material = "rod", length = "100 mm", diameter = "5 mm", impact_velocity = "{speed} m/s" }}
                     target = {{ material = "steel", thickness = "semi-infinite" }}
                     lanz_odermatt = {{ {hardness} }}
                     [materials.rod]

@@ -59,7 +59,7 @@ impl Observations {
         let template = Template::of(document)?;
         let scenario = document.scenario()?;
         if scenario.experiments.is_empty() {
-            let help = "add [[experiments]] with velocity, a measured quantity and source";
+            let help = "add [[experiments]] with impact_velocity, a measured quantity and source";
             let finding = Finding::whole("the case has no measured value", help);
             return Err(document.place(finding).into());
         }

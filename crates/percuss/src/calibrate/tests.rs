@@ -55,7 +55,7 @@ fn synthetic(kind: Kind, model_name: &str, options: &str, scatter: &[f64]) -> Ve
             _ => "material = 'block', thickness = 'semi-infinite'",
         };
         let text = format!(
-            "projectile = {{ material = '{rod}', length = '25 mm', diameter = '7 mm', nose = '{nose}', velocity = '{speed} m/s' }}\n\
+            "projectile = {{ material = '{rod}', length = '25 mm', diameter = '7 mm', nose = '{nose}', impact_velocity = '{speed} m/s' }}\n\
              target = {{ {target_text} }}\n{options}\n{}",
             MATERIALS.replace("\n[", "\n[materials.")
         );

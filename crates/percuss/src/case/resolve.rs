@@ -26,14 +26,14 @@ pub(super) fn resolve(
     let options = case.model_options();
     let given = Given {
         rear_face: case.target.back_face.is_some(),
-        target_closure: options.chain.target_closure.is_some(),
+        target_resistance: options.chain.target_resistance.is_some(),
     };
     let mut scenario = Scenario {
         name: name.to_owned(),
         title: case.title,
         sources: case.sources,
         projectile: projectile?,
-        impact_velocity: case.projectile.velocity.si(),
+        impact_velocity: case.projectile.impact_velocity.si(),
         obliquity: case.projectile.obliquity(),
         target: target?,
         resistance: None,
@@ -97,7 +97,7 @@ fn measurement(experiment: &Experiment) -> Option<Measurement> {
     let (quantity, value) = experiment.measured()?;
     Some(Measurement {
         quantity,
-        impact_velocity: experiment.velocity.map(Velocity::si),
+        impact_velocity: experiment.impact_velocity.map(Velocity::si),
         value,
         uncertainty: experiment.uncertainty.map(Uncertainty::si),
         sources: experiment.source.0.clone(),

@@ -111,7 +111,7 @@ mod tests {
     use super::*;
 
     const CASE: &str = "# Two materials\nmaterial_files = ['lib/a.toml', 'lib/b.toml']\n\
-                        projectile = { material = 'rod', length = '20 mm', diameter = '5 mm', velocity = '300 m/s' }\n\
+                        projectile = { material = 'rod', length = '20 mm', diameter = '5 mm', impact_velocity = '300 m/s' }\n\
                         target = { material = 'plate', thickness = '5 mm', back_face = 'free' }\n\
                         [[experiments]]\nballistic_limit = '300 m/s'\nsource = 'made up'\n";
 
@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn a_case_without_files_keeps_its_text() {
-        let text = "# as it is\nprojectile = { material = 'copper' , length = '20 mm', diameter = '5 mm', velocity = '300 m/s' }\n\
+        let text = "# as it is\nprojectile = { material = 'copper' , length = '20 mm', diameter = '5 mm', impact_velocity = '300 m/s' }\n\
                     target = { rigid_wall = true }\n";
         assert_eq!(Document::new("shot", text).self_contained().unwrap(), text);
     }

@@ -109,7 +109,7 @@ impl Template {
             self.adopt(&mut table, key)
                 .map_err(|finding| vec![finding])?;
             put(&mut table, key, value.clone()).map_err(|message| {
-                let help = "name a number of the case by the tables that it stands in, such as projectile.velocity";
+                let help = "name a number of the case by the tables that it stands in, such as projectile.impact_velocity";
                 vec![Finding::at(key, message, help)]
             })?;
         }

@@ -2,7 +2,7 @@ use super::*;
 use crate::error::{Error, Subject};
 
 const SHORT: &str = r#"
-projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
 target = { material = "aluminium-2024-t351", thickness = "25 mm" }
 "#;
 

@@ -2,7 +2,7 @@
 
 use super::expanding;
 use crate::{
-    options::{Scheme, TargetClosure},
+    options::{Scheme, TargetResistanceModel},
     problem::Nose,
     regime::{THIN, TargetKind},
     scenario::{Scenario, TargetBody},
@@ -10,25 +10,25 @@ use crate::{
 
 /// Sets the target resistance model of a case that gives none; it depends on the rest of the case.
 pub(crate) fn choose_target_closure(scenario: &mut Scenario) {
-    if !scenario.given.target_closure {
-        scenario.options.chain.target_closure = None;
+    if !scenario.given.target_resistance {
+        scenario.options.chain.target_resistance = None;
         let (closure, reason) = default_closure(scenario);
-        scenario.options.chain.target_closure = Some(closure);
+        scenario.options.chain.target_resistance = Some(closure);
         scenario.resistance_reason = reason;
     }
 }
 
 /// Target resistance of a case that names none, and why it is not the expanding cavity, which is the default of a flat-ended rod on one
 /// layer: against the axisymmetric reference it errs least.
-fn default_closure(scenario: &Scenario) -> (TargetClosure, Option<String>) {
+fn default_closure(scenario: &Scenario) -> (TargetResistanceModel, Option<String>) {
     let options = &scenario.options.chain;
     let solid = matches!(scenario.target, TargetBody::Layers { .. });
     if !solid || options.scheme != Scheme::Conservative || scenario.projectile.nose != Nose::Flat {
-        return (TargetClosure::Column, None);
+        return (TargetResistanceModel::Column, None);
     }
     match why_a_column(scenario) {
-        None => (TargetClosure::ExpandingCavity, None),
-        reason => (TargetClosure::Column, reason),
+        None => (TargetResistanceModel::ExpandingCavity, None),
+        reason => (TargetResistanceModel::Column, reason),
     }
 }
 
@@ -57,17 +57,17 @@ fn why_a_column(scenario: &Scenario) -> Option<String> {
 }
 
 /// The closure that a run has; `None` where the scheme or the target has no choice of one.
-pub(crate) fn closure_in_use(scenario: &Scenario) -> Option<TargetClosure> {
+pub(crate) fn closure_in_use(scenario: &Scenario) -> Option<TargetResistanceModel> {
     let options = &scenario.options.chain;
     let solid = matches!(scenario.target, TargetBody::Layers { .. });
-    (solid && options.scheme == Scheme::Conservative).then(|| options.target_closure())
+    (solid && options.scheme == Scheme::Conservative).then(|| options.target_resistance())
 }
 
 #[cfg(test)]
 mod tests {
     use super::closure_in_use;
     use crate::{
-        case::{self, TargetClosure},
+        case::{self, TargetResistanceModel},
         scenario::Scenario,
     };
 
@@ -75,7 +75,7 @@ mod tests {
 
     fn load(target: &str, options: &str) -> Scenario {
         let text = format!(
-            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', velocity = '230 m/s' }}\n\
+            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '230 m/s' }}\n\
              target = {{ {target} }}\n{options}\n"
         );
         case::load_str("shot", &text).unwrap_or_else(|error| panic!("{error}"))
@@ -83,7 +83,10 @@ mod tests {
 
     #[test]
     fn a_target_of_one_layer_is_a_cavity_unless_the_case_asks_for_a_column() {
-        let (column, cavity) = (TargetClosure::Column, TargetClosure::ExpandingCavity);
+        let (column, cavity) = (
+            TargetResistanceModel::Column,
+            TargetResistanceModel::ExpandingCavity,
+        );
         let semi_infinite = "material = 'copper', thickness = 'semi-infinite'";
         for (target, options, expected) in [
             (THICK, "", Some(cavity)),
@@ -115,16 +118,16 @@ mod tests {
             ),
             ("rigid_wall = true", "", None),
             ("constant_pressure = '1 GPa'", "", None),
-            (THICK, "chain.target_closure = 'column'", Some(column)),
+            (THICK, "chain.target_resistance = 'column'", Some(column)),
             (
                 THICK,
-                "chain.target_closure = 'diverging'",
-                Some(TargetClosure::Diverging),
+                "chain.target_resistance = 'diverging'",
+                Some(TargetResistanceModel::Diverging),
             ),
             (THICK, "chain.constraint_factor = 2.6", Some(column)),
             (THICK, "chain.border_shear = 0.5", Some(column)),
             (THICK, "chain.kinematics = 'small-strain'", Some(column)),
-            (THICK, "chain.erosion_closure = 'tate'", Some(column)),
+            (THICK, "chain.erosion_criterion = 'tate'", Some(column)),
             (THICK, "chain.erosion_strain = 1.5", Some(cavity)),
             (THICK, "chain.projectile_elements = 80", Some(cavity)),
             (THICK, "fdm.border_shear = 0.0", Some(cavity)),
@@ -132,7 +135,7 @@ mod tests {
         ] {
             let scenario = load(target, options);
             assert_eq!(closure_in_use(&scenario), expected, "{target} {options}");
-            let by_default = !options.contains("target_closure");
+            let by_default = !options.contains("target_resistance");
             let reason = scenario.resistance_reason.is_some();
             assert_eq!(
                 reason,
@@ -147,12 +150,18 @@ mod tests {
         let elastic = "[materials.e]\nname = 'e'\ndensity = '8000 kg/m3'\nyoungs_modulus = '200 GPa'\n\
                        poissons_ratio = 0.3\nstrength.elastic = {}";
         let scenario = load("material = 'e', thickness = '30 mm'", elastic);
-        assert_eq!(closure_in_use(&scenario), Some(TargetClosure::Column));
+        assert_eq!(
+            closure_in_use(&scenario),
+            Some(TargetResistanceModel::Column)
+        );
         let text = format!(
-            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', nose = 'hemisphere', velocity = '230 m/s' }}\n\
+            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', nose = 'hemisphere', impact_velocity = '230 m/s' }}\n\
              target = {{ {THICK} }}\n"
         );
         let scenario = case::load_str("shot", &text).unwrap();
-        assert_eq!(closure_in_use(&scenario), Some(TargetClosure::Column));
+        assert_eq!(
+            closure_in_use(&scenario),
+            Some(TargetResistanceModel::Column)
+        );
     }
 }

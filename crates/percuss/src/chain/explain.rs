@@ -3,7 +3,7 @@
 use super::expanding::{self, CavityRun};
 use crate::{
     Error,
-    options::{ErosionStrain, TargetClosure},
+    options::{ErosionStrain, TargetResistanceModel},
     outcome::{Band, BandQuantity, RunResult},
     scenario::Scenario,
     solver::Control,
@@ -29,7 +29,7 @@ pub(crate) fn explain(
 ) -> Result<(), Error> {
     if let Some(reason) = &scenario.resistance_reason {
         let words = of_resistance(scenario, reason, result, control)?;
-        result.target_closure_choice = Some(words);
+        result.target_resistance_choice = Some(words);
     }
     if result.band.is_none() && super::is_expanding(scenario) {
         result.band = over_erosion(scenario, result, control)?;
@@ -68,10 +68,10 @@ fn of_resistance(
     if expanding::not_applicable(scenario).is_some() {
         return Ok(words);
     }
-    let cavity = TargetClosure::ExpandingCavity;
+    let cavity = TargetResistanceModel::ExpandingCavity;
     let found = beside(
         scenario,
-        |other| other.options.chain.target_closure = Some(cavity),
+        |other| other.options.chain.target_resistance = Some(cavity),
         control,
     )?;
     let by_cavity = found.and_then(|found| found.depth_of_penetration);

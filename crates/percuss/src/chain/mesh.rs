@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     material::{FlowState, YieldPoint},
-    options::{ErosionClosure, Kinematics, TargetClosure, constraint_factor},
+    options::{ErosionCriterion, Kinematics, TargetResistanceModel, constraint_factor},
     problem::{BackFace, LayerInterface},
     scenario::{Plate, Scenario, TargetBody, modelled_thickness},
 };
@@ -37,7 +37,7 @@ fn layer_elements(plates: &[Plate], scenario: &Scenario, grading: Option<Grading
 /// The cone that stands for a target, and the sizes of its elements: at the mouth that of the projectile's.
 fn cone_and_grading(layers: &[Plate], scenario: &Scenario, mouth: f64) -> Option<(Cone, Grading)> {
     let options = &scenario.options.chain;
-    if options.target_closure() == TargetClosure::Column {
+    if options.target_resistance() == TargetResistanceModel::Column {
         return None;
     }
     let cone = Cone::under_disc(mouth, layers.first()?.material.poissons_ratio);
@@ -76,9 +76,9 @@ pub(super) fn build(scenario: &Scenario) -> State {
             ..
         } => {
             let diameter = |plate: &Plate| plate.column_diameter.unwrap_or(*column_diameter);
-            let area = |plate: &Plate| match options.erosion_closure() {
-                ErosionClosure::Strain => PI * diameter(plate) * diameter(plate) / 4.0,
-                ErosionClosure::Tate => parts[0].area,
+            let area = |plate: &Plate| match options.erosion_criterion() {
+                ErosionCriterion::Strain => PI * diameter(plate) * diameter(plate) / 4.0,
+                ErosionCriterion::Tate => parts[0].area,
             };
             let areas: Vec<f64> = layers.iter().map(area).collect();
             struck_material = layers.first().map(|plate| &plate.material);
@@ -98,7 +98,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
                 let flow_stress = material.strength.law().flow_stress_at_unit_strain(material);
                 part.friction_per_length =
                     options.border_shear() * PI * diameter(plate) * flow_stress.unwrap_or(0.0);
-                if options.erosion_closure() == ErosionClosure::Tate || cone.is_some() {
+                if options.erosion_criterion() == ErosionCriterion::Tate || cone.is_some() {
                     // What holds the target ahead of the tip stands in the place of border shear; a cone widens instead.
                     part.friction_per_length = 0.0;
                 }
@@ -139,10 +139,10 @@ pub(super) fn build(scenario: &Scenario) -> State {
         state.tip_friction = pressure * state.parts[0].area;
         state.nodes[rod_elements].friction = state.tip_friction;
     }
-    if options.erosion_closure() == ErosionClosure::Tate {
+    if options.erosion_criterion() == ErosionCriterion::Tate {
         state.add_tip(rod.diameter);
     }
-    if options.target_closure() == TargetClosure::DivergingPenetrable
+    if options.target_resistance() == TargetResistanceModel::DivergingPenetrable
         && let Some(material) = struck_material
     {
         state.let_penetrate(material);

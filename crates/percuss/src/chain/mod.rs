@@ -72,7 +72,7 @@ use crate::{
     Error, Refusal, Scenario,
     guard::{FirstChoice, Guard, NoseKind, Range},
     material::MaterialClass,
-    options::{BorderShearLaw, Scheme, TargetClosure},
+    options::{BorderShearLaw, Scheme, TargetResistanceModel},
     outcome::RunResult,
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
@@ -139,7 +139,7 @@ impl Model for Chain {
                 Refusal::new(
                     "a resistance law replaces the target's in the closure `expanding-cavity` only",
                 )
-                .with_remedy("set `chain.target_closure = \"expanding-cavity\"`"),
+                .with_remedy("set `chain.target_resistance = \"expanding-cavity\"`"),
             ),
             Scheme::Conservative => {
                 fracture::not_applicable(scenario).or_else(|| plug::band_laws(scenario).err())
@@ -210,5 +210,5 @@ pub(crate) fn run_batch(
 }
 
 fn is_expanding(scenario: &Scenario) -> bool {
-    scenario.options.chain.target_closure() == TargetClosure::ExpandingCavity
+    scenario.options.chain.target_resistance() == TargetResistanceModel::ExpandingCavity
 }

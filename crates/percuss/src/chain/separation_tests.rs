@@ -24,7 +24,7 @@ fn scenario(failure: &str, layers: &str, speed: f64) -> Scenario {
         "test",
         &format!(
             r#"
-            projectile = {{ material = "4340", length = "15 mm", diameter = "8 mm", velocity = "{speed} m/s" }}
+            projectile = {{ material = "4340", length = "15 mm", diameter = "8 mm", impact_velocity = "{speed} m/s" }}
             target = {{ layers = [{layers}], back_face = "free" }}
             [chain]
             border_shear = 0.0

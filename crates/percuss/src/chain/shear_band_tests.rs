@@ -15,7 +15,7 @@ fn law(chain: &str) -> Result<BandLaw, Refusal> {
         "band",
         &format!(
             r#"
-            projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "{SPEED} m/s" }}
+            projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "{SPEED} m/s" }}
             target = {{ material = "weldox-460-e", thickness = "12 mm", back_face = "free" }}
             [chain]
             border_shear_law = "shear-band"

@@ -6,7 +6,7 @@ use super::plug;
 use crate::{
     guard::fixed_rear_face_warning,
     material::{Material, Strength, cavity_expansion_pressure},
-    options::{BorderShearLaw, ErosionClosure, TargetClosure},
+    options::{BorderShearLaw, ErosionCriterion, TargetResistanceModel},
     outcome::{Outcome, RunResult},
     problem::BackFace,
     scenario::{Plate, Scenario, TargetBody, modelled_thickness},
@@ -167,13 +167,13 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
             significant(permanent.unwrap_or(0.0) * 1e3, 3)
         ));
     }
-    if scenario.options.chain.erosion_closure() == ErosionClosure::Tate {
+    if scenario.options.chain.erosion_criterion() == ErosionCriterion::Tate {
         warnings.push(
             "the depth rests on the erosion closure `tate`: the resistance of the target is its flow stress times the constraint \
              factor, on the rod's area"
                 .to_owned(),
         );
-    } else if scenario.options.chain.target_closure() != TargetClosure::Column {
+    } else if scenario.options.chain.target_resistance() != TargetResistanceModel::Column {
         warn_of_cone(scenario, layers, depth, warnings);
     } else if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction
         && scenario.options.chain.border_shear() > 0.0
@@ -212,17 +212,17 @@ fn warn_of_cone(scenario: &Scenario, layers: &[Plate], depth: f64, warnings: &mu
     let Some(struck) = layers.first().map(|plate| &plate.material) else {
         return;
     };
-    let closure = scenario.options.chain.target_closure();
+    let closure = scenario.options.chain.target_resistance();
     let rod = &scenario.projectile;
     let radius = 0.5 * rod.diameter;
-    if closure == TargetClosure::Diverging && depth > radius {
+    if closure == TargetResistanceModel::Diverging && depth > radius {
         warnings.push(format!(
             "the depth is more than a radius of the projectile: the crater floor has left the mouth of the cone, which resists more \
-             and more; compare with `chain.target_closure` = \"{}\"",
-            TargetClosure::DivergingPenetrable.name()
+             and more; compare with `chain.target_resistance` = \"{}\"",
+            TargetResistanceModel::DivergingPenetrable.name()
         ));
     }
-    if closure == TargetClosure::DivergingPenetrable
+    if closure == TargetResistanceModel::DivergingPenetrable
         && let (Some(resistance), Some(strength)) = (
             cavity_expansion_pressure(struck),
             rod.material.flow_stress(STRENGTH_STRAIN),
@@ -257,7 +257,7 @@ fn warn_of_erosion(
     warnings: &mut Vec<String>,
 ) {
     let (projectile, target) = result.numerics().eroded_elements;
-    let by_strain = scenario.options.chain.erosion_closure() == ErosionClosure::Strain;
+    let by_strain = scenario.options.chain.erosion_criterion() == ErosionCriterion::Strain;
     if projectile + target > 0 && by_strain {
         warnings.push(format!(
             "{projectile} of {} projectile elements and {target} target elements eroded at strain {}, a numerical limit: \

@@ -4,7 +4,7 @@
 //! use percuss::{case, compare::{compare, Watch}, model::quick};
 //!
 //! let scenario = case::load_str("taylor", r#"
-//!     projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "183 m/s" }
+//!     projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", impact_velocity = "183 m/s" }
 //!     target = { rigid_wall = true }
 //! "#)?;
 //! let comparison = compare(&quick(), &scenario, &[89.0, 183.0], &mut Watch::default())?;

@@ -80,7 +80,7 @@ fn scenario(target: &str, more: &str) -> Scenario {
     case::load_str(
         "shot",
         &format!(
-            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', velocity = '200 m/s' }}\n\
+            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '200 m/s' }}\n\
              target = {{ {target} }}\n{more}"
         ),
     )
@@ -275,7 +275,7 @@ fn a_neighbouring_regime_is_named() {
         ..OPEN
     };
     // A perfectly plastic rod of 400 MPa against 500 MPa: it deforms, and 500 is within 1.5 × 400.
-    let text = "projectile = { material = 'm', length = '20 mm', diameter = '5 mm', velocity = '100 m/s' }\n\
+    let text = "projectile = { material = 'm', length = '20 mm', diameter = '5 mm', impact_velocity = '100 m/s' }\n\
                 target = { constant_pressure = '500 MPa' }\n\
                 [materials.m]\nname = 'm'\ndensity = '8000 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\n\
                 strength.perfectly_plastic.flow_stress = '400 MPa'";

@@ -1,5 +1,6 @@
 //! A text with the name of its file, and where in it something is wrong.
 
+mod renamed;
 mod reword;
 mod text_file;
 
@@ -11,7 +12,7 @@ use std::{
 use toml::de::{DeArray, DeTable, DeValue};
 
 pub use text_file::MAX_FILE_BYTES;
-pub(crate) use {reword::reword, text_file::read_text};
+pub(crate) use {renamed::Renamed, reword::reword, text_file::read_text};
 
 use self::{
     reword::{Reworded, help_for_key},
@@ -118,7 +119,7 @@ impl Document {
         let mut span = error.span().unwrap_or(0..0);
         let source = self.text.get(span.clone()).unwrap_or_default();
         let Reworded {
-            message,
+            mut message,
             mut help,
             name,
         } = reword(error.message(), source);
@@ -136,6 +137,10 @@ impl Document {
         };
         if let Some(more) = help_for_key(&key, &self.names_under(&key), error.message()) {
             help = more;
+        }
+        if let Some(renamed) = Renamed::of(&key).filter(|_| message.starts_with("unknown key")) {
+            let renamed = renamed.in_its_table();
+            (message, help) = (renamed.message(), renamed.help());
         }
         let table = key.split('.').next().unwrap_or_default();
         InputError {

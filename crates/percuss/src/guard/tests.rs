@@ -11,7 +11,7 @@ use crate::{
 /// A rod of 5 mm × 50 mm on a plate or a pressure; its flow stress is 400 MPa.
 fn scenario(target: &str, nose: &str, speed: f64) -> Scenario {
     let text = format!(
-        "projectile = {{ material = 'rod', length = '50 mm', diameter = '5 mm', velocity = '{speed} m/s', nose = {nose} }}\n\
+        "projectile = {{ material = 'rod', length = '50 mm', diameter = '5 mm', impact_velocity = '{speed} m/s', nose = {nose} }}\n\
          target = {{ {target} }}\n\
          [materials.rod]\nname = 'rod'\ndensity = '8000 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\n\
          strength.perfectly_plastic.flow_stress = '400 MPa'\n\

@@ -32,7 +32,7 @@ impl Design {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Parameter {
-    /// Number of the case by the tables that it stands in, such as `projectile.velocity`; entries of lists count from 0.
+    /// Number of the case by the tables that it stands in, such as `projectile.impact_velocity`; entries of lists count from 0.
     pub key: String,
     /// A list.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -45,7 +45,7 @@ impl UncertainInputs {
     /// The parameters as axes, and what joins them; what is wrong becomes a finding.
     pub(crate) fn resolve(&self, check: &mut Check<'_>) -> (Vec<Axis>, Option<Copula>) {
         if self.parameter.is_empty() {
-            let help = "write one under [[uncertainty.parameter]]: key = \"projectile.velocity\" and \
+            let help = "write one under [[uncertainty.parameter]]: key = \"projectile.impact_velocity\" and \
                         normal = { mean = \"230 m/s\", standard_deviation = \"3 m/s\" }";
             check.fail("", "nothing is uncertain", help);
         }

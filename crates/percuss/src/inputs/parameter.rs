@@ -7,7 +7,7 @@ use super::{
     entry::Entry,
     file::{Design, Parameter, Steps},
 };
-use crate::check::Check;
+use crate::{check::Check, document::Renamed};
 
 /// Most values of one list.
 pub(crate) const MAX_VALUES: u64 = 1_000_000;
@@ -140,6 +140,10 @@ impl Parameter {
 
     /// Checks the parameter; `None` when something is wrong with it.
     pub(crate) fn resolve(&self, check: &mut Check<'_>, design: Design) -> Option<Axis> {
+        if let Some(renamed) = Renamed::of(&self.key) {
+            check.fail("key", renamed.message(), renamed.help());
+            return None;
+        }
         const WAYS: &str =
             "give one of values, linear, log, normal, lognormal, uniform and triangular";
         let kind = match self.kinds().as_slice() {

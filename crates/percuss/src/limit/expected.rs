@@ -272,7 +272,7 @@ mod tests {
     fn a_limit_of_its_own_source_is_no_expectation() {
         let of = |plate: &str, name: &str, more: &str| {
             let text = format!(
-                "projectile = {{ material = 'tool-steel-hrc53', mass = '50 g', diameter = '20 mm', velocity = '300 m/s' }}\n\
+                "projectile = {{ material = 'tool-steel-hrc53', mass = '50 g', diameter = '20 mm', impact_velocity = '300 m/s' }}\n\
                  target = {{ material = '{plate}', thickness = '24 mm' }}\n{more}"
             );
             let scenario = case::load_str("blunt", &text).unwrap();

@@ -4,7 +4,7 @@
 //! use percuss::{case, limit::{limits, LimitOutcome, Search, Watch}, model::quick};
 //!
 //! let scenario = case::load_str("plate", r#"
-//!     projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "300 m/s" }
+//!     projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "300 m/s" }
 //!     target = { material = "weldox-460-e", thickness = "12 mm" }
 //! "#)?;
 //! let limits = limits(&quick(), &scenario, &Search::default(), &mut Watch::default())?;

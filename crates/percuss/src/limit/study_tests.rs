@@ -15,7 +15,7 @@ const FREE: &str = "back_face = \"free\"";
 const FIXED: &str = "back_face = \"fixed\"";
 /// A plate that a column of material lets a fast rod through.
 const SHEET: &str = r#"
-    projectile = { material = "copper", length = "20 mm", diameter = "5 mm", velocity = "300 m/s" }
+    projectile = { material = "copper", length = "20 mm", diameter = "5 mm", impact_velocity = "300 m/s" }
     target = { material = "aluminium-2024-t351", thickness = "5 mm"BACK }
     chain = { projectile_elements = 10, target_elements = 8 }
 "#;
@@ -66,7 +66,7 @@ fn a_rear_face_that_is_not_given_is_free() {
 fn a_free_rear_face_is_the_one_that_a_case_would_write_down() {
     let thick = |back: &str| {
         scenario(&format!(
-            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', velocity = '300 m/s' }}\n\
+            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '300 m/s' }}\n\
              target = {{ material = 'aluminium-2024-t351', thickness = '26 mm'{back} }}"
         ))
     };
@@ -77,7 +77,7 @@ fn a_free_rear_face_is_the_one_that_a_case_would_write_down() {
         (&written.target, &written.options)
     );
     assert_eq!(with_free_rear_face(&written), None);
-    let semi_infinite = "projectile = { material = 'copper', length = '20 mm', diameter = '5 mm', velocity = '300 m/s' }\n\
+    let semi_infinite = "projectile = { material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '300 m/s' }\n\
                          target = { material = 'copper', thickness = 'semi-infinite' }";
     assert_eq!(with_free_rear_face(&scenario(semi_infinite)), None);
 }

@@ -10,11 +10,11 @@ use crate::{
 };
 
 pub(super) const BLUNT: &str = r#"
-    projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "300 m/s" }
+    projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "300 m/s" }
     target = { material = "weldox-460-e", thickness = "12 mm" }
 "#;
 const OGIVE: &str = r#"
-    projectile = { material = "rigid", mass = "197 g", diameter = "20 mm", nose = { ogive = { crh = 3.0 } }, velocity = "300 m/s" }
+    projectile = { material = "rigid", mass = "197 g", diameter = "20 mm", nose = { ogive = { crh = 3.0 } }, impact_velocity = "300 m/s" }
     target = { material = "aluminium-2024-t351", thickness = "26 mm" }
     materials.rigid = { name = "rigid", density = "7850 kg/m3", youngs_modulus = "210 GPa", poissons_ratio = 0.3, strength = { elastic = {} } }
 "#;
@@ -261,7 +261,7 @@ fn a_stated_limit_that_shots_contradict_is_not_believed() {
 #[test]
 fn what_has_no_back_or_says_nothing_of_perforation_is_not_applicable() {
     let wall = scenario(
-        "projectile = { material = \"copper\", length = \"20 mm\", diameter = \"7 mm\", velocity = \"200 m/s\" }\ntarget = { rigid_wall = true }",
+        "projectile = { material = \"copper\", length = \"20 mm\", diameter = \"7 mm\", impact_velocity = \"200 m/s\" }\ntarget = { rigid_wall = true }",
     );
     let found = one(&Chain, &wall, &Search::default());
     assert_eq!(
@@ -302,7 +302,7 @@ fn the_chain_finds_the_limit_of_a_plug() {
     let blunt = |chain: &str| {
         scenario(&format!(
             r#"
-            projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "300 m/s" }}
+            projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "300 m/s" }}
             target = {{ material = "weldox-460-e", thickness = "12 mm", back_face = "free", plate_diameter = "500 mm" }}
             chain = {{ projectile_elements = 20, target_elements = 12{chain} }}
             "#

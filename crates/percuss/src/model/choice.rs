@@ -149,7 +149,7 @@ mod tests {
 
     fn scenario(projectile: &str, target: &str) -> Scenario {
         let text = format!(
-            "projectile = {{ material = '4340', length = '40 mm', diameter = '8 mm', velocity = '400 m/s'{projectile} }}\n\
+            "projectile = {{ material = '4340', length = '40 mm', diameter = '8 mm', impact_velocity = '400 m/s'{projectile} }}\n\
              target = {{ {target} }}"
         );
         case::load_str("case", &text).unwrap_or_else(|error| panic!("{error}"))

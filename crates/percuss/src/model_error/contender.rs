@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use crate::{
     Scenario,
-    case::{ArtificialViscosity, ChainOptions, ErosionStrain, TargetClosure},
+    case::{ArtificialViscosity, ChainOptions, ErosionStrain, TargetResistanceModel},
     model::{self, Model},
     outcome::BandQuantity,
 };
@@ -23,33 +23,36 @@ pub struct Contender {
 /// Options of the chain that close its target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Closure {
-    target: TargetClosure,
+    target: TargetResistanceModel,
     border_shear: Option<f64>,
 }
 
 /// Closures of the chain's target.
 const CLOSURES: &[(&str, Closure)] = &[
-    ("chain: column", Closure::of(TargetClosure::Column)),
+    ("chain: column", Closure::of(TargetResistanceModel::Column)),
     (
         "chain: column, no border shear",
         Closure {
-            target: TargetClosure::Column,
+            target: TargetResistanceModel::Column,
             border_shear: Some(0.0),
         },
     ),
-    ("chain: diverging", Closure::of(TargetClosure::Diverging)),
+    (
+        "chain: diverging",
+        Closure::of(TargetResistanceModel::Diverging),
+    ),
     (
         "chain: diverging-penetrable",
-        Closure::of(TargetClosure::DivergingPenetrable),
+        Closure::of(TargetResistanceModel::DivergingPenetrable),
     ),
     (
         "chain: expanding-cavity",
-        Closure::of(TargetClosure::ExpandingCavity),
+        Closure::of(TargetResistanceModel::ExpandingCavity),
     ),
 ];
 
 impl Closure {
-    const fn of(target: TargetClosure) -> Self {
+    const fn of(target: TargetResistanceModel) -> Self {
         Self {
             target,
             border_shear: None,
@@ -63,8 +66,8 @@ impl Closure {
             && options.constraint_factor() == own.constraint_factor();
         // Mesh and end of a run may differ: a depth hardly depends on them.
         options.scheme == own.scheme
-            && options.target_closure() == own.target_closure()
-            && options.erosion_closure() == own.erosion_closure()
+            && options.target_resistance() == own.target_resistance()
+            && options.erosion_criterion() == own.erosion_criterion()
             && options.kinematics() == own.kinematics()
             && options.erosion_strain.unwrap_or(ErosionStrain::At(2.0)) == ErosionStrain::At(2.0)
             && options.rate_effects.unwrap_or(true)
@@ -74,12 +77,12 @@ impl Closure {
             && options.damping_ratio.unwrap_or(0.0) == 0.0
             && options.local_damping.unwrap_or(0.0) == 0.0
             && options.failure.is_none()
-            && (self.target != TargetClosure::Column || column)
+            && (self.target != TargetResistanceModel::Column || column)
     }
 
     fn options(&self) -> ChainOptions {
         ChainOptions {
-            target_closure: Some(self.target),
+            target_resistance: Some(self.target),
             border_shear: self.border_shear,
             ..ChainOptions::default()
         }
@@ -155,7 +158,7 @@ mod tests {
 
     #[test]
     fn only_what_was_judged_is_a_contender() {
-        let shot = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '900 m/s' }\n\
+        let shot = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '900 m/s' }\n\
                     target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n";
         for (name, options, expected) in [
             ("chain", "", Some("chain: expanding-cavity")),
@@ -166,7 +169,7 @@ mod tests {
             ),
             (
                 "chain",
-                "chain.target_closure = 'column'",
+                "chain.target_resistance = 'column'",
                 Some("chain: column"),
             ),
             (
@@ -182,7 +185,7 @@ mod tests {
             ),
             (
                 "chain",
-                "chain.target_closure = 'diverging'",
+                "chain.target_resistance = 'diverging'",
                 Some("chain: diverging"),
             ),
             ("chain", "chain.kinematics = 'small-strain'", None),

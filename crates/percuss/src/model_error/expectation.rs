@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::{Contender, Verdict, design};
 use crate::{
     Scenario,
-    case::{BackFace, Nose, TargetClosure},
+    case::{BackFace, Nose, TargetResistanceModel},
     chain,
     model::Model,
     regime::{ProjectileRegime, Regime, TargetKind},
@@ -115,7 +115,7 @@ pub fn expectation(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> O
 /// on. A column does not follow.
 fn is_deep(model: &dyn Model, scenario: &Scenario, target: TargetKind) -> bool {
     let cavity = model.name() == "chain"
-        && chain::closure_in_use(scenario) == Some(TargetClosure::ExpandingCavity);
+        && chain::closure_in_use(scenario) == Some(TargetResistanceModel::ExpandingCavity);
     match target {
         TargetKind::SemiInfinite | TargetKind::ThickPlate => true,
         TargetKind::Plate if cavity => {

@@ -38,7 +38,7 @@ pub enum Kinematics {
 /// What stands for the target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum TargetClosure {
+pub enum TargetResistanceModel {
     /// The column in line with the projectile, with a constraint factor and border shear.
     #[default]
     Column,
@@ -51,7 +51,7 @@ pub enum TargetClosure {
     ExpandingCavity,
 }
 
-impl TargetClosure {
+impl TargetResistanceModel {
     /// Name as the file has it.
     pub fn name(self) -> &'static str {
         match self {
@@ -66,7 +66,7 @@ impl TargetClosure {
 /// How what erodes leaves the tip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum ErosionClosure {
+pub enum ErosionCriterion {
     /// Elements mushroom and leave at `erosion_strain`.
     #[default]
     Strain,

@@ -196,7 +196,7 @@ mod tests {
 
     fn findings(fdm: &str) -> String {
         let case = format!(
-            "projectile = {{ material = 'copper', length = '12 mm', diameter = '5 mm', velocity = '200 m/s' }}\n\
+            "projectile = {{ material = 'copper', length = '12 mm', diameter = '5 mm', impact_velocity = '200 m/s' }}\n\
              target = {{ material = 'aluminium-2024-t351', thickness = '25 mm' }}\n[fdm]\n{fdm}"
         );
         load_str("case", &case).map_or_else(|error| error.to_string(), |_| String::new())

@@ -29,7 +29,9 @@ mod wilkins_guinan;
 pub use awerbuch_bodner::AwerbuchBodnerOptions;
 pub use axi::{AxiOptions, ContactKind, Edge, Eos};
 pub use chain::ChainOptions;
-pub use chain_words::{ArtificialViscosity, ErosionClosure, Kinematics, Scheme, TargetClosure};
+pub use chain_words::{
+    ArtificialViscosity, ErosionCriterion, Kinematics, Scheme, TargetResistanceModel,
+};
 pub(crate) use constraint_factor::constraint_factor;
 pub use crater_energy::CraterEnergyOptions;
 pub use defaults::MAX_STEPS;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     chain::ChainOptions,
-    chain_words::{ErosionClosure, Scheme, TargetClosure},
+    chain_words::{ErosionCriterion, Scheme, TargetResistanceModel},
 };
 use crate::{
     check::{Check, limits},
@@ -90,10 +90,10 @@ impl ChainOptions {
                 "add back_face = \"free\" to the target",
             ),
             (
-                self.target_closure() != TargetClosure::Column
-                    || self.erosion_closure() != ErosionClosure::Strain,
+                self.target_resistance() != TargetResistanceModel::Column
+                    || self.erosion_criterion() != ErosionCriterion::Strain,
                 "a shear band surrounds a column of target",
-                "remove `target_closure` and `erosion_closure`",
+                "remove `target_resistance` and `erosion_criterion`",
             ),
             (
                 self.border_shear.is_some(),

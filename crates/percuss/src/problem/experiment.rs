@@ -16,9 +16,9 @@ use crate::{
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Experiment {
-    /// Impact speed [m/s]; a ballistic limit needs none.
+    /// Impact velocity [m/s]; a ballistic limit needs none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub velocity: Option<Velocity>,
+    pub impact_velocity: Option<Velocity>,
     /// Measured depth of penetration [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth_of_penetration: Option<Length>,
@@ -112,8 +112,8 @@ impl Experiment {
                 "give every quantity an `[[experiments]]` entry of its own",
             ),
         }
-        if let Some(velocity) = self.velocity {
-            check.quantity("velocity", velocity, limits::IMPACT_SPEED);
+        if let Some(velocity) = self.impact_velocity {
+            check.quantity("impact_velocity", velocity, limits::IMPACT_SPEED);
         }
         if self.source.0.iter().all(|key| key.trim().is_empty()) {
             check.fail(
@@ -141,21 +141,24 @@ impl Experiment {
         } else {
             check.quantity(key, Velocity::new(value), limits::IMPACT_SPEED);
         }
-        if self.velocity.is_none() && quantity != BandQuantity::BallisticLimit {
+        if self.impact_velocity.is_none() && quantity != BandQuantity::BallisticLimit {
             check.fail(
                 key,
-                format!("the measured {} has no impact speed", quantity.in_words()),
-                "add `velocity`, for example velocity = \"230 m/s\"",
+                format!(
+                    "the measured {} has no impact velocity",
+                    quantity.in_words()
+                ),
+                "add `impact_velocity`, for example impact_velocity = \"230 m/s\"",
             );
         }
-        if let Some(velocity) = self.velocity
+        if let Some(velocity) = self.impact_velocity
             && quantity == BandQuantity::ResidualVelocity
             && value > velocity.si()
         {
             check.fail(
                 key,
-                "the residual velocity is larger than the impact speed",
-                format!("the shot struck at {velocity}"),
+                "the residual velocity is larger than the impact velocity",
+                format!("the impact velocity is {velocity}"),
             );
         }
         let without = match quantity {
@@ -326,7 +329,7 @@ mod tests {
         case::load_str(
             "shot",
             &format!(
-                "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', velocity = '230 m/s' }}\n\
+                "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '230 m/s' }}\n\
                  target = {{ {target} }}\n[[experiments]]\n{experiment}"
             ),
         )
@@ -336,7 +339,7 @@ mod tests {
 
     #[test]
     fn measured_values_are_in_si_units() {
-        let text = "velocity = '0.5 km/s'\ndepth_of_penetration = '4 mm'\nuncertainty = '100 um'\nsource = ['a', 'b']\nnote = 'n'";
+        let text = "impact_velocity = '0.5 km/s'\ndepth_of_penetration = '4 mm'\nuncertainty = '100 um'\nsource = ['a', 'b']\nnote = 'n'";
         let scenario = load(PLATE, text).unwrap();
         let [experiment] = scenario.experiments.as_slice() else {
             panic!("{:?}", scenario.experiments);
@@ -360,7 +363,7 @@ mod tests {
 
     #[test]
     fn what_a_target_cannot_have_is_refused() {
-        let speed = "velocity = '300 m/s'\nsource = 'a'\n";
+        let speed = "impact_velocity = '300 m/s'\nsource = 'a'\n";
         let semi_infinite = "material = 'copper', thickness = 'semi-infinite'";
         for (target, quantity, words) in [
             (
@@ -381,7 +384,7 @@ mod tests {
             (
                 PLATE,
                 "residual_velocity = '301 m/s'",
-                "larger than the impact speed",
+                "larger than the impact velocity",
             ),
         ] {
             let error = load(target, &format!("{speed}{quantity}")).unwrap_err();

@@ -15,7 +15,7 @@ fn scenario(rod: f64, plate: f64, target: &str, nose: &str, speed: f64) -> Scena
         )
     };
     let text = format!(
-        "projectile = {{ material = 'rod', length = '50 mm', diameter = '5 mm', velocity = '{speed} m/s', nose = {nose} }}\n\
+        "projectile = {{ material = 'rod', length = '50 mm', diameter = '5 mm', impact_velocity = '{speed} m/s', nose = {nose} }}\n\
          target = {{ {target} }}\n{}{}",
         material("rod", 8000.0, rod),
         material("plate", 2700.0, plate)
@@ -167,7 +167,7 @@ fn what_never_yields_stays_rigid_and_what_it_meets_deforms() {
     let elastic = "[materials.e]\nname = 'e'\ndensity = '8000 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\nstrength.elastic = {}\n";
     let rod = |projectile: &str, target: &str| {
         let text = format!(
-            "projectile = {{ material = '{projectile}', length = '50 mm', diameter = '5 mm', velocity = '900 m/s' }}\n\
+            "projectile = {{ material = '{projectile}', length = '50 mm', diameter = '5 mm', impact_velocity = '900 m/s' }}\n\
              target = {{ material = '{target}', thickness = 'semi-infinite' }}\n{elastic}"
         );
         let regime = Regime::of(&case::load_str("elastic", &text).unwrap());

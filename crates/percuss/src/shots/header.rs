@@ -5,6 +5,7 @@ use super::{
     row::{Table, field_span},
 };
 use crate::{
+    document::Renamed,
     error::{InputError, nearest},
     units::shorten,
 };
@@ -30,6 +31,9 @@ pub(super) fn check(table: &Table<'_>) -> Result<(), Box<InputError>> {
             ));
         }
         if unknown(name) && !(missing.len() > 2 && table.header.len() == 1) {
+            if let Some(renamed) = Renamed::of(name) {
+                return Err(table.error(span, name, renamed.message(), renamed.help()));
+            }
             let near = nearest(name, names())
                 .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
             return Err(table.error(

@@ -62,7 +62,7 @@ fn column_of(key: &str) -> &'static str {
         ("projectile.length", "length_mm"),
         ("projectile.mass", "mass_g"),
         ("projectile.nose", "nose_ratio"),
-        ("projectile.velocity", "impact_velocity_m_s"),
+        ("projectile.impact_velocity", "impact_velocity_m_s"),
         ("projectile.temperature", "temperature_k"),
         ("target.thickness", "thickness_mm"),
         ("density", "target_density_kg_m3"),

@@ -102,7 +102,7 @@ impl Shot {
             mass: self.mass.map(Mass::new),
             diameter: Length::new(self.diameter.unwrap_or(0.0)),
             nose: self.nose,
-            velocity: Velocity::new(self.impact_velocity),
+            impact_velocity: Velocity::new(self.impact_velocity),
             obliquity: (self.obliquity_deg != 0.0)
                 .then(|| Angle::new(self.obliquity_deg.to_radians())),
             temperature: temperature.map(Temperature::new),

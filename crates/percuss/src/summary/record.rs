@@ -84,11 +84,11 @@ result_record! {
         scheme: &'static str;
         /// Reason why it is this model and not the default one, where the run names none; null otherwise.
         model_choice: Option<String>;
-        /// Target resistance model (`chain.target_closure`), where there is a choice of it.
-        target_closure: Option<&'static str>;
+        /// Target resistance model (`chain.target_resistance`), where there is a choice of it.
+        target_resistance: Option<&'static str>;
         /// Reason why that is not the usual one, where the case names none, with the depth by the usual one if it differs by more than a tenth;
         /// null otherwise.
-        target_closure_choice: Option<String>;
+        target_resistance_choice: Option<String>;
         /// Outcome of the run.
         outcome: Outcome;
         /// Criterion of the outcome, in words; null where it is the termination alone.

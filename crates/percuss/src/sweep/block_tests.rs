@@ -5,7 +5,7 @@ use super::tests::load;
 fn block_size(name: &str, samples: u64, more: &str) -> u64 {
     let text = format!(
         "base = 'scenario.toml'\nmodel = 'chain'\ndesign = 'sobol'\nsamples = {samples}\n\
-         [[parameter]]\nkey = 'projectile.velocity'\nuniform = {{ from = '100 m/s', to = '400 m/s' }}\n{more}"
+         [[parameter]]\nkey = 'projectile.impact_velocity'\nuniform = {{ from = '100 m/s', to = '400 m/s' }}\n{more}"
     );
     let sweep = load(name, &text).unwrap_or_else(|error| panic!("{name}: {error}"));
     sweep.block_size

@@ -4,7 +4,7 @@ use super::{Copula, Sweep, tests::sweep};
 
 const NORMALS: &str = "
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 normal = { mean = '230 m/s', standard_deviation = '4 m/s' }
 [[parameter]]
 key = 'target.thickness'
@@ -15,7 +15,7 @@ normal = { mean = 2.7, standard_deviation = 0.2 }
 ";
 const SHAPES: &str = "
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 uniform = { from = '200 m/s', to = '260 m/s' }
 [[parameter]]
 key = 'target.thickness'
@@ -34,7 +34,7 @@ fn correlation() -> String {
     let [a, b, c] = MATRIX;
     format!(
         "[correlation]
-parameters = ['projectile.velocity', 'target.thickness', 'chain.constraint_factor']
+parameters = ['projectile.impact_velocity', 'target.thickness', 'chain.constraint_factor']
 matrix = [{a:?}, {b:?}, {c:?}]"
     )
 }
@@ -165,7 +165,7 @@ fn marginals_stay_and_ranks_correlate_as_the_copula_says() {
 fn covariances_say_the_same_as_correlations() {
     let with = |matrix: &str| {
         let text = format!(
-            "{NORMALS}[correlation]\nparameters = ['target.thickness', 'projectile.velocity']\n{matrix}"
+            "{NORMALS}[correlation]\nparameters = ['target.thickness', 'projectile.impact_velocity']\n{matrix}"
         );
         columns(&sweep("two-ways", &design("sobol", 64), &text))
     };

@@ -44,7 +44,7 @@ pub(super) fn read(
     let mut check = Check::new(&mut findings);
     check_model(&file, &mut check);
     if file.parameter.is_empty() {
-        let help = "write one under [[parameter]]: key = \"projectile.velocity\" and values = [\"200 m/s\", \"230 m/s\"]";
+        let help = "write one under [[parameter]]: key = \"projectile.impact_velocity\" and values = [\"200 m/s\", \"230 m/s\"]";
         check.fail("parameter", "the sweep varies nothing", help);
     }
     let correlation = file.correlation.as_ref();

@@ -29,7 +29,7 @@ pub(super) fn sweep(name: &str, head: &str, parameters: &str) -> Sweep {
 
 const LISTS: &str = "
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 values = ['150 m/s', '200 m/s', '400 m/s']
 [[parameter]]
 key = 'chain.target_elements'
@@ -41,7 +41,7 @@ log = { from = '1 mm', to = '100 mm', count = 3 }
 
 const DISTRIBUTIONS: &str = "
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 uniform = { from = '100 m/s', to = '400 m/s' }
 [[parameter]]
 key = 'chain.constraint_factor'
@@ -72,7 +72,7 @@ fn a_grid_has_every_combination_and_its_last_parameter_varies_fastest() {
     assert_eq!(
         columns,
         [
-            "projectile.velocity_m_s",
+            "projectile.impact_velocity_m_s",
             "chain.target_elements",
             "projectile.length_mm"
         ]
@@ -83,7 +83,7 @@ fn a_grid_has_every_combination_and_its_last_parameter_varies_fastest() {
 fn the_longest_list_leaves_room_for_others() {
     let million = "
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 linear = { from = '150 m/s', to = '400 m/s', count = 1000000 }
 [[parameter]]
 key = 'chain.constraint_factor'
@@ -146,7 +146,7 @@ fn sobol_shots_fill_the_strata_of_their_margins() {
 fn a_shot_that_fails_is_a_row_with_its_error() {
     let text = "
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 normal = { mean = '100 m/s', standard_deviation = '200 m/s' }
 ";
     let sweep = sweep("bad-shot", "design = 'sobol'\nsamples = 32", text);
@@ -161,7 +161,7 @@ normal = { mean = '100 m/s', standard_deviation = '200 m/s' }
     assert_eq!(bad.len(), negative);
     let reason = bad[0].record.as_ref().unwrap_err();
     assert!(
-        reason.contains("projectile.velocity") && reason.contains("out of range"),
+        reason.contains("projectile.impact_velocity") && reason.contains("out of range"),
         "{reason}"
     );
 }
@@ -223,7 +223,7 @@ values = ['copper', '4340-johnson-cook']
 key = 'chain.rate_effects'
 values = [true, false]
 [[parameter]]
-key = 'chain.target_closure'
+key = 'chain.target_resistance'
 values = ['column', 'diverging', 'expanding-cavity']
 ";
     let grid = sweep("words", "design = 'grid'", text);
@@ -233,7 +233,7 @@ values = ['column', 'diverging', 'expanding-cavity']
     assert!(scenario.projectile.material.name.contains("4340"));
     assert_eq!(scenario.options.chain.rate_effects, Some(true));
     assert_eq!(
-        scenario.options.chain.target_closure.unwrap().name(),
+        scenario.options.chain.target_resistance.unwrap().name(),
         "expanding-cavity"
     );
     let words: Vec<_> = grid.axes.iter().filter_map(Axis::words).collect();
@@ -272,7 +272,7 @@ fn rows_do_not_depend_on_the_kernel_nor_on_the_blocks() {
     // Columns ride side by side, expanding cavities are left to the single run.
     let head = "base = 'scenario.toml'\nmodel = 'chain'\ndesign = 'grid'";
     let mesh = "[[parameter]]\nkey = 'chain.projectile_elements'\nvalues = [8, 10]\n[[parameter]]\nkey = 'chain.target_elements'\nvalues = [16]";
-    let speeds = "[[parameter]]\nkey = 'projectile.velocity'\nlinear = { from = '60 m/s', to = '400 m/s', count = 5 }";
+    let speeds = "[[parameter]]\nkey = 'projectile.impact_velocity'\nlinear = { from = '60 m/s', to = '400 m/s', count = 5 }";
     let shear = "[[parameter]]\nkey = 'chain.border_shear'\nvalues = [0.0, 0.577]";
     for (name, parameters) in [
         ("columns", format!("{speeds}\n{shear}\n{mesh}")),

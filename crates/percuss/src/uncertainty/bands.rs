@@ -37,7 +37,7 @@ pub(super) fn band(speed: f64, shots: &[Draw], quantities: &[&'static ResultNumb
         statistics: Statistics::of(shots.iter().filter_map(|shot| shot.value(quantity))),
     };
     Band {
-        velocity_m_s: speed,
+        impact_velocity_m_s: speed,
         shots: shots.len(),
         failed: shots.iter().filter(|shot| shot.is_failed()).count(),
         perforation: Perforation::of(shots.iter().map(|shot| shot.outcome)),

@@ -168,7 +168,7 @@ impl TornadoBar {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Band {
     /// Impact speed [m/s].
-    pub velocity_m_s: f64,
+    pub impact_velocity_m_s: f64,
     /// Shots at this speed.
     pub shots: usize,
     /// Shots without a result among them.

@@ -10,7 +10,7 @@ const BLOCKS: u64 = 64;
 /// Most shots in a block.
 const LARGEST_BLOCK: u64 = 256;
 /// Key of the impact speed.
-pub(super) const SPEED: &str = "projectile.velocity";
+pub(super) const SPEED: &str = "projectile.impact_velocity";
 
 /// Computes shots in blocks, in parallel.
 pub(super) struct Runner<'a> {

@@ -15,7 +15,7 @@ pub const MIN_SAMPLES: u64 = 16;
 /// Most shots of a sample.
 pub const MAX_SAMPLES: u64 = 1 << 20;
 
-const EXAMPLE: &str = "add [[uncertainty.parameter]] with key = \"projectile.velocity\" and \
+const EXAMPLE: &str = "add [[uncertainty.parameter]] with key = \"projectile.impact_velocity\" and \
                        normal = { mean = \"230 m/s\", standard_deviation = \"3 m/s\" }, and one for every other number that is uncertain";
 
 /// A case that was read and checked, with the distributions of its uncertain numbers.

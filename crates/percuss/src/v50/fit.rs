@@ -1,6 +1,6 @@
 //! Maximum likelihood of the two numbers of a distribution.
 
-use super::{Estimate, Pattern, Shot, interval::interval, link::Link, speeds};
+use super::{Estimate, Pattern, Test, interval::interval, link::Link, speeds};
 use crate::units::significant;
 
 const ITERATIONS: usize = 200;
@@ -15,7 +15,7 @@ struct Line {
 }
 
 /// The estimate of maximum likelihood, or why there is none.
-pub(super) fn likeliest(link: Link, shots: &[Shot], pattern: Pattern) -> Estimate {
+pub(super) fn likeliest(link: Link, shots: &[Test], pattern: Pattern) -> Estimate {
     let none = |reason: String| Estimate::none(link.method(), reason);
     match pattern {
         Pattern::Mixed => {}
@@ -38,12 +38,12 @@ pub(super) fn likeliest(link: Link, shots: &[Shot], pattern: Pattern) -> Estimat
         Pattern::AllPerforated => return none("no shot was stopped".to_owned()),
     }
     let count = shots.len() as f64;
-    let mean = shots.iter().map(|shot| shot.speed).sum::<f64>() / count;
-    let square = |shot: &Shot| (shot.speed - mean).powi(2);
+    let mean = shots.iter().map(|shot| shot.impact_velocity).sum::<f64>() / count;
+    let square = |shot: &Test| (shot.impact_velocity - mean).powi(2);
     let unit = (shots.iter().map(square).sum::<f64>() / count).sqrt();
     let scaled: Vec<(f64, f64)> = shots
         .iter()
-        .map(|shot| ((shot.speed - mean) / unit, sign(shot)))
+        .map(|shot| ((shot.impact_velocity - mean) / unit, sign(shot)))
         .collect();
     let (line, log_likelihood) = climb(link, &scaled);
     if line.beta <= 0.0 {
@@ -66,7 +66,7 @@ pub(super) fn likeliest(link: Link, shots: &[Shot], pattern: Pattern) -> Estimat
 }
 
 /// Speeds of the fastest shot that was stopped and of the slowest that went through [m/s].
-fn gap(shots: &[Shot]) -> (f64, f64) {
+fn gap(shots: &[Test]) -> (f64, f64) {
     (
         speeds(shots, false).fold(f64::MIN, f64::max),
         speeds(shots, true).fold(f64::MAX, f64::min),
@@ -82,7 +82,7 @@ fn separated(stopped: f64, through: f64) -> String {
 }
 
 /// 1 for a shot that went through, −1 for one that was stopped.
-pub(super) fn sign(shot: &Shot) -> f64 {
+pub(super) fn sign(shot: &Test) -> f64 {
     match shot.perforated {
         true => 1.0,
         false => -1.0,

@@ -1,13 +1,13 @@
 //! V50 as the mean of equal numbers of the fastest stopped shots and the slowest that went through \[milstd662f\].
 
-use super::{Estimate, Method, Shot, speeds};
+use super::{Estimate, Method, Test, speeds};
 use crate::{statistics::sorted, units::significant};
 
 /// Fewest shots of either kind.
 const FEWEST: usize = 2;
 
 /// The mean over as many shots as lie within a span [m/s].
-pub(super) fn of_extremes(shots: &[Shot], span: f64) -> Estimate {
+pub(super) fn of_extremes(shots: &[Test], span: f64) -> Estimate {
     let [mut stopped, perforated] = [false, true].map(|of| sorted(speeds(shots, of)));
     stopped.reverse();
     let method = Method::MeanOfExtremes;

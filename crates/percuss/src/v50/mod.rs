@@ -5,13 +5,13 @@
 //! likelihood \[mckaig1983\]. The interval is that of the likelihood ratio \[neyer1992\].
 //!
 //! ```
-//! use percuss::v50::{Shot, estimate};
+//! use percuss::v50::{Test, estimate};
 //!
-//! let shot = |speed, perforated| Shot { speed, perforated };
-//! let shots = [
-//!     shot(180.0, false), shot(184.0, false), shot(186.0, true), shot(188.0, false), shot(190.0, true), shot(194.0, true),
+//! let test = |impact_velocity, perforated| Test { impact_velocity, perforated };
+//! let tests = [
+//!     test(180.0, false), test(184.0, false), test(186.0, true), test(188.0, false), test(190.0, true), test(194.0, true),
 //! ];
-//! let v50 = estimate(&shots, 38.1);
+//! let v50 = estimate(&tests, 38.1);
 //! assert!((v50.estimates[0].v50_m_s.unwrap() - 187.0).abs() < 1e-6);
 //! ```
 
@@ -31,10 +31,10 @@ pub use read::{COLUMNS, read, read_str};
 
 /// A shot at a target that was stopped or went through.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Shot {
-    /// Impact speed [m/s].
-    #[serde(rename = "velocity_m_s")]
-    pub speed: f64,
+pub struct Test {
+    /// Impact velocity [m/s].
+    #[serde(rename = "impact_velocity_m_s")]
+    pub impact_velocity: f64,
     /// Whether it went through.
     pub perforated: bool,
 }
@@ -160,12 +160,12 @@ impl V50 {
 }
 
 /// Speeds of the shots that were stopped, or of those that went through.
-fn speeds(shots: &[Shot], perforated: bool) -> impl Iterator<Item = f64> + Clone {
+fn speeds(shots: &[Test], perforated: bool) -> impl Iterator<Item = f64> + Clone {
     let kind = shots.iter().filter(move |s| s.perforated == perforated);
-    kind.map(|shot| shot.speed)
+    kind.map(|shot| shot.impact_velocity)
 }
 
-fn pattern(shots: &[Shot]) -> Pattern {
+fn pattern(shots: &[Test]) -> Pattern {
     let extremes = |perforated| {
         let speeds = speeds(shots, perforated);
         let low = speeds.clone().reduce(f64::min);
@@ -187,7 +187,7 @@ fn pattern(shots: &[Shot]) -> Pattern {
 }
 
 /// V50 of shots by every method; `span` is the widest one of the shots that it may be the mean of [m/s].
-pub fn estimate(shots: &[Shot], span: f64) -> V50 {
+pub fn estimate(shots: &[Test], span: f64) -> V50 {
     let pattern = pattern(shots);
     V50 {
         shots: shots.len(),

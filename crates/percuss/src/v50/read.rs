@@ -2,16 +2,16 @@
 
 use std::path::Path;
 
-use super::Shot;
+use super::Test;
 use crate::{
     check::limits::IMPACT_SPEED,
-    document::read_text,
+    document::{Renamed, read_text},
     error::{Error, InputError, nearest},
     shots::row::{Row, Table, field_span},
     units::{Velocity, shorten},
 };
 
-const VELOCITY: &str = "velocity_m_s";
+const VELOCITY: &str = "impact_velocity_m_s";
 const PERFORATED: &str = "perforated";
 
 /// Columns of a file: the impact speed [m/s], `yes` or `no`, and a note that nothing reads.
@@ -21,7 +21,7 @@ pub const COLUMNS: [&str; 3] = [VELOCITY, PERFORATED, "note"];
 ///
 /// # Errors
 /// [`Error::Read`] when it cannot be read, [`Error::Input`] with the place when its content is not valid.
-pub fn read(path: impl AsRef<Path>) -> Result<Vec<Shot>, Error> {
+pub fn read(path: impl AsRef<Path>) -> Result<Vec<Test>, Error> {
     let path = path.as_ref();
     read_str(&path.display().to_string(), &read_text(path)?)
 }
@@ -30,7 +30,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<Vec<Shot>, Error> {
 ///
 /// # Errors
 /// [`Error::Input`] with the place when the text is not valid.
-pub fn read_str(name: &str, text: &str) -> Result<Vec<Shot>, Error> {
+pub fn read_str(name: &str, text: &str) -> Result<Vec<Test>, Error> {
     let (table, records) = Table::read(name, text)?;
     check_header(&table)?;
     let mut shots = Vec::new();
@@ -61,6 +61,9 @@ fn check_header(table: &Table<'_>) -> Result<(), Box<InputError>> {
             return Err(table.error(span, name, message, "remove one"));
         }
         if !known().any(|column| column == name) {
+            if let Some(renamed) = Renamed::of(name) {
+                return Err(table.error(span, name, renamed.message(), renamed.help()));
+            }
             let near = nearest(name, known())
                 .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
             return Err(table.error(
@@ -84,7 +87,7 @@ fn check_header(table: &Table<'_>) -> Result<(), Box<InputError>> {
     Ok(())
 }
 
-fn shot(row: &Row<'_>) -> Result<Shot, Box<InputError>> {
+fn shot(row: &Row<'_>) -> Result<Test, Box<InputError>> {
     if row.record.len() != row.table.header.len() {
         return Err(row.error(
             VELOCITY,
@@ -106,8 +109,8 @@ fn shot(row: &Row<'_>) -> Result<Shot, Box<InputError>> {
     }
     row.required(PERFORATED)?;
     let perforated = row.word(PERFORATED, &[("yes", true), ("no", false)])?;
-    Ok(Shot {
-        speed,
+    Ok(Test {
+        impact_velocity: speed,
         perforated: perforated.unwrap_or(false),
     })
 }

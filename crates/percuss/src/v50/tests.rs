@@ -1,9 +1,9 @@
 use super::*;
 use crate::Error;
 
-fn shots(stopped: &[f64], perforated: &[f64]) -> Vec<Shot> {
-    let shot = |speed: &f64, perforated| Shot {
-        speed: *speed,
+fn shots(stopped: &[f64], perforated: &[f64]) -> Vec<Test> {
+    let shot = |speed: &f64, perforated| Test {
+        impact_velocity: *speed,
         perforated,
     };
     let stopped = stopped.iter().map(|speed| shot(speed, false));
@@ -12,7 +12,7 @@ fn shots(stopped: &[f64], perforated: &[f64]) -> Vec<Shot> {
         .collect()
 }
 
-fn by(method: Method, shots: &[Shot]) -> Estimate {
+fn by(method: Method, shots: &[Test]) -> Estimate {
     estimate(shots, SPAN).of(method).unwrap().clone()
 }
 
@@ -70,7 +70,9 @@ fn at_the_ends_of_the_interval_the_likelihood_is_down_by_half_of_chi_square() {
             (1..40_000)
                 .map(|i| 0.005 * f64::from(i))
                 .map(|scale| {
-                    let log = |s: &Shot| link.log_chance(fit::sign(s) * (s.speed - v50) / scale);
+                    let log = |s: &Test| {
+                        link.log_chance(fit::sign(s) * (s.impact_velocity - v50) / scale)
+                    };
                     mixed.iter().map(log).sum::<f64>()
                 })
                 .fold(f64::MIN, f64::max)
@@ -87,13 +89,13 @@ fn at_the_ends_of_the_interval_the_likelihood_is_down_by_half_of_chi_square() {
 #[test]
 fn known_numbers_are_recovered() {
     let (v50, deviation) = (300.0, 8.0);
-    let made = |link: Link| -> Vec<Shot> {
+    let made = |link: Link| -> Vec<Test> {
         let speeds = (0..21).map(|i| 284.0 + 1.6 * f64::from(i));
         let at = |speed: f64| {
             let z = (speed - v50) / deviation * link.standard_deviation();
             let through = (100.0 * link.chance(z)).round() as usize;
-            (0..100).map(move |i| Shot {
-                speed,
+            (0..100).map(move |i| Test {
+                impact_velocity: speed,
                 perforated: i < through,
             })
         };
@@ -222,7 +224,8 @@ fn shots_of_one_kind_and_reversed_ones_give_reasons() {
 
 #[test]
 fn a_file_is_read_and_what_is_wrong_in_it_has_its_place() {
-    let text = "velocity_m_s,perforated,note\n184.3,yes,\n\n 184.8 , no ,\"stopped, just\"\n";
+    let text =
+        "impact_velocity_m_s,perforated,note\n184.3,yes,\n\n 184.8 , no ,\"stopped, just\"\n";
     let read = read_str("shots.csv", text).unwrap();
     assert_eq!(
         read,
@@ -237,67 +240,67 @@ fn a_file_is_read_and_what_is_wrong_in_it_has_its_place() {
     };
     for (text, line, key, words) in [
         (
-            "velocity_m_s,perforated\n184,maybe\n",
+            "impact_velocity_m_s,perforated\n184,maybe\n",
             2,
             "perforated",
             "`maybe` is no perforated",
         ),
         (
-            "velocity_m_s,perforated\n184,Yes\n",
+            "impact_velocity_m_s,perforated\n184,Yes\n",
             2,
             "perforated",
             "did you mean `yes`?",
         ),
         (
-            "velocity_m_s,perforated\n184,\n",
+            "impact_velocity_m_s,perforated\n184,\n",
             2,
             "perforated",
             "`perforated` is empty",
         ),
         (
-            "velocity_m_s,perforated\n1,yes\nfast,no\n",
+            "impact_velocity_m_s,perforated\n1,yes\nfast,no\n",
             3,
-            "velocity_m_s",
+            "impact_velocity_m_s",
             "`fast` is no number",
         ),
         (
-            "velocity_m_s,perforated\n-5,no\n",
+            "impact_velocity_m_s,perforated\n-5,no\n",
             2,
-            "velocity_m_s",
+            "impact_velocity_m_s",
             "-5 m/s is out of range",
         ),
         (
-            "velocity_m_s,perforated\n99999,no\n",
+            "impact_velocity_m_s,perforated\n99999,no\n",
             2,
-            "velocity_m_s",
+            "impact_velocity_m_s",
             "allowed: 0 to 10000 m/s",
         ),
         (
             "velocity,perforated\n184,no\n",
             1,
             "velocity",
-            "did you mean `velocity_m_s`?",
+            "did you mean `impact_velocity_m_s`?",
         ),
         (
-            "velocity_m_s;perforated\n184;no\n",
+            "impact_velocity_m_s;perforated\n184;no\n",
             1,
-            "velocity_m_s;perforated",
+            "impact_velocity_m_s;perforated",
             "separated by commas",
         ),
-        ("velocity_m_s\n184\n", 1, "", "lacks `perforated`"),
+        ("impact_velocity_m_s\n184\n", 1, "", "lacks `perforated`"),
         (
-            "velocity_m_s,velocity_m_s\n1,2\n",
+            "impact_velocity_m_s,impact_velocity_m_s\n1,2\n",
             1,
-            "velocity_m_s",
+            "impact_velocity_m_s",
             "two columns",
         ),
         (
-            "velocity_m_s,perforated\n184\n",
+            "impact_velocity_m_s,perforated\n184\n",
             2,
-            "velocity_m_s",
+            "impact_velocity_m_s",
             "the row has 1 fields",
         ),
-        ("velocity_m_s,perforated\n", 1, "", "holds no shot"),
+        ("impact_velocity_m_s,perforated\n", 1, "", "holds no shot"),
     ] {
         let found = error(text);
         assert_eq!((found.0, found.1.as_str()), (line, key), "{text}");

@@ -87,10 +87,10 @@ const NEVER: Guard = Guard {
 };
 
 const CASE: &str = "
-projectile = { material = 'copper', length = '40 mm', diameter = '5 mm', velocity = '1000 m/s' }
+projectile = { material = 'copper', length = '40 mm', diameter = '5 mm', impact_velocity = '1000 m/s' }
 target = { material = 'aluminium-2024-t351', thickness = '500 mm' }
 [[experiments]]
-velocity = '1000 m/s'
+impact_velocity = '1000 m/s'
 depth_of_penetration = '16 mm'
 uncertainty = '1.5 mm'
 source = 'a'

@@ -34,7 +34,7 @@ Say what the uncertainty of a case's numbers does to its results. The case names
 them with their distributions in its table `uncertainty`:
 
   [[uncertainty.parameter]]
-  key = \"projectile.velocity\"
+  key = \"projectile.impact_velocity\"
   normal = { mean = \"230 m/s\", standard_deviation = \"3 m/s\" }
 
 Scrambled Sobol' points are drawn from the distributions, and of each result come

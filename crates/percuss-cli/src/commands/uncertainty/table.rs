@@ -190,7 +190,9 @@ fn bands(found: &Uncertainty) -> String {
     let bands = &found.bands;
     let perforates = |band: &Band| band.perforation.is_some_and(|p| p.perforated > 0);
     let table = Table::of(bands)
-        .numbers("speed", "m/s", |band| significant(band.velocity_m_s, 4))
+        .numbers("speed", "m/s", |band| {
+            significant(band.impact_velocity_m_s, 4)
+        })
         .when(bands.iter().any(perforates), |rows| {
             rows.numbers("perforation", "%", |band| {
                 let perforation = band.perforation;

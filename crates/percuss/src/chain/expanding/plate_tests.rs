@@ -3,7 +3,7 @@
 use super::rear_face::RearFace;
 use crate::{
     Scenario,
-    case::{self, BackFace, TargetClosure},
+    case::{self, BackFace, TargetResistanceModel},
     chain::{closure_in_use, cone::Cone},
     model::{self, Control},
     outcome::{Outcome, RunResult},
@@ -13,7 +13,7 @@ use crate::{
 /// The seed paper's rod on a plate of a thickness in projectile diameters.
 fn plate(diameters: f64, speed: f64, target: &str, more: &str) -> Scenario {
     let text = format!(
-        "projectile = {{ material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '{speed} m/s' }}\n\
+        "projectile = {{ material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '{speed} m/s' }}\n\
          target = {{ material = 'aluminium-2024-t351', thickness = '{} mm'{target} }}\n{more}\n",
         4.8 * diameters
     );
@@ -103,7 +103,7 @@ fn the_depth_changes_steadily_with_the_thickness() {
                     let scenario = plate(*h, speed, &target, "");
                     assert_eq!(
                         closure_in_use(&scenario),
-                        Some(TargetClosure::ExpandingCavity)
+                        Some(TargetResistanceModel::ExpandingCavity)
                     );
                     depth(&scenario)
                 })
@@ -165,7 +165,7 @@ fn writing_down_a_default_changes_nothing() {
         for default in [
             "scheme = 'conservative'",
             "projectile_elements = 40",
-            "target_closure = 'expanding-cavity'",
+            "target_resistance = 'expanding-cavity'",
             "constraint_factor = 2.7",
             "constraint_factor = 2.700000047683716",
             "border_shear = 0.577",
@@ -174,7 +174,7 @@ fn writing_down_a_default_changes_nothing() {
             "kinematics = 'logarithmic'",
             "courant = 0.5",
             "erosion_strain = 2.0",
-            "erosion_closure = 'strain'",
+            "erosion_criterion = 'strain'",
             "artificial_viscosity = { linear = 0.0, quadratic = 0.0 }",
             "damping_ratio = 0.0",
             "local_damping = 0.0",
@@ -210,7 +210,7 @@ fn damping_changes_the_depth_a_little_and_is_accounted_for() {
         let scenario = plate(5.2, 400.0, "", &format!("[chain]\n{options}"));
         assert_eq!(
             closure_in_use(&scenario),
-            Some(TargetClosure::ExpandingCavity)
+            Some(TargetResistanceModel::ExpandingCavity)
         );
         let result = run(&scenario);
         let change = result.depth_of_penetration.unwrap() / without - 1.0;
@@ -237,7 +237,7 @@ fn a_weak_projectile_parts_and_mass_and_momentum_are_kept() {
         let scenario = plate(5.2, 400.0, "", &weak);
         assert_eq!(
             closure_in_use(&scenario),
-            Some(TargetClosure::ExpandingCavity)
+            Some(TargetResistanceModel::ExpandingCavity)
         );
         let result = run(&scenario);
         assert!(result.fragments.len() > 1, "{energy}");
@@ -278,9 +278,9 @@ fn a_column_by_an_option_says_so_first_and_gives_the_other_depth() {
         model::run_explained(chain, &scenario, &mut Control::default()).unwrap()
     };
     let usual = explained("");
-    assert_eq!(usual.target_closure_choice, None);
+    assert_eq!(usual.target_resistance_choice, None);
     let result = explained("chain.border_shear = 0.5");
-    let first = result.target_closure_choice.unwrap();
+    let first = result.target_resistance_choice.unwrap();
     assert!(first.contains("`column`: `chain.border_shear`"), "{first}");
     assert!(
         first.contains("`expanding-cavity` gives a depth of 0.69"),

@@ -211,7 +211,7 @@ fn warning_of_target_failure(state: &State) -> Option<String> {
     let (depth, time) = state.target_failure.as_ref()?.first?;
     Some(format!(
         "the target would fail in tension {} mm below its face after {} us, which the model `expanding-cavity` does not include; compare \
-         with `chain.target_closure = \"column\"`",
+         with `chain.target_resistance = \"column\"`",
         significant(depth * 1e3, 3),
         significant(time * 1e6, 3)
     ))

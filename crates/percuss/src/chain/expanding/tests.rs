@@ -5,7 +5,7 @@ use std::{f64::consts::PI, sync::Arc};
 use super::{CavityRun, StepControl, resistance::Resistance, rod::Rod, slice::Metal};
 use crate::{
     Scenario,
-    case::{self, TargetClosure},
+    case::{self, TargetResistanceModel},
     model::{self, Control},
     outcome::{Outcome, PLANE_IMPACT, RunResult},
     resistance::{OwnResistance, ResistanceLaw},
@@ -393,6 +393,6 @@ fn where_nothing_takes_a_law_of_resistance_it_is_refused() {
     for name in ["fdm", "tate", "axi"] {
         assert!(refused(&shot, name).contains("use the model `chain`"));
     }
-    shot.options.chain.target_closure = Some(TargetClosure::Column);
+    shot.options.chain.target_resistance = Some(TargetResistanceModel::Column);
     assert!(refused(&shot, "chain").contains("expanding-cavity"));
 }

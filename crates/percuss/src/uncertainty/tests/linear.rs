@@ -110,12 +110,12 @@ fn bands_hold_the_speed_and_spread_the_rest() {
     let found = analysed(&study(NORMALS), &LINEAR, &settings);
     let deviation = (part(1) + part(2)).sqrt();
     for band in &found.bands {
-        let exact = mean() + SLOPES[0] * (band.velocity_m_s - MEANS[0]);
+        let exact = mean() + SLOPES[0] * (band.impact_velocity_m_s - MEANS[0]);
         let statistics = band.quantities[0].statistics.as_ref().unwrap();
         assert!(
             (statistics.mean - exact).abs() < 0.02 * deviation,
             "{}",
-            band.velocity_m_s
+            band.impact_velocity_m_s
         );
         assert!((statistics.standard_deviation / deviation - 1.0).abs() < 0.02);
         assert_eq!(band.shots, 256);

@@ -21,12 +21,12 @@ use crate::{
 };
 
 const CASE: &str = "
-projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }
+projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '230 m/s' }
 target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
 ";
 const NORMALS: &str = "
 [[uncertainty.parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 normal = { mean = '230 m/s', standard_deviation = '4 m/s' }
 [[uncertainty.parameter]]
 key = 'target.thickness'
@@ -37,7 +37,7 @@ normal = { mean = 2.7, standard_deviation = 0.2 }
 ";
 const CORRELATION: &str = "
 [uncertainty.correlation]
-parameters = ['projectile.velocity', 'target.thickness']
+parameters = ['projectile.impact_velocity', 'target.thickness']
 matrix = [[1, 0.6], [0.6, 1]]
 ";
 const SLOPES: [f64; 3] = [0.5, -3.0, 10.0];

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use super::*;
 
 const PLATE: &str = "
-projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', velocity = '187 m/s' }
+projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', impact_velocity = '187 m/s' }
 target = { material = 'weldox-460-e', thickness = '12 mm', back_face = 'free' }
 recht_ipson = { ballistic_limit = '184.5 m/s' }
 ";
@@ -14,7 +14,7 @@ recht_ipson = { ballistic_limit = '184.5 m/s' }
 #[test]
 fn the_chance_of_perforation_is_exact() {
     let inputs = "[[uncertainty.parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 normal = { mean = '187 m/s', standard_deviation = '5 m/s' }";
     let study = load(&format!("{PLATE}{inputs}")).unwrap();
     let model = model("recht_ipson").unwrap();
