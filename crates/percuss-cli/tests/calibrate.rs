@@ -147,7 +147,7 @@ target = { rigid_wall = true }
         "{}",
         said.stderr
     );
-    let measured = "[[experiments]]\nvelocity = '183 m/s'\nprojectile_final_length = '16.81 mm'\nsource = 'wilkins1973'\n";
+    let measured = "[[experiments]]\nimpact_velocity = '183 m/s'\nprojectile_final_length = '16.81 mm'\nsource = 'wilkins1973'\n";
     fs::write(folder.path().join("case.toml"), format!("{case}{measured}")).unwrap();
     let said = percuss(
         folder.path(),

@@ -81,7 +81,7 @@ fn check(model: &str, gauges: &[GaugeHistory], tolerance: f64) {
 
 #[test]
 fn a_wave_in_bars_arrives_at_the_gauges_of_every_one_dimensional_solver() {
-    let column = "[chain]\ntarget_closure = 'column'\nborder_shear = 0.0\nconstraint_factor = 1.0\n\
+    let column = "[chain]\ntarget_resistance = 'column'\nborder_shear = 0.0\nconstraint_factor = 1.0\n\
                   projectile_elements = 100\ntarget_elements = 200\nend_time = '18 us'";
     check(
         "chain",

@@ -127,7 +127,7 @@ prop_compose! {
         failure in failure(),
     ) -> String {
         let text = format!(
-            "[projectile]\nmaterial = \"{rod}\"\nlength = \"{length} mm\"\ndiameter = \"{diameter} mm\"\nvelocity = \"{velocity} m/s\"\n\
+            "[projectile]\nmaterial = \"{rod}\"\nlength = \"{length} mm\"\ndiameter = \"{diameter} mm\"\nimpact_velocity = \"{velocity} m/s\"\n\
              [target]\n{target}\n[chain]\nmax_steps = 20000\nprojectile_elements = {}\ntarget_elements = {}\n{}\n{options}\n",
             elements.0,
             elements.1,

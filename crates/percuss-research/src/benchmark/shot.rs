@@ -50,7 +50,7 @@ impl Shot {
     /// [`Error::Input`] when the library has no such materials.
     pub fn scenario(&self) -> Result<Scenario, Error> {
         let text = format!(
-            "[projectile]\nmaterial = \"{}\"\nlength = \"{} mm\"\ndiameter = \"{} mm\"\nvelocity = \"{} m/s\"\n\
+            "[projectile]\nmaterial = \"{}\"\nlength = \"{} mm\"\ndiameter = \"{} mm\"\nimpact_velocity = \"{} m/s\"\n\
              [target]\nmaterial = \"{}\"\nthickness = \"semi-infinite\"\n",
             self.projectile,
             self.length_to_diameter * DIAMETER * 1e3,

@@ -48,7 +48,7 @@ pub(super) fn resolve(
     if chain.target_elements.is_none() && chain.scheme == Scheme::Conservative {
         scenario.options.chain.target_elements = thin_target_elements(&scenario);
     }
-    chain::choose_target_closure(&mut scenario);
+    chain::choose_target_resistance(&mut scenario);
     scenario.gauges = gauges(&case.gauges, &scenario, check);
     Some(scenario)
 }

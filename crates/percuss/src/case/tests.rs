@@ -56,7 +56,7 @@ fn digits_are_an_index_in_a_list_and_a_key_in_a_table() {
     const LAYERS: &str = "[target]\nlayers = [{ material = '7075', thickness = '10 mm' }, { material = 'copper', thickness = '5 mm' }]\n";
     let with = |text: &str| {
         let text = format!(
-            "[projectile]\nmaterial = '4340'\nlength = '20 mm'\ndiameter = '5 mm'\nvelocity = '300 m/s'\n{LAYERS}{text}"
+            "[projectile]\nmaterial = '4340'\nlength = '20 mm'\ndiameter = '5 mm'\nimpact_velocity = '300 m/s'\n{LAYERS}{text}"
         );
         Template::of(&Document::new("digits", text))
     };

@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// Sets the target resistance model of a case that gives none; it depends on the rest of the case.
-pub(crate) fn choose_target_closure(scenario: &mut Scenario) {
+pub(crate) fn choose_target_resistance(scenario: &mut Scenario) {
     if !scenario.given.target_resistance {
         scenario.options.chain.target_resistance = None;
         let (closure, reason) = default_closure(scenario);

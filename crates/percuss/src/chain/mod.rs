@@ -60,7 +60,7 @@ mod tate;
 mod tests;
 mod warnings;
 
-pub(crate) use closure::{choose_target_closure, closure_in_use};
+pub(crate) use closure::{choose_target_resistance, closure_in_use};
 use column::ColumnRun;
 pub use published::Published;
 

@@ -301,8 +301,8 @@ fn a_neighbouring_regime_is_named() {
 
 #[test]
 fn measured_values_are_found_by_their_speed() {
-    let more = "[[experiments]]\nvelocity = '200 m/s'\ndepth_of_penetration = '4 mm'\nsource = 'a'\n\
-                [[experiments]]\nvelocity = '200.1 m/s'\ndepth_of_penetration = '5 mm'\nuncertainty = '1 mm'\nsource = 'a'\n";
+    let more = "[[experiments]]\nimpact_velocity = '200 m/s'\ndepth_of_penetration = '4 mm'\nsource = 'a'\n\
+                [[experiments]]\nimpact_velocity = '200.1 m/s'\ndepth_of_penetration = '5 mm'\nuncertainty = '1 mm'\nsource = 'a'\n";
     let scenario = scenario(SEMI_INFINITE, more);
     let comparison = compare(&[&OPEN], &scenario, &[200.0, 300.0], &mut Watch::default()).unwrap();
     let depth = BandQuantity::DepthOfPenetration;

@@ -65,6 +65,6 @@ pub fn with_free_rear_face(scenario: &Scenario) -> Option<Scenario> {
         return None;
     }
     *back_face = BackFace::Free;
-    chain::choose_target_closure(&mut free);
+    chain::choose_target_resistance(&mut free);
     Some(free)
 }

@@ -7,7 +7,7 @@ use crate::{Error, Scenario, case, chain::column::ColumnRun, lanes::LANES, model
 fn shot(rod: &str, target: &str, velocity: f64, options: &str) -> Scenario {
     let text = format!(
         "projectile = {{ material = '{rod}', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '{velocity} m/s' }}\n\
-         target = {{ {target} }}\n[chain]\ntarget_closure = 'column'\n{options}\n[materials.elastic]\nname = 'e'\n\
+         target = {{ {target} }}\n[chain]\ntarget_resistance = 'column'\n{options}\n[materials.elastic]\nname = 'e'\n\
          density = '8000 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\nstrength.elastic = {{}}\n\
          [materials.perfect]\nname = 'p'\ndensity = '8000 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\n\
          specific_heat = '400 J/(kg K)'\nstrength.perfectly_plastic = {{ flow_stress = '600 MPa' }}\n"

@@ -182,7 +182,7 @@ fn writing_down_a_default_changes_nothing() {
             "adiabatic_heating = true",
             "heat_fraction = 0.9",
             "max_steps = 20000000",
-            "constraint_factor = 2.7\nborder_shear = 0.577\ntarget_closure = 'expanding-cavity'",
+            "constraint_factor = 2.7\nborder_shear = 0.577\ntarget_resistance = 'expanding-cavity'",
         ] {
             assert_eq!(bits(&format!("[chain]\n{default}")), without, "{default}");
         }

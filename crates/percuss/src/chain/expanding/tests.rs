@@ -13,9 +13,9 @@ use crate::{
 
 fn scenario(projectile: &str, target: &str, length: f64, speed: f64, more: &str) -> Scenario {
     let text = format!(
-        "[projectile]\nmaterial = \"{projectile}\"\nlength = \"{length} mm\"\ndiameter = \"5 mm\"\nvelocity = \"{speed} m/s\"\n\
+        "[projectile]\nmaterial = \"{projectile}\"\nlength = \"{length} mm\"\ndiameter = \"5 mm\"\nimpact_velocity = \"{speed} m/s\"\n\
          [target]\nmaterial = \"{target}\"\nthickness = \"semi-infinite\"\n\
-         [chain]\ntarget_closure = \"expanding-cavity\"\n{more}"
+         [chain]\ntarget_resistance = \"expanding-cavity\"\n{more}"
     );
     case::load_str("shot", &text).unwrap()
 }
@@ -175,7 +175,7 @@ fn a_damped_bar_loses_the_exact_part_of_its_amplitude() {
 fn the_peak_contact_force_converges_to_that_of_a_plane_impact() {
     let peak = |elements: u32| {
         let text = format!(
-            "[projectile]\nmaterial = 'copper-woodward'\nlength = '12.74 mm'\ndiameter = '4.8 mm'\nvelocity = '230 m/s'\n\
+            "[projectile]\nmaterial = 'copper-woodward'\nlength = '12.74 mm'\ndiameter = '4.8 mm'\nimpact_velocity = '230 m/s'\n\
              [target]\nmaterial = 'aluminium-2024-t351-woodward'\nthickness = '25 mm'\n\
              [chain]\nend_time = '0.4 us'\nprojectile_elements = {elements}"
         );
@@ -242,9 +242,9 @@ fn a_slow_rod_only_dents_the_target_elastically() {
 fn a_rigid_rod_is_stopped_by_the_resistance_alone() {
     // Nothing of the rod flows and the ground is stiff against the resistance: (M + m_a) dv/dt = −A [p(δ) + ½ρv²].
     let (speed, length) = (150.0, 50e-3);
-    let text = "[projectile]\nmaterial = \"rigid\"\nlength = \"50 mm\"\ndiameter = \"5 mm\"\nvelocity = \"150 m/s\"\n\
+    let text = "[projectile]\nmaterial = \"rigid\"\nlength = \"50 mm\"\ndiameter = \"5 mm\"\nimpact_velocity = \"150 m/s\"\n\
                 [target]\nmaterial = \"soft\"\nthickness = \"semi-infinite\"\n\
-                [chain]\ntarget_closure = \"expanding-cavity\"\nprojectile_elements = 100\n\
+                [chain]\ntarget_resistance = \"expanding-cavity\"\nprojectile_elements = 100\n\
                 [materials.rigid]\nname = \"rigid\"\ndensity = \"7850 kg/m3\"\nyoungs_modulus = \"1500 GPa\"\npoissons_ratio = 0.3\n\
                 strength.perfectly_plastic = { flow_stress = \"20 GPa\" }\n\
                 [materials.soft]\nname = \"soft\"\ndensity = \"2700 kg/m3\"\nyoungs_modulus = \"70 GPa\"\npoissons_ratio = 0.33\n\
@@ -353,9 +353,9 @@ fn a_rigid_rod_against_a_constant_pressure_stops_where_its_energy_is_used_up() {
             300e6
         }
     }
-    let text = "[projectile]\nmaterial = \"rigid\"\nlength = \"50 mm\"\ndiameter = \"5 mm\"\nvelocity = \"150 m/s\"\n\
+    let text = "[projectile]\nmaterial = \"rigid\"\nlength = \"50 mm\"\ndiameter = \"5 mm\"\nimpact_velocity = \"150 m/s\"\n\
                 [target]\nmaterial = \"light\"\nthickness = \"semi-infinite\"\n\
-                [chain]\ntarget_closure = \"expanding-cavity\"\nprojectile_elements = 100\n\
+                [chain]\ntarget_resistance = \"expanding-cavity\"\nprojectile_elements = 100\n\
                 [materials.rigid]\nname = \"rigid\"\ndensity = \"7850 kg/m3\"\nyoungs_modulus = \"1500 GPa\"\npoissons_ratio = 0.3\n\
                 strength.perfectly_plastic = { flow_stress = \"20 GPa\" }\n\
                 [materials.light]\nname = \"light\"\ndensity = \"2000 kg/m3\"\nyoungs_modulus = \"700 GPa\"\npoissons_ratio = 0.33\n\
