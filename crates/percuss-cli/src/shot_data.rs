@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use percuss::{
     material::Library,
-    shots::{self, Shot},
+    shots::{self, Experiment},
 };
 
 use crate::failure::Failure;
@@ -17,8 +17,8 @@ pub fn read(
     data: &[PathBuf],
     kinds: &[String],
     library: &Library,
-) -> Result<(Vec<Shot>, Vec<String>), Failure> {
-    let (mut shots, mut files): (Vec<Shot>, Vec<String>) = (Vec::new(), Vec::new());
+) -> Result<(Vec<Experiment>, Vec<String>), Failure> {
+    let (mut shots, mut files): (Vec<Experiment>, Vec<String>) = (Vec::new(), Vec::new());
     for path in data {
         let (more, name) = if path.as_path() == Path::new(BUILT_IN) {
             let own = format!("the program's own ({})", shots::built_in().len());

@@ -40,7 +40,7 @@ pub fn v50_figure(name: &str, shots: &[Test], v50: &V50) -> Figure {
             .clone()
             .filter_map(|speed| Some((speed, chance(entry, speed)?)))
             .collect();
-        chart = chart.series(Series::new(method.in_words(), curve).style(style));
+        chart = chart.series(Series::new(method.describe(), curve).style(style));
     }
     for (words, perforated, color) in [
         ("went through", true, palette::SERIES[1]),
@@ -79,8 +79,8 @@ fn marks(mut chart: LineChart, entry: &Estimate) -> LineChart {
 fn caption(v50: &V50) -> String {
     format!(
         "{} shots, {} stopped and {} gone through",
-        v50.shots,
-        v50.shots - v50.perforated,
+        v50.tests,
+        v50.tests - v50.perforated,
         v50.perforated
     )
 }

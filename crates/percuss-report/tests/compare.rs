@@ -5,8 +5,8 @@ use std::fs;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use percuss::{
     Error, Scenario, case,
-    compare::{Comparison, Watch, compare},
-    guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
+    compare::{Comparison, Observer, compare},
+    guard::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
     material::MaterialClass,
     model::{Control, Model},
     outcome::{Band, BandQuantity, Outcome, RunResult, Termination},
@@ -17,7 +17,7 @@ use percuss_report::{compare_figure, write_comparison};
 /// A model that gives `scale` times a depth that grows with the speed.
 struct Fake {
     name: &'static str,
-    guard: Guard,
+    guard: ValidityDomain,
     scale: f64,
     band: bool,
 }
@@ -31,7 +31,7 @@ impl Model for Fake {
         "made up"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         Box::leak(Box::new(self.guard))
     }
 
@@ -60,11 +60,11 @@ const fn speeds(min: f64, max: f64) -> Range {
     }
 }
 
-const SLOW: Guard = Guard {
+const SLOW: ValidityDomain = ValidityDomain {
     ranges: &[speeds(0.0, 700.0)],
-    ..Guard::OPEN
+    ..ValidityDomain::OPEN
 };
-const FAST: Guard = Guard {
+const FAST: ValidityDomain = ValidityDomain {
     ranges: &[speeds(600.0, 5000.0)],
     first_choice: &[FirstChoice {
         projectile: ProjectileRegime::Eroding,
@@ -73,15 +73,15 @@ const FAST: Guard = Guard {
         target_material: MaterialClass::Metal,
         because: "it is made up for it",
     }],
-    ..Guard::OPEN
+    ..ValidityDomain::OPEN
 };
-const NEVER: Guard = Guard {
+const NEVER: ValidityDomain = ValidityDomain {
     ranges: &[speeds(9000.0, 9001.0)],
-    ..Guard::OPEN
+    ..ValidityDomain::OPEN
 };
 
 fn comparison(case: &str, speeds: &[f64]) -> (Scenario, Comparison) {
-    let guards = [Guard::OPEN, FAST, SLOW];
+    let guards = [ValidityDomain::OPEN, FAST, SLOW];
     let names = [
         "chain",
         "tate",
@@ -103,11 +103,11 @@ fn comparison(case: &str, speeds: &[f64]) -> (Scenario, Comparison) {
             guard: match *name {
                 "never" => NEVER,
                 "tate" => FAST,
-                "walker_anderson" => Guard {
+                "walker_anderson" => ValidityDomain {
                     first_choice: &[],
                     ..FAST
                 },
-                _ => Guard {
+                _ => ValidityDomain {
                     first_choice: &[],
                     ..guards[i % 3]
                 },
@@ -118,7 +118,7 @@ fn comparison(case: &str, speeds: &[f64]) -> (Scenario, Comparison) {
         .collect();
     let models: Vec<&dyn Model> = fakes.iter().map(|fake| fake as &dyn Model).collect();
     let scenario = case::load_str("made-up", case).unwrap();
-    let comparison = compare(&models, &scenario, speeds, &mut Watch::default()).unwrap();
+    let comparison = compare(&models, &scenario, speeds, &mut Observer::default()).unwrap();
     (scenario, comparison)
 }
 

@@ -14,9 +14,9 @@ pub struct Limits {
     pub max: f64,
 }
 
-/// A finding of a check, before it is tied to a place in a file.
+/// A diagnostic of a check, before it is tied to a place in a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Finding {
+pub struct Diagnostic {
     /// What it is about.
     pub subject: Subject,
     /// Key in dotted form.
@@ -27,7 +27,7 @@ pub struct Finding {
     pub help: String,
 }
 
-impl Finding {
+impl Diagnostic {
     /// What is wrong in a file as a whole.
     pub(crate) fn whole(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self::at("", message, help)
@@ -52,21 +52,21 @@ impl Finding {
     }
 }
 
-/// Collects findings; keys are relative to the table it stands in.
+/// Collects diagnostics; keys are relative to the table it stands in.
 #[derive(Debug)]
 pub struct Check<'a> {
     subject: Subject,
     prefix: String,
-    findings: &'a mut Vec<Finding>,
+    diagnostics: &'a mut Vec<Diagnostic>,
 }
 
 impl<'a> Check<'a> {
     /// A check at the root of a file.
-    pub fn new(findings: &'a mut Vec<Finding>) -> Self {
+    pub fn new(diagnostics: &'a mut Vec<Diagnostic>) -> Self {
         Self {
             subject: Subject::Case,
             prefix: String::new(),
-            findings,
+            diagnostics,
         }
     }
 
@@ -75,7 +75,7 @@ impl<'a> Check<'a> {
         Check {
             subject: self.subject,
             prefix: self.key(table),
-            findings: self.findings,
+            diagnostics: self.diagnostics,
         }
     }
 
@@ -84,7 +84,7 @@ impl<'a> Check<'a> {
         Check {
             subject: Subject::Material,
             prefix: self.prefix.clone(),
-            findings: self.findings,
+            diagnostics: self.diagnostics,
         }
     }
 
@@ -96,12 +96,12 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// Reports a finding at a key; an empty key is the table itself.
+    /// Reports a diagnostic at a key; an empty key is the table itself.
     pub fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
-        let finding = Finding::at(&self.key(key), message, help);
-        self.findings.push(Finding {
+        let diagnostic = Diagnostic::at(&self.key(key), message, help);
+        self.diagnostics.push(Diagnostic {
             subject: self.subject,
-            ..finding
+            ..diagnostic
         });
     }
 

@@ -32,7 +32,7 @@ pub use words::of_material;
 
 /// The regime that a model declares. A case outside gets a reason in place of a number; at an edge, a warning.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Guard {
+pub struct ValidityDomain {
     /// What the projectile may do.
     pub projectile: &'static [ProjectileRegime],
     /// What may be struck.
@@ -69,8 +69,8 @@ pub struct Guard {
 /// Part of a plate's thickness beyond which a depth depends on the back face.
 const BACK_FACE_DEPTH: f64 = 0.8;
 
-impl Guard {
-    /// A guard that lets everything made of metal pass, for a model to narrow down.
+impl ValidityDomain {
+    /// A validity that lets everything made of metal pass, for a model to narrow down.
     pub const OPEN: Self = Self {
         projectile: ProjectileRegime::ALL,
         targets: TargetKind::ALL,
@@ -94,31 +94,31 @@ impl Guard {
     };
 
     /// Whether a case lies inside.
-    pub fn verdict(&self, scenario: &Scenario, regime: &Regime) -> Verdict {
+    pub fn verdict(&self, scenario: &Scenario, regime: &Regime) -> Applicability {
         let mut warnings = Vec::new();
         if !self.targets.contains(&regime.target) {
-            return Verdict::refused(format!(
+            return Applicability::refused(format!(
                 "it takes {}, and this is {}",
-                list(self.targets.iter().map(|kind| kind.in_words())),
+                list(self.targets.iter().map(|kind| kind.describe())),
                 regime.target_in_words(scenario)
             ));
         }
         let nose = NoseKind::of(scenario.projectile.nose);
         if !self.noses.contains(&nose) {
-            return Verdict::refused(format!(
+            return Applicability::refused(format!(
                 "it takes {} noses, and this nose is of the shape `{}`",
                 list(self.noses.iter().map(|nose| nose.name())),
                 nose.name()
             ));
         }
         if let Some(reason) = oblique::reason(self, scenario, nose) {
-            return Verdict::refused(reason);
+            return Applicability::refused(reason);
         }
         if let Some(reason) = self.wrong_material(scenario) {
-            return Verdict::refused(reason);
+            return Applicability::refused(reason);
         }
         if let Some(reason) = temperature::reason(self, scenario) {
-            return Verdict::refused(reason);
+            return Applicability::refused(reason);
         }
         if !self.separate_layers
             && let TargetBody::Layers {
@@ -126,14 +126,14 @@ impl Guard {
                 ..
             } = scenario.target
         {
-            return Verdict::refused(
+            return Applicability::refused(
                 "it takes layers that lie on each other, without a gap, an `interface` or a `column_diameter` of their own"
                     .to_owned(),
             );
         }
         if scenario.resistance.is_some() && !self.own_resistance {
             let refusal = Refusal::new("it takes no resistance law of the caller's own");
-            return Verdict::Outside(refusal.with_remedy("use the model `chain`"));
+            return Applicability::Outside(refusal.with_remedy("use the model `chain`"));
         }
         let neighbour = regime
             .neighbour
@@ -141,40 +141,40 @@ impl Guard {
         if !self.projectile.contains(&regime.projectile) {
             match neighbour {
                 None => {
-                    return Verdict::refused(format!(
+                    return Applicability::refused(format!(
                         "it takes {} projectiles, and this one is {}: {}",
-                        list(self.projectile.iter().map(|regime| regime.in_words())),
-                        regime.projectile.in_words(),
+                        list(self.projectile.iter().map(|regime| regime.describe())),
+                        regime.projectile.describe(),
                         regime.because
                     ));
                 }
                 Some(neighbour) => warnings.push(format!(
                     "model taken at the edge of its regime: the projectile is {} rather than {}: {}",
-                    regime.projectile.in_words(),
-                    neighbour.in_words(),
+                    regime.projectile.describe(),
+                    neighbour.describe(),
                     regime.because
                 )),
             }
         }
         for range in self.ranges {
-            let Some(outside) = range.finding(scenario) else {
+            let Some(outside) = range.diagnostic(scenario) else {
                 continue;
             };
             match range.outside {
-                Outside::NotApplicable => return Verdict::refused(outside),
+                Outside::NotApplicable => return Applicability::refused(outside),
                 Outside::Warning => warnings.push(outside),
             }
         }
-        Verdict::Inside(warnings)
+        Applicability::Inside(warnings)
     }
 
     fn wrong_material(&self, scenario: &Scenario) -> Option<String> {
         let class = scenario.projectile.material.class();
         let refuse = |what: &str, allowed: &[MaterialClass], class: MaterialClass| {
-            let allowed = list(allowed.iter().map(|class| class.in_words()));
+            let allowed = list(allowed.iter().map(|class| class.describe()));
             format!(
                 "it takes {what}s of {allowed}, and this one is of {}",
-                class.in_words()
+                class.describe()
             )
         };
         if !self.projectile_materials.contains(&class) {
@@ -190,21 +190,21 @@ impl Guard {
             .map(|class| refuse("target", self.target_materials, class))
     }
 
-    /// The guard in words, one line each.
-    pub fn in_words(&self) -> Vec<String> {
+    /// The validity in words, one line each.
+    pub fn describe(&self) -> Vec<String> {
         let projectile = format!(
             "{} projectiles of {}, with {} noses",
-            list(self.projectile.iter().map(|regime| regime.in_words())),
+            list(self.projectile.iter().map(|regime| regime.describe())),
             list(
                 self.projectile_materials
                     .iter()
-                    .map(|class| class.in_words())
+                    .map(|class| class.describe())
             ),
             list(self.noses.iter().map(|nose| nose.name())),
         );
         let target = format!(
             "against {}{}{}",
-            list(self.targets.iter().map(|kind| kind.in_words())),
+            list(self.targets.iter().map(|kind| kind.describe())),
             of_material(self.targets, self.target_materials),
             if self.sees_back_face {
                 ""
@@ -216,7 +216,7 @@ impl Guard {
             (!self.start_temperature).then(|| "the projectile has room temperature".to_owned());
         let predicts = format!(
             "it gives {}",
-            conjunction(self.predicts.iter().map(|quantity| quantity.in_words()))
+            conjunction(self.predicts.iter().map(|quantity| quantity.describe()))
         );
         let ranges = self.ranges.iter().map(|range| {
             let outside = match range.outside {
@@ -225,17 +225,17 @@ impl Guard {
             };
             format!(
                 "{} {} ({outside}): {}",
-                range.measure.in_words(),
-                range.in_words(),
+                range.measure.describe(),
+                range.describe(),
                 range.because
             )
         });
         [projectile, target, predicts]
             .into_iter()
             .chain(temperature)
-            .chain([oblique::in_words(self)])
+            .chain([oblique::describe(self)])
             .chain(ranges)
-            .chain(self.fitted_to.iter().map(FittedTo::in_words))
+            .chain(self.fitted_to.iter().map(FittedTo::describe))
             .chain(self.notes.iter().map(|&note| note.to_owned()))
             .collect()
     }
@@ -262,16 +262,16 @@ impl Guard {
     }
 }
 
-/// Whether a case lies inside a guard.
+/// Whether a case lies inside a validity.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Verdict {
+pub enum Applicability {
     /// It does, with warnings where it stands at an edge.
     Inside(Vec<String>),
     /// It does not.
     Outside(Refusal),
 }
 
-impl Verdict {
+impl Applicability {
     fn refused(reason: impl Into<Refusal>) -> Self {
         Self::Outside(reason.into())
     }

@@ -2,7 +2,7 @@
 
 use crate::{
     Error, Scenario,
-    guard::Guard,
+    guard::ValidityDomain,
     outcome::RunResult,
     solver::{Control, Model, Progress},
 };
@@ -10,7 +10,7 @@ use crate::{
 /// A model whose result is a function of the case.
 pub(crate) struct MadeUp {
     pub(crate) name: &'static str,
-    pub(crate) guard: Guard,
+    pub(crate) guard: ValidityDomain,
     pub(crate) result: fn(&Scenario) -> Result<RunResult, Error>,
 }
 
@@ -23,7 +23,7 @@ impl Model for MadeUp {
         "made up"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         Box::leak(Box::new(self.guard))
     }
 

@@ -45,7 +45,7 @@ impl Outcome {
     }
 
     /// The outcome in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::AtRest => "at rest",
             Self::Rebounded => "rebounded",
@@ -92,7 +92,7 @@ pub enum Termination {
 
 impl Termination {
     /// The reason in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::Quiescent => {
                 "tip stopped; neither depth nor dissipation grew over a round trip of a wave"
@@ -224,7 +224,7 @@ impl BandQuantity {
     }
 
     /// Its name in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::DepthOfPenetration => "depth",
             Self::ResidualVelocity => "residual velocity",

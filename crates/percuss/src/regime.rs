@@ -29,7 +29,7 @@ impl ProjectileRegime {
     pub const ALL: &'static [Self] = &[Self::Rigid, Self::Deforming, Self::Eroding];
 
     /// The regime in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::Rigid => "rigid",
             Self::Deforming => "deforming",
@@ -95,7 +95,7 @@ impl TargetKind {
     }
 
     /// The kind in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::SemiInfinite => "semi-infinite targets",
             Self::ThickPlate => "thick plates",
@@ -273,16 +273,16 @@ impl Regime {
 
     /// The regime in a few words, without the numbers behind the judgement.
     pub fn kind_in_words(&self, scenario: &Scenario) -> String {
-        let mut text = format!("{} projectile", self.projectile.in_words());
+        let mut text = format!("{} projectile", self.projectile.describe());
         if let Some(neighbour) = self.neighbour {
-            let _ = write!(text, " (or {})", neighbour.in_words());
+            let _ = write!(text, " (or {})", neighbour.describe());
         }
         let _ = write!(text, ", {}", self.target_in_words(scenario));
         text
     }
 
     /// The regime in one sentence.
-    pub fn in_words(&self, scenario: &Scenario) -> String {
+    pub fn describe(&self, scenario: &Scenario) -> String {
         format!("{}: {}", self.kind_in_words(scenario), self.because)
     }
 }

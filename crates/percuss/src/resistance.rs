@@ -16,7 +16,7 @@ pub trait ResistanceLaw {
 ///
 /// ```
 /// use std::sync::Arc;
-/// use percuss::{case, model::{self, Control}, resistance::{OwnResistance, ResistanceLaw}};
+/// use percuss::{case, model::{self, Control}, resistance::{CustomResistance, ResistanceLaw}};
 ///
 /// struct Constant;
 ///
@@ -30,21 +30,21 @@ pub trait ResistanceLaw {
 ///     projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '230 m/s' }
 ///     target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
 /// ")?;
-/// scenario.resistance = Some(OwnResistance(Arc::new(Constant)));
+/// scenario.resistance = Some(CustomResistance(Arc::new(Constant)));
 /// let result = model::run(model::model("chain")?, &scenario, &mut Control::default())?;
 /// assert!(result.depth_of_penetration.is_some_and(|depth| depth > 0.0));
 /// # Ok::<(), percuss::Error>(())
 /// ```
 #[derive(Clone)]
-pub struct OwnResistance(pub Arc<dyn ResistanceLaw + Send + Sync>);
+pub struct CustomResistance(pub Arc<dyn ResistanceLaw + Send + Sync>);
 
-impl PartialEq for OwnResistance {
+impl PartialEq for CustomResistance {
     fn eq(&self, other: &Self) -> bool {
         ptr::addr_eq(Arc::as_ptr(&self.0), Arc::as_ptr(&other.0))
     }
 }
 
-impl fmt::Debug for OwnResistance {
+impl fmt::Debug for CustomResistance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a law of the caller's own")
     }

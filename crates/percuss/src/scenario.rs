@@ -7,8 +7,8 @@ use crate::{
     material::Material,
     options::{ModelOptions, TargetResistanceModel},
     outcome::BandQuantity,
-    problem::{BackFace, Extensions, LayerInterface, Nose, Support},
-    resistance::OwnResistance,
+    problem::{EdgeSupport, Extensions, LayerInterface, Nose, RearFaceCondition},
+    resistance::CustomResistance,
 };
 
 /// What strikes what, how fast, and by which options.
@@ -29,7 +29,7 @@ pub struct Scenario {
     /// What is struck.
     pub target: TargetBody,
     /// What the target opposes to penetration, where the caller brings a law along; no file can name one.
-    pub resistance: Option<OwnResistance>,
+    pub resistance: Option<CustomResistance>,
     /// Why the default target resistance model of the chain is not the expanding cavity; `None` where it is, and where the case names
     /// one.
     pub resistance_reason: Option<String>,
@@ -105,7 +105,7 @@ pub enum TargetBody {
         /// From the struck face to the back.
         layers: Vec<Plate>,
         /// What holds the back face.
-        back_face: BackFace,
+        back_face: RearFaceCondition,
         /// Diameter of the column that is modelled [m], where a layer has none of its own.
         column_diameter: f64,
         /// Whether a layer has a gap, an interface or a diameter of its own.
@@ -125,7 +125,7 @@ pub struct PlateEdge {
     /// Diameter inside the support [m].
     pub diameter: f64,
     /// How it is held there.
-    pub support: Support,
+    pub support: EdgeSupport,
 }
 
 /// A layer of a target.

@@ -2,7 +2,7 @@
 
 use percuss::{
     Error, case,
-    case::{BackFace, Case, Layer, Nose, Projectile, Target, Thickness},
+    case::{Case, Layer, Nose, Projectile, RearFaceCondition, Target, Thickness},
     units::{Length, Pressure, Velocity},
 };
 use serde::{Deserialize, Serialize};
@@ -43,7 +43,8 @@ fn a_case_built_in_code_is_that_of_the_same_text() {
         built.scenario("same").unwrap(),
         case::load_str("same", &text).unwrap()
     );
-    let plate = Target::plate("aluminium-2024-t351", mm(25.0)).with_back_face(BackFace::Free);
+    let plate =
+        Target::plate("aluminium-2024-t351", mm(25.0)).with_back_face(RearFaceCondition::Free);
     let scenario = Case::new(rod(), plate).scenario("plate").unwrap();
     assert_eq!(scenario.target_thickness(), Some(0.025));
     for target in [

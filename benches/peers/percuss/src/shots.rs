@@ -5,7 +5,7 @@ use std::{path::Path, sync::atomic::AtomicBool};
 use percuss::{
     Scenario, case,
     model::{self, Control},
-    sweep::{BatchKernel, Kernel, Shot},
+    sweep::{BatchKernel, Kernel, SweepRun},
 };
 use rayon::prelude::*;
 
@@ -30,7 +30,7 @@ pub(crate) fn side_by_side(scenarios: &[Scenario]) -> Outcome<u64> {
     let kernel = BatchKernel::new(model::model("chain")?);
     let stop = AtomicBool::new(false);
     let blocks = scenarios.par_chunks(BLOCK).map(|block| {
-        let shots = block.iter().enumerate().map(|(i, scenario)| Shot {
+        let shots = block.iter().enumerate().map(|(i, scenario)| SweepRun {
             index: i as u64,
             inputs: vec![scenario.impact_velocity],
             scenario: Ok(scenario.clone()),

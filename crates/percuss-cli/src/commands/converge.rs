@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario,
-    converge::{self, Study, Verdict},
+    converge::{self, MeshStudy, ConvergenceStatus},
     model::{self, Control, MODELS, Model},
     units::significant,
 };
@@ -74,7 +74,7 @@ pub struct Converge {
 /// What the command found out and wrote.
 struct Found {
     scenario: Scenario,
-    study: Study,
+    study: MeshStudy,
     files: Vec<PathBuf>,
 }
 
@@ -140,7 +140,7 @@ impl Converge {
         model: &dyn Model,
         scenario: &Scenario,
         hear: Hear<'_>,
-    ) -> Result<Study, Failure> {
+    ) -> Result<MeshStudy, Failure> {
         let mut report = |now: model::Progress| {
             let words = format!("{:.1} us on the current mesh", now.time * 1e6);
             hear(now.fraction, &words)
@@ -156,10 +156,10 @@ impl Converge {
 }
 
 /// Meshes as rows, quantities as columns, and below them order, extrapolated value and grid-convergence index.
-fn table(study: &Study) -> String {
-    let numbers = |verdict: &Verdict| {
+fn table(study: &MeshStudy) -> String {
+    let numbers = |verdict: &ConvergenceStatus| {
         let (richardson, index) = match *verdict {
-            Verdict::Converging {
+            ConvergenceStatus::Converging {
                 richardson, index, ..
             } => (Some(richardson), Some(100.0 * index)),
             _ => (None, None),
@@ -195,13 +195,13 @@ fn table(study: &Study) -> String {
     blocks(&table)
 }
 
-fn verdicts(study: &Study) -> String {
+fn verdicts(study: &MeshStudy) -> String {
     study
         .quantities
         .iter()
         .map(|quantity| {
             let name = quantity.name.replace('_', " ");
-            let line = format!("{name}: {}", quantity.verdict.in_words());
+            let line = format!("{name}: {}", quantity.verdict.describe());
             format!("{}\n", wrap(&line, width(), 2))
         })
         .collect()

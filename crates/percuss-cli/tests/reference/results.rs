@@ -58,7 +58,7 @@ const PROFILES: &str = "
 pub(crate) fn page() -> String {
     let mut page = String::from(INTRODUCTION);
     for field in RESULT_FIELDS {
-        let (name, kind) = (field.name, field.kind.in_words());
+        let (name, kind) = (field.name, field.kind.describe());
         let meaning = field.description();
         let _ = writeln!(page, "| `{name}` | {kind} | {meaning} | {} |", used(field));
     }

@@ -1,9 +1,9 @@
 //! The columns of a sweep: inputs, outcome, every scalar result, warnings and errors.
 
 use percuss::{
-    model_error::Expectation,
+    model_error::ModelErrorEstimate,
     summary::{ResultRecord, Role, result_numbers},
-    sweep::{Row, Sweep},
+    sweep::{SweepRow, Sweep},
 };
 use serde::Serialize;
 
@@ -13,12 +13,12 @@ use crate::column::Column;
 const BEFORE_RANGES: &str = "ballistic_limit_m_s";
 
 /// The columns of a sweep's rows. A number that a shot does not have is null, a text empty.
-pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
-    let mut columns = vec![Column::integer("shot", |row: &Row| row.index as i64)];
+pub(super) fn columns(sweep: &Sweep) -> Vec<Column<SweepRow>> {
+    let mut columns = vec![Column::integer("shot", |row: &SweepRow| row.index as i64)];
     for (i, axis) in sweep.axes.iter().enumerate() {
         columns.push(match axis.words() {
-            None => Column::float(axis.column(), move |row: &Row| row.inputs[i]),
-            Some(words) => Column::text(axis.column(), move |row: &Row| {
+            None => Column::float(axis.column(), move |row: &SweepRow| row.inputs[i]),
+            Some(words) => Column::text(axis.column(), move |row: &SweepRow| {
                 words[row.inputs[i] as usize].clone()
             }),
         });
@@ -53,7 +53,7 @@ pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
     columns.push(text("band_of", band, ""));
     columns.push(text("details", |r| json(&r.details), "[]"));
     columns.push(text("warnings", |r| r.warnings.join("\n"), ""));
-    columns.push(Column::text("error", |row: &Row| match &row.record {
+    columns.push(Column::text("error", |row: &SweepRow| match &row.record {
         Ok(record) => record.reason.clone().unwrap_or_default(),
         Err(reason) => reason.clone(),
     }));
@@ -61,8 +61,8 @@ pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
 }
 
 /// The ends of the range that a model gives, and the estimated error of the depth.
-fn ranges() -> [Column<Row>; 5] {
-    let error = |name, read: fn(&Expectation) -> f64| {
+fn ranges() -> [Column<SweepRow>; 5] {
+    let error = |name, read: fn(&ModelErrorEstimate) -> f64| {
         number(name, move |r| r.expected_error.as_ref().map(read))
     };
     [
@@ -75,8 +75,8 @@ fn ranges() -> [Column<Row>; 5] {
 }
 
 /// A number of the result, null where there is none.
-fn number(name: &str, read: impl Fn(&ResultRecord) -> Option<f64> + 'static) -> Column<Row> {
-    Column::optional(name, move |row: &Row| {
+fn number(name: &str, read: impl Fn(&ResultRecord) -> Option<f64> + 'static) -> Column<SweepRow> {
+    Column::optional(name, move |row: &SweepRow| {
         row.record.as_ref().ok().and_then(&read)
     })
 }
@@ -86,8 +86,8 @@ fn text(
     name: &str,
     read: impl Fn(&ResultRecord) -> String + 'static,
     without: &'static str,
-) -> Column<Row> {
-    Column::text(name, move |row: &Row| match &row.record {
+) -> Column<SweepRow> {
+    Column::text(name, move |row: &SweepRow| match &row.record {
         Ok(record) => read(record),
         Err(_) => without.to_owned(),
     })

@@ -3,7 +3,7 @@
 use percuss::{
     Error, Scenario, case,
     model_error::{
-        Verdict,
+        ErrorRecord,
         design::{LENGTHS, SPEEDS},
     },
 };
@@ -37,7 +37,7 @@ pub struct Shot {
 
 impl Shot {
     /// Whether a benchmark result is of this shot.
-    pub fn is_of(&self, verdict: &Verdict) -> bool {
+    pub fn is_of(&self, verdict: &ErrorRecord) -> bool {
         verdict.projectile == self.projectile
             && verdict.target == self.target
             && verdict.length_to_diameter == self.length_to_diameter

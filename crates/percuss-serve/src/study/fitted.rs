@@ -74,7 +74,7 @@ pub(super) fn fitted(job: &Job<'_>) -> Result<Study, Problem> {
     let ended = Arc::new(AtomicBool::new(false));
     let hear = |stage: Stage, part: f64, runs: u64| {
         job.tell
-            .progress(stage.of_whole(part, steps.is_some()), &stage.in_words(runs));
+            .progress(stage.of_whole(part, steps.is_some()), &stage.describe(runs));
         match ended.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),

@@ -7,7 +7,7 @@ use percuss::{
     compare, limit,
     model::{self, model},
     sweep::BatchKernel,
-    uncertainty::{self, Settings, Study, Watch},
+    uncertainty::{self, Observer, Settings, Study},
 };
 use percuss_serve::Options;
 use serde_json::{Value, json};
@@ -23,7 +23,7 @@ fn studies_end_with_what_the_library_says() {
     );
     let last = answer.lines().pop().unwrap();
     let scenario = case::load_str("shot", PAPER).unwrap();
-    let mut watch = compare::Watch::default();
+    let mut watch = compare::Observer::default();
     let comparison = compare::compare(&model::quick(), &scenario, &[230.0], &mut watch).unwrap();
     let printed = serde_json::to_string(&comparison).unwrap();
     let expected: Value = serde_json::from_str(&printed).unwrap();
@@ -72,7 +72,7 @@ fn uncertainty_is_that_of_the_library() {
         indices: true,
         speeds: Vec::new(),
     };
-    let watch = Watch {
+    let watch = Observer {
         stop: &AtomicBool::new(false),
         progress: &|_, _| {},
     };
@@ -137,7 +137,7 @@ fn limits_are_those_of_the_library_and_say_what_they_rest_on() {
         &model::quick(),
         &scenario,
         &limit::Search::default(),
-        &mut limit::Watch::default(),
+        &mut limit::Observer::default(),
     );
     let printed = serde_json::to_string(&found.unwrap()).unwrap();
     let expected: Value = serde_json::from_str(&printed).unwrap();

@@ -3,7 +3,7 @@
 use super::long_rod::{LongRod, NOT_ONE_TARGET, detail};
 use crate::{
     Error, Refusal, Scenario,
-    guard::{Guard, Measure, Outside, Range},
+    guard::{Measure, Outside, Range, ValidityDomain},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
@@ -25,9 +25,9 @@ impl Model for Hydrodynamic {
         "hydrodynamic limit: a rod and a target without strength"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[BandQuantity::DepthOfPenetration],
                 projectile: &[ProjectileRegime::Eroding],
                 targets: TargetKind::DEEP,
@@ -51,7 +51,7 @@ impl Model for Hydrodynamic {
                 notes: &[
                     "the limit that the models with strength tend to at high speed; the speed has no say in it",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }

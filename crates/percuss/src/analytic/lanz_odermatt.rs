@@ -3,7 +3,7 @@
 use super::long_rod::{LongRod, NOT_ONE_TARGET, detail};
 use crate::{
     Error, Refusal, Scenario,
-    guard::{Guard, Measure, Outside, Range},
+    guard::{Measure, Outside, Range, ValidityDomain},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::TargetKind,
     solver::{Control, Model},
@@ -66,9 +66,9 @@ impl Model for LanzOdermatt {
         "regression of Lanz and Odermatt: tungsten rods on thick steel"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[BandQuantity::DepthOfPenetration],
                 targets: TargetKind::DEEP,
                 ranges: &[Range {
@@ -84,7 +84,7 @@ impl Model for LanzOdermatt {
                      hardness of 200 to 600, above the smallest speed of the regression",
                     "a regression: outside its data it means nothing; a rod with a nose counts as the flat-ended one of its mass",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }
@@ -159,7 +159,7 @@ impl Model for LanzOdermatt {
             ),
         ];
         result.warnings = vec![
-            "a regression to shots of tungsten rods on steel: the scatter of its shots was not published where it could be read"
+            "a regression to cases of tungsten rods on steel: the scatter of its cases was not published where it could be read"
                 .to_owned(),
         ];
         Ok(result)

@@ -1,12 +1,12 @@
 //! Model `taylor`: a rigid, perfectly plastic rod on a rigid wall, shortened by a plastic front that moves.
 
 use super::{
-    deep_shot::{detail, termination},
+    deep_penetration::{detail, termination},
     dynamic_yield::{DynamicYield, Shortening, dynamic_yield},
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::{Guard, Measure, NoseKind, Outside, Range},
+    guard::{Measure, NoseKind, Outside, Range, ValidityDomain},
     outcome::{BandQuantity, Outcome, RunResult},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
@@ -121,7 +121,7 @@ impl Model for Taylor {
         "final length of a rigid-plastic rod on a rigid wall, moving plastic front"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         WALL
     }
 
@@ -165,7 +165,7 @@ impl Taylor {
 }
 
 /// The regime of both models of a rod on a wall.
-pub(super) const WALL: &Guard = &Guard {
+pub(super) const WALL: &ValidityDomain = &ValidityDomain {
     predicts: &[BandQuantity::ProjectileFinalLength],
     projectile: &[ProjectileRegime::Rigid, ProjectileRegime::Deforming],
     targets: &[TargetKind::RigidWall],
@@ -181,7 +181,7 @@ pub(super) const WALL: &Guard = &Guard {
         "rigid, perfectly plastic rod: one flow stress stands for the strength law",
         "below the impact speed at which an elastic wave reaches the yield stress the rod keeps its length",
     ],
-    ..Guard::OPEN
+    ..ValidityDomain::OPEN
 };
 
 /// The result of a rod that ends with a part of its length on a wall.

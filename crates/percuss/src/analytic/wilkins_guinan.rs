@@ -1,13 +1,13 @@
 //! Model `wilkins_guinan`: a rod on a rigid wall whose plastic front stands still a fixed part of its length from the wall.
 
 use super::{
-    deep_shot::detail,
+    deep_penetration::detail,
     dynamic_yield::{DynamicYield, Shortening, dynamic_yield},
     taylor::{WALL, on_wall},
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::{FittedTo, Guard},
+    guard::{FittedTo, ValidityDomain},
     outcome::RunResult,
     solver::{Control, Model},
 };
@@ -67,9 +67,9 @@ impl Model for WilkinsGuinan {
         "final length of a rigid-plastic rod on a rigid wall, plastic front at a fixed distance"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 fitted_to: &[FittedTo {
                     sources: &["wilkins1973"],
                     because: "the place of the plastic front, 0.12 of the length, was found there",

@@ -26,7 +26,7 @@ pub use crate::solver::Particle;
 
 use crate::{
     Error, Refusal, Scenario,
-    guard::Guard,
+    guard::ValidityDomain,
     outcome::RunResult,
     regime::TargetKind,
     solver::{Control, Model},
@@ -45,9 +45,9 @@ impl Model for Axi {
         "axisymmetric reference: large deformation by the material point method"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 targets: &[
                     TargetKind::SemiInfinite,
                     TargetKind::ThickPlate,
@@ -61,7 +61,7 @@ impl Model for Axi {
                     "normal impact of a body of revolution",
                     "minutes rather than seconds: it runs only when asked for by name",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }

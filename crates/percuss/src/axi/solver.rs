@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::{
     body::{Body, CHUNK, Limits, Pass, Sums, advance},
-    boundary::{Load, Supports},
+    boundary::{BoundaryConditions, Load},
     contact::{Contact, meet, pushed},
     field::{FORCE, Field, MASS, MOMENTUM, Node, Strip},
 };
@@ -14,7 +14,7 @@ use crate::{Error, solver::archive::Archive};
 #[derive(Debug)]
 pub(super) struct Grid {
     pub(super) bodies: Vec<Body>,
-    pub(super) supports: Vec<Supports>,
+    pub(super) supports: Vec<BoundaryConditions>,
     pub(super) contact: Contact,
     pub(super) cell: f64,
     pub(super) courant: f64,
@@ -307,7 +307,7 @@ fn add_up(strips: &[Strip], row: isize, nodes: &mut [Node]) {
 /// Moves a row of nodes by a step: their velocities after forces and supports, and what that adds to the accumulated.
 fn move_row(
     field: &Field,
-    supports: &Supports,
+    supports: &BoundaryConditions,
     row: isize,
     velocity: &mut [[f64; 2]],
     cell: f64,

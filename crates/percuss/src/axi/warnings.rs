@@ -5,7 +5,8 @@ use super::{
     setup::extent,
 };
 use crate::{
-    Scenario, material::Material, outcome::RunResult, problem::BackFace, scenario::TargetBody,
+    Scenario, material::Material, outcome::RunResult, problem::RearFaceCondition,
+    scenario::TargetBody,
 };
 
 /// Part of the energy lost between particles and grid that deserves a word.
@@ -22,7 +23,7 @@ fn holds_a_plate(scenario: &Scenario) -> bool {
     let held = matches!(
         scenario.target,
         TargetBody::Layers {
-            back_face: BackFace::Fixed,
+            back_face: RearFaceCondition::Fixed,
             ..
         }
     );

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::{
-    Counter, Noise, Observation, Problem, Stage, Watch, cancelled, heard,
+    Counter, Noise, Observation, Observer, Problem, Stage, cancelled, heard,
     least_squares::{Minimum, Unable, jacobian, minimise},
     noise::{SCATTER, scatter_of},
     problem::refuse,
@@ -41,11 +41,15 @@ pub(super) struct Fit {
 }
 
 /// Finds the values with the smallest sum of squares, from several starts.
-pub(super) fn least_squares(problem: &Problem, seed: u64, watch: Watch<'_>) -> Result<Fit, Error> {
+pub(super) fn least_squares(
+    problem: &Problem,
+    seed: u64,
+    observer: Observer<'_>,
+) -> Result<Fit, Error> {
     let count = problem.fitted.len();
     let report = |part: f64| {
         let runs = problem.runs.load(Ordering::Relaxed);
-        heard(problem, watch(Stage::LeastSquares, part, runs));
+        heard(problem, observer(Stage::LeastSquares, part, runs));
     };
     // A dozen steps from each start, and the rounds after them: a guess, for the time left.
     let counter = Counter {
@@ -125,10 +129,10 @@ impl Solver<'_> {
     /// The middle of the priors and points of a Latin hypercube, the best of them first, as many as are tried from.
     fn starts(&self, seed: u64, scatter: f64) -> Vec<Vec<f64>> {
         let tried = TRIED * self.problem.fitted.len();
-        let point = |shot: usize| {
+        let point = |test: usize| {
             let value = |(dimension, parameter): (usize, &super::Fitted)| {
                 let stream = sweep::stream(seed, START, dimension);
-                let stratum = sweep::permuted(stream, shot as u64, tried as u64);
+                let stratum = sweep::permuted(stream, test as u64, tried as u64);
                 parameter.quantile((stratum as f64 + 0.5) / tried as f64)
             };
             self.problem.fitted.iter().enumerate().map(value).collect()

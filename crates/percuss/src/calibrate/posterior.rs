@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
 use super::{
-    Noise, ParameterRecord, Problem, Sample, Sampling, ScatterRecord, Stage, Watch, cancelled,
+    Noise, Observer, ParameterRecord, Problem, Sample, Sampling, ScatterRecord, Stage, cancelled,
     fit::Fit, heard, noise::SCATTER, predictive::CHANCES, sampler,
 };
 use crate::{
@@ -73,12 +73,12 @@ pub(super) fn sample(
     fit: &Fit,
     sampling: Sampling,
     seed: u64,
-    watch: Watch<'_>,
+    observer: Observer<'_>,
 ) -> Result<Sample, Error> {
     let steps = sampling.ensembles * (sampling.burn_in + sampling.steps);
     let progress = |done: usize| {
         let runs = problem.runs.load(Ordering::Relaxed);
-        let answer = watch(Stage::Sampling, done as f64 / steps as f64, runs);
+        let answer = observer(Stage::Sampling, done as f64 / steps as f64, runs);
         heard(problem, answer);
         answer
     };

@@ -19,7 +19,7 @@ pub(super) const CHANCES: [f64; 3] = [0.025, 0.5, 0.975];
 /// A measured value and what the calibrated model says of it, in the unit of the quantity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Prediction {
-    /// Id of the shot, or name of the case with the number of its entry.
+    /// Id of the test, or name of the case with the number of its entry.
     pub id: String,
     /// Where it comes from.
     pub sources: Vec<String>,

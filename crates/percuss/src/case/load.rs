@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::{Case, load_materials, resolve::resolve};
 use crate::{
-    check::{Check, Finding},
+    check::{Check, Diagnostic},
     document::Document,
     error::Error,
     material::Library,
@@ -35,9 +35,9 @@ impl Document {
     /// Those of [`load`], but what the case describes beside its materials need not fit together.
     pub fn library(&self) -> Result<Library, Error> {
         let case: Case = self.parse()?;
-        let mut findings = Vec::new();
-        case.check_materials(&mut Check::new(&mut findings));
-        self.report(findings)?;
+        let mut diagnostics = Vec::new();
+        case.check_materials(&mut Check::new(&mut diagnostics));
+        self.report(diagnostics)?;
         library_of(&case, self)
     }
 
@@ -47,17 +47,22 @@ impl Document {
     /// [`Error::Input`] when it is not valid, or a file that it names.
     pub fn scenario(&self) -> Result<Scenario, Error> {
         let case: Case = self.parse()?;
-        let mut findings = Vec::new();
-        case.check(&mut Check::new(&mut findings));
-        self.report(findings)?;
+        let mut diagnostics = Vec::new();
+        case.check(&mut Check::new(&mut diagnostics));
+        self.report(diagnostics)?;
 
         let library = library_of(&case, self)?;
-        let mut findings = Vec::new();
-        let scenario = resolve(&self.name, case, &library, &mut Check::new(&mut findings));
-        self.report(findings)?;
+        let mut diagnostics = Vec::new();
+        let scenario = resolve(
+            &self.name,
+            case,
+            &library,
+            &mut Check::new(&mut diagnostics),
+        );
+        self.report(diagnostics)?;
         scenario.ok_or_else(|| {
-            let finding = Finding::whole("the case could not be resolved", "");
-            self.place(finding).into()
+            let diagnostic = Diagnostic::whole("the case could not be resolved", "");
+            self.place(diagnostic).into()
         })
     }
 }
@@ -68,8 +73,8 @@ pub(super) fn library_of(case: &Case, document: &Document) -> Result<Library, Er
     library.add(&case.materials, &format!("{} (this case)", document.name));
     for (i, relative) in case.material_files.iter().enumerate() {
         let refuse = |message: &str, help: &str| {
-            let finding = Finding::at(&format!("material_files.{i}"), message, help);
-            document.place(finding.of_material())
+            let diagnostic = Diagnostic::at(&format!("material_files.{i}"), message, help);
+            document.place(diagnostic.of_material())
         };
         let Some(folder) = &document.folder else {
             let message = "a case that comes from no file cannot name material files";
@@ -92,8 +97,8 @@ pub(super) fn library_of(case: &Case, document: &Document) -> Result<Library, Er
                 relative.display()
             );
             let help = "rename or remove one of the two";
-            let finding = Finding::at(&format!("materials.{id}"), message, help);
-            return Err(document.place(finding.of_material()).into());
+            let diagnostic = Diagnostic::at(&format!("materials.{id}"), message, help);
+            return Err(document.place(diagnostic.of_material()).into());
         }
         library.add(&table, &relative.display().to_string());
     }
@@ -127,13 +132,13 @@ impl Case {
         if !self.material_files.is_empty() {
             let message = "a case that comes from no file cannot name material files";
             let help = "put the materials into its `materials` table";
-            let finding = Finding::at("material_files", message, help).of_material();
-            return Err(document.place(finding).into());
+            let diagnostic = Diagnostic::at("material_files", message, help).of_material();
+            return Err(document.place(diagnostic).into());
         }
         self.into_scenario(name, Library::built_in())
-            .map_err(|findings| {
-                let unknown = || Finding::whole("the case could not be resolved", "");
-                let first = findings.into_iter().next().unwrap_or_else(unknown);
+            .map_err(|diagnostics| {
+                let unknown = || Diagnostic::whole("the case could not be resolved", "");
+                let first = diagnostics.into_iter().next().unwrap_or_else(unknown);
                 document.place(first).into()
             })
     }
@@ -143,19 +148,21 @@ impl Case {
         self,
         name: &str,
         library: &Library,
-    ) -> Result<Scenario, Vec<Finding>> {
-        let mut findings = Vec::new();
-        self.check(&mut Check::new(&mut findings));
-        if !findings.is_empty() {
-            return Err(findings);
+    ) -> Result<Scenario, Vec<Diagnostic>> {
+        let mut diagnostics = Vec::new();
+        self.check(&mut Check::new(&mut diagnostics));
+        if !diagnostics.is_empty() {
+            return Err(diagnostics);
         }
         let mut own = None;
         if !self.materials.is_empty() {
             own.insert(library.clone()).add(&self.materials, name);
         }
         let library = own.as_ref().unwrap_or(library);
-        let scenario = resolve(name, self, library, &mut Check::new(&mut findings));
-        scenario.filter(|_| findings.is_empty()).ok_or(findings)
+        let scenario = resolve(name, self, library, &mut Check::new(&mut diagnostics));
+        scenario
+            .filter(|_| diagnostics.is_empty())
+            .ok_or(diagnostics)
     }
 
     fn check(&self, check: &mut Check<'_>) {

@@ -26,7 +26,7 @@ pub use crate::{
         SmallStrainStiffness, TargetResistanceModel,
     },
     problem::{
-        BackFace, Experiment, Extensions, Gauge, Layer, LayerInterface, Nose, Projectile,
-        SourceKeys, Support, Target, Thickness, Uncertainty,
+        EdgeSupport, Experiment, Extensions, Gauge, Layer, LayerInterface, Nose, Projectile,
+        RearFaceCondition, SourceKeys, Target, Thickness, Uncertainty,
     },
 };

@@ -7,14 +7,14 @@ use crate::{
     history::GaugePlace,
     material::{Library, MaterialEntry},
     options::Scheme,
-    problem::{BackFace, Experiment, Gauge, Layer, Nose, Thickness, Uncertainty},
+    problem::{Experiment, Gauge, Layer, Nose, RearFaceCondition, Thickness, Uncertainty},
     scenario::{
         Given, Measurement, Plate, PlateEdge, Rod, Scenario, TargetBody, modelled_thickness,
     },
     units::{Length, Mass, Quantity, Velocity},
 };
 
-/// Looks up materials and works out what is given indirectly; findings go to `check`.
+/// Looks up materials and works out what is given indirectly; diagnostics go to `check`.
 pub(super) fn resolve(
     name: &str,
     case: Case,
@@ -221,9 +221,9 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
         })
         .collect();
     let natural = if semi_infinite {
-        BackFace::NonReflecting
+        RearFaceCondition::NonReflecting
     } else {
-        BackFace::Fixed
+        RearFaceCondition::Fixed
     };
     let column_diameter = target
         .column_diameter

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use toml_edit::{DocumentMut, Item, Table};
 
 use super::{Document, material_file::TABLE};
-use crate::{check::Finding, error::Error};
+use crate::{check::Diagnostic, error::Error};
 
 /// Key of the files that a case takes materials from.
 const FILES: &str = "material_files";
@@ -100,7 +100,9 @@ fn edited(document: &Document) -> Result<DocumentMut, Error> {
         .text
         .parse()
         .map_err(|error: toml_edit::TomlError| {
-            document.place(Finding::whole(error.message(), "")).into()
+            document
+                .place(Diagnostic::whole(error.message(), ""))
+                .into()
         })
 }
 

@@ -85,8 +85,8 @@ fn digits_are_an_index_in_a_list_and_a_key_in_a_table() {
     let thicker = change("target.layers.1.thickness", "6 mm").unwrap();
     assert!((thicker.target_thickness().unwrap() - 16e-3).abs() < 1e-12);
     let said = |key: &str| {
-        let findings = change(key, "1 mm").unwrap_err();
-        findings[0].message.clone()
+        let diagnostics = change(key, "1 mm").unwrap_err();
+        diagnostics[0].message.clone()
     };
     for (key, message) in [
         (

@@ -12,7 +12,7 @@ use crate::{
 pub(crate) fn choose_target_resistance(scenario: &mut Scenario) {
     if !scenario.given.target_resistance {
         scenario.options.chain.target_resistance = None;
-        let (closure, reason) = default_closure(scenario);
+        let (closure, reason) = default_resistance_model(scenario);
         scenario.options.chain.target_resistance = Some(closure);
         scenario.resistance_reason = reason;
     }
@@ -20,7 +20,7 @@ pub(crate) fn choose_target_resistance(scenario: &mut Scenario) {
 
 /// Target resistance of a case that names none, and why it is not the expanding cavity, which is the default of a flat-ended rod on one
 /// layer: against the axisymmetric reference it errs least.
-fn default_closure(scenario: &Scenario) -> (TargetResistanceModel, Option<String>) {
+fn default_resistance_model(scenario: &Scenario) -> (TargetResistanceModel, Option<String>) {
     let options = &scenario.options.chain;
     let solid = matches!(scenario.target, TargetBody::Layers { .. });
     if !solid || options.scheme != Scheme::Conservative || scenario.projectile.nose != Nose::Flat {
@@ -57,7 +57,7 @@ fn why_a_column(scenario: &Scenario) -> Option<String> {
 }
 
 /// The closure that a run has; `None` where the scheme or the target has no choice of one.
-pub(crate) fn closure_in_use(scenario: &Scenario) -> Option<TargetResistanceModel> {
+pub(crate) fn resistance_model_in_use(scenario: &Scenario) -> Option<TargetResistanceModel> {
     let options = &scenario.options.chain;
     let solid = matches!(scenario.target, TargetBody::Layers { .. });
     (solid && options.scheme == Scheme::Conservative).then(|| options.target_resistance())
@@ -65,7 +65,7 @@ pub(crate) fn closure_in_use(scenario: &Scenario) -> Option<TargetResistanceMode
 
 #[cfg(test)]
 mod tests {
-    use super::closure_in_use;
+    use super::resistance_model_in_use;
     use crate::{
         case::{self, TargetResistanceModel},
         scenario::Scenario,
@@ -78,7 +78,7 @@ mod tests {
             "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '230 m/s' }}\n\
              target = {{ {target} }}\n{options}\n"
         );
-        case::load_str("shot", &text).unwrap_or_else(|error| panic!("{error}"))
+        case::load_str("impact", &text).unwrap_or_else(|error| panic!("{error}"))
     }
 
     #[test]
@@ -134,7 +134,11 @@ mod tests {
             (THICK, "chain.scheme = 'published'", None),
         ] {
             let scenario = load(target, options);
-            assert_eq!(closure_in_use(&scenario), expected, "{target} {options}");
+            assert_eq!(
+                resistance_model_in_use(&scenario),
+                expected,
+                "{target} {options}"
+            );
             let by_default = !options.contains("target_resistance");
             let reason = scenario.resistance_reason.is_some();
             assert_eq!(
@@ -151,16 +155,16 @@ mod tests {
                        poissons_ratio = 0.3\nstrength.elastic = {}";
         let scenario = load("material = 'e', thickness = '30 mm'", elastic);
         assert_eq!(
-            closure_in_use(&scenario),
+            resistance_model_in_use(&scenario),
             Some(TargetResistanceModel::Column)
         );
         let text = format!(
             "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', nose = 'hemisphere', impact_velocity = '230 m/s' }}\n\
              target = {{ {THICK} }}\n"
         );
-        let scenario = case::load_str("shot", &text).unwrap();
+        let scenario = case::load_str("impact", &text).unwrap();
         assert_eq!(
-            closure_in_use(&scenario),
+            resistance_model_in_use(&scenario),
             Some(TargetResistanceModel::Column)
         );
     }

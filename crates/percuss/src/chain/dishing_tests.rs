@@ -30,7 +30,7 @@ type Build = fn(&Material, f64, f64, PlateEdge, Failure, &ChainOptions) -> Dishi
 fn build(build: Build, strength: &str, thickness: f64, radius: f64, diameter: f64) -> Dishing {
     let edge = PlateEdge {
         diameter,
-        support: Support::Clamped,
+        support: EdgeSupport::Clamped,
     };
     let material = metal(strength);
     build(

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     part::Role,
-    state::{End, State},
+    state::{BoundaryCondition, State},
 };
 use crate::{
     outcome::{Outcome, Termination},
@@ -100,7 +100,7 @@ impl Window {
         let flow = (dissipation - self.dissipation) / accumulated.initial_energy;
         let deepening = monitor.largest_depth > self.depth * (1.0 + 1e-9);
         // Where the target is free to fly, its pieces count as well.
-        let met = state.end == End::Free && state.meetings != self.meetings;
+        let met = state.end == BoundaryCondition::Free && state.meetings != self.meetings;
         let touched = self.touched || met;
         self.meetings = state.meetings;
         self.start = state.time;
@@ -225,7 +225,7 @@ fn approaches(state: &State, from: usize, horizon: f64, impact_velocity: f64) ->
             let gap =
                 state.nodes[ahead.first_node].position - state.nodes[behind.last_node].position;
             // A target that is held vibrates about its place; anything else flies at its mean speed.
-            let back_is_held = state.end != End::Free;
+            let back_is_held = state.end != BoundaryCondition::Free;
             let is_held = back_is_held || state.plug_is_held();
             if is_held && s > tip && behind.part == ahead.part {
                 return false;
@@ -278,7 +278,7 @@ impl State {
 
     /// Whether neither a back face nor border shear holds any of the target.
     fn flies_free(&self) -> bool {
-        self.end == End::Free
+        self.end == BoundaryCondition::Free
             && !self.plug_is_held()
             && self.segments.iter().all(|segment| {
                 self.parts[segment.part].role == Role::Projectile

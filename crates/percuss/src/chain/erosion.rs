@@ -3,7 +3,7 @@
 use super::{
     interface::Interface,
     part::Role,
-    state::{End, Segment, State},
+    state::{BoundaryCondition, Segment, State},
 };
 
 /// Times the erosion strain that an element bears in a projectile that spreads on a floor that stands: as good as for ever, and soon
@@ -91,14 +91,14 @@ impl State {
                     self.interfaces[contact] = Interface::OPEN;
                 }
                 if !lost_front && is_last {
-                    self.end = End::Free;
+                    self.end = BoundaryCondition::Free;
                 }
             }
             _ => {
                 // The whole segment is gone: its two contacts become one, open.
                 if is_last {
                     self.interfaces.pop();
-                    self.end = End::Free;
+                    self.end = BoundaryCondition::Free;
                 } else {
                     self.interfaces.remove(s);
                     if s > 0 {

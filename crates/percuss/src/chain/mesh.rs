@@ -5,14 +5,14 @@ use std::f64::consts::PI;
 use super::{
     cone::{Cone, Grading},
     interface::Interface,
-    part::{Part, Role},
+    part::{Role, Section},
     solver::LARGEST_STRAIN_STEP,
-    state::{Accumulators, Element, End, Node, Segment, State},
+    state::{Accumulators, BoundaryCondition, Element, Node, Segment, State},
 };
 use crate::{
     material::{FlowState, YieldPoint},
     options::{ErosionCriterion, Kinematics, TargetResistanceModel, constraint_factor},
-    problem::{BackFace, LayerInterface},
+    problem::{LayerInterface, RearFaceCondition},
     scenario::{Plate, Scenario, TargetBody, modelled_thickness},
 };
 
@@ -51,7 +51,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     let options = &scenario.options.chain;
     let rod = &scenario.projectile;
     let rod_elements = options.projectile_elements();
-    let mut projectile = Part::new(
+    let mut projectile = Section::new(
         Role::Projectile,
         &rod.material,
         rod.mass / (rod.material.density.si() * rod.length),
@@ -67,7 +67,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     let mut interfaces = vec![Before::TOUCHING];
     let mut cone = None;
     let mut struck_material = None;
-    let mut end = End::Free;
+    let mut end = BoundaryCondition::Free;
     match &scenario.target {
         TargetBody::Layers {
             layers,
@@ -94,7 +94,8 @@ pub(super) fn build(scenario: &Scenario) -> State {
                     Some(_) => 1.0,
                     None => constraint_factor(options.constraint_factor(), material),
                 };
-                let mut part = Part::new(Role::Target, material, area, elements, factor, options);
+                let mut part =
+                    Section::new(Role::Target, material, area, elements, factor, options);
                 let flow_stress = material.strength.law().flow_stress_at_unit_strain(material);
                 part.friction_per_length =
                     options.border_shear() * PI * diameter(plate) * flow_stress.unwrap_or(0.0);
@@ -111,11 +112,11 @@ pub(super) fn build(scenario: &Scenario) -> State {
             }
             let area = areas.last().copied().unwrap_or_default();
             end = match (back_face, layers.last()) {
-                (BackFace::Fixed, _) => End::Fixed,
-                (BackFace::NonReflecting, Some(last)) => {
+                (RearFaceCondition::Fixed, _) => BoundaryCondition::Fixed,
+                (RearFaceCondition::NonReflecting, Some(last)) => {
                     let thickness = lengths[1..].iter().sum();
                     let behind = |cone: Cone| cone.area_at(thickness);
-                    End::Open {
+                    BoundaryCondition::Open {
                         impedance: last.material.bar_impedance()
                             * cone.map_or(area, |(cone, _)| behind(cone)),
                         stiffness: cone.map_or(0.0, |(cone, _)| {
@@ -123,14 +124,21 @@ pub(super) fn build(scenario: &Scenario) -> State {
                         }),
                     }
                 }
-                (BackFace::Free, _) | (_, None) => End::Free,
+                (RearFaceCondition::Free, _) | (_, None) => BoundaryCondition::Free,
             };
         }
         TargetBody::RigidWall => {
-            parts.push(Part::new(Role::Target, &rod.material, 0.0, 0, 1.0, options));
+            parts.push(Section::new(
+                Role::Target,
+                &rod.material,
+                0.0,
+                0,
+                1.0,
+                options,
+            ));
             interfaces.push(Before::TOUCHING);
             lengths.push(0.0);
-            end = End::Fixed;
+            end = BoundaryCondition::Fixed;
         }
         TargetBody::ConstantPressure(_) => {}
     }
@@ -190,10 +198,10 @@ impl Before {
 
 /// Lines the parts up, the first one ending and the second one starting at 0.
 fn assemble(
-    parts: Vec<Part>,
+    parts: Vec<Section>,
     lengths: &[f64],
     before: &[Before],
-    end: End,
+    end: BoundaryCondition,
     cone: Option<(Cone, Grading)>,
 ) -> State {
     let elements: usize = parts.iter().map(|part| part.elements).sum();
@@ -299,7 +307,7 @@ fn assemble(
     }
     state.back_position = state.nodes[nodes - 1].position;
     // The boundary's own impedance stands for everything behind it, border shear included.
-    if let (End::Open { .. }, Some(last)) = (end, state.nodes.last_mut()) {
+    if let (BoundaryCondition::Open { .. }, Some(last)) = (end, state.nodes.last_mut()) {
         last.friction = 0.0;
     }
     state

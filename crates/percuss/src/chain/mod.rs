@@ -60,7 +60,7 @@ mod tate;
 mod tests;
 mod warnings;
 
-pub(crate) use closure::{choose_target_resistance, closure_in_use};
+pub(crate) use closure::{choose_target_resistance, resistance_model_in_use};
 use column::ColumnRun;
 pub use published::Published;
 
@@ -70,7 +70,7 @@ pub(crate) use batch::Stopped;
 
 use crate::{
     Error, Refusal, Scenario,
-    guard::{FirstChoice, Guard, NoseKind, Range},
+    guard::{FirstChoice, NoseKind, Range, ValidityDomain},
     material::MaterialClass,
     options::{BorderShearLaw, Scheme, TargetResistanceModel},
     outcome::RunResult,
@@ -91,9 +91,9 @@ impl Model for Chain {
         "1-D discrete element model: point masses joined by normal springs"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 noses: &[NoseKind::Flat],
                 start_temperature: true,
                 separate_layers: true,
@@ -121,7 +121,7 @@ impl Model for Chain {
                     "a plate is perforated by a plug with `border_shear_law = \"shear-band\"`; without it a column can neither let go a \
                      plug nor bend",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }
@@ -183,18 +183,18 @@ impl Model for Chain {
 
 fn with_warning_of_thin_plate(scenario: &Scenario, mut result: RunResult) -> RunResult {
     if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction {
-        let thin = Range::COLUMN.finding(scenario);
+        let thin = Range::COLUMN.diagnostic(scenario);
         result.warnings.splice(0..0, thin);
     }
     result
 }
 
-/// Whether a shot is one of those that [`run_batch`] computes.
+/// Whether an impact is one of those that [`run_batch`] computes.
 pub(crate) fn is_for_batch(scenario: &Scenario) -> bool {
     batch::accepts(scenario)
 }
 
-/// What [`Chain`] says of shots that are for the batch, side by side, to the last bit.
+/// What [`Chain`] says of impacts that are for the batch, side by side, to the last bit.
 ///
 /// # Errors
 /// [`Stopped`]: `stop` has become true.

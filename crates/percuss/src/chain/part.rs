@@ -18,7 +18,7 @@ pub(super) enum Role {
 
 /// A projectile or a layer of the target.
 #[derive(Debug)]
-pub(super) struct Part {
+pub(super) struct Section {
     pub(super) role: Role,
     /// Number of elements; a rigid wall has none.
     pub(super) elements: usize,
@@ -46,7 +46,7 @@ pub(super) struct Part {
     pub(super) friction_per_length: f64,
 }
 
-impl Part {
+impl Section {
     /// A deformable part. `factor` multiplies its flow stress.
     pub(super) fn new(
         role: Role,

@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    part::Part,
+    part::Section,
     state::{Element, State},
 };
 use crate::material::{Material, cavity_expansion_pressure};
@@ -160,7 +160,7 @@ impl Element {
     /// plastic work around the cavity between the half steps around the current time [J].
     pub(super) fn penetrate(
         &mut self,
-        part: &Part,
+        part: &Section,
         distance: f64,
         time_step: f64,
         limit: Limit,
@@ -173,7 +173,7 @@ impl Element {
         work
     }
 
-    fn advance_step_to(&self, part: &Part, distance: f64, time_step: f64, limit: Limit) -> f64 {
+    fn advance_step_to(&self, part: &Section, distance: f64, time_step: f64, limit: Limit) -> f64 {
         let excess = |step: f64| {
             let length = distance + self.advance + step;
             if length <= 0.0 {

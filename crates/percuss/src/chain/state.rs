@@ -10,7 +10,7 @@ use super::{
     dishing::Dishing,
     drift::YieldingElement,
     interface::Interface,
-    part::{Part, Role},
+    part::{Role, Section},
     penetration::Penetration,
     plug::PlugConstraint,
     shear_band::Bands,
@@ -25,7 +25,7 @@ use crate::{
 
 /// What holds the last node of the chain.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum End {
+pub(super) enum BoundaryCondition {
     Free,
     Fixed,
     /// Boundary that takes up a wave without reflecting it: a dashpot \[lysmer1969\], and behind a cone a spring beside it
@@ -142,12 +142,12 @@ pub(super) struct Accumulators {
 /// Nodes, elements and accumulated work at one time. Node velocities stand half a step behind the positions.
 #[derive(Debug)]
 pub(super) struct State {
-    pub(super) parts: Vec<Part>,
+    pub(super) parts: Vec<Section>,
     /// From the projectile's tail to the target's back.
     pub(super) segments: Vec<Segment>,
     /// `interfaces[s]`: what is between segments `s` and `s + 1`.
     pub(super) interfaces: Vec<Interface>,
-    pub(super) end: End,
+    pub(super) end: BoundaryCondition,
     /// Force of a constant-pressure target on the projectile's tip [N]; 0 with any other target.
     pub(super) tip_friction: f64,
     /// What moves with the tip under the erosion closure of Tate.
@@ -241,7 +241,7 @@ impl State {
     /// A non-reflecting end has no static stiffness: the column that it holds drifts as a whole, and that drift is no crater.
     pub(super) fn depth(&self) -> f64 {
         match (self.face_segment(), self.tip_segment(), self.end) {
-            (Some(face), _, End::Open { stiffness: 0.0, .. }) => {
+            (Some(face), _, BoundaryCondition::Open { stiffness: 0.0, .. }) => {
                 let back = self.nodes[self.nodes.len() - 1].position - self.back_position;
                 self.nodes[self.segments[face].first_node].position - back
             }
@@ -264,7 +264,7 @@ impl State {
     }
 
     /// Elastic energy of an element between two steps: the form that central differences conserve.
-    pub(super) fn elastic_energy(&self, element: usize, part: &Part) -> f64 {
+    pub(super) fn elastic_energy(&self, element: usize, part: &Section) -> f64 {
         let element = &self.elements[element];
         element.volume * element.stress_before * element.stress / (2.0 * part.modulus)
     }

@@ -69,7 +69,7 @@ fn mirror(mut state: State) -> State {
 }
 
 #[test]
-fn a_mirrored_shot_is_the_mirror_of_the_shot() {
+fn a_mirrored_impact_is_the_mirror_of_the_impact() {
     let materials: Vec<&str> = Library::built_in()
         .iter()
         .map(|entry| entry.id.as_str())

@@ -8,13 +8,13 @@ use crate::{
     material::{Material, Strength, cavity_expansion_pressure},
     options::{BorderShearLaw, ErosionCriterion, TargetResistanceModel},
     outcome::{Outcome, RunResult},
-    problem::BackFace,
+    problem::RearFaceCondition,
     scenario::{Plate, Scenario, TargetBody, modelled_thickness},
     units::{StrainRate, Temperature, Velocity, significant},
 };
 
 const OUT_OF_TIME: &str =
-    "the run was ended before the shot was over: raise `chain.end_time` or `chain.max_steps`";
+    "the run was ended before the impact was over: raise `chain.end_time` or `chain.max_steps`";
 /// Part of the thickness of a plate that a crater may take before a support behind it matters.
 const FREE_OF_BACK_FACE: f64 = 0.5;
 /// Thickness in projectile diameters from which on dishing adds less than a tenth to the depth in the axisymmetric reference.
@@ -104,17 +104,17 @@ fn warning_of_rear_face(scenario: &Scenario, depth: f64) -> Option<String> {
         return None;
     };
     match back_face {
-        BackFace::Free if thickness < FREE_OF_DISHING * scenario.projectile.diameter => Some(
+        RearFaceCondition::Free if thickness < FREE_OF_DISHING * scenario.projectile.diameter => Some(
             "the depth is that of the crater alone: a plate below 3 projectile diameters with a free rear face also dishes and bulges, \
              which is not included"
                 .to_owned(),
         ),
-        BackFace::Fixed if depth >= thickness => Some(
+        RearFaceCondition::Fixed if depth >= thickness => Some(
             "perforation is not a result: the rear face is fixed (default) and the crater has reached it; set \
              `target.back_face = \"free\"`"
                 .to_owned(),
         ),
-        BackFace::Fixed | BackFace::NonReflecting if depth > FREE_OF_BACK_FACE * thickness => Some(
+        RearFaceCondition::Fixed | RearFaceCondition::NonReflecting if depth > FREE_OF_BACK_FACE * thickness => Some(
             "the crater is more than half as deep as the plate: the support behind it is not included in the resistance"
                 .to_owned(),
         ),

@@ -1,13 +1,13 @@
 //! Every model on one case, at one or many impact speeds, and which of them to rely on.
 //!
 //! ```
-//! use percuss::{case, compare::{compare, Watch}, model::quick};
+//! use percuss::{case, compare::{compare, Observer}, model::quick};
 //!
 //! let scenario = case::load_str("taylor", r#"
 //!     projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", impact_velocity = "183 m/s" }
 //!     target = { rigid_wall = true }
 //! "#)?;
-//! let comparison = compare(&quick(), &scenario, &[89.0, 183.0], &mut Watch::default())?;
+//! let comparison = compare(&quick(), &scenario, &[89.0, 183.0], &mut Observer::default())?;
 //! assert_eq!(comparison.results.len(), 2 * quick().len());
 //! assert!(comparison.has_results());
 //! # Ok::<(), percuss::Error>(())
@@ -30,7 +30,7 @@ use crate::{
 };
 
 pub use crate::model::{Choice, Recommendation};
-pub use jobs::{Progress, Watch};
+pub use jobs::{Observer, Progress};
 
 /// What every model says of a case. The names are stable; those of `percuss run --json` have the same meaning.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -79,7 +79,7 @@ pub struct ExperimentRecord {
 }
 
 impl ExperimentRecord {
-    /// What was measured on shots of a case.
+    /// What was measured on runs of a case.
     pub(crate) fn all(scenario: &Scenario) -> Vec<Self> {
         let record = |measured: &Measurement| Self {
             quantity: measured.quantity,
@@ -99,16 +99,16 @@ impl ExperimentRecord {
 /// entries does not depend on the order in which runs end.
 ///
 /// # Errors
-/// [`Error::Cancelled`] when `watch` says so.
+/// [`Error::Cancelled`] when `observer` says so.
 pub fn compare(
     models: &[&dyn Model],
     scenario: &Scenario,
     speeds: &[f64],
-    watch: &mut Watch<'_>,
+    observer: &mut Observer<'_>,
 ) -> Result<Comparison, Error> {
-    let shots: Vec<(Scenario, Regime)> = jobs::shots(scenario, speeds);
-    let results = jobs::run(models, &shots, watch)?;
-    let recommended = shots
+    let runs: Vec<(Scenario, Regime)> = jobs::scenarios(scenario, speeds);
+    let results = jobs::run(models, &runs, observer)?;
+    let recommended = runs
         .iter()
         .zip(results.chunks(models.len().max(1)))
         .map(|((scenario, regime), results)| {
@@ -123,7 +123,7 @@ pub fn compare(
         quantities: quantities::leading(scenario, &results),
         experiments: ExperimentRecord::all(scenario),
         results,
-        regime: shots
+        regime: runs
             .into_iter()
             .map(|(scenario, regime)| SpeedRegime {
                 impact_velocity_m_s: scenario.impact_velocity,
@@ -133,7 +133,7 @@ pub fn compare(
     })
 }
 
-/// Part of an impact speed by which a shot may differ from a measured one and still be the same.
+/// Part of an impact speed by which a run may differ from a measured one and still be the same.
 const SAME_SPEED: f64 = 1e-3;
 
 fn same_speed(measured: f64, speed: f64) -> bool {

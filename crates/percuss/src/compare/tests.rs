@@ -2,10 +2,10 @@
 
 use std::{ops::ControlFlow, sync::Mutex};
 
-use super::{Watch, compare};
+use super::{Observer, compare};
 use crate::{
     Error, NumericalError, Scenario, case,
-    guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
+    guard::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
     made_up::MadeUp,
     material::MaterialClass,
     model::{self, Control, Model},
@@ -58,7 +58,7 @@ const fn first_choice(projectile: ProjectileRegime) -> FirstChoice {
     }
 }
 
-const SLOW: Guard = Guard {
+const SLOW: ValidityDomain = ValidityDomain {
     ranges: &[Range {
         measure: Measure::ImpactSpeed,
         min: 0.0,
@@ -66,19 +66,19 @@ const SLOW: Guard = Guard {
         outside: Outside::NotApplicable,
         because: "it is slow",
     }],
-    ..Guard::OPEN
+    ..ValidityDomain::OPEN
 };
 
 const OPEN: MadeUp = MadeUp {
     name: "open",
-    guard: Guard::OPEN,
+    guard: ValidityDomain::OPEN,
     result: deep,
 };
 
 /// A copper rod of 5 mm on a target: deforming below some 300 m/s, eroding above.
 fn scenario(target: &str, more: &str) -> Scenario {
     case::load_str(
-        "shot",
+        "run",
         &format!(
             "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '200 m/s' }}\n\
              target = {{ {target} }}\n{more}"
@@ -107,7 +107,7 @@ fn entries_stand_in_order_and_a_failure_stops_nothing() {
         &models,
         &scenario(SEMI_INFINITE, ""),
         &speeds,
-        &mut Watch::default(),
+        &mut Observer::default(),
     )
     .unwrap();
     assert_eq!(comparison.speeds(), speeds);
@@ -136,7 +136,7 @@ fn entries_stand_in_order_and_a_failure_stops_nothing() {
         &models[..1],
         &scenario(SEMI_INFINITE, ""),
         &[100.0],
-        &mut Watch::default(),
+        &mut Observer::default(),
     );
     assert!(!none.unwrap().has_results());
 }
@@ -145,8 +145,20 @@ fn entries_stand_in_order_and_a_failure_stops_nothing() {
 fn a_comparison_is_the_same_every_time() {
     let speeds = [100.0, 200.0, 400.0];
     let scenario = scenario(SEMI_INFINITE, "");
-    let one = compare(&model::quick(), &scenario, &speeds, &mut Watch::default()).unwrap();
-    let two = compare(&model::quick(), &scenario, &speeds, &mut Watch::default()).unwrap();
+    let one = compare(
+        &model::quick(),
+        &scenario,
+        &speeds,
+        &mut Observer::default(),
+    )
+    .unwrap();
+    let two = compare(
+        &model::quick(),
+        &scenario,
+        &speeds,
+        &mut Observer::default(),
+    )
+    .unwrap();
     assert_eq!(one, two);
     let alone = model::run(
         model::model("chain").unwrap(),
@@ -170,7 +182,7 @@ fn the_leading_quantity_follows_from_the_target() {
             &[model],
             &scenario(target, ""),
             &[200.0],
-            &mut Watch::default(),
+            &mut Observer::default(),
         )
         .unwrap()
         .quantities
@@ -190,7 +202,7 @@ fn the_leading_quantity_follows_from_the_target() {
         &[chain],
         &scenario("rigid_wall = true", ""),
         &[90.0],
-        &mut Watch::default(),
+        &mut Observer::default(),
     );
     assert_eq!(
         wall.unwrap().quantities,
@@ -202,9 +214,9 @@ fn the_leading_quantity_follows_from_the_target() {
 fn a_first_choice_is_recommended_if_it_gives_a_result() {
     const DEFORMING: &[FirstChoice] = &[first_choice(ProjectileRegime::Deforming)];
     const ERODING: &[FirstChoice] = &[first_choice(ProjectileRegime::Eroding)];
-    let guard = |first_choice| Guard {
+    let guard = |first_choice| ValidityDomain {
         first_choice,
-        ..Guard::OPEN
+        ..ValidityDomain::OPEN
     };
     let deforming = MadeUp {
         name: "deforming",
@@ -223,7 +235,7 @@ fn a_first_choice_is_recommended_if_it_gives_a_result() {
     };
     let at = |models: &[&dyn Model], speed: f64| {
         let scenario = scenario(SEMI_INFINITE, "");
-        let comparison = compare(models, &scenario, &[speed], &mut Watch::default()).unwrap();
+        let comparison = compare(models, &scenario, &[speed], &mut Observer::default()).unwrap();
         let recommendation = comparison.recommended[0].clone();
         let names: Vec<&str> = recommendation
             .models
@@ -260,17 +272,17 @@ fn a_neighbouring_regime_is_named() {
     const DEFORMING: &[FirstChoice] = &[first_choice(ProjectileRegime::Deforming)];
     let rigid = MadeUp {
         name: "rigid",
-        guard: Guard {
+        guard: ValidityDomain {
             first_choice: RIGID,
-            ..Guard::OPEN
+            ..ValidityDomain::OPEN
         },
         ..OPEN
     };
     let soft = MadeUp {
         name: "soft",
-        guard: Guard {
+        guard: ValidityDomain {
             first_choice: DEFORMING,
-            ..Guard::OPEN
+            ..ValidityDomain::OPEN
         },
         ..OPEN
     };
@@ -281,7 +293,7 @@ fn a_neighbouring_regime_is_named() {
                 strength.perfectly_plastic.flow_stress = '400 MPa'";
     let scenario = case::load_str("edge", text).unwrap();
     let recommend = |models: &[&dyn Model]| {
-        let comparison = compare(models, &scenario, &[100.0], &mut Watch::default()).unwrap();
+        let comparison = compare(models, &scenario, &[100.0], &mut Observer::default()).unwrap();
         let recommendation = comparison.recommended[0].clone();
         (recommendation.models[0].model, recommendation.note.unwrap())
     };
@@ -304,7 +316,13 @@ fn measured_values_are_found_by_their_speed() {
     let more = "[[experiments]]\nimpact_velocity = '200 m/s'\ndepth_of_penetration = '4 mm'\nsource = 'a'\n\
                 [[experiments]]\nimpact_velocity = '200.1 m/s'\ndepth_of_penetration = '5 mm'\nuncertainty = '1 mm'\nsource = 'a'\n";
     let scenario = scenario(SEMI_INFINITE, more);
-    let comparison = compare(&[&OPEN], &scenario, &[200.0, 300.0], &mut Watch::default()).unwrap();
+    let comparison = compare(
+        &[&OPEN],
+        &scenario,
+        &[200.0, 300.0],
+        &mut Observer::default(),
+    )
+    .unwrap();
     let depth = BandQuantity::DepthOfPenetration;
     assert_eq!(comparison.measured(depth, 200.0), Some((4.5, 2)));
     assert_eq!(comparison.measured(depth, 300.0), None);
@@ -322,11 +340,11 @@ fn progress_grows_to_the_end_and_can_stop_everything() {
         seen.lock().unwrap().push(now);
         ControlFlow::Continue(())
     };
-    let mut watch = Watch {
+    let mut observer = Observer {
         progress: Some(&mut note),
     };
     let scenario = scenario(SEMI_INFINITE, "");
-    compare(&[&OPEN, &OPEN], &scenario, &[100.0, 200.0], &mut watch).unwrap();
+    compare(&[&OPEN, &OPEN], &scenario, &[100.0, 200.0], &mut observer).unwrap();
     let seen = seen.into_inner().unwrap();
     assert!(
         seen.windows(2)
@@ -340,9 +358,9 @@ fn progress_grows_to_the_end_and_can_stop_everything() {
         0 => ControlFlow::Continue(()),
         _ => ControlFlow::Break(()),
     };
-    let mut watch = Watch {
+    let mut observer = Observer {
         progress: Some(&mut stop),
     };
-    let stopped = compare(&[&OPEN, &OPEN], &scenario, &[100.0, 200.0], &mut watch);
+    let stopped = compare(&[&OPEN, &OPEN], &scenario, &[100.0, 200.0], &mut observer);
     assert!(matches!(stopped, Err(Error::Cancelled { .. })));
 }

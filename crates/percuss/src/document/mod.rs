@@ -19,7 +19,7 @@ use self::{
     text_file::case_name,
 };
 use crate::{
-    check::Finding,
+    check::Diagnostic,
     error::{Error, InputError, Subject},
 };
 
@@ -95,23 +95,23 @@ impl Document {
         toml::from_str(&self.text).map_err(|error| self.parse_error(&error).into())
     }
 
-    /// Fails with the first finding, if there is one.
-    pub(crate) fn report(&self, findings: Vec<Finding>) -> Result<(), Error> {
-        match findings.into_iter().next() {
-            Some(finding) => Err(self.place(finding).into()),
+    /// Fails with the first diagnostic, if there is one.
+    pub(crate) fn report(&self, diagnostics: Vec<Diagnostic>) -> Result<(), Error> {
+        match diagnostics.into_iter().next() {
+            Some(diagnostic) => Err(self.place(diagnostic).into()),
             None => Ok(()),
         }
     }
 
-    pub(crate) fn place(&self, finding: Finding) -> InputError {
+    pub(crate) fn place(&self, diagnostic: Diagnostic) -> InputError {
         InputError {
-            subject: finding.subject,
+            subject: diagnostic.subject,
             file: self.file.clone(),
             text: self.text.clone(),
-            span: self.span_of(&finding.key),
-            key: finding.key,
-            message: finding.message,
-            help: finding.help,
+            span: self.span_of(&diagnostic.key),
+            key: diagnostic.key,
+            message: diagnostic.message,
+            help: diagnostic.help,
         }
     }
 

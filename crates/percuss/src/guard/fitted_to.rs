@@ -16,7 +16,7 @@ const FEW: usize = 3;
 
 impl FittedTo {
     /// The sources, and what was fitted to them or chosen on them.
-    pub fn in_words(&self) -> String {
+    pub fn describe(&self) -> String {
         let sources = if self.sources.len() > FEW {
             format!("{} sources of shots", self.sources.len())
         } else {

@@ -1,7 +1,7 @@
 //! Plates on a fixed rear face.
 
 use crate::{
-    problem::BackFace,
+    problem::RearFaceCondition,
     regime::THICK,
     scenario::{Scenario, TargetBody},
 };
@@ -9,7 +9,7 @@ use crate::{
 /// Warning that a fixed rear face lets nothing out of a plate that is not thick.
 pub(crate) fn fixed_rear_face_warning(scenario: &Scenario) -> Option<String> {
     let TargetBody::Layers {
-        back_face: BackFace::Fixed,
+        back_face: RearFaceCondition::Fixed,
         ..
     } = scenario.target
     else {

@@ -1,15 +1,19 @@
 //! Impacts at an angle to the normal of the struck face.
 
-use super::{Guard, NoseKind, list};
+use super::{NoseKind, ValidityDomain, list};
 use crate::{scenario::Scenario, units::Angle};
 
 /// Why a model cannot take an impact at its angle, if it cannot.
-pub(super) fn reason(guard: &Guard, scenario: &Scenario, nose: NoseKind) -> Option<String> {
-    if scenario.obliquity == 0.0 || guard.oblique_noses.contains(&nose) {
+pub(super) fn reason(
+    validity: &ValidityDomain,
+    scenario: &Scenario,
+    nose: NoseKind,
+) -> Option<String> {
+    if scenario.obliquity == 0.0 || validity.oblique_noses.contains(&nose) {
         return None;
     }
     let angle = Angle::new(scenario.obliquity);
-    let takes = match guard.oblique_noses {
+    let takes = match validity.oblique_noses {
         [] => "it takes normal impact".to_owned(),
         noses => format!(
             "it takes oblique impact of {} noses",
@@ -23,8 +27,8 @@ pub(super) fn reason(guard: &Guard, scenario: &Scenario, nose: NoseKind) -> Opti
 }
 
 /// Which impacts it takes, in words.
-pub(super) fn in_words(guard: &Guard) -> String {
-    match guard.oblique_noses {
+pub(super) fn describe(validity: &ValidityDomain) -> String {
+    match validity.oblique_noses {
         [] => "impact along the normal of the struck face".to_owned(),
         noses => format!(
             "oblique impact too, with {} noses",

@@ -1,4 +1,4 @@
-//! Ranges of ratios and of the speed that a guard sets.
+//! Ranges of ratios and of the speed that a validity sets.
 
 use serde::Serialize;
 
@@ -39,21 +39,21 @@ impl Range {
     };
 
     /// What is to be said of a case outside; `None` for a case inside, or without such a measure.
-    pub fn finding(&self, scenario: &Scenario) -> Option<String> {
+    pub fn diagnostic(&self, scenario: &Scenario) -> Option<String> {
         let value = self.measure.of(scenario)?;
         (!(self.min..=self.max).contains(&value)).then(|| {
             format!(
                 "{} is {}, and it takes {}: {}",
-                self.measure.in_words(),
+                self.measure.describe(),
                 self.measure.with_unit(value),
-                self.in_words(),
+                self.describe(),
                 self.because
             )
         })
     }
 
     /// The range in words, with its unit.
-    pub fn in_words(&self) -> String {
+    pub fn describe(&self) -> String {
         if self.max.is_infinite() {
             format!("{} or more", self.measure.with_unit(self.min))
         } else if self.min <= 0.0 {
@@ -111,7 +111,7 @@ impl Measure {
     }
 
     /// Its name in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::LengthToDiameter => "length to diameter",
             Self::FlatRodLengthToDiameter => "length to diameter, as a flat-ended rod of its mass,",

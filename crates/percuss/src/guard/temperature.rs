@@ -1,6 +1,6 @@
 //! Projectiles that are not at the temperature their material was measured at.
 
-use super::Guard;
+use super::ValidityDomain;
 use crate::{
     material::{FlowState, Material},
     scenario::Scenario,
@@ -8,7 +8,7 @@ use crate::{
 };
 
 /// Why a model cannot take a projectile at its temperature, if it cannot.
-pub(super) fn reason(guard: &Guard, scenario: &Scenario) -> Option<String> {
+pub(super) fn reason(validity: &ValidityDomain, scenario: &Scenario) -> Option<String> {
     let material = &scenario.projectile.material;
     let room = material.room_temperature;
     let temperature = scenario
@@ -16,7 +16,7 @@ pub(super) fn reason(guard: &Guard, scenario: &Scenario) -> Option<String> {
         .temperature
         .filter(|temperature| *temperature != room.si())?;
     let shown = Temperature::new(temperature);
-    if !guard.start_temperature {
+    if !validity.start_temperature {
         return Some(format!(
             "it takes a projectile at the temperature of its material's record, {room}, and this one has {shown}"
         ));

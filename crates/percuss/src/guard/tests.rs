@@ -1,6 +1,6 @@
 //! What guards let pass, warn of and refuse, and in what words.
 
-use super::{FirstChoice, Guard, Measure, NoseKind, Outside, Range, Verdict, list};
+use super::{Applicability, FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain, list};
 use crate::{
     Scenario, case,
     material::MaterialClass,
@@ -18,17 +18,17 @@ fn scenario(target: &str, nose: &str, speed: f64) -> Scenario {
          [materials.concrete]\nname = 'concrete'\ndensity = '2300 kg/m3'\nyoungs_modulus = '30 GPa'\npoissons_ratio = 0.2\n\
          strength.concrete.compressive_strength = '40 MPa'\n"
     );
-    case::load_str("guard", &text).unwrap()
+    case::load_str("validity", &text).unwrap()
 }
 
-fn verdict(guard: &Guard, scenario: &Scenario) -> Verdict {
-    guard.verdict(scenario, &Regime::of(scenario))
+fn verdict(validity: &ValidityDomain, scenario: &Scenario) -> Applicability {
+    validity.verdict(scenario, &Regime::of(scenario))
 }
 
-fn reason(guard: &Guard, scenario: &Scenario) -> String {
-    match verdict(guard, scenario) {
-        Verdict::Outside(refusal) => refusal.to_string(),
-        Verdict::Inside(warnings) => panic!("let pass with {warnings:?}"),
+fn reason(validity: &ValidityDomain, scenario: &Scenario) -> String {
+    match verdict(validity, scenario) {
+        Applicability::Outside(refusal) => refusal.to_string(),
+        Applicability::Inside(warnings) => panic!("let pass with {warnings:?}"),
     }
 }
 
@@ -39,18 +39,18 @@ fn an_open_guard_lets_every_metal_pass() {
     for target in [PLATE, "rigid_wall = true", "constant_pressure = '2 GPa'"] {
         let scenario = scenario(target, "'flat'", 500.0);
         assert_eq!(
-            verdict(&Guard::OPEN, &scenario),
-            Verdict::Inside(Vec::new())
+            verdict(&ValidityDomain::OPEN, &scenario),
+            Applicability::Inside(Vec::new())
         );
     }
     let concrete = scenario("material = 'concrete', thickness = '1 m'", "'flat'", 500.0);
     assert_eq!(
-        reason(&Guard::OPEN, &concrete),
+        reason(&ValidityDomain::OPEN, &concrete),
         "it takes targets of metal, and this one is of concrete"
     );
-    let rod = Guard {
+    let rod = ValidityDomain {
         projectile_materials: &[MaterialClass::Concrete],
-        ..Guard::OPEN
+        ..ValidityDomain::OPEN
     };
     assert_eq!(
         reason(&rod, &scenario(PLATE, "'flat'", 500.0)),
@@ -60,31 +60,31 @@ fn an_open_guard_lets_every_metal_pass() {
 
 #[test]
 fn target_and_nose_are_refused_by_name() {
-    let deep = Guard {
+    let deep = ValidityDomain {
         targets: &[TargetKind::SemiInfinite, TargetKind::RigidWall],
-        ..Guard::OPEN
+        ..ValidityDomain::OPEN
     };
     assert_eq!(
         reason(&deep, &scenario(PLATE, "'flat'", 500.0)),
         "it takes semi-infinite targets or rigid walls, and this is a thick plate (6 projectile diameters)"
     );
-    let sharp = Guard {
+    let sharp = ValidityDomain {
         noses: NoseKind::SHARP,
-        ..Guard::OPEN
+        ..ValidityDomain::OPEN
     };
     assert_eq!(
         reason(&sharp, &scenario(PLATE, "'flat'", 500.0)),
         "it takes hemisphere, cone or ogive noses, and this nose is of the shape `flat`"
     );
     let cone = scenario(PLATE, "{ cone = { length_to_diameter = 1.0 } }", 500.0);
-    assert!(matches!(verdict(&sharp, &cone), Verdict::Inside(_)));
+    assert!(matches!(verdict(&sharp, &cone), Applicability::Inside(_)));
 }
 
 #[test]
 fn a_neighbouring_regime_passes_with_a_warning() {
-    let rigid = Guard {
+    let rigid = ValidityDomain {
         projectile: &[ProjectileRegime::Rigid],
-        ..Guard::OPEN
+        ..ValidityDomain::OPEN
     };
     let pressed = |stress: f64| {
         scenario(
@@ -95,9 +95,9 @@ fn a_neighbouring_regime_passes_with_a_warning() {
     };
     assert_eq!(
         verdict(&rigid, &pressed(300.0)),
-        Verdict::Inside(Vec::new())
+        Applicability::Inside(Vec::new())
     );
-    let Verdict::Inside(warnings) = verdict(&rigid, &pressed(500.0)) else {
+    let Applicability::Inside(warnings) = verdict(&rigid, &pressed(500.0)) else {
         panic!("refused at the edge");
     };
     assert_eq!(
@@ -137,31 +137,34 @@ fn ranges_refuse_or_warn_and_hold_their_ends() {
         f64::INFINITY,
         Outside::NotApplicable,
     )];
-    let speed = Guard {
+    let speed = ValidityDomain {
         ranges: SPEED,
-        ..Guard::OPEN
+        ..ValidityDomain::OPEN
     };
     let at = |speed: f64| scenario(PLATE, "'flat'", speed);
     for inside in [100.0, 900.0] {
-        assert_eq!(verdict(&speed, &at(inside)), Verdict::Inside(Vec::new()));
+        assert_eq!(
+            verdict(&speed, &at(inside)),
+            Applicability::Inside(Vec::new())
+        );
     }
     assert_eq!(
         reason(&speed, &at(99.9)),
         "impact speed is 99.9 m/s, and it takes 100 to 900 m/s: it was fitted there"
     );
-    let length = Guard {
+    let length = ValidityDomain {
         ranges: LENGTH,
-        ..Guard::OPEN
+        ..ValidityDomain::OPEN
     };
     assert_eq!(
         verdict(&length, &at(500.0)),
-        Verdict::Inside(vec![
+        Applicability::Inside(vec![
             "length to diameter is 10, and it takes up to 8: it was fitted there".to_owned()
         ])
     );
-    let thickness = Guard {
+    let thickness = ValidityDomain {
         ranges: THICKNESS,
-        ..Guard::OPEN
+        ..ValidityDomain::OPEN
     };
     assert_eq!(
         reason(&thickness, &at(500.0)),
@@ -169,14 +172,17 @@ fn ranges_refuse_or_warn_and_hold_their_ends() {
     );
     // What has no thickness has nothing to be measured.
     let wall = scenario("rigid_wall = true", "'flat'", 500.0);
-    assert_eq!(verdict(&thickness, &wall), Verdict::Inside(Vec::new()));
+    assert_eq!(
+        verdict(&thickness, &wall),
+        Applicability::Inside(Vec::new())
+    );
 }
 
 #[test]
 fn a_depth_near_the_back_face_is_refused_where_it_is_not_seen() {
-    let blind = Guard {
+    let blind = ValidityDomain {
         sees_back_face: false,
-        ..Guard::OPEN
+        ..ValidityDomain::OPEN
     };
     let plate = scenario(PLATE, "'flat'", 500.0);
     assert_eq!(blind.depth_at_back_face(&plate, 0.0239), None);
@@ -185,7 +191,7 @@ fn a_depth_near_the_back_face_is_refused_where_it_is_not_seen() {
         reason.contains("24.1 mm is more than 80 % of the thickness of 30 mm"),
         "{reason}"
     );
-    assert_eq!(Guard::OPEN.depth_at_back_face(&plate, 0.1), None);
+    assert_eq!(ValidityDomain::OPEN.depth_at_back_face(&plate, 0.1), None);
     let deep = scenario(
         "material = 'rod', thickness = 'semi-infinite'",
         "'flat'",
@@ -243,19 +249,19 @@ fn what_has_no_material_is_said_to_be_of_none() {
             "against rigid walls or thin plates, of metal",
         ),
     ] {
-        let guard = Guard {
+        let validity = ValidityDomain {
             targets,
-            ..Guard::OPEN
+            ..ValidityDomain::OPEN
         };
-        assert_eq!(guard.in_words()[1], words);
+        assert_eq!(validity.describe()[1], words);
     }
 }
 
 #[test]
 fn every_model_says_what_it_is_made_for() {
     for model in MODELS {
-        let (name, guard) = (model.name(), model.guard());
-        let lines = guard.in_words();
+        let (name, validity) = (model.name(), model.validity());
+        let lines = validity.describe();
         assert!(
             lines.len() >= 2 && lines.iter().all(|line| !line.trim().is_empty()),
             "{name}: {lines:?}"
@@ -264,24 +270,27 @@ fn every_model_says_what_it_is_made_for() {
             lines[0].contains("projectiles of") && lines[1].starts_with("against "),
             "{name}"
         );
-        for range in guard.ranges {
+        for range in validity.ranges {
             assert!(range.min < range.max && !range.because.is_empty(), "{name}");
         }
-        for choice in guard.first_choice {
-            assert!(guard.projectile.contains(&choice.projectile), "{name}");
+        for choice in validity.first_choice {
+            assert!(validity.projectile.contains(&choice.projectile), "{name}");
             assert!(
                 choice
                     .targets
                     .iter()
-                    .all(|target| guard.targets.contains(target)),
+                    .all(|target| validity.targets.contains(target)),
                 "{name}"
             );
             assert!(
-                choice.noses.iter().all(|nose| guard.noses.contains(nose)),
+                choice
+                    .noses
+                    .iter()
+                    .all(|nose| validity.noses.contains(nose)),
                 "{name}"
             );
             assert!(
-                guard.target_materials.contains(&choice.target_material),
+                validity.target_materials.contains(&choice.target_material),
                 "{name}"
             );
         }

@@ -7,7 +7,7 @@ pub fn of_material(targets: &[TargetKind], classes: &[MaterialClass]) -> String 
     match targets.iter().any(|kind| kind.has_material()) {
         true => format!(
             ", of {}",
-            list(classes.iter().map(|class| class.in_words()))
+            list(classes.iter().map(|class| class.describe()))
         ),
         false => String::new(),
     }

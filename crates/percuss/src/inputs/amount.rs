@@ -9,7 +9,7 @@ use crate::units::{shorten, split_number};
 
 /// A number, or a number with a unit in quotes. Whether the unit fits is for the case to say.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Amount {
+pub struct QuantityLiteral {
     /// The number.
     pub value: f64,
     /// Its unit; empty when it has none.
@@ -18,34 +18,34 @@ pub struct Amount {
     pub whole: bool,
 }
 
-impl<'de> Deserialize<'de> for Amount {
+impl<'de> Deserialize<'de> for QuantityLiteral {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(AmountVisitor)
+        deserializer.deserialize_any(QuantityLiteralVisitor)
     }
 }
 
-pub(crate) struct AmountVisitor;
+pub(crate) struct QuantityLiteralVisitor;
 
-impl serde::de::Visitor<'_> for AmountVisitor {
-    type Value = Amount;
+impl serde::de::Visitor<'_> for QuantityLiteralVisitor {
+    type Value = QuantityLiteral;
 
     fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("a number, or one with a unit in quotes such as \"230 m/s\"")
     }
 
-    fn visit_f64<E: serde::de::Error>(self, value: f64) -> Result<Amount, E> {
+    fn visit_f64<E: serde::de::Error>(self, value: f64) -> Result<QuantityLiteral, E> {
         if !value.is_finite() {
             return Err(E::custom("the number is not finite\nwrite a finite number"));
         }
-        Ok(Amount {
+        Ok(QuantityLiteral {
             value,
             unit: String::new(),
             whole: false,
         })
     }
 
-    fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<Amount, E> {
-        Ok(Amount {
+    fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<QuantityLiteral, E> {
+        Ok(QuantityLiteral {
             value: value as f64,
             unit: String::new(),
             // Beyond, a float would stand for a neighbour as well.
@@ -53,7 +53,7 @@ impl serde::de::Visitor<'_> for AmountVisitor {
         })
     }
 
-    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Amount, E> {
+    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<QuantityLiteral, E> {
         let bad = |what: &str| {
             let text = shorten(text);
             E::custom(format!(
@@ -63,7 +63,7 @@ impl serde::de::Visitor<'_> for AmountVisitor {
         match split_number(text.trim()) {
             Some((value, _)) if !value.is_finite() => Err(bad("is not a finite number")),
             Some((_, "")) => Err(bad("has no unit")),
-            Some((value, unit)) => Ok(Amount {
+            Some((value, unit)) => Ok(QuantityLiteral {
                 value,
                 unit: unit.to_owned(),
                 whole: false,
@@ -73,7 +73,7 @@ impl serde::de::Visitor<'_> for AmountVisitor {
     }
 }
 
-impl Amount {
+impl QuantityLiteral {
     /// It as a case file has it; a float's text reads back as the same number.
     pub(crate) fn written(value: f64, unit: &str, whole: bool) -> toml::Value {
         if !unit.is_empty() {
@@ -86,15 +86,15 @@ impl Amount {
     }
 }
 
-impl Serialize for Amount {
+impl Serialize for QuantityLiteral {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         Self::written(self.value, &self.unit, self.whole).serialize(serializer)
     }
 }
 
-impl JsonSchema for Amount {
+impl JsonSchema for QuantityLiteral {
     fn schema_name() -> Cow<'static, str> {
-        "Amount".into()
+        "QuantityLiteral".into()
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {

@@ -2,7 +2,7 @@
 
 use toml::Value;
 
-use super::{amount::Amount, copula::Copula, distribution::Distribution};
+use super::{amount::QuantityLiteral, copula::Copula, distribution::Distribution};
 
 /// A number or an option of the case with the values that it takes.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,11 +51,11 @@ impl Axis {
     }
 
     /// Its values in words, such as `normal, 230 ± 3 m/s`.
-    pub fn in_words(&self) -> String {
+    pub fn describe(&self) -> String {
         match &self.values {
             Values::List(values) => format!("one of {} values", values.len()),
             Values::Options(options) => format!("one of {} options", options.len()),
-            Values::Distribution(distribution) => distribution.in_words(&self.unit),
+            Values::Distribution(distribution) => distribution.describe(&self.unit),
         }
     }
 
@@ -101,7 +101,7 @@ impl Axis {
     pub(crate) fn written(&self, value: f64) -> Value {
         match &self.values {
             Values::Options(options) => options[value as usize].clone(),
-            _ => Amount::written(value, &self.unit, self.whole),
+            _ => QuantityLiteral::written(value, &self.unit, self.whole),
         }
     }
 }

@@ -136,7 +136,7 @@ impl Distribution {
 
 impl Distribution {
     /// It in words, such as `normal, 230 ± 3 m/s`; the unit may be empty.
-    pub(crate) fn in_words(&self, unit: &str) -> String {
+    pub(crate) fn describe(&self, unit: &str) -> String {
         let number = |value: f64| significant(value, 6);
         let words = match *self {
             Self::Normal {

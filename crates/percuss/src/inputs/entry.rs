@@ -6,71 +6,77 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use toml::Value;
 
-use super::amount::{Amount, AmountVisitor};
+use super::amount::{QuantityLiteral, QuantityLiteralVisitor};
 use crate::units::{is_unit, split_number};
 
 /// One of the values of a list.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Entry {
+pub enum ListValue {
     /// A number, which may have a unit.
-    Amount(Amount),
+    QuantityLiteral(QuantityLiteral),
     /// A text or `true` or `false`, for the case to say whether it can be that.
     Option(Value),
 }
 
-impl<'de> Deserialize<'de> for Entry {
+impl<'de> Deserialize<'de> for ListValue {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(EntryVisitor)
+        deserializer.deserialize_any(ListValueVisitor)
     }
 }
 
-struct EntryVisitor;
+struct ListValueVisitor;
 
-impl de::Visitor<'_> for EntryVisitor {
-    type Value = Entry;
+impl de::Visitor<'_> for ListValueVisitor {
+    type Value = ListValue;
 
     fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("a number, one with a unit in quotes such as \"230 m/s\", a word in quotes, true or false")
     }
 
-    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Entry, E> {
-        AmountVisitor.visit_f64(value).map(Entry::Amount)
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<ListValue, E> {
+        QuantityLiteralVisitor
+            .visit_f64(value)
+            .map(ListValue::QuantityLiteral)
     }
 
-    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Entry, E> {
-        AmountVisitor.visit_i64(value).map(Entry::Amount)
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<ListValue, E> {
+        QuantityLiteralVisitor
+            .visit_i64(value)
+            .map(ListValue::QuantityLiteral)
     }
 
-    fn visit_bool<E: de::Error>(self, value: bool) -> Result<Entry, E> {
-        Ok(Entry::Option(Value::Boolean(value)))
+    fn visit_bool<E: de::Error>(self, value: bool) -> Result<ListValue, E> {
+        Ok(ListValue::Option(Value::Boolean(value)))
     }
 
-    fn visit_str<E: de::Error>(self, text: &str) -> Result<Entry, E> {
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<ListValue, E> {
         match is_amount(text.trim()) {
-            true => AmountVisitor.visit_str(text).map(Entry::Amount),
-            false => Ok(Entry::Option(Value::String(text.to_owned()))),
+            true => QuantityLiteralVisitor
+                .visit_str(text)
+                .map(ListValue::QuantityLiteral),
+            false => Ok(ListValue::Option(Value::String(text.to_owned()))),
         }
     }
 }
 
-impl Serialize for Entry {
+impl Serialize for ListValue {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
-            Self::Amount(amount) => amount.serialize(serializer),
+            Self::QuantityLiteral(amount) => amount.serialize(serializer),
             Self::Option(value) => value.serialize(serializer),
         }
     }
 }
 
-impl JsonSchema for Entry {
+impl JsonSchema for ListValue {
     fn schema_name() -> Cow<'static, str> {
-        "Entry".into()
+        "ListValue".into()
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         json_schema!({
             "anyOf": [
-                generator.subschema_for::<Amount>(),
+                generator.subschema_for::<QuantityLiteral>(),
                 { "type": "string" },
                 { "type": "boolean" },
             ],

@@ -12,13 +12,13 @@ mod parameter;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use amount::Amount;
+pub use amount::QuantityLiteral;
 pub use axis::Axis;
 pub(crate) use axis::{Values, values};
 pub(crate) use copula::Copula;
 pub use correlation::Correlation;
 pub(crate) use distribution::{Distribution, score};
-pub use entry::Entry;
+pub use entry::ListValue;
 pub use file::{Design, Lognormal, Normal, Parameter, Steps, Triangular, Uniform};
 
 use crate::check::Check;
@@ -42,7 +42,7 @@ impl UncertainInputs {
         self.resolve(check);
     }
 
-    /// The parameters as axes, and what joins them; what is wrong becomes a finding.
+    /// The parameters as axes, and what joins them; what is wrong becomes a diagnostic.
     pub(crate) fn resolve(&self, check: &mut Check<'_>) -> (Vec<Axis>, Option<Copula>) {
         if self.parameter.is_empty() {
             let help = "write one under [[uncertainty.parameter]]: key = \"projectile.impact_velocity\" and \

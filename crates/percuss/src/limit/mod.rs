@@ -1,13 +1,13 @@
 //! The ballistic limit of a case by every model that says whether the target is perforated, and speeds behind the target.
 //!
 //! ```
-//! use percuss::{case, limit::{limits, LimitOutcome, Search, Watch}, model::quick};
+//! use percuss::{case, limit::{limits, LimitOutcome, Search, Observer}, model::quick};
 //!
 //! let scenario = case::load_str("plate", r#"
 //!     projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "300 m/s" }
 //!     target = { material = "weldox-460-e", thickness = "12 mm" }
 //! "#)?;
-//! let limits = limits(&quick(), &scenario, &Search::default(), &mut Watch::default())?;
+//! let limits = limits(&quick(), &scenario, &Search::default(), &mut Observer::default())?;
 //! let plugging = limits.results.iter().find(|limit| limit.model == "plugging").unwrap();
 //! assert_eq!(plugging.outcome, LimitOutcome::Found);
 //! assert!((plugging.ballistic_limit_m_s.unwrap() - 131.43).abs() < 0.01);
@@ -15,11 +15,11 @@
 //! ```
 
 mod expected;
-mod findings;
 mod fit;
 mod jobs;
 mod rear_face;
 mod recommended;
+mod run_results;
 mod search;
 #[cfg(test)]
 mod study_tests;
@@ -33,12 +33,12 @@ use crate::{
     Error, Scenario,
     analytic::InputLimit,
     compare::{Choice, ExperimentRecord},
-    guard::Guard,
+    guard::ValidityDomain,
     model::Model,
     outcome::BandQuantity,
 };
 
-pub use crate::compare::{Progress, Watch};
+pub use crate::compare::{Observer, Progress};
 pub use expected::ExpectedLimitError;
 pub use fit::{LambertJonasFit, fit_lambert_jonas};
 pub use rear_face::{RearFace, with_free_rear_face};
@@ -114,7 +114,7 @@ pub enum LimitOutcome {
     NeverPerforates,
     /// Everything in the range perforates.
     AlwaysPerforates,
-    /// The shots do not say.
+    /// The runs do not say.
     Undecided,
     /// The model does not apply.
     NotApplicable,
@@ -124,7 +124,7 @@ pub enum LimitOutcome {
 
 impl LimitOutcome {
     /// The outcome in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::Found => "found",
             Self::Input => "limit is an input",
@@ -137,7 +137,7 @@ impl LimitOutcome {
     }
 }
 
-/// The two shots that enclose a limit.
+/// The two runs that enclose a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bracket {
     /// Highest impact speed below the limit that was stopped [m/s].
@@ -176,7 +176,7 @@ pub struct ModelLimit {
     pub expected_error: Option<ExpectedLimitError>,
     /// The bracket.
     pub bracket: Option<Bracket>,
-    /// Shots that were computed, those of the curve included.
+    /// Runs that were computed, those of the curve included.
     pub runs: usize,
     /// Residual velocities above the limit.
     pub curve: Vec<CurvePoint>,
@@ -226,16 +226,16 @@ pub struct LimitRange {
 /// does not apply, fails or finds none leaves the reason in its entry and never stops the others.
 ///
 /// # Errors
-/// [`Error::Cancelled`] when `watch` says so.
+/// [`Error::Cancelled`] when `observer` says so.
 pub fn limits(
     models: &[&dyn Model],
     scenario: &Scenario,
     search: &Search,
-    watch: &mut Watch<'_>,
+    observer: &mut Observer<'_>,
 ) -> Result<Limits, Error> {
     let free = with_free_rear_face(scenario);
     let scenario = free.as_ref().unwrap_or(scenario);
-    let mut results = jobs::run(models, scenario, search, watch)?;
+    let mut results = jobs::run(models, scenario, search, observer)?;
     for (model, entry) in models.iter().zip(&mut results) {
         let limit = entry.ballistic_limit_m_s;
         let expected = limit.map(|limit| expected::expected_error(*model, scenario, limit));
@@ -301,7 +301,7 @@ impl Limits {
     }
 }
 
-impl Guard {
+impl ValidityDomain {
     /// Whether a model with this guard can say that a target is perforated.
     pub fn decides_perforation(&self) -> bool {
         [BandQuantity::BallisticLimit, BandQuantity::ResidualVelocity]

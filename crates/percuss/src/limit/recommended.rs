@@ -65,7 +65,7 @@ pub(super) fn recommended(
 /// Choices of models that predict limits, and the others.
 fn by_quantity(choices: Vec<(&dyn Model, Choice)>) -> (Vec<Choice>, Vec<Choice>) {
     let (limits, others): (Vec<_>, Vec<_>) = choices.into_iter().partition(|(model, _)| {
-        let predicts = model.guard().predicts;
+        let predicts = model.validity().predicts;
         predicts.contains(&BandQuantity::BallisticLimit)
     });
     let only = |choices: Vec<(&dyn Model, Choice)>| choices.into_iter().map(|(_, c)| c).collect();

@@ -32,11 +32,11 @@ pub(super) fn search(from: f64, to: f64, points: usize) -> Search {
 }
 
 fn one(model: &dyn Model, scenario: &Scenario, search: &Search) -> ModelLimit {
-    let mut found = limits(&[model], scenario, search, &mut Watch::default()).unwrap();
+    let mut found = limits(&[model], scenario, search, &mut Observer::default()).unwrap();
     found.results.remove(0)
 }
 
-/// A model whose shots end as a function of the speed says.
+/// A model whose runs end as a function of the speed says.
 struct Made {
     outcome: fn(f64) -> Outcome,
     stated: Option<f64>,
@@ -49,8 +49,8 @@ impl Model for Made {
     fn summary(&self) -> &'static str {
         "made for tests"
     }
-    fn guard(&self) -> &'static Guard {
-        &Guard::OPEN
+    fn validity(&self) -> &'static ValidityDomain {
+        &ValidityDomain::OPEN
     }
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
         let speed = scenario.impact_velocity;
@@ -80,7 +80,7 @@ fn over(speed: f64, limit: f64) -> Outcome {
     }
 }
 
-/// The closed form of a model and the change of its own shots are found apart from each other and have to agree.
+/// The closed form of a model and the change of its own runs are found apart from each other and have to agree.
 #[test]
 fn bracketing_agrees_with_every_limit_in_closed_form() {
     let blunt = scenario(BLUNT);
@@ -247,7 +247,7 @@ fn a_curve_that_jumps_at_the_limit_is_said_to_start_elsewhere() {
 }
 
 #[test]
-fn a_stated_limit_that_shots_contradict_is_not_believed() {
+fn a_stated_limit_that_runs_contradict_is_not_believed() {
     let model = Made {
         outcome: |speed| over(speed, 300.0),
         stated: Some(250.0),
@@ -288,11 +288,11 @@ fn a_caller_can_stop_it() {
             false => ControlFlow::Break(()),
         }
     };
-    let mut watch = Watch {
+    let mut observer = Observer {
         progress: Some(&mut stop),
     };
     let models: [&dyn Model; 2] = [&Plugging, &AwerbuchBodner];
-    let stopped = limits(&models, &scenario(BLUNT), &Search::default(), &mut watch);
+    let stopped = limits(&models, &scenario(BLUNT), &Search::default(), &mut observer);
     assert!(matches!(stopped, Err(Error::Cancelled { .. })));
 }
 

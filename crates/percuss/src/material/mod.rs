@@ -167,7 +167,7 @@ pub enum MaterialClass {
 
 impl MaterialClass {
     /// The class in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::Metal => "metal",
             Self::Concrete => "concrete",

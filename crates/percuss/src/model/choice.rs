@@ -122,7 +122,7 @@ fn gives_result(
     regime: &Regime,
 ) -> Result<(), String> {
     applicability_in(model, scenario, regime).map_err(|refusal| refusal.to_string())?;
-    if model.guard().sees_back_face || scenario.target_thickness().is_none() {
+    if model.validity().sees_back_face || scenario.target_thickness().is_none() {
         return Ok(());
     }
     match run_in(model, scenario, regime, &mut Control::default()) {
@@ -144,7 +144,7 @@ mod tests {
     use super::*;
     use crate::{
         case,
-        compare::{Watch, compare},
+        compare::{Observer, compare},
     };
 
     fn scenario(projectile: &str, target: &str) -> Scenario {
@@ -186,7 +186,7 @@ mod tests {
                 &quick(),
                 &case,
                 &[case.impact_velocity],
-                &mut Watch::default(),
+                &mut Observer::default(),
             );
             let compared = compared.unwrap();
             let results = compared.results.iter().find(|result| result.is_result());

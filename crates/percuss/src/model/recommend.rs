@@ -31,7 +31,7 @@ pub struct Choice {
 impl Choice {
     /// The choice of a model for a case of a regime, if it is a first choice there.
     pub(crate) fn of(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> Option<Self> {
-        let mut choices = model.guard().first_choice.iter();
+        let mut choices = model.validity().first_choice.iter();
         let fitting = choices.find(|choice| choice.fits(scenario, regime))?;
         Some(Self {
             model: model.name(),
@@ -99,7 +99,7 @@ pub(crate) fn recommend(
         (false, Some((kind, choices))) => {
             notes.push(format!(
                 "the projectile may be {} as well, for which {} is the first choice: compare both",
-                kind.in_words(),
+                kind.describe(),
                 names(&choices)
             ));
             own.given
@@ -107,8 +107,8 @@ pub(crate) fn recommend(
         (true, Some((kind, choices))) => {
             notes.push(format!(
                 "no first choice for {} projectiles gives a result here; the projectile may be {} as well",
-                regime.projectile.in_words(),
-                kind.in_words()
+                regime.projectile.describe(),
+                kind.describe()
             ));
             choices
         }

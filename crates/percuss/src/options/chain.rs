@@ -7,7 +7,7 @@ use super::{
     chain_words::{
         ArtificialViscosity, ErosionCriterion, Kinematics, Scheme, TargetResistanceModel,
     },
-    number_or_word::{ConstraintFactor, ErosionStrain, NumberOrWord},
+    number_or_name::{ConstraintFactor, ErosionStrain, NumberOrName},
     published_options::PublishedOptions,
     shear_band::{BorderShearLaw, ShearBandOptions},
 };

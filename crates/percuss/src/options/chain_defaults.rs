@@ -4,7 +4,7 @@ use super::{
     chain::ChainOptions,
     chain_words::{ArtificialViscosity, ErosionCriterion, Kinematics, TargetResistanceModel},
     defaults::{MAX_STEPS, defaults},
-    number_or_word::{ConstraintFactor, ErosionStrain, NumberOrWord},
+    number_or_name::{ConstraintFactor, ErosionStrain, NumberOrName},
     published_options::PublishedOptions,
     shear_band::BorderShearLaw,
 };

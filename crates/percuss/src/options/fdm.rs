@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     ArtificialViscosity, ChainOptions, ConstraintFactor,
     defaults::{MAX_STEPS, defaults},
-    number_or_word::NumberOrWord,
+    number_or_name::NumberOrName,
 };
 use crate::{
     check::{
@@ -194,7 +194,7 @@ impl FdmOptions {
 mod tests {
     use crate::case::load_str;
 
-    fn findings(fdm: &str) -> String {
+    fn diagnostics(fdm: &str) -> String {
         let case = format!(
             "projectile = {{ material = 'copper', length = '12 mm', diameter = '5 mm', impact_velocity = '200 m/s' }}\n\
              target = {{ material = 'aluminium-2024-t351', thickness = '25 mm' }}\n[fdm]\n{fdm}"
@@ -204,10 +204,12 @@ mod tests {
 
     #[test]
     fn keys_without_effect_are_named() {
-        assert_eq!(findings("geometry = 'rod'\ncourant = 0.5"), "");
-        assert!(findings("spall_strength = '1 GPa'").contains("fdm.spall_strength"));
-        assert!(findings("geometry = 'planar'\nborder_shear = 0.5").contains("fdm.border_shear"));
-        assert!(findings("projectile_elements = 0").contains("out of range"));
-        assert!(findings("geometry = 'disc'").contains("disc"));
+        assert_eq!(diagnostics("geometry = 'rod'\ncourant = 0.5"), "");
+        assert!(diagnostics("spall_strength = '1 GPa'").contains("fdm.spall_strength"));
+        assert!(
+            diagnostics("geometry = 'planar'\nborder_shear = 0.5").contains("fdm.border_shear")
+        );
+        assert!(diagnostics("projectile_elements = 0").contains("out of range"));
+        assert!(diagnostics("geometry = 'disc'").contains("disc"));
     }
 }

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     check::{Check, limits},
-    problem::{BackFace, Target},
+    problem::{RearFaceCondition, Target},
     units::{Length, Pressure},
 };
 
@@ -85,7 +85,7 @@ impl ChainOptions {
                 "give the target a thickness, or remove the key",
             ),
             (
-                target.back_face != Some(BackFace::Free),
+                target.back_face != Some(RearFaceCondition::Free),
                 "a plug leaves through a free back face",
                 "add back_face = \"free\" to the target",
             ),

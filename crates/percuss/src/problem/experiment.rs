@@ -1,4 +1,4 @@
-//! What was measured on a shot of the case: for comparison only, no model sees it.
+//! What was measured on a test of the case: for comparison only, no model sees it.
 
 use std::{borrow::Cow, fmt};
 
@@ -12,7 +12,7 @@ use crate::{
     units::{Length, Velocity},
 };
 
-/// One measured quantity of one shot.
+/// One measured quantity of one test.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Experiment {
@@ -146,7 +146,7 @@ impl Experiment {
                 key,
                 format!(
                     "the measured {} has no impact velocity",
-                    quantity.in_words()
+                    quantity.describe()
                 ),
                 "add `impact_velocity`, for example impact_velocity = \"230 m/s\"",
             );
@@ -171,7 +171,7 @@ impl Experiment {
         if let Some(target) = without {
             check.fail(
                 key,
-                format!("{target} has no {}", quantity.in_words()),
+                format!("{target} has no {}", quantity.describe()),
                 "remove the entry, or describe the target that was struck",
             );
         }
@@ -189,7 +189,7 @@ impl Experiment {
                 "uncertainty",
                 format!(
                     "the uncertainty of a {} is {due}, not {}",
-                    quantity.in_words(),
+                    quantity.describe(),
                     if is_length { "a speed" } else { "a length" }
                 ),
                 format!("write it as {due}, for example uncertainty = \"{example}\""),
@@ -327,7 +327,7 @@ mod tests {
 
     fn load(target: &str, experiment: &str) -> Result<Scenario, Error> {
         case::load_str(
-            "shot",
+            "test",
             &format!(
                 "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '230 m/s' }}\n\
                  target = {{ {target} }}\n[[experiments]]\n{experiment}"

@@ -23,7 +23,7 @@ pub struct Target {
     pub layers: Vec<Layer>,
     /// What holds the back face; `fixed` when not given, `non-reflecting` behind a semi-infinite layer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub back_face: Option<BackFace>,
+    pub back_face: Option<RearFaceCondition>,
     /// Diameter of the column of target that is modelled [m]; the projectile's when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column_diameter: Option<Length>,
@@ -32,7 +32,7 @@ pub struct Target {
     pub plate_diameter: Option<Length>,
     /// How the plate is held there; `clamped` when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub support: Option<Support>,
+    pub support: Option<EdgeSupport>,
     /// `true` for a rigid, frictionless wall: a Taylor test.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub rigid_wall: bool,
@@ -74,7 +74,7 @@ pub enum LayerInterface {
 /// What holds the back face of a target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum BackFace {
+pub enum RearFaceCondition {
     /// Does not move; waves come back.
     #[default]
     Fixed,
@@ -84,7 +84,7 @@ pub enum BackFace {
     NonReflecting,
 }
 
-impl BackFace {
+impl RearFaceCondition {
     /// Name as the file has it.
     pub fn name(self) -> &'static str {
         match self {
@@ -98,7 +98,7 @@ impl BackFace {
 /// How the edge of a plate is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Support {
+pub enum EdgeSupport {
     /// It neither moves nor turns.
     #[default]
     Clamped,
@@ -220,7 +220,7 @@ impl Target {
 
     /// The same with a boundary condition at the rear face.
     #[must_use]
-    pub fn with_back_face(self, back_face: BackFace) -> Self {
+    pub fn with_back_face(self, back_face: RearFaceCondition) -> Self {
         Self {
             back_face: Some(back_face),
             ..self
@@ -405,7 +405,7 @@ impl Target {
         if self.is_semi_infinite()
             && self
                 .back_face
-                .is_some_and(|face| face != BackFace::NonReflecting)
+                .is_some_and(|face| face != RearFaceCondition::NonReflecting)
         {
             check.fail(
                 "back_face",

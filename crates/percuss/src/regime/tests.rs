@@ -137,7 +137,7 @@ fn targets_are_told_apart_by_their_thickness() {
 fn the_sentence_holds_the_numbers() {
     let wall = scenario(400.0, 100.0, "rigid_wall = true", "'flat'", 12.0);
     assert_eq!(
-        Regime::of(&wall).in_words(&wall),
+        Regime::of(&wall).describe(&wall),
         "deforming projectile (or rigid), a rigid wall: an elastic impact on the wall would stress it to 480 MPa against its \
          flow stress of 400 MPa"
     );

@@ -1,13 +1,13 @@
-//! Columns of a file of shots.
+//! Columns of a file of tests.
 
 /// Name of the target of a Taylor test.
 pub(super) const RIGID_WALL: &str = "rigid-wall";
 /// Thickness of a target whose back face does not matter.
 pub(super) const SEMI_INFINITE: &str = "semi-infinite";
 
-/// A column of a file of shots.
+/// A column of a file of tests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Column {
+pub struct CsvColumn {
     /// Its name, with its unit.
     pub name: &'static str,
     /// Whether a file has to have it.
@@ -16,16 +16,16 @@ pub struct Column {
     pub meaning: &'static str,
 }
 
-const fn required(name: &'static str, meaning: &'static str) -> Column {
-    Column {
+const fn required(name: &'static str, meaning: &'static str) -> CsvColumn {
+    CsvColumn {
         name,
         required: true,
         meaning,
     }
 }
 
-const fn optional(name: &'static str, meaning: &'static str) -> Column {
-    Column {
+const fn optional(name: &'static str, meaning: &'static str) -> CsvColumn {
+    CsvColumn {
         name,
         required: false,
         meaning,
@@ -33,8 +33,8 @@ const fn optional(name: &'static str, meaning: &'static str) -> Column {
 }
 
 /// All columns, in the order in which the program's own files have them. A file may leave out those that are not required.
-pub const COLUMNS: &[Column] = &[
-    required("id", "a name that no other shot has"),
+pub const COLUMNS: &[CsvColumn] = &[
+    required("id", "a name that no other test has"),
     optional("source", "bibliography key, or any words"),
     optional("read_at", "the public place where the row was read"),
     optional("licence", "under which licence the row is passed on"),

@@ -1,8 +1,8 @@
-//! The first line of a file of shots.
+//! The first line of a file of tests.
 
 use super::{
     columns::COLUMNS,
-    row::{Table, field_span},
+    row::{CsvTable, field_span},
 };
 use crate::{
     document::Renamed,
@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Makes sure that the columns are known, each once, and that none is missing.
-pub(super) fn check(table: &Table<'_>) -> Result<(), Box<InputError>> {
+pub(super) fn check(table: &CsvTable<'_>) -> Result<(), Box<InputError>> {
     let names = || COLUMNS.iter().map(|column| column.name);
     let missing: Vec<&str> = COLUMNS
         .iter()
@@ -40,7 +40,7 @@ pub(super) fn check(table: &Table<'_>) -> Result<(), Box<InputError>> {
                 span,
                 name,
                 format!("no column is named `{}`", shorten(name)),
-                format!("{near}the README of the shots lists all columns; remove the others"),
+                format!("{near}the README of the tests lists all columns; remove the others"),
             ));
         }
     }

@@ -1,15 +1,19 @@
 //! Whether a case can be made of a row: materials that exist, quantities in their ranges.
 
-use super::{Shot, Struck, row::Row};
+use super::{Experiment, Struck, row::CsvRow};
 use crate::{
-    check::Finding,
+    check::Diagnostic,
     error::{InputError, Subject},
     material::Library,
     units::shorten,
 };
 
-/// Makes sure that a case can be made of a shot with each of its records.
-pub(super) fn check(shot: &Shot, row: &Row<'_>, library: &Library) -> Result<(), Box<InputError>> {
+/// Makes sure that a case can be made of a test with each of its records.
+pub(super) fn check(
+    test: &Experiment,
+    row: &CsvRow<'_>,
+    library: &Library,
+) -> Result<(), Box<InputError>> {
     let unknown = |column: &str, name: &str, help: &str| {
         let near = library.suggestion(name);
         let error = row.error(
@@ -22,7 +26,7 @@ pub(super) fn check(shot: &Shot, row: &Row<'_>, library: &Library) -> Result<(),
             ..*error
         })
     };
-    for name in &shot.projectile_materials {
+    for name in &test.projectile_materials {
         if library.find(name).is_none() {
             return Err(unknown(
                 "projectile_material",
@@ -35,7 +39,7 @@ pub(super) fn check(shot: &Shot, row: &Row<'_>, library: &Library) -> Result<(),
         material,
         properties: None,
         ..
-    } = &shot.target
+    } = &test.target
         && library.find(material).is_none()
     {
         return Err(unknown(
@@ -44,12 +48,16 @@ pub(super) fn check(shot: &Shot, row: &Row<'_>, library: &Library) -> Result<(),
             "or give its properties, target_density_kg_m3 and so on",
         ));
     }
-    for record in &shot.projectile_materials {
-        if let Err(findings) = shot.resolve(record, library) {
-            let finding = findings.into_iter().next();
-            let finding =
-                finding.unwrap_or_else(|| Finding::whole("no case can be made of this row", ""));
-            return Err(row.error(column_of(&finding.key), finding.message, finding.help));
+    for record in &test.projectile_materials {
+        if let Err(diagnostics) = test.resolve(record, library) {
+            let diagnostic = diagnostics.into_iter().next();
+            let diagnostic = diagnostic
+                .unwrap_or_else(|| Diagnostic::whole("no case can be made of this row", ""));
+            return Err(row.error(
+                column_of(&diagnostic.key),
+                diagnostic.message,
+                diagnostic.help,
+            ));
         }
     }
     Ok(())

@@ -1,6 +1,6 @@
-//! Published shots: what struck what, what was measured, and where that was read.
+//! Published tests: what struck what, what was measured, and where that was read.
 //!
-//! The program's own shots are the files of `data/shots/`, whose README describes every column; [`read`] takes a user's file of
+//! The program's own tests are the files of `data/shots/`, whose README describes every column; [`read`] takes a user's file of
 //! the same columns.
 
 mod columns;
@@ -16,7 +16,7 @@ use std::sync::LazyLock;
 
 use serde::Serialize;
 
-pub use columns::{COLUMNS, Column};
+pub use columns::{COLUMNS, CsvColumn};
 pub use read::{read, read_str};
 
 use crate::{case::Nose, material::Library, material::Trust, outcome::BandQuantity};
@@ -27,15 +27,15 @@ macro_rules! files {
     };
 }
 
-/// Built-in files of shots. Adding one is one file in `data/shots/` and one line here.
+/// Built-in files of tests. Adding one is one file in `data/shots/` and one line here.
 const FILES: &[(&str, &str)] = files!["taylor.csv", "plates.csv", "experiments.csv"];
 
-/// A published shot or ballistic limit. SI units.
+/// A published test or ballistic limit. SI units.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shot {
-    /// Its id, unique among all shots.
+pub struct Experiment {
+    /// Its id, unique among all tests.
     pub id: String,
-    /// Bibliography key of the work that it comes from; of a user's shot, any words.
+    /// Bibliography key of the work that it comes from; of a user's test, any words.
     pub source: String,
     /// The public place where it was read.
     pub read_at: String,
@@ -43,7 +43,7 @@ pub struct Shot {
     pub licence: String,
     /// What was measured.
     pub kind: Kind,
-    /// The projectile in a word or two: shots are grouped by it.
+    /// The projectile in a word or two: tests are grouped by it.
     pub projectile_class: String,
     /// Ids or families of the material records that stand for the projectile; the first one is the main one.
     pub projectile_materials: Vec<String>,
@@ -73,7 +73,7 @@ pub struct Shot {
     pub split: Split,
     /// Why the row is suspect: it is listed, and no statistic counts it.
     pub flag: Option<String>,
-    /// Id of the shot that it repeats: no statistic counts it.
+    /// Id of the test that it repeats: no statistic counts it.
     pub duplicate_of: Option<String>,
     /// Why no case can be made of it.
     pub unusable: Option<String>,
@@ -92,7 +92,7 @@ pub enum Struck {
         material: String,
         /// Its thickness [m]; `None` for a semi-infinite body.
         thickness: Option<f64>,
-        /// Properties that came with the shot.
+        /// Properties that came with the test.
         properties: Option<Properties>,
     },
 }
@@ -115,7 +115,7 @@ impl Struck {
     }
 }
 
-/// Properties of a target that came with a shot. SI units.
+/// Properties of a target that came with a test. SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Properties {
     /// Density [kg/m3].
@@ -132,7 +132,7 @@ pub struct Properties {
     pub brinell_hardness: Option<f64>,
 }
 
-/// Strength of a target whose properties came with a shot.
+/// Strength of a target whose properties came with a test.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Strength {
     /// `σ = Y (E ε/Y)ⁿ` beyond the yield stress Y, which the elastic line meets there; perfectly plastic for n = 0.
@@ -152,7 +152,7 @@ pub enum Strength {
 pub enum Kind {
     /// Final length of a rod that struck a rigid wall.
     Taylor,
-    /// Impact speed at which half of the shots perforate, or what stands for it.
+    /// Impact speed at which half of the tests perforate, or what stands for it.
     BallisticLimit,
     /// Depth of penetration.
     Depth,
@@ -179,8 +179,8 @@ impl Kind {
         }
     }
 
-    /// What shots of this kind are of.
-    pub fn in_words(self) -> &'static str {
+    /// What tests of this kind are of.
+    pub fn describe(self) -> &'static str {
         match self {
             Self::Taylor => "final lengths of Taylor rods",
             Self::BallisticLimit => "ballistic limits of plates",
@@ -218,7 +218,7 @@ impl Kind {
     }
 }
 
-/// Whether a constant or the form of a model was fitted to the source of a shot or chosen on it.
+/// Whether a constant or the form of a model was fitted to the source of a test or chosen on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Split {
@@ -238,21 +238,21 @@ impl Split {
     }
 }
 
-/// The shots that the program ships.
+/// The tests that the program ships.
 ///
 /// # Panics
 /// When a shipped file is not valid, which the library's own tests rule out.
-pub fn built_in() -> &'static [Shot] {
-    static SHOTS: LazyLock<Vec<Shot>> = LazyLock::new(|| {
+pub fn built_in() -> &'static [Experiment] {
+    static TESTS: LazyLock<Vec<Experiment>> = LazyLock::new(|| {
         FILES
             .iter()
             .flat_map(
                 |(name, text)| match read_str(name, text, Library::built_in()) {
-                    Ok(shots) => shots,
-                    Err(error) => panic!("built-in shots: {error}"),
+                    Ok(tests) => tests,
+                    Err(error) => panic!("built-in tests: {error}"),
                 },
             )
             .collect()
     });
-    &SHOTS
+    &TESTS
 }

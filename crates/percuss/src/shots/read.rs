@@ -1,12 +1,12 @@
-//! Reading a file of shots.
+//! Reading a file of tests.
 
 use std::{collections::BTreeMap, path::Path};
 
 use super::{
-    Kind, Properties, Shot, Split, Strength, Struck,
+    Experiment, Kind, Properties, Split, Strength, Struck,
     columns::{COLUMNS, RIGID_WALL, SEMI_INFINITE},
     header, materials,
-    row::{Row, Table},
+    row::{CsvRow, CsvTable},
 };
 use crate::{
     document::read_text,
@@ -16,70 +16,70 @@ use crate::{
     units::shorten,
 };
 
-/// Reads a file of shots whose materials a library has; [`COLUMNS`] says what it holds.
+/// Reads a file of tests whose materials a library has; [`COLUMNS`] says what it holds.
 ///
 /// # Errors
 /// [`Error::Read`] when it cannot be read, [`Error::Input`] with the place when its content is not valid.
-pub fn read(path: impl AsRef<Path>, library: &Library) -> Result<Vec<Shot>, Error> {
+pub fn read(path: impl AsRef<Path>, library: &Library) -> Result<Vec<Experiment>, Error> {
     let path = path.as_ref();
     read_str(&path.display().to_string(), &read_text(path)?, library)
 }
 
-/// Reads shots from a text; `name` stands for the file in messages.
+/// Reads tests from a text; `name` stands for the file in messages.
 ///
 /// # Errors
 /// [`Error::Input`] with the place when the text is not valid.
-pub fn read_str(name: &str, text: &str, library: &Library) -> Result<Vec<Shot>, Error> {
-    let (table, records) = Table::read(name, text)?;
+pub fn read_str(name: &str, text: &str, library: &Library) -> Result<Vec<Experiment>, Error> {
+    let (table, records) = CsvTable::read(name, text)?;
     header::check(&table)?;
-    let mut shots: Vec<Shot> = Vec::new();
-    let mut rows: BTreeMap<String, Row<'_>> = BTreeMap::new();
+    let mut tests: Vec<Experiment> = Vec::new();
+    let mut rows: BTreeMap<String, CsvRow<'_>> = BTreeMap::new();
     for record in records {
-        let row = Row {
+        let row = CsvRow {
             table: &table,
             record,
         };
-        let shot = shot(&row, library)?;
-        if rows.contains_key(&shot.id) {
+        let test = test(&row, library)?;
+        if rows.contains_key(&test.id) {
             return Err(row
                 .error(
                     "id",
-                    format!("a second shot is named `{}`", shorten(&shot.id)),
+                    format!("a second test is named `{}`", shorten(&test.id)),
                     "give it another id",
                 )
                 .into());
         }
-        rows.insert(shot.id.clone(), row);
-        shots.push(shot);
+        rows.insert(test.id.clone(), row);
+        tests.push(test);
     }
-    for shot in &shots {
-        let (Some(first), Some(row)) = (&shot.duplicate_of, rows.get(&shot.id)) else {
+    for test in &tests {
+        let (Some(first), Some(row)) = (&test.duplicate_of, rows.get(&test.id)) else {
             continue;
         };
-        if first == &shot.id || !rows.contains_key(first) {
+        if first == &test.id || !rows.contains_key(first) {
             return Err(row
                 .error(
                     "duplicate_of",
-                    format!("no other shot of this file is named `{}`", shorten(first)),
+                    format!("no other test of this file is named `{}`", shorten(first)),
                     "write the id of the row that it repeats, or leave it empty",
                 )
                 .into());
         }
     }
-    if shots.is_empty() {
+    if tests.is_empty() {
         return Err(table
             .error(
                 0..0,
                 "",
-                "the file holds no shot",
-                "write one row a shot below the header",
+                "the file holds no test",
+                "write one row a test below the header",
             )
             .into());
     }
-    Ok(shots)
+    Ok(tests)
 }
 
-fn shot(row: &Row<'_>, library: &Library) -> Result<Shot, Box<InputError>> {
+fn test(row: &CsvRow<'_>, library: &Library) -> Result<Experiment, Box<InputError>> {
     if row.record.len() != row.table.header.len() {
         return Err(row.error(
             "id",
@@ -132,7 +132,7 @@ fn shot(row: &Row<'_>, library: &Library) -> Result<Shot, Box<InputError>> {
         row.required_number("diameter_mm")?;
         row.required("projectile_material")?;
     }
-    let shot = Shot {
+    let test = Experiment {
         id: row.required("id")?,
         source: row.text("source").to_owned(),
         read_at: row.text("read_at").to_owned(),
@@ -174,12 +174,12 @@ fn shot(row: &Row<'_>, library: &Library) -> Result<Shot, Box<InputError>> {
         note: row.text("note").to_owned(),
     };
     if usable {
-        materials::check(&shot, row, library)?;
+        materials::check(&test, row, library)?;
     }
-    Ok(shot)
+    Ok(test)
 }
 
-fn nose(row: &Row<'_>) -> Result<Nose, Box<InputError>> {
+fn nose(row: &CsvRow<'_>) -> Result<Nose, Box<InputError>> {
     #[derive(Clone, Copy)]
     enum Shape {
         Flat,
@@ -206,13 +206,13 @@ fn nose(row: &Row<'_>) -> Result<Nose, Box<InputError>> {
     })
 }
 
-fn target(row: &Row<'_>, kind: Kind) -> Result<Struck, Box<InputError>> {
+fn target(row: &CsvRow<'_>, kind: Kind) -> Result<Struck, Box<InputError>> {
     let material = row.required("target_material")?;
     let wall = material == RIGID_WALL;
     if wall != (kind == Kind::Taylor) {
         let (message, help) = if wall {
             (
-                format!("a rigid wall has no {}", kind.quantity().in_words()),
+                format!("a rigid wall has no {}", kind.quantity().describe()),
                 "write the material of the target",
             )
         } else {
@@ -244,7 +244,7 @@ fn target(row: &Row<'_>, kind: Kind) -> Result<Struck, Box<InputError>> {
     })
 }
 
-fn properties(row: &Row<'_>) -> Result<Option<Properties>, Box<InputError>> {
+fn properties(row: &CsvRow<'_>) -> Result<Option<Properties>, Box<InputError>> {
     let any = COLUMNS
         .iter()
         .map(|column| column.name)

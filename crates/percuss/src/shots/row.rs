@@ -1,4 +1,4 @@
-//! A file of shots as a table: the fields of a row by name, and errors that name their place.
+//! A file of tests as a table: the fields of a row by name, and errors that name their place.
 
 use std::ops::Range;
 
@@ -7,27 +7,27 @@ use crate::{
     units::shorten,
 };
 
-/// A file of shots and which column stands where.
-pub(crate) struct Table<'a> {
+/// A file of tests and which column stands where.
+pub(crate) struct CsvTable<'a> {
     pub(crate) file: &'a str,
     pub(crate) text: &'a str,
     pub(crate) header: Vec<String>,
 }
 
 /// A row of it.
-pub(crate) struct Row<'a> {
-    pub(crate) table: &'a Table<'a>,
+pub(crate) struct CsvRow<'a> {
+    pub(crate) table: &'a CsvTable<'a>,
     pub(crate) record: csv::StringRecord,
 }
 
-impl<'a> Table<'a> {
+impl<'a> CsvTable<'a> {
     /// The table and its rows that hold anything; `file` stands for it in messages.
     pub(crate) fn read(
         file: &'a str,
         text: &'a str,
     ) -> Result<(Self, Vec<csv::StringRecord>), Box<InputError>> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut table = Table {
+        let mut table = CsvTable {
             file,
             text,
             header: Vec::new(),
@@ -67,7 +67,7 @@ impl<'a> Table<'a> {
     }
 }
 
-impl Row<'_> {
+impl CsvRow<'_> {
     /// Text of a field; empty where the file lacks the column.
     pub(crate) fn text(&self, column: &str) -> &str {
         let at = self.table.header.iter().position(|name| name == column);

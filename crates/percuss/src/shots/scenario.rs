@@ -1,10 +1,10 @@
-//! From a shot to a case that models compute.
+//! From a test to a case that models compute.
 
-use super::{Properties, Shot, Strength, Struck};
+use super::{Experiment, Properties, Strength, Struck};
 use crate::{
     Scenario,
-    case::{BackFace, Case, Projectile, Target, Thickness},
-    check::Finding,
+    case::{Case, Projectile, RearFaceCondition, Target, Thickness},
+    check::Diagnostic,
     material::{self, Library, Material, MaterialTable},
     units::{Angle, Density, Length, Mass, Pressure, Temperature, Velocity},
 };
@@ -14,8 +14,8 @@ const ROOM: f64 = 20.0;
 /// Temperature of a laboratory [K].
 const ROOM_TEMPERATURE: f64 = 295.0;
 
-impl Shot {
-    /// The shot as a case, with one of its material records for the projectile.
+impl Experiment {
+    /// The test as a case, with one of its material records for the projectile.
     ///
     /// A ballistic limit becomes an impact at the limit. A plate that brought its properties has the strength law
     /// `σ = Y (E ε/Y)ⁿ`; its back face is free. The projectile has a temperature of its own where it differs by more than 20 K from
@@ -27,10 +27,10 @@ impl Shot {
         if let Some(reason) = self.no_case() {
             return Err(reason);
         }
-        self.resolve(record, library).map_err(|findings| {
-            let words: Vec<String> = findings
+        self.resolve(record, library).map_err(|diagnostics| {
+            let words: Vec<String> = diagnostics
                 .into_iter()
-                .map(|finding| finding.message)
+                .map(|diagnostic| diagnostic.message)
                 .collect();
             words.join("; ")
         })
@@ -56,7 +56,7 @@ impl Shot {
         &self,
         record: &str,
         library: &Library,
-    ) -> Result<Scenario, Vec<Finding>> {
+    ) -> Result<Scenario, Vec<Diagnostic>> {
         self.case(record, library).into_scenario(&self.id, library)
     }
 
@@ -91,7 +91,7 @@ impl Shot {
                     thickness: Some(thickness.map_or(Thickness::SemiInfinite, |thickness| {
                         Thickness::Finite(Length::new(thickness))
                     })),
-                    back_face: thickness.map(|_| BackFace::Free),
+                    back_face: thickness.map(|_| RearFaceCondition::Free),
                     ..Target::default()
                 }
             }
@@ -127,7 +127,7 @@ fn id_of(name: &str) -> String {
 }
 
 impl Properties {
-    fn material(&self, name: &str, shot: &Shot) -> Material {
+    fn material(&self, name: &str, test: &Experiment) -> Material {
         let (strength, yield_stress) = match self.strength {
             Strength::Metal {
                 yield_stress,
@@ -158,8 +158,8 @@ impl Properties {
             family: None,
             state: None,
             recommended: false,
-            trust: shot.trust,
-            sources: vec![shot.source.clone()],
+            trust: test.trust,
+            sources: vec![test.source.clone()],
             note: String::new(),
             density: Density::new(self.density),
             youngs_modulus: Pressure::new(self.youngs_modulus),

@@ -9,7 +9,7 @@ use crate::{
 
 const HEADER: &str = "id,kind,projectile_material,diameter_mm,mass_g,impact_velocity_m_s,target_material,thickness_mm,measured,unit";
 
-fn read_rows(rows: &str) -> Result<Vec<Shot>, Error> {
+fn read_rows(rows: &str) -> Result<Vec<Experiment>, Error> {
     read_str(
         "mine.csv",
         &format!("{HEADER}\n{rows}\n"),
@@ -32,26 +32,26 @@ fn refused(text: &str) -> (usize, String, String, String, String) {
 }
 
 #[test]
-fn built_in_shots_are_complete() {
-    let shots = built_in();
-    assert_eq!(shots.len(), 1132);
+fn built_in_tests_are_complete() {
+    let tests = built_in();
+    assert_eq!(tests.len(), 1132);
     let mut ids = BTreeSet::new();
-    for shot in shots {
-        assert!(ids.insert(&shot.id), "{}", shot.id);
+    for test in tests {
+        assert!(ids.insert(&test.id), "{}", test.id);
         assert!(
-            references().contains_key(&shot.source),
+            references().contains_key(&test.source),
             "{}: {}",
-            shot.id,
-            shot.source
+            test.id,
+            test.source
         );
         for (what, text) in [
-            ("read_at", &shot.read_at),
-            ("licence", &shot.licence),
-            ("class", &shot.projectile_class),
+            ("read_at", &test.read_at),
+            ("licence", &test.licence),
+            ("class", &test.projectile_class),
         ] {
-            assert!(!text.is_empty(), "{}: {what}", shot.id);
+            assert!(!text.is_empty(), "{}: {what}", test.id);
         }
-        assert_ne!(shot.trust, Trust::User, "{}", shot.id);
+        assert_ne!(test.trust, Trust::User, "{}", test.id);
     }
 }
 
@@ -70,7 +70,7 @@ fn built_in_files_have_the_columns_as_documented() {
     for name in names {
         assert!(readme.contains(&format!("| `{name}` |")), "{name}");
     }
-    let sources: BTreeSet<&str> = built_in().iter().map(|shot| shot.source.as_str()).collect();
+    let sources: BTreeSet<&str> = built_in().iter().map(|test| test.source.as_str()).collect();
     for source in sources {
         assert!(readme.contains(&format!("`{source}`")), "{source}");
     }
@@ -79,49 +79,49 @@ fn built_in_files_have_the_columns_as_documented() {
 #[test]
 fn no_repeated_row_counts_twice() {
     // What makes two rows the same measurement.
-    let key = |shot: &Shot| {
+    let key = |test: &Experiment| {
         format!(
             "{:?} {} {:?} {:?} {:?} {} {} {:?} {} {:?}",
-            shot.kind,
-            shot.source,
-            shot.length,
-            shot.diameter,
-            shot.temperature,
-            shot.impact_velocity,
-            shot.obliquity_deg,
-            shot.target,
-            shot.measured,
-            shot.uncertainty,
+            test.kind,
+            test.source,
+            test.length,
+            test.diameter,
+            test.temperature,
+            test.impact_velocity,
+            test.obliquity_deg,
+            test.target,
+            test.measured,
+            test.uncertainty,
         )
     };
     let mut seen = BTreeMap::new();
-    for shot in built_in().iter().filter(|shot| shot.counts()) {
-        if let Some(other) = seen.insert(key(shot), &shot.id) {
-            panic!("{} repeats {other}", shot.id);
+    for test in built_in().iter().filter(|test| test.counts()) {
+        if let Some(other) = seen.insert(key(test), &test.id) {
+            panic!("{} repeats {other}", test.id);
         }
     }
-    let repeated = built_in().iter().filter(|shot| shot.duplicate_of.is_some());
+    let repeated = built_in().iter().filter(|test| test.duplicate_of.is_some());
     assert_eq!(repeated.clone().count(), 57);
-    for shot in repeated {
+    for test in repeated {
         let first = built_in()
             .iter()
-            .find(|other| Some(&other.id) == shot.duplicate_of.as_ref());
+            .find(|other| Some(&other.id) == test.duplicate_of.as_ref());
         assert!(
             first.is_some_and(|first| first.duplicate_of.is_none()),
             "{}",
-            shot.id
+            test.id
         );
     }
 }
 
 #[test]
-fn every_usable_normal_shot_is_a_case() {
+fn every_usable_normal_test_is_a_case() {
     let mut cases = 0;
-    for shot in built_in().iter().filter(|shot| shot.no_case().is_none()) {
-        for record in &shot.projectile_materials {
-            let scenario = shot.scenario(record, Library::built_in()).unwrap();
-            assert_eq!(scenario.name, shot.id);
-            assert_eq!(scenario.impact_velocity, shot.impact_velocity);
+    for test in built_in().iter().filter(|test| test.no_case().is_none()) {
+        for record in &test.projectile_materials {
+            let scenario = test.scenario(record, Library::built_in()).unwrap();
+            assert_eq!(scenario.name, test.id);
+            assert_eq!(scenario.impact_velocity, test.impact_velocity);
             cases += 1;
         }
     }
@@ -130,11 +130,11 @@ fn every_usable_normal_shot_is_a_case() {
 
 #[test]
 fn a_plate_yields_where_its_table_says() {
-    let shot = built_in()
+    let test = built_in()
         .iter()
-        .find(|shot| shot.id == "REL-0003")
+        .find(|test| test.id == "REL-0003")
         .unwrap();
-    let scenario = shot.scenario("apm2-core", Library::built_in()).unwrap();
+    let scenario = test.scenario("apm2-core", Library::built_in()).unwrap();
     let TargetBody::Layers { layers, .. } = &scenario.target else {
         panic!("{:?}", scenario.target);
     };
@@ -153,31 +153,31 @@ fn a_plate_yields_where_its_table_says() {
 fn only_what_was_fitted_is_not_blind() {
     let calibrated: BTreeSet<&str> = built_in()
         .iter()
-        .filter(|shot| shot.split == Split::Calibration)
-        .map(|shot| shot.source.as_str())
+        .filter(|test| test.split == Split::Calibration)
+        .map(|test| test.source.as_str())
         .collect();
     assert_eq!(calibrated, BTreeSet::from(["johnson1983"]));
     let mut splits = BTreeMap::new();
-    for shot in built_in() {
-        let split = splits.entry(&shot.source).or_insert(shot.split);
+    for test in built_in() {
+        let split = splits.entry(&test.source).or_insert(test.split);
         assert_eq!(
-            *split, shot.split,
+            *split, test.split,
             "{} is split within its source",
-            shot.source
+            test.source
         );
     }
 }
 
 #[test]
 fn a_file_needs_a_few_columns_only() {
-    let shots =
+    let tests =
         read_rows("a,ballistic_limit,apm2-core,6.2,5.3,,aluminium-2024-t351,20,500,m/s").unwrap();
-    assert_eq!(shots[0].impact_velocity, 500.0);
-    assert_eq!(shots[0].projectile_class, "apm2-core");
-    assert!((shots[0].mass.unwrap() - 5.3e-3).abs() < 1e-15);
-    assert_eq!(shots[0].trust, Trust::User);
-    let shots = read_rows("a,taylor,copper,7.6,9,200,rigid-wall,,20,mm").unwrap();
-    assert!((shots[0].measured - 0.02).abs() < 1e-15);
+    assert_eq!(tests[0].impact_velocity, 500.0);
+    assert_eq!(tests[0].projectile_class, "apm2-core");
+    assert!((tests[0].mass.unwrap() - 5.3e-3).abs() < 1e-15);
+    assert_eq!(tests[0].trust, Trust::User);
+    let tests = read_rows("a,taylor,copper,7.6,9,200,rigid-wall,,20,mm").unwrap();
+    assert!((tests[0].measured - 0.02).abs() < 1e-15);
 }
 
 #[test]
@@ -286,7 +286,7 @@ fn slips_are_found_where_they_are() {
             good.replace("a,depth", "first,depth"),
             "id",
             "first",
-            "a second shot is named",
+            "a second test is named",
             "another id",
         ),
     ] {
@@ -332,15 +332,15 @@ fn slips_in_the_first_line_are_found() {
             .4
             .contains("separated by commas")
     );
-    assert!(refused(HEADER).3.contains("no shot"));
+    assert!(refused(HEADER).3.contains("no test"));
     assert!(refused("").3.contains("lacks"));
 }
 
 #[test]
 fn a_hot_rod_starts_hot_and_a_room_is_a_room() {
     let of = |id: &str, record: &str| {
-        let shot = built_in().iter().find(|shot| shot.id == id).unwrap();
-        shot.scenario(record, Library::built_in())
+        let test = built_in().iter().find(|test| test.id == id).unwrap();
+        test.scenario(record, Library::built_in())
             .unwrap()
             .projectile
             .temperature

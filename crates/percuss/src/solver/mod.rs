@@ -15,7 +15,7 @@ mod particle;
 
 use crate::{
     Error, Refusal, Scenario,
-    guard::{Guard, Verdict},
+    guard::{Applicability, ValidityDomain},
     outcome::RunResult,
     regime::Regime,
 };
@@ -36,7 +36,7 @@ pub trait Model: Sync {
     fn summary(&self) -> &'static str;
 
     /// The regime that it is made for.
-    fn guard(&self) -> &'static Guard;
+    fn validity(&self) -> &'static ValidityDomain;
 
     /// Whether a run takes minutes: comparisons and validations then run it only when it is asked for by name.
     fn is_slow(&self) -> bool {
@@ -140,7 +140,7 @@ pub(crate) fn complete(
     mut result: RunResult,
 ) -> Result<RunResult, Error> {
     if let Some(depth) = result.depth_of_penetration
-        && let Some(reason) = model.guard().depth_at_back_face(scenario, depth)
+        && let Some(reason) = model.validity().depth_at_back_face(scenario, depth)
     {
         return Err(refused(model, reason));
     }
@@ -161,9 +161,9 @@ pub(crate) fn applicability_in(
     scenario: &Scenario,
     regime: &Regime,
 ) -> Result<Vec<String>, Refusal> {
-    match model.guard().verdict(scenario, regime) {
-        Verdict::Outside(refusal) => Err(refusal),
-        Verdict::Inside(warnings) => match model.not_applicable(scenario) {
+    match model.validity().verdict(scenario, regime) {
+        Applicability::Outside(refusal) => Err(refusal),
+        Applicability::Inside(warnings) => match model.not_applicable(scenario) {
             Some(refusal) => Err(refusal),
             None => Ok(warnings),
         },

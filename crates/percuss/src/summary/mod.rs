@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::{
     Error,
-    chain::closure_in_use,
+    chain::resistance_model_in_use,
     fragments::FragmentRecord,
     model_error::expected_error,
     options::TargetResistanceModel,
@@ -89,7 +89,7 @@ impl ResultRecord {
 }
 
 fn target_resistance(scenario: &Scenario, model: &str) -> Option<&'static str> {
-    let closure = closure_in_use(scenario).filter(|_| model == "chain");
+    let closure = resistance_model_in_use(scenario).filter(|_| model == "chain");
     closure.map(TargetResistanceModel::name)
 }
 

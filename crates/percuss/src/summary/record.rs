@@ -10,7 +10,7 @@ use super::number::{
 };
 use crate::{
     fragments::FragmentRecord,
-    model_error::Expectation,
+    model_error::ModelErrorEstimate,
     outcome::{Band, Detail as ModelDetail, Outcome, RunResult, Termination},
     scenario::Scenario,
     units::ResultUnit as Unit,
@@ -107,7 +107,7 @@ result_record! {
             = number("depth of penetration", Unit::MM, Main).in_statistics(NotPerforated), |_, run| run?.depth_of_penetration;
 
         /// Estimated error of that depth against the axisymmetric reference, where similar cases are in the benchmark.
-        expected_error: Option<Expectation>;
+        expected_error: Option<ModelErrorEstimate>;
 
         /// Largest depth at any time, elastic deflection included.
         largest_depth_mm: Option<f64>

@@ -46,7 +46,7 @@ fn design(kind: &str, samples: u64) -> String {
 /// All values of a sweep, a list an axis.
 fn columns(sweep: &Sweep) -> Vec<Vec<f64>> {
     let mut columns = vec![Vec::new(); sweep.axes.len()];
-    for i in 0..sweep.shots() {
+    for i in 0..sweep.runs() {
         let values = sweep.points.values(&sweep.axes, sweep.copula.as_ref(), i);
         for (column, value) in columns.iter_mut().zip(values) {
             column.push(value);

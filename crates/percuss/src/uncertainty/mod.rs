@@ -27,4 +27,4 @@ pub use result::{
 pub use statistics::{Estimate, PERCENTS, Percentile, Statistics};
 pub use study::{MAX_SAMPLES, MIN_SAMPLES, Settings, Study};
 
-pub use crate::sweep::Watch;
+pub use crate::sweep::Observer;

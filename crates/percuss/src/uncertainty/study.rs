@@ -5,14 +5,14 @@ use std::path::Path;
 use crate::{
     Error, Scenario,
     case::{Case, Document, Template},
-    check::{Check, Finding},
+    check::{Check, Diagnostic},
     summary::ResultNumber,
     sweep::{Axis, Copula, MAX_DIMENSIONS, check_values},
 };
 
-/// Fewest and most shots of a sample.
+/// Fewest and most runs of a sample.
 pub const MIN_SAMPLES: u64 = 16;
-/// Most shots of a sample.
+/// Most runs of a sample.
 pub const MAX_SAMPLES: u64 = 1 << 20;
 
 const EXAMPLE: &str = "add [[uncertainty.parameter]] with key = \"projectile.impact_velocity\" and \
@@ -31,7 +31,7 @@ pub struct Study {
 /// What is to be computed of a study.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Shots that the statistics rest on: [`MIN_SAMPLES`] to [`MAX_SAMPLES`]; a power of two serves best.
+    /// Runs that the statistics rest on: [`MIN_SAMPLES`] to [`MAX_SAMPLES`]; a power of two serves best.
     pub samples: u64,
     /// Decides over everything drawn at random.
     pub seed: u64,
@@ -60,11 +60,12 @@ impl Study {
         let template = Template::of(document)?;
         let case: Case = document.parse()?;
         let Some(inputs) = case.uncertainty else {
-            let finding = Finding::whole("the case says nothing of what is uncertain", EXAMPLE);
-            return Err(document.place(finding).into());
+            let diagnostic =
+                Diagnostic::whole("the case says nothing of what is uncertain", EXAMPLE);
+            return Err(document.place(diagnostic).into());
         };
-        let mut findings = Vec::new();
-        let mut check = Check::new(&mut findings);
+        let mut diagnostics = Vec::new();
+        let mut check = Check::new(&mut diagnostics);
         let mut check = check.within("uncertainty");
         let (axes, copula) = inputs.resolve(&mut check);
         if axes.len() > MAX_DIMENSIONS {
@@ -78,7 +79,7 @@ impl Study {
             );
         }
         check_values(&axes, &template, &mut check);
-        document.report(findings)?;
+        document.report(diagnostics)?;
         Ok(Self {
             scenario: document.scenario()?,
             axes,

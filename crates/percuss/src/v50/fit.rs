@@ -15,14 +15,14 @@ struct Line {
 }
 
 /// The estimate of maximum likelihood, or why there is none.
-pub(super) fn likeliest(link: Link, shots: &[Test], pattern: Pattern) -> Estimate {
+pub(super) fn likeliest(link: Link, tests: &[Test], pattern: Pattern) -> Estimate {
     let none = |reason: String| Estimate::none(link.method(), reason);
     match pattern {
         Pattern::Mixed => {}
         Pattern::Separated => {
             // Silvapulle's condition fails: the likelihood rises to 1 as the scatter shrinks to nothing.
-            let (stopped, through) = gap(shots);
-            let (low, high) = interval(link, shots, 0.5 * (stopped + through), 0.0);
+            let (stopped, through) = gap(tests);
+            let (low, high) = interval(link, tests, 0.5 * (stopped + through), 0.0);
             return Estimate {
                 low_m_s: low,
                 high_m_s: high,
@@ -31,29 +31,29 @@ pub(super) fn likeliest(link: Link, shots: &[Test], pattern: Pattern) -> Estimat
         }
         Pattern::Reversed => {
             return none(
-                "the faster shots were stopped and the slower ones went through".to_owned(),
+                "the faster tests were stopped and the slower ones went through".to_owned(),
             );
         }
-        Pattern::AllStopped => return none("no shot went through".to_owned()),
-        Pattern::AllPerforated => return none("no shot was stopped".to_owned()),
+        Pattern::AllStopped => return none("no test went through".to_owned()),
+        Pattern::AllPerforated => return none("no test was stopped".to_owned()),
     }
-    let count = shots.len() as f64;
-    let mean = shots.iter().map(|shot| shot.impact_velocity).sum::<f64>() / count;
-    let square = |shot: &Test| (shot.impact_velocity - mean).powi(2);
-    let unit = (shots.iter().map(square).sum::<f64>() / count).sqrt();
-    let scaled: Vec<(f64, f64)> = shots
+    let count = tests.len() as f64;
+    let mean = tests.iter().map(|test| test.impact_velocity).sum::<f64>() / count;
+    let square = |test: &Test| (test.impact_velocity - mean).powi(2);
+    let unit = (tests.iter().map(square).sum::<f64>() / count).sqrt();
+    let scaled: Vec<(f64, f64)> = tests
         .iter()
-        .map(|shot| ((shot.impact_velocity - mean) / unit, sign(shot)))
+        .map(|test| ((test.impact_velocity - mean) / unit, sign(test)))
         .collect();
     let (line, log_likelihood) = climb(link, &scaled);
     if line.beta <= 0.0 {
         return none(
-            "by these shots faster ones go through no more often than slower ones".to_owned(),
+            "by these tests faster ones go through no more often than slower ones".to_owned(),
         );
     }
     let x50 = -line.alpha / line.beta;
     let v50 = mean + unit * x50;
-    let (low, high) = interval(link, shots, v50, log_likelihood);
+    let (low, high) = interval(link, tests, v50, log_likelihood);
     Estimate {
         v50_m_s: Some(v50),
         standard_deviation_m_s: Some(unit / line.beta * link.standard_deviation()),
@@ -65,25 +65,25 @@ pub(super) fn likeliest(link: Link, shots: &[Test], pattern: Pattern) -> Estimat
     }
 }
 
-/// Speeds of the fastest shot that was stopped and of the slowest that went through [m/s].
-fn gap(shots: &[Test]) -> (f64, f64) {
+/// Speeds of the fastest test that was stopped and of the slowest that went through [m/s].
+fn gap(tests: &[Test]) -> (f64, f64) {
     (
-        speeds(shots, false).fold(f64::MIN, f64::max),
-        speeds(shots, true).fold(f64::MAX, f64::min),
+        speeds(tests, false).fold(f64::MIN, f64::max),
+        speeds(tests, true).fold(f64::MAX, f64::min),
     )
 }
 
 fn separated(stopped: f64, through: f64) -> String {
     let (stopped, through) = (significant(stopped, 6), significant(through, 6));
     format!(
-        "no zone of mixed results: every shot up to {stopped} m/s was stopped and every one from {through} m/s went through; \
+        "no zone of mixed results: every test up to {stopped} m/s was stopped and every one from {through} m/s went through; \
          any V50 between them with a scatter of zero is equally likely"
     )
 }
 
-/// 1 for a shot that went through, −1 for one that was stopped.
-pub(super) fn sign(shot: &Test) -> f64 {
-    match shot.perforated {
+/// 1 for a test that went through, −1 for one that was stopped.
+pub(super) fn sign(test: &Test) -> f64 {
+    match test.perforated {
         true => 1.0,
         false => -1.0,
     }

@@ -1,6 +1,6 @@
-//! V50, the speed at which half of the shots go through, from shots that were stopped or went through.
+//! V50, the speed at which half of the tests go through, from tests that were stopped or went through.
 //!
-//! Shots scatter: near the limit some are stopped that are faster than others that go through. The chance of going through is taken
+//! Tests scatter: near the limit some are stopped that are faster than others that go through. The chance of going through is taken
 //! as `F((v − V50)/s)` with the normal distribution (probit) or the logistic one (logit) for F, and V50 and s by maximum
 //! likelihood \[mckaig1983\]. The interval is that of the likelihood ratio \[neyer1992\].
 //!
@@ -29,7 +29,7 @@ use link::Link;
 
 pub use read::{COLUMNS, read, read_str};
 
-/// A shot at a target that was stopped or went through.
+/// A test at a target that was stopped or went through.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Test {
     /// Impact velocity [m/s].
@@ -42,18 +42,18 @@ pub struct Test {
 /// Level of the intervals.
 pub const CONFIDENCE: f64 = 0.95;
 
-/// Widest span of the shots that V50 is the mean of [m/s]: 125 ft/s \[milstd662f\].
+/// Widest span of the tests that V50 is the mean of [m/s]: 125 ft/s \[milstd662f\].
 pub const SPAN: f64 = 38.1;
 
-/// How stopped shots and those that went through lie to each other.
+/// How stopped tests and those that went through lie to each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Pattern {
-    /// Some stopped shots are faster than some that went through: there is a zone of mixed results.
+    /// Some stopped tests are faster than some that went through: there is a zone of mixed results.
     Mixed,
-    /// All stopped shots are slower than all that went through, or as fast as the slowest of them.
+    /// All stopped tests are slower than all that went through, or as fast as the slowest of them.
     Separated,
-    /// All stopped shots are faster than all that went through, or as fast as the fastest of them.
+    /// All stopped tests are faster than all that went through, or as fast as the fastest of them.
     Reversed,
     /// All were stopped.
     AllStopped,
@@ -69,13 +69,13 @@ pub enum Method {
     Probit,
     /// Maximum likelihood with the logistic distribution.
     Logit,
-    /// Mean of equal numbers of the fastest stopped shots and the slowest that went through.
+    /// Mean of equal numbers of the fastest stopped tests and the slowest that went through.
     MeanOfExtremes,
 }
 
 impl Method {
     /// The method in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::Probit => "probit",
             Self::Logit => "logit",
@@ -84,7 +84,7 @@ impl Method {
     }
 }
 
-/// V50 by one method. The names are stable; what the shots do not give is null.
+/// V50 by one method. The names are stable; what the tests do not give is null.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Estimate {
     /// The method.
@@ -93,7 +93,7 @@ pub struct Estimate {
     pub v50_m_s: Option<f64>,
     /// Why there is none.
     pub reason: Option<String>,
-    /// Standard deviation of the distribution, which is the scatter of the shots [m/s].
+    /// Standard deviation of the distribution, which is the scatter of the tests [m/s].
     pub standard_deviation_m_s: Option<f64>,
     /// Standard error of V50 from the observed information [m/s].
     pub standard_error_m_s: Option<f64>,
@@ -103,8 +103,8 @@ pub struct Estimate {
     pub high_m_s: Option<f64>,
     /// Logarithm of the likelihood.
     pub log_likelihood: Option<f64>,
-    /// Shots that V50 is the mean of.
-    pub shots_used: Option<usize>,
+    /// Tests that V50 is the mean of.
+    pub tests_used: Option<usize>,
     /// Difference between the fastest and the slowest of them [m/s].
     pub span_m_s: Option<f64>,
 }
@@ -127,22 +127,22 @@ impl Estimate {
             low_m_s: None,
             high_m_s: None,
             log_likelihood: None,
-            shots_used: None,
+            tests_used: None,
             span_m_s: None,
         }
     }
 }
 
-/// What shots say of V50. The names are stable.
+/// What tests say of V50. The names are stable.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct V50 {
-    /// Number of shots.
-    pub shots: usize,
+    /// Number of tests.
+    pub tests: usize,
     /// How many went through.
     pub perforated: usize,
-    /// Fastest shot that was stopped [m/s].
+    /// Fastest test that was stopped [m/s].
     pub highest_stopped_m_s: Option<f64>,
-    /// Slowest shot that went through [m/s].
+    /// Slowest test that went through [m/s].
     pub lowest_perforated_m_s: Option<f64>,
     /// How the two kinds lie to each other.
     pub pattern: Pattern,
@@ -159,15 +159,15 @@ impl V50 {
     }
 }
 
-/// Speeds of the shots that were stopped, or of those that went through.
-fn speeds(shots: &[Test], perforated: bool) -> impl Iterator<Item = f64> + Clone {
-    let kind = shots.iter().filter(move |s| s.perforated == perforated);
-    kind.map(|shot| shot.impact_velocity)
+/// Speeds of the tests that were stopped, or of those that went through.
+fn speeds(tests: &[Test], perforated: bool) -> impl Iterator<Item = f64> + Clone {
+    let kind = tests.iter().filter(move |s| s.perforated == perforated);
+    kind.map(|test| test.impact_velocity)
 }
 
-fn pattern(shots: &[Test]) -> Pattern {
+fn pattern(tests: &[Test]) -> Pattern {
     let extremes = |perforated| {
-        let speeds = speeds(shots, perforated);
+        let speeds = speeds(tests, perforated);
         let low = speeds.clone().reduce(f64::min);
         low.zip(speeds.reduce(f64::max))
     };
@@ -186,25 +186,25 @@ fn pattern(shots: &[Test]) -> Pattern {
     }
 }
 
-/// V50 of shots by every method; `span` is the widest one of the shots that it may be the mean of [m/s].
-pub fn estimate(shots: &[Test], span: f64) -> V50 {
-    let pattern = pattern(shots);
+/// V50 of tests by every method; `span` is the widest one of the tests that it may be the mean of [m/s].
+pub fn estimate(tests: &[Test], span: f64) -> V50 {
+    let pattern = pattern(tests);
     V50 {
-        shots: shots.len(),
-        perforated: speeds(shots, true).count(),
-        highest_stopped_m_s: speeds(shots, false).reduce(f64::max),
-        lowest_perforated_m_s: speeds(shots, true).reduce(f64::min),
+        tests: tests.len(),
+        perforated: speeds(tests, true).count(),
+        highest_stopped_m_s: speeds(tests, false).reduce(f64::max),
+        lowest_perforated_m_s: speeds(tests, true).reduce(f64::min),
         pattern,
         confidence: CONFIDENCE,
         estimates: vec![
-            fit::likeliest(Link::Probit, shots, pattern),
-            fit::likeliest(Link::Logit, shots, pattern),
-            means::of_extremes(shots, span),
+            fit::likeliest(Link::Probit, tests, pattern),
+            fit::likeliest(Link::Logit, tests, pattern),
+            means::of_extremes(tests, span),
         ],
     }
 }
 
-/// Chance that a shot of this speed [m/s] goes through, by an estimate of maximum likelihood.
+/// Chance that a test of this speed [m/s] goes through, by an estimate of maximum likelihood.
 pub fn chance(estimate: &Estimate, speed: f64) -> Option<f64> {
     let link = match estimate.method {
         Method::Probit => Link::Probit,

@@ -1,4 +1,4 @@
-//! Reading a file of shots that were stopped or went through.
+//! Reading a file of tests that were stopped or went through.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use crate::{
     check::limits::IMPACT_SPEED,
     document::{Renamed, read_text},
     error::{Error, InputError, nearest},
-    shots::row::{Row, Table, field_span},
+    shots::row::{CsvRow, CsvTable, field_span},
     units::{Velocity, shorten},
 };
 
@@ -17,7 +17,7 @@ const PERFORATED: &str = "perforated";
 /// Columns of a file: the impact speed [m/s], `yes` or `no`, and a note that nothing reads.
 pub const COLUMNS: [&str; 3] = [VELOCITY, PERFORATED, "note"];
 
-/// Reads a file of shots: comma-separated values with the columns [`COLUMNS`], of which the first two are required.
+/// Reads a file of tests: comma-separated values with the columns [`COLUMNS`], of which the first two are required.
 ///
 /// # Errors
 /// [`Error::Read`] when it cannot be read, [`Error::Input`] with the place when its content is not valid.
@@ -26,29 +26,29 @@ pub fn read(path: impl AsRef<Path>) -> Result<Vec<Test>, Error> {
     read_str(&path.display().to_string(), &read_text(path)?)
 }
 
-/// Reads shots from a text; `name` stands for the file in messages.
+/// Reads tests from a text; `name` stands for the file in messages.
 ///
 /// # Errors
 /// [`Error::Input`] with the place when the text is not valid.
 pub fn read_str(name: &str, text: &str) -> Result<Vec<Test>, Error> {
-    let (table, records) = Table::read(name, text)?;
+    let (table, records) = CsvTable::read(name, text)?;
     check_header(&table)?;
-    let mut shots = Vec::new();
+    let mut tests = Vec::new();
     for record in records {
-        shots.push(shot(&Row {
+        tests.push(test(&CsvRow {
             table: &table,
             record,
         })?);
     }
-    if shots.is_empty() {
-        let help = "write one row a shot below the header, such as 184.3,yes";
-        let error = table.error(0..0, "", "the file holds no shot", help);
+    if tests.is_empty() {
+        let help = "write one row a test below the header, such as 184.3,yes";
+        let error = table.error(0..0, "", "the file holds no test", help);
         return Err(error.into());
     }
-    Ok(shots)
+    Ok(tests)
 }
 
-fn check_header(table: &Table<'_>) -> Result<(), Box<InputError>> {
+fn check_header(table: &CsvTable<'_>) -> Result<(), Box<InputError>> {
     let known = || COLUMNS.iter().copied();
     let separated = match table.header.len() {
         1 => "; columns are separated by commas",
@@ -87,7 +87,7 @@ fn check_header(table: &Table<'_>) -> Result<(), Box<InputError>> {
     Ok(())
 }
 
-fn shot(row: &Row<'_>) -> Result<Test, Box<InputError>> {
+fn test(row: &CsvRow<'_>) -> Result<Test, Box<InputError>> {
     if row.record.len() != row.table.header.len() {
         return Err(row.error(
             VELOCITY,

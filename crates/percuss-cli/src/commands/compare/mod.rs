@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario,
-    compare::{self, Comparison, Watch},
+    compare::{self, Comparison, Observer},
     model::{self, MODELS},
 };
 
@@ -138,7 +138,7 @@ impl Compare {
             let words = format!("{} of {} runs", now.finished, now.total);
             hear(now.fraction, &words)
         };
-        let mut watch = Watch {
+        let mut watch = Observer {
             progress: Some(&mut report),
         };
         Ok(compare::compare(&models, scenario, speeds, &mut watch)?)

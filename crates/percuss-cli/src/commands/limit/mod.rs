@@ -8,7 +8,7 @@ use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario,
     case::Document,
-    limit::{self, LimitOutcome, Limits, Range, Search, Tolerance, Watch},
+    limit::{self, LimitOutcome, Limits, Observer, Range, Search, Tolerance},
     model::MODELS,
     v50::{self, Test, V50},
 };
@@ -190,7 +190,7 @@ impl Limit {
             let words = format!("{} runs", now.finished);
             hear(now.fraction, &words)
         };
-        let mut watch = Watch {
+        let mut watch = Observer {
             progress: Some(&mut report),
         };
         Ok(limit::limits(&models, scenario, &search, &mut watch)?)

@@ -32,7 +32,7 @@ fn projectiles(model: &ModelRecord) -> String {
     {
         return "any".to_owned();
     }
-    let words: Vec<&str> = regimes.iter().map(|regime| regime.in_words()).collect();
+    let words: Vec<&str> = regimes.iter().map(|regime| regime.describe()).collect();
     words.join(", ")
 }
 
@@ -54,7 +54,7 @@ fn targets(model: &ModelRecord) -> String {
     };
     let materials = model.guard.target_materials;
     if *materials != [MaterialClass::Metal] {
-        let words: Vec<&str> = materials.iter().map(|class| class.in_words()).collect();
+        let words: Vec<&str> = materials.iter().map(|class| class.describe()).collect();
         text += &format!("; {}", words.join(", "));
     }
     text

@@ -15,7 +15,9 @@ use percuss::{
     model::{self, MODELS, Model},
     summary::ResultNumber,
     sweep::BatchKernel,
-    uncertainty::{self, MAX_SAMPLES, MIN_SAMPLES, Settings, Study, Uncertainty as Found, Watch},
+    uncertainty::{
+        self, MAX_SAMPLES, MIN_SAMPLES, Observer, Settings, Study, Uncertainty as Found,
+    },
 };
 
 use crate::{
@@ -200,7 +202,7 @@ impl Uncertainty {
     fn compute(&self, task: &Task, stop: &AtomicBool, hear: Hear<'_>) -> Result<Found, Failure> {
         let pool = workers::pool(self.threads)?;
         let hear = Mutex::new(hear);
-        let watch = Watch {
+        let watch = Observer {
             stop,
             progress: &|done, total| {
                 let mut hear = hear.lock().unwrap_or_else(PoisonError::into_inner);

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::Guard,
+    guard::ValidityDomain,
     material::Material,
     outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
@@ -128,9 +128,9 @@ impl Model for WalkerAnderson {
         "long rod of Walker and Anderson: in time from the impact shock to rest, eroding or rigid"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[
                     BandQuantity::DepthOfPenetration,
                     BandQuantity::ProjectileFinalLength,
@@ -143,7 +143,7 @@ impl Model for WalkerAnderson {
                     "normal impact; the shape of the nose is left out: a rod with a nose counts as the flat-ended one of its mass",
                     "the radius of the crater is an input: when not given it comes from a fit to steel targets",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }

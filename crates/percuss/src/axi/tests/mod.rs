@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 use super::{
     block::{Block, Members},
     body::{Body, Limits},
-    boundary::Supports,
+    boundary::BoundaryConditions,
     contact::Contact,
     law::{Law, Pressure},
     solver::{Accumulators, DeferredWork, Grid},
@@ -187,12 +187,12 @@ const ALL_ROWS: isize = isize::MIN;
 
 /// Bodies without supports, ready to move.
 fn solver(bodies: Vec<Body>, cell: f64) -> Grid {
-    let supports = vec![Supports::NONE; bodies.len()];
+    let supports = vec![BoundaryConditions::NONE; bodies.len()];
     supported(bodies, supports, cell)
 }
 
 /// Bodies with supports, ready to move.
-fn supported(bodies: Vec<Body>, supports: Vec<Supports>, cell: f64) -> Grid {
+fn supported(bodies: Vec<Body>, supports: Vec<BoundaryConditions>, cell: f64) -> Grid {
     let mut solver = Grid {
         bodies,
         supports,

@@ -45,7 +45,7 @@ use crate::{
     ledger::{EnergyLedger, MomentumLedger},
     options::ChainOptions,
     outcome::{Outcome, RunResult, Termination},
-    problem::BackFace,
+    problem::RearFaceCondition,
     scenario::{Plate, TargetBody, modelled_thickness},
     solver::{
         archive::Archive,
@@ -129,7 +129,7 @@ impl<'a> Cavity<'a> {
         };
         let free_rear_face = plate
             .thickness
-            .filter(|_| rear_face(scenario) == BackFace::Free);
+            .filter(|_| rear_face(scenario) == RearFaceCondition::Free);
         let resistance_law = match &scenario.resistance {
             Some(own) => TargetResistance::Own(own.clone()),
             None => TargetResistance::Cavity(
@@ -323,9 +323,9 @@ fn far_field(
 }
 
 /// What holds the rear face of the target.
-fn rear_face(scenario: &Scenario) -> BackFace {
+fn rear_face(scenario: &Scenario) -> RearFaceCondition {
     match &scenario.target {
         TargetBody::Layers { back_face, .. } => *back_face,
-        _ => BackFace::NonReflecting,
+        _ => RearFaceCondition::NonReflecting,
     }
 }

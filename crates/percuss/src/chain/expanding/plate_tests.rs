@@ -3,8 +3,8 @@
 use super::rear_face::RearFace;
 use crate::{
     Scenario,
-    case::{self, BackFace, TargetResistanceModel},
-    chain::{closure_in_use, cone::Cone},
+    case::{self, RearFaceCondition, TargetResistanceModel},
+    chain::{cone::Cone, resistance_model_in_use},
     model::{self, Control},
     outcome::{Outcome, RunResult},
     summary::ResultRecord,
@@ -38,14 +38,17 @@ fn depth(scenario: &Scenario) -> f64 {
 }
 
 /// A rear face 10 mm behind a disc of 3 mm, in which both waves travel at 5 mm/us.
-fn rear_face(face: BackFace) -> (RearFace, Cone) {
+fn rear_face(face: RearFaceCondition) -> (RearFace, Cone) {
     let cone = Cone::under_disc(std::f64::consts::PI * 9e-6, 0.3);
     (RearFace::new(face, cone, 10e-3, [5e3; 2]).unwrap(), cone)
 }
 
 #[test]
 fn echoes_are_those_of_the_images() {
-    for (face, sign) in [(BackFace::Fixed, -1.0_f64), (BackFace::Free, 1.0)] {
+    for (face, sign) in [
+        (RearFaceCondition::Fixed, -1.0_f64),
+        (RearFaceCondition::Free, 1.0),
+    ] {
         let (mut face, cone) = rear_face(face);
         // The mouth moves out to 1 um within the first microsecond and stays there.
         let outgoing = |time: f64| 1e-6 * (time * 1e6).min(1.0);
@@ -69,7 +72,7 @@ fn echoes_are_those_of_the_images() {
 
 #[test]
 fn a_fixed_rear_face_carries_twice_the_force_that_arrives() {
-    let (mut face, _) = rear_face(BackFace::Fixed);
+    let (mut face, _) = rear_face(RearFaceCondition::Fixed);
     let (step, force) = (7.3e-9, 1e3);
     let mut time = 0.0;
     // The plane-integrated wave goes to and fro between a face of given force and one that stands.
@@ -102,7 +105,7 @@ fn the_depth_changes_steadily_with_the_thickness() {
                 .map(|h| {
                     let scenario = plate(*h, speed, &target, "");
                     assert_eq!(
-                        closure_in_use(&scenario),
+                        resistance_model_in_use(&scenario),
                         Some(TargetResistanceModel::ExpandingCavity)
                     );
                     depth(&scenario)
@@ -209,7 +212,7 @@ fn damping_changes_the_depth_a_little_and_is_accounted_for() {
     ] {
         let scenario = plate(5.2, 400.0, "", &format!("[chain]\n{options}"));
         assert_eq!(
-            closure_in_use(&scenario),
+            resistance_model_in_use(&scenario),
             Some(TargetResistanceModel::ExpandingCavity)
         );
         let result = run(&scenario);
@@ -236,7 +239,7 @@ fn a_weak_projectile_parts_and_mass_and_momentum_are_kept() {
         let weak = format!("chain.failure.spall.strength = '80 MPa'\n{energy}");
         let scenario = plate(5.2, 400.0, "", &weak);
         assert_eq!(
-            closure_in_use(&scenario),
+            resistance_model_in_use(&scenario),
             Some(TargetResistanceModel::ExpandingCavity)
         );
         let result = run(&scenario);

@@ -167,7 +167,7 @@ impl Published<'_> {
             }
             Interface::Chain => {}
             Interface::Joined | Interface::JoinedPushed => warnings.push(format!(
-                "equation (15) gives the first target mass its speed from nothing: {:.2} % of the shot's momentum",
+                "equation (15) gives the first target mass its speed from nothing: {:.2} % of the impact's momentum",
                 100.0 * self.target.mass * self.scenario.impact_velocity / self.initial.1.max(f64::MIN_POSITIVE)
             )),
         }

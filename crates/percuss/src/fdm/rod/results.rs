@@ -86,7 +86,7 @@ fn warnings(rod: &Rod<'_>, result: &RunResult) -> Vec<String> {
     let mut warnings = Vec::new();
     match result.outcome {
         Outcome::OutOfTime => warnings.push(
-            "the run was ended before the shot was over: raise `fdm.end_time` or `fdm.max_steps`".to_owned(),
+            "the run was ended before the impact was over: raise `fdm.end_time` or `fdm.max_steps`".to_owned(),
         ),
         Outcome::Perforated => warnings.push(
             "the target is perforated: a column without a plug or a bulge overestimates its resistance; the residual velocity \

@@ -58,7 +58,7 @@ fn a_slip_of_1000_is_caught() {
         for path in quantities(&table) {
             for factor in [K, 1.0 / K] {
                 tried += 1;
-                if findings(&scaled(&table, &path, factor)).is_empty() {
+                if diagnostics(&scaled(&table, &path, factor)).is_empty() {
                     missed.push((id.clone(), path.join("."), factor));
                 }
             }

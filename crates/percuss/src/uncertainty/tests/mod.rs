@@ -17,7 +17,7 @@ use crate::{
     model::model,
     outcome::Outcome,
     summary::ResultRecord,
-    sweep::{Kernel, Row, ScalarKernel, Shot, Stopped},
+    sweep::{Kernel, ScalarKernel, Stopped, SweepRow, SweepRun},
 };
 
 const CASE: &str = "
@@ -73,7 +73,7 @@ fn settings(samples: u64) -> Settings {
 
 /// A kernel whose depth is a linear function of speed, thickness and constraint factor.
 struct Linear {
-    /// Shots that are faster have no result.
+    /// Runs that are faster have no result.
     fails_above: f64,
 }
 
@@ -94,12 +94,12 @@ fn linear(scenario: &crate::Scenario) -> f64 {
 }
 
 impl Kernel for Linear {
-    fn rows(&self, shots: Vec<Shot>, stop: &AtomicBool) -> Result<Vec<Row>, Stopped> {
+    fn rows(&self, runs: Vec<SweepRun>, stop: &AtomicBool) -> Result<Vec<SweepRow>, Stopped> {
         if stop.load(Ordering::Relaxed) {
             return Err(Stopped);
         }
-        let row = |shot: Shot| {
-            let scenario = shot.scenario.unwrap();
+        let row = |run: SweepRun| {
+            let scenario = run.scenario.unwrap();
             let error = Error::Cancelled {
                 step: 0,
                 time_us: 0.0,
@@ -110,22 +110,22 @@ impl Kernel for Linear {
                 record.reason = None;
                 record.depth_of_penetration_mm = Some(linear(&scenario));
             }
-            Row {
-                index: shot.index,
-                inputs: shot.inputs,
+            SweepRow {
+                index: run.index,
+                inputs: run.inputs,
                 record: Ok(record),
             }
         };
-        Ok(shots.into_iter().map(row).collect())
+        Ok(runs.into_iter().map(row).collect())
     }
 }
 
 fn analysed(study: &Study, kernel: &dyn Kernel, settings: &Settings) -> Uncertainty {
-    let watch = Watch {
+    let observer = Observer {
         stop: &AtomicBool::new(false),
         progress: &|_, _| {},
     };
-    analyse(study, model("chain").unwrap(), kernel, settings, &watch).unwrap()
+    analyse(study, model("chain").unwrap(), kernel, settings, &observer).unwrap()
 }
 
 fn holds(found: Estimate, exact: f64, most: f64, name: &str) {

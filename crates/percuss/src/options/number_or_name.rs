@@ -24,7 +24,7 @@ pub enum ErosionStrain {
 }
 
 /// A key that takes a number or one word.
-pub(crate) trait NumberOrWord: Sized {
+pub(crate) trait NumberOrName: Sized {
     const WORD: &'static str;
     const EXPECTING: &'static str;
     fn from_number(number: f64) -> Self;
@@ -32,7 +32,7 @@ pub(crate) trait NumberOrWord: Sized {
     fn number(&self) -> Option<f64>;
 }
 
-impl NumberOrWord for ConstraintFactor {
+impl NumberOrName for ConstraintFactor {
     const WORD: &'static str = "cavity-expansion";
     const EXPECTING: &'static str = "a number such as 2.7, or \"cavity-expansion\"";
 
@@ -52,7 +52,7 @@ impl NumberOrWord for ConstraintFactor {
     }
 }
 
-impl NumberOrWord for ErosionStrain {
+impl NumberOrName for ErosionStrain {
     const WORD: &'static str = "never";
     const EXPECTING: &'static str = "a number such as 2.0, or \"never\"";
 
@@ -72,9 +72,9 @@ impl NumberOrWord for ErosionStrain {
     }
 }
 
-struct NumberOrWordVisitor<T>(std::marker::PhantomData<T>);
+struct NumberOrNameVisitor<T>(std::marker::PhantomData<T>);
 
-impl<T: NumberOrWord> serde::de::Visitor<'_> for NumberOrWordVisitor<T> {
+impl<T: NumberOrName> serde::de::Visitor<'_> for NumberOrNameVisitor<T> {
     type Value = T;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -101,11 +101,11 @@ impl<T: NumberOrWord> serde::de::Visitor<'_> for NumberOrWordVisitor<T> {
     }
 }
 
-macro_rules! number_or_word {
+macro_rules! number_or_name {
     ($($name:ident),*) => {$(
         impl<'de> Deserialize<'de> for $name {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                deserializer.deserialize_any(NumberOrWordVisitor(std::marker::PhantomData))
+                deserializer.deserialize_any(NumberOrNameVisitor(std::marker::PhantomData))
             }
         }
 
@@ -130,4 +130,4 @@ macro_rules! number_or_word {
     )*};
 }
 
-number_or_word!(ConstraintFactor, ErosionStrain);
+number_or_name!(ConstraintFactor, ErosionStrain);

@@ -1,13 +1,13 @@
-//! Estimate of the model error of a depth, from the benchmark shots that are most like a case.
+//! Estimate of the model error of a depth, from the benchmark cases that are most like a case.
 
 use std::{collections::HashMap, sync::LazyLock};
 
 use serde::Serialize;
 
-use super::{Contender, Verdict, design};
+use super::{ErrorRecord, Candidate, design};
 use crate::{
     Scenario,
-    case::{BackFace, Nose, TargetResistanceModel},
+    case::{Nose, RearFaceCondition, TargetResistanceModel},
     chain,
     model::Model,
     regime::{ProjectileRegime, Regime, TargetKind},
@@ -16,9 +16,9 @@ use crate::{
 };
 
 /// The stored results of the benchmark.
-const BUILT_IN: &str = include_str!("../../data/model-error/verdicts.csv");
+const BUILT_IN: &str = include_str!("../../data/model-error/errors.csv");
 
-static VERDICTS: LazyLock<Vec<Verdict>> = LazyLock::new(|| {
+static RECORDS: LazyLock<Vec<ErrorRecord>> = LazyLock::new(|| {
     let mut reader = csv::Reader::from_reader(BUILT_IN.as_bytes());
     reader
         .deserialize()
@@ -26,35 +26,36 @@ static VERDICTS: LazyLock<Vec<Verdict>> = LazyLock::new(|| {
         .expect("the built-in results are valid")
 });
 
-/// The stored results by contender and regime, for expectations that cost next to nothing.
-static INDEX: LazyLock<HashMap<(&str, ProjectileRegime), Vec<&Verdict>>> = LazyLock::new(|| {
-    let mut index: HashMap<_, Vec<&Verdict>> = HashMap::new();
-    for verdict in verdicts() {
-        let key = (verdict.contender.as_str(), verdict.regime);
-        index.entry(key).or_default().push(verdict);
-    }
-    index
-});
+/// The stored results by candidate and regime, for expectations that cost next to nothing.
+static INDEX: LazyLock<HashMap<(&str, ProjectileRegime), Vec<&ErrorRecord>>> =
+    LazyLock::new(|| {
+        let mut index: HashMap<_, Vec<&ErrorRecord>> = HashMap::new();
+        for record in records() {
+            let key = (record.candidate.as_str(), record.regime);
+            index.entry(key).or_default().push(record);
+        }
+        index
+    });
 
-/// Shots that an expectation rests on, at most.
+/// Cases that an expectation rests on, at most.
 const NEAREST: usize = 12;
-/// Fewer shots of a regime say nothing.
+/// Fewer cases of a regime say nothing.
 const FEWEST: usize = 5;
 
 /// Error to expect of a depth against the axisymmetric reference; plain numbers, 0.1 for 10 % too deep.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Expectation {
+pub struct ModelErrorEstimate {
     /// Median of the errors.
     pub median: f64,
     /// A tenth of the errors lie below.
     pub low: f64,
     /// A tenth of the errors lie above.
     pub high: f64,
-    /// How many shots that rests on.
-    pub shots: usize,
+    /// How many cases that rests on.
+    pub cases: usize,
 }
 
-impl Expectation {
+impl ModelErrorEstimate {
     /// Median and 10th and 90th percentile of errors, of which there is one at least.
     pub(crate) fn of(errors: impl IntoIterator<Item = f64>) -> Self {
         let errors = sorted(errors);
@@ -62,12 +63,12 @@ impl Expectation {
             median: quantile(&errors, 0.5),
             low: quantile(&errors, 0.1),
             high: quantile(&errors, 0.9),
-            shots: errors.len(),
+            cases: errors.len(),
         }
     }
 
     /// The numbers in words: `−32 % (−86 … +14 %)`.
-    pub fn in_words(&self) -> String {
+    pub fn describe(&self) -> String {
         let signed = |error: f64| match (100.0 * error).round() {
             0.0 => "0".to_owned(),
             percent => format!("{percent:+.0}").replace('-', "\u{2212}"),
@@ -78,13 +79,17 @@ impl Expectation {
 }
 
 /// The stored results of the benchmark.
-pub fn verdicts() -> &'static [Verdict] {
-    &VERDICTS
+pub fn records() -> &'static [ErrorRecord] {
+    &RECORDS
 }
 
-/// Error to expect of a model's depth on a case; `None` where the design has too few shots like it: other noses, thin targets,
+/// Error to expect of a model's depth on a case; `None` where the design has too few cases like it: other noses, thin targets,
 /// speeds or lengths beyond the design, options that were not judged.
-pub fn expectation(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> Option<Expectation> {
+pub fn estimate_error(
+    model: &dyn Model,
+    scenario: &Scenario,
+    regime: &Regime,
+) -> Option<ModelErrorEstimate> {
     let rod = &scenario.projectile;
     let room = rod.material.room_temperature.si();
     let heated = rod
@@ -103,9 +108,9 @@ pub fn expectation(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> O
     if !inside(scenario.impact_velocity, design::SPEEDS) || !inside(length, design::LENGTHS) {
         return None;
     }
-    let contender = Contender::of(model, scenario)?;
-    let verdicts = INDEX.get(&(contender.name, regime.projectile))?;
-    among(verdicts, scenario.impact_velocity, length)
+    let candidate = Candidate::of(model, scenario)?;
+    let records = INDEX.get(&(candidate.name, regime.projectile))?;
+    among(records, scenario.impact_velocity, length)
 }
 
 /// Whether a target acts like the semi-infinite ones of the design, as long as the crater does not reach the rear face.
@@ -115,13 +120,13 @@ pub fn expectation(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> O
 /// on. A column does not follow.
 fn is_deep(model: &dyn Model, scenario: &Scenario, target: TargetKind) -> bool {
     let cavity = model.name() == "chain"
-        && chain::closure_in_use(scenario) == Some(TargetResistanceModel::ExpandingCavity);
+        && chain::resistance_model_in_use(scenario) == Some(TargetResistanceModel::ExpandingCavity);
     match target {
         TargetKind::SemiInfinite | TargetKind::ThickPlate => true,
         TargetKind::Plate if cavity => {
             let fewest = match scenario.target {
                 TargetBody::Layers {
-                    back_face: BackFace::Free,
+                    back_face: RearFaceCondition::Free,
                     ..
                 } => 3.0,
                 _ => 1.0,
@@ -133,32 +138,36 @@ fn is_deep(model: &dyn Model, scenario: &Scenario, target: TargetKind) -> bool {
     }
 }
 
-/// The error to expect from verdicts of one contender and regime.
-fn among(verdicts: &[&Verdict], speed: f64, length_to_diameter: f64) -> Option<Expectation> {
-    let distance = |verdict: &Verdict| {
-        let speeds = (verdict.impact_velocity_m_s / speed).ln();
-        let lengths = (verdict.length_to_diameter / length_to_diameter).ln();
+/// The error to expect from records of one candidate and regime.
+fn among(
+    records: &[&ErrorRecord],
+    speed: f64,
+    length_to_diameter: f64,
+) -> Option<ModelErrorEstimate> {
+    let distance = |record: &ErrorRecord| {
+        let speeds = (record.impact_velocity_m_s / speed).ln();
+        let lengths = (record.length_to_diameter / length_to_diameter).ln();
         speeds.hypot(lengths)
     };
-    let mut near: Vec<(f64, f64)> = verdicts
+    let mut near: Vec<(f64, f64)> = records
         .iter()
-        .map(|verdict| (distance(verdict), verdict.error()))
+        .map(|record| (distance(record), record.error()))
         .collect();
     if near.len() < FEWEST {
         return None;
     }
     near.sort_by(|a, b| a.0.total_cmp(&b.0));
     near.truncate(NEAREST);
-    Some(Expectation::of(near.iter().map(|(_, error)| *error)))
+    Some(ModelErrorEstimate::of(near.iter().map(|(_, error)| *error)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn verdict(speed: f64, error: f64) -> Verdict {
-        Verdict {
-            contender: "made up".to_owned(),
+    fn record(speed: f64, error: f64) -> ErrorRecord {
+        ErrorRecord {
+            candidate: "made up".to_owned(),
             projectile: "a".to_owned(),
             target: "b".to_owned(),
             length_to_diameter: 3.0,
@@ -171,16 +180,16 @@ mod tests {
     }
 
     #[test]
-    fn the_most_similar_shots_decide() {
-        let slow = (0..12).map(|i| verdict(150.0, -0.5 + 0.01 * f64::from(i)));
-        let fast = (0..12).map(|i| verdict(1500.0, 0.5 + 0.01 * f64::from(i)));
-        let all: Vec<Verdict> = slow.chain(fast).collect();
-        let all: Vec<&Verdict> = all.iter().collect();
+    fn the_most_similar_cases_decide() {
+        let slow = (0..12).map(|i| record(150.0, -0.5 + 0.01 * f64::from(i)));
+        let fast = (0..12).map(|i| record(1500.0, 0.5 + 0.01 * f64::from(i)));
+        let all: Vec<ErrorRecord> = slow.chain(fast).collect();
+        let all: Vec<&ErrorRecord> = all.iter().collect();
         let expected = among(&all, 200.0, 3.0).unwrap();
-        assert_eq!(expected.shots, 12);
+        assert_eq!(expected.cases, 12);
         assert!((expected.median + 0.445).abs() < 1e-12, "{expected:?}");
         assert_eq!(
-            expected.in_words(),
+            expected.describe(),
             "\u{2212}44 % (\u{2212}49 … \u{2212}40 %)"
         );
         assert!(among(&all, 1200.0, 3.0).unwrap().median > 0.5);

@@ -1,4 +1,4 @@
-//! A shot at one metal plate, as the models of perforation see it.
+//! A case at one metal plate, as the models of perforation see it.
 
 use std::f64::consts::PI;
 
@@ -12,7 +12,7 @@ use crate::{
 
 /// Projectile and plate.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct PlateShot<'a> {
+pub(super) struct PlateImpact<'a> {
     /// Mass of the projectile [kg].
     pub mass: f64,
     /// Impact speed [m/s].
@@ -25,8 +25,8 @@ pub(super) struct PlateShot<'a> {
     pub plate: &'a Material,
 }
 
-impl<'a> PlateShot<'a> {
-    /// The shot of a case; `None` unless one plate is struck.
+impl<'a> PlateImpact<'a> {
+    /// The case of a case; `None` unless one plate is struck.
     pub fn of(scenario: &'a Scenario) -> Option<Self> {
         let TargetBody::Layers { layers, .. } = &scenario.target else {
             return None;
@@ -70,13 +70,13 @@ pub(super) fn taken_as_rigid(scenario: &Scenario) -> Option<String> {
     (regime.projectile != ProjectileRegime::Rigid).then(|| {
         format!(
             "the projectile is taken as rigid, but in a thick target it would be {}: {}",
-            regime.projectile.in_words(),
+            regime.projectile.describe(),
             regime.because
         )
     })
 }
 
-/// The result of a shot at a plate with a known ballistic limit and residual speed [m/s].
+/// The result of a case at a plate with a known ballistic limit and residual speed [m/s].
 pub(super) fn plate_result(
     model: &'static str,
     scheme: &'static str,

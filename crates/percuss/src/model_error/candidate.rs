@@ -11,7 +11,7 @@ use crate::{
 
 /// A model, with one choice of the options that decide its depth.
 #[derive(Clone, Copy)]
-pub struct Contender {
+pub struct Candidate {
     /// Its name: that of the model, and of the closure where it is not the default one.
     pub name: &'static str,
     /// The model.
@@ -89,51 +89,51 @@ impl Closure {
     }
 }
 
-/// All contenders.
-pub fn contenders() -> &'static [Contender] {
-    static CONTENDERS: LazyLock<Vec<Contender>> = LazyLock::new(list);
+/// All candidates.
+pub fn candidates() -> &'static [Candidate] {
+    static CONTENDERS: LazyLock<Vec<Candidate>> = LazyLock::new(list);
     &CONTENDERS
 }
 
-fn list() -> Vec<Contender> {
-    let mut contenders = Vec::new();
+fn list() -> Vec<Candidate> {
+    let mut candidates = Vec::new();
     for model in model::quick() {
         let depth = model
-            .guard()
+            .validity()
             .predicts
             .contains(&BandQuantity::DepthOfPenetration);
         if model.name() == "chain" {
-            contenders.extend(CLOSURES.iter().map(|(name, closure)| Contender {
+            candidates.extend(CLOSURES.iter().map(|(name, closure)| Candidate {
                 name,
                 model,
                 closure: Some(*closure),
             }));
         } else if depth {
-            contenders.push(Contender {
+            candidates.push(Candidate {
                 name: model.name(),
                 model,
                 closure: None,
             });
         }
     }
-    contenders
+    candidates
 }
 
-impl Contender {
-    /// The contender that a model is, with the options of a case; `None` with options that were not judged.
+impl Candidate {
+    /// The candidate that a model is, with the options of a case; `None` with options that were not judged.
     pub fn of(model: &dyn Model, scenario: &Scenario) -> Option<Self> {
         let options = &scenario.options;
-        let judged = |contender: &Contender| match contender.closure {
+        let judged = |candidate: &Candidate| match candidate.closure {
             Some(closure) => closure.is_of(&options.chain),
-            None => options.are_default(contender.name),
+            None => options.are_default(candidate.name),
         };
-        let mut own = contenders()
+        let mut own = candidates()
             .iter()
             .filter(|c| c.model.name() == model.name());
-        own.find(|contender| judged(contender)).copied()
+        own.find(|candidate| judged(candidate)).copied()
     }
 
-    /// A case with the options of the contender.
+    /// A case with the options of the candidate.
     pub fn scenario(&self, scenario: &Scenario) -> Scenario {
         let mut scenario = scenario.clone();
         if let Some(closure) = self.closure {
@@ -143,9 +143,9 @@ impl Contender {
     }
 }
 
-impl std::fmt::Debug for Contender {
+impl std::fmt::Debug for Candidate {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Contender")
+        f.debug_struct("Candidate")
             .field("name", &self.name)
             .finish_non_exhaustive()
     }
@@ -153,12 +153,12 @@ impl std::fmt::Debug for Contender {
 
 #[cfg(test)]
 mod tests {
-    use super::Contender;
+    use super::Candidate;
     use crate::{case, model};
 
     #[test]
     fn only_what_was_judged_is_a_contender() {
-        let shot = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '900 m/s' }\n\
+        let case = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '900 m/s' }\n\
                     target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n";
         for (name, options, expected) in [
             ("chain", "", Some("chain: expanding-cavity")),
@@ -198,9 +198,9 @@ mod tests {
             ("axi", "", None),
             ("taylor", "", None),
         ] {
-            let scenario = case::load_str("a", &format!("{options}\n{shot}")).unwrap();
-            let contender = Contender::of(model::model(name).unwrap(), &scenario);
-            assert_eq!(contender.map(|c| c.name), expected, "{name} {options}");
+            let scenario = case::load_str("a", &format!("{options}\n{case}")).unwrap();
+            let candidate = Candidate::of(model::model(name).unwrap(), &scenario);
+            assert_eq!(candidate.map(|c| c.name), expected, "{name} {options}");
         }
     }
 }

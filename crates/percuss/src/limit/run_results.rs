@@ -1,4 +1,4 @@
-//! What shots of a model come to: whether one is perforated, where the limit is, and what to warn of.
+//! What runs of a model come to: whether one is perforated, where the limit is, and what to warn of.
 
 use super::{
     Bracket, CurvePoint, LimitOutcome, ModelLimit, RearFace, fit_lambert_jonas,
@@ -13,9 +13,9 @@ use crate::{
     units::significant,
 };
 
-/// What is kept of a shot.
+/// What is kept of a run.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Shot {
+pub(super) struct LimitRun {
     pub scheme: &'static str,
     /// Speed behind the target [m/s].
     pub residual: Option<f64>,
@@ -26,7 +26,7 @@ pub(super) struct Shot {
     pub absent: Option<LimitOutcome>,
 }
 
-impl Shot {
+impl LimitRun {
     pub(super) fn of(result: RunResult) -> Self {
         Self {
             scheme: result.scheme,
@@ -53,7 +53,7 @@ impl Shot {
 
 /// Why a model cannot be asked, at whatever speed, and what the search comes to then.
 pub(super) fn unsuited(model: &dyn Model, scenario: &Scenario) -> Option<(LimitOutcome, String)> {
-    if !model.guard().decides_perforation() {
+    if !model.validity().decides_perforation() {
         let reason = "it does not say whether a target is perforated".to_owned();
         return Some((LimitOutcome::NotApplicable, reason));
     }
@@ -66,13 +66,13 @@ pub(super) fn unsuited(model: &dyn Model, scenario: &Scenario) -> Option<(LimitO
     }
 }
 
-/// Whether a shot went through.
+/// Whether a run went through.
 pub(super) fn passage(result: &RunResult) -> Passage {
     let why = match result.outcome {
         Outcome::Separated => {
             "the target runs away from the projectile, and whether it opens is not said"
         }
-        Outcome::OutOfTime => "the run ended before the shot did",
+        Outcome::OutOfTime => "the run ended before the impact did",
         Outcome::NotApplicable => "the model does not apply",
         _ => "the model failed",
     };
@@ -92,7 +92,7 @@ pub(super) fn reason(error: &Error) -> String {
 }
 
 /// The limit of a search [m/s]: what the model states where the bracket holds it, otherwise the middle of the bracket.
-pub(super) fn limit_of(samples: &[Sample<Shot>]) -> Option<f64> {
+pub(super) fn limit_of(samples: &[Sample<LimitRun>]) -> Option<f64> {
     let (below, above) = bracket(samples)?;
     let (low, high) = (samples[below].speed, samples[above].speed);
     let stated = stated(samples).filter(|limit| (low..=high).contains(limit));
@@ -100,21 +100,21 @@ pub(super) fn limit_of(samples: &[Sample<Shot>]) -> Option<f64> {
 }
 
 /// What the model states at the lowest speed that perforated.
-fn stated(samples: &[Sample<Shot>]) -> Option<f64> {
-    let perforated = |sample: &&Sample<Shot>| sample.passage == Passage::Perforated;
-    samples.iter().find(perforated)?.shot.as_ref()?.stated
+fn stated(samples: &[Sample<LimitRun>]) -> Option<f64> {
+    let perforated = |sample: &&Sample<LimitRun>| sample.passage == Passage::Perforated;
+    samples.iter().find(perforated)?.run.as_ref()?.stated
 }
 
-/// Residual velocities of shots that perforated; zero where a plug has left and the projectile does not follow it.
-pub(super) fn curve(shots: &[Sample<Shot>]) -> Vec<CurvePoint> {
-    let through = shots
+/// Residual velocities of runs that perforated; zero where a plug has left and the projectile does not follow it.
+pub(super) fn curve(runs: &[Sample<LimitRun>]) -> Vec<CurvePoint> {
+    let through = runs
         .iter()
         .filter(|sample| sample.passage == Passage::Perforated);
     through
         .filter_map(|sample| {
             Some(CurvePoint {
                 impact_velocity_m_s: sample.speed,
-                residual_velocity_m_s: sample.shot.as_ref()?.residual?.max(0.0),
+                residual_velocity_m_s: sample.run.as_ref()?.residual?.max(0.0),
             })
         })
         .collect()
@@ -143,15 +143,15 @@ pub(super) fn without_limit(
     }
 }
 
-/// The entry of a model whose shots, in the order of their speeds, are these.
+/// The entry of a model whose runs, in the order of their speeds, are these.
 pub(super) fn entry(
     model: &'static str,
-    samples: &[Sample<Shot>],
+    samples: &[Sample<LimitRun>],
     curve: Vec<CurvePoint>,
 ) -> ModelLimit {
-    let shots = || samples.iter().filter_map(|sample| sample.shot.as_ref());
-    let runs = shots().count();
-    let scheme = shots().map(|shot| shot.scheme).find(|s| !s.is_empty());
+    let results = || samples.iter().filter_map(|sample| sample.run.as_ref());
+    let runs = results().count();
+    let scheme = results().map(|run| run.scheme).find(|s| !s.is_empty());
     let scheme = scheme.unwrap_or("");
     let stated = stated(samples);
     let Some((below, above)) = bracket(samples) else {
@@ -170,8 +170,8 @@ pub(super) fn entry(
         stopped_m_s: samples[below].speed,
         perforated_m_s: samples[above].speed,
     };
-    let of_shot = samples[above].shot.as_ref();
-    let mut said = of_shot.map_or_else(Vec::new, |shot| shot.warnings.clone());
+    let of_run = samples[above].run.as_ref();
+    let mut said = of_run.map_or_else(Vec::new, |run| run.warnings.clone());
     said.extend(warnings::undecided_inside(&samples[below..=above]));
     said.extend(warnings::stated_outside(stated, found));
     said.extend(warnings::not_monotone(samples, above));
@@ -193,34 +193,34 @@ pub(super) fn entry(
     }
 }
 
-/// The entry of a model that starts from a limit, whose shots above it, in the order of their speeds, are these.
+/// The entry of a model that starts from a limit, whose runs above it, in the order of their speeds, are these.
 pub(super) fn input_entry(
     model: &'static str,
     input: InputLimit,
-    samples: &[Sample<Shot>],
+    samples: &[Sample<LimitRun>],
 ) -> ModelLimit {
-    let shots = || samples.iter().filter_map(|sample| sample.shot.as_ref());
+    let runs = || samples.iter().filter_map(|sample| sample.run.as_ref());
     let curve = curve(samples);
     let input_limit = Some(input);
     if curve.is_empty() && !samples.is_empty() {
         let (outcome, reason) = no_bracket(samples);
         return ModelLimit {
             input_limit,
-            runs: shots().count(),
+            runs: runs().count(),
             ..without_limit(model, outcome, reason)
         };
     }
-    let mut said = shots()
+    let mut said = runs()
         .next()
-        .map_or_else(Vec::new, |shot| shot.warnings.clone());
+        .map_or_else(Vec::new, |run| run.warnings.clone());
     said.extend(warnings::speeds_without_answer(samples));
     ModelLimit {
-        scheme: shots()
-            .map(|shot| shot.scheme)
+        scheme: runs()
+            .map(|run| run.scheme)
             .find(|scheme| !scheme.is_empty())
             .unwrap_or(""),
         input_limit,
-        runs: shots().count(),
+        runs: runs().count(),
         fit: fit_lambert_jonas(&curve),
         curve,
         warnings: said,
@@ -236,12 +236,12 @@ pub(super) fn input_entry(
     }
 }
 
-pub(super) fn speed(sample: &Sample<Shot>) -> String {
+pub(super) fn speed(sample: &Sample<LimitRun>) -> String {
     significant(sample.speed, 4)
 }
 
-/// What shots without a change from stopped to perforated say.
-fn no_bracket(samples: &[Sample<Shot>]) -> (LimitOutcome, String) {
+/// What runs without a change from stopped to perforated say.
+fn no_bracket(samples: &[Sample<LimitRun>]) -> (LimitOutcome, String) {
     let first = |wanted: fn(&Passage) -> bool| samples.iter().find(|s| wanted(&s.passage));
     let stopped = samples
         .iter()
@@ -280,8 +280,8 @@ fn no_bracket(samples: &[Sample<Shot>]) -> (LimitOutcome, String) {
             ),
         ),
         (None, None) => {
-            let absent = samples.iter().filter_map(|s| Some((s, s.shot.as_ref()?)));
-            let mut outcomes = absent.map(|(_, shot)| shot.absent);
+            let absent = samples.iter().filter_map(|s| Some((s, s.run.as_ref()?)));
+            let mut outcomes = absent.map(|(_, run)| run.absent);
             let one = outcomes.next().flatten();
             let all_same = one.is_some() && outcomes.all(|outcome| outcome == one);
             let reason = samples.iter().find_map(|sample| match &sample.passage {

@@ -11,13 +11,13 @@ use super::rigid_motion::Stop;
 
 /// A projectile on a target of one material.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct DeepShot<'a> {
+pub(super) struct DeepPenetration<'a> {
     pub(super) rod: &'a Rod,
     pub(super) speed: f64,
     pub(super) target: &'a Material,
 }
 
-impl<'a> DeepShot<'a> {
+impl<'a> DeepPenetration<'a> {
     /// `None` when the target is not of one material.
     pub(super) fn of(scenario: &'a Scenario) -> Option<Self> {
         let TargetBody::Layers { layers, .. } = &scenario.target else {

@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::regime::ProjectileRegime;
 
-/// Depth of one shot by one model beside that by the reference.
+/// Depth of one case by one model beside that by the reference.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Verdict {
-    /// Name of the contender.
-    pub contender: String,
+pub struct ErrorRecord {
+    /// Name of the candidate.
+    pub candidate: String,
     /// Id of the projectile's material.
     pub projectile: String,
     /// Id of the target's material.
@@ -17,9 +17,9 @@ pub struct Verdict {
     pub length_to_diameter: f64,
     /// Impact speed [m/s].
     pub impact_velocity_m_s: f64,
-    /// What the projectile does in this shot.
+    /// What the projectile does in this case.
     pub regime: ProjectileRegime,
-    /// Depth by the contender [mm].
+    /// Depth by the candidate [mm].
     pub depth_of_penetration_mm: f64,
     /// Depth by the reference [mm], extrapolated in the cell size.
     pub reference_depth_mm: f64,
@@ -27,8 +27,8 @@ pub struct Verdict {
     pub reference_uncertainty_mm: f64,
 }
 
-impl Verdict {
-    /// Relative error: positive where the contender goes deeper than the reference.
+impl ErrorRecord {
+    /// Relative error: positive where the candidate goes deeper than the reference.
     pub fn error(&self) -> f64 {
         self.depth_of_penetration_mm / self.reference_depth_mm - 1.0
     }
