@@ -107,7 +107,7 @@ fn json_has_an_entry_a_model_with_stable_names() {
     assert_eq!(probit["method"], "probit");
     assert!((number(&probit["v50_m_s"]) - 187.0).abs() < 1e-6);
     let shots = object["shots"].as_array().unwrap();
-    assert_eq!(object["v50"]["shots"], shots.len());
+    assert_eq!(object["v50"]["tests"], shots.len());
     assert!(number(&shots[0]["impact_velocity_m_s"]) > 0.0 && shots[0]["perforated"].is_boolean());
 }
 
@@ -282,8 +282,8 @@ fn the_expected_error_is_that_on_published_limits_of_the_same_kind() {
     assert!(flat(&text).contains("noses on "), "{text}");
     let object = json(&ok(&folder, &[&options[..], &["--json"]].concat()));
     let expected = &object["results"][0]["expected_error"];
-    assert!(expected["shots"].as_u64().unwrap() >= 5, "{expected}");
-    assert_eq!(expected["blind"], expected["shots"]);
+    assert!(expected["cases"].as_u64().unwrap() >= 5, "{expected}");
+    assert_eq!(expected["blind"], expected["cases"]);
 }
 
 /// Without a word on the rear face the chain used to be stopped at every speed.

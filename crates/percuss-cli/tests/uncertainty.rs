@@ -60,7 +60,7 @@ fn tables_json_and_pairs_say_the_same() {
     let folder = folder();
     let arguments = ["case.toml", "--samples", "32", "--seed", "5"];
     let object = json(&ok(&folder, &[&arguments[..], &["--json"]].concat()));
-    assert_eq!(object["shots"], 1 + 4 + 32 * 4);
+    assert_eq!(object["runs"], 1 + 4 + 32 * 4);
     assert_eq!(object["inputs"][1]["distribution"], "uniform, 12.5 … 13 mm");
     let depth = &object["quantities"][0];
     assert_eq!(depth["quantity"], "depth_of_penetration_mm");
@@ -72,7 +72,7 @@ fn tables_json_and_pairs_say_the_same() {
     );
     assert_eq!(depth["indices"]["rows"], 32);
     assert_eq!(object["perforation"]["probability"], 0.0);
-    assert_eq!(object["failures"]["shots"], 0);
+    assert_eq!(object["failures"]["runs"], 0);
 
     let quiet = ok(&folder, &[&arguments[..], &["--quiet"]].concat());
     assert!(
@@ -130,7 +130,7 @@ fn correlated_parameters_have_all_but_indices() {
     );
     let object = json(&ok(&folder, &["joint.toml", "--samples", "16", "--json"]));
     assert_eq!(
-        (object["correlated"].as_bool(), object["shots"].as_u64()),
+        (object["correlated"].as_bool(), object["runs"].as_u64()),
         (Some(true), Some(21))
     );
     assert!(object["quantities"][0]["indices"].is_null());

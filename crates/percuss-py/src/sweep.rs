@@ -8,7 +8,7 @@ use std::{
     },
 };
 
-use percuss::sweep::{BatchKernel, SweepRow, Sweep as Loaded};
+use percuss::sweep::{BatchKernel, Sweep as Loaded, SweepRow};
 use percuss_cli::Failure;
 use percuss_report::sweep::{Block, SweepFolder as Folder};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyBytes};

@@ -89,7 +89,7 @@ def test_a_material_whose_id_is_digits_can_be_uncertain(program: Program, tmp_pa
         uncertainty={"parameter": [{"key": key, "normal": {"mean": "900 MPa", "standard_deviation": "50 MPa"}}]},
     )
     found = percuss.uncertainty(case, model="taylor", samples=16)
-    assert found.inputs[0].key == key and found.failures.shots == 0
+    assert found.inputs[0].key == key and found.failures.runs == 0
     case.save(tmp_path / "rod.toml")
     assert found.to_dict() == answer(program, "uncertainty", str(tmp_path / "rod.toml"), "--model", "taylor", "--samples", "16")
     # The length left rises with the flow stress.

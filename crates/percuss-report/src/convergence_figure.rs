@@ -1,6 +1,6 @@
 //! Chart of a convergence study, and its figure.
 
-use percuss::converge::{MeshStudy, ConvergenceStatus};
+use percuss::converge::{ConvergenceStatus, MeshStudy};
 
 use crate::{Axis, Chart, Figure, LineChart, Mark, Series, Style};
 
@@ -27,12 +27,12 @@ pub fn convergence_chart(case: &str, study: &MeshStudy, quantity: usize) -> Opti
     .series(Series::new("computed", points).style(Style::LineAndMarkers));
     if let ConvergenceStatus::Converging {
         richardson, order, ..
-    } = quantity.verdict
+    } = quantity.status
     {
         chart = chart.mark(Mark::horizontal(
             format!("extrapolated, order {order:.2}"),
             richardson,
         ));
     }
-    Some(chart.caption(quantity.verdict.describe()).into())
+    Some(chart.caption(quantity.status.describe()).into())
 }

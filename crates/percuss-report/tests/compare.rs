@@ -17,7 +17,7 @@ use percuss_report::{compare_figure, write_comparison};
 /// A model that gives `scale` times a depth that grows with the speed.
 struct Fake {
     name: &'static str,
-    guard: ValidityDomain,
+    validity: ValidityDomain,
     scale: f64,
     band: bool,
 }
@@ -32,7 +32,7 @@ impl Model for Fake {
     }
 
     fn validity(&self) -> &'static ValidityDomain {
-        Box::leak(Box::new(self.guard))
+        Box::leak(Box::new(self.validity))
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
@@ -81,7 +81,7 @@ const NEVER: ValidityDomain = ValidityDomain {
 };
 
 fn comparison(case: &str, speeds: &[f64]) -> (Scenario, Comparison) {
-    let guards = [ValidityDomain::OPEN, FAST, SLOW];
+    let validity = [ValidityDomain::OPEN, FAST, SLOW];
     let names = [
         "chain",
         "tate",
@@ -100,7 +100,7 @@ fn comparison(case: &str, speeds: &[f64]) -> (Scenario, Comparison) {
         .enumerate()
         .map(|(i, name)| Fake {
             name,
-            guard: match *name {
+            validity: match *name {
                 "never" => NEVER,
                 "tate" => FAST,
                 "walker_anderson" => ValidityDomain {
@@ -109,7 +109,7 @@ fn comparison(case: &str, speeds: &[f64]) -> (Scenario, Comparison) {
                 },
                 _ => ValidityDomain {
                     first_choice: &[],
-                    ..guards[i % 3]
+                    ..validity[i % 3]
                 },
             },
             scale: 0.7 + 0.08 * ((7 * i) % 11) as f64,

@@ -78,7 +78,7 @@ impl Validation {
                     }
                 };
                 let shots = shots::built_in();
-                let (models, library) = (model::quick(), Library::built_in());
+                let (models, library) = (model::fast_models(), Library::built_in());
                 let validation = validate::run(&models, shots, library, &progress)
                     .map_err(|error| stop.problem(error))?;
                 let origin = Origin {

@@ -52,7 +52,7 @@ pub struct Quantity {
     /// Value on each mesh.
     pub values: Vec<f64>,
     /// Convergence over the meshes.
-    pub verdict: ConvergenceStatus,
+    pub status: ConvergenceStatus,
 }
 
 /// Convergence of a quantity over the meshes.
@@ -101,7 +101,7 @@ pub enum ConvergenceStatus {
 }
 
 impl ConvergenceStatus {
-    /// The verdict on values of three or more meshes, coarse to fine, each [`REFINEMENT`] times finer than the last.
+    /// The status on values of three or more meshes, coarse to fine, each [`REFINEMENT`] times finer than the last.
     pub fn of(values: &[f64]) -> Option<Self> {
         let meshes: Vec<OnMesh> = values
             .iter()
@@ -167,7 +167,7 @@ impl ConvergenceStatus {
         }
     }
 
-    /// The verdict in words.
+    /// The status in words.
     pub fn describe(&self) -> String {
         match *self {
             Self::Exact => "the finest meshes agree to rounding".to_owned(),
@@ -287,7 +287,7 @@ impl MeshStudy {
                 Some(Quantity {
                     name: ResultUnit::split(number.name).0,
                     unit: number.unit.symbol,
-                    verdict: ConvergenceStatus::of(&values)?,
+                    status: ConvergenceStatus::of(&values)?,
                     values,
                 })
             })
@@ -323,18 +323,18 @@ mod tests {
 
     #[test]
     fn three_meshes_confirm_no_order() {
-        let verdict = ConvergenceStatus::of(&second_order(3)).unwrap();
+        let status = ConvergenceStatus::of(&second_order(3)).unwrap();
         let ConvergenceStatus::Unconfirmed {
             order,
             earlier_order: None,
             meshes: 3,
             ..
-        } = verdict
+        } = status
         else {
-            panic!("{verdict:?}");
+            panic!("{status:?}");
         };
         assert!((order - 2.0).abs() < 1e-9);
-        let words = verdict.describe();
+        let words = status.describe();
         assert!(
             words.contains("not confirmed: three meshes give one order (2.00); run `--levels 4`"),
             "{words}"
@@ -354,12 +354,12 @@ mod tests {
         assert!(first.contains("none on the coarser ones"), "{first}");
         for (ratio, words) in [(1.2, "too slow"), (8.0, "more than the scheme has")] {
             let values: Vec<f64> = (0..4).map(|i| 3.0 + f64::powi(1.0 / ratio, i)).collect();
-            let verdict = ConvergenceStatus::of(&values).unwrap();
+            let status = ConvergenceStatus::of(&values).unwrap();
             assert!(
-                matches!(verdict, ConvergenceStatus::Unconfirmed { .. }),
-                "{verdict:?}"
+                matches!(status, ConvergenceStatus::Unconfirmed { .. }),
+                "{status:?}"
             );
-            assert!(verdict.describe().contains(words), "{}", verdict.describe());
+            assert!(status.describe().contains(words), "{}", status.describe());
         }
     }
 

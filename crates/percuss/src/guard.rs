@@ -94,7 +94,7 @@ impl ValidityDomain {
     };
 
     /// Whether a case lies inside.
-    pub fn verdict(&self, scenario: &Scenario, regime: &Regime) -> Applicability {
+    pub fn applicability(&self, scenario: &Scenario, regime: &Regime) -> Applicability {
         let mut warnings = Vec::new();
         if !self.targets.contains(&regime.target) {
             return Applicability::refused(format!(

@@ -10,7 +10,7 @@ use crate::{
 /// A model whose result is a function of the case.
 pub(crate) struct MadeUp {
     pub(crate) name: &'static str,
-    pub(crate) guard: ValidityDomain,
+    pub(crate) validity: ValidityDomain,
     pub(crate) result: fn(&Scenario) -> Result<RunResult, Error>,
 }
 
@@ -24,7 +24,7 @@ impl Model for MadeUp {
     }
 
     fn validity(&self) -> &'static ValidityDomain {
-        Box::leak(Box::new(self.guard))
+        Box::leak(Box::new(self.validity))
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {

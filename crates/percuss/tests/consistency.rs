@@ -230,7 +230,7 @@ pub fn assert_finite(result: &RunResult) {
 
 /// Holds every model to an identity on every shot that it applies to, and known failures to failing.
 fn hold(identity: Identity, check: impl Fn(&dyn Model, &str, &[f64]) -> Result<usize, String>) {
-    for model in model::quick() {
+    for model in model::fast_models() {
         let known = KNOWN_FAILURES
             .iter()
             .find(|known| known.0 == model.name() && known.1 == identity);
@@ -458,7 +458,7 @@ fn a_denser_projectile_goes_deeper() {
 
 #[test]
 fn every_model_applies_to_some_shot_and_says_why_not_to_the_others() {
-    for model in model::quick() {
+    for model in model::fast_models() {
         let applies = SHOTS.iter().any(|(_, text, speeds)| {
             let base = shot(text);
             speeds
@@ -502,7 +502,7 @@ fn every_material_works_in_every_model() {
         ];
         for text in cases {
             let scenario = shot(&text);
-            for model in model::quick() {
+            for model in model::fast_models() {
                 let Some(result) = run(model, &scenario) else {
                     continue;
                 };

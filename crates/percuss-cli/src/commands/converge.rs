@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario,
-    converge::{self, MeshStudy, ConvergenceStatus},
+    converge::{self, ConvergenceStatus, MeshStudy},
     model::{self, Control, MODELS, Model},
     units::significant,
 };
@@ -105,7 +105,7 @@ impl Converge {
             )
         );
         text += &table(&study);
-        text += &verdicts(&study);
+        text += &statuses(&study);
         Written::new(&files).print_under(text)
     }
 
@@ -157,14 +157,14 @@ impl Converge {
 
 /// Meshes as rows, quantities as columns, and below them order, extrapolated value and grid-convergence index.
 fn table(study: &MeshStudy) -> String {
-    let numbers = |verdict: &ConvergenceStatus| {
-        let (richardson, index) = match *verdict {
+    let numbers = |status: &ConvergenceStatus| {
+        let (richardson, index) = match *status {
             ConvergenceStatus::Converging {
                 richardson, index, ..
             } => (Some(richardson), Some(100.0 * index)),
             _ => (None, None),
         };
-        let order = verdict.order().map(|order| format!("{order:.2}"));
+        let order = status.order().map(|order| format!("{order:.2}"));
         [
             order.unwrap_or_else(|| number(None, 0)),
             number(richardson, 5),
@@ -189,19 +189,19 @@ fn table(study: &MeshStudy) -> String {
                 heading: quantity.name.replace('_', "\n"),
                 unit: quantity.unit.to_owned(),
                 numbers: true,
-                cells: values.chain(numbers(&quantity.verdict)).collect(),
+                cells: values.chain(numbers(&quantity.status)).collect(),
             }
         }));
     blocks(&table)
 }
 
-fn verdicts(study: &MeshStudy) -> String {
+fn statuses(study: &MeshStudy) -> String {
     study
         .quantities
         .iter()
         .map(|quantity| {
             let name = quantity.name.replace('_', " ");
-            let line = format!("{name}: {}", quantity.verdict.describe());
+            let line = format!("{name}: {}", quantity.status.describe());
             format!("{}\n", wrap(&line, width(), 2))
         })
         .collect()

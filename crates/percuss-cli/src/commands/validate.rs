@@ -5,7 +5,7 @@ use percuss::{
     case,
     material::Library,
     model::{self, MODELS, Model},
-    shots::{Kind, Experiment},
+    shots::{Experiment, Kind},
     validate::{self, Group, Grouping, PredictionRecord, Standing, Validation},
 };
 use percuss_report::validation::{self, Origin};
@@ -172,7 +172,7 @@ impl Validate {
 
     fn models(&self) -> Result<Vec<&'static dyn Model>, Failure> {
         if self.model.is_empty() {
-            return Ok(model::quick());
+            return Ok(model::fast_models());
         }
         let chosen = self.model.iter().map(|name| model::model(name));
         let mut models = chosen.collect::<Result<Vec<_>, _>>()?;

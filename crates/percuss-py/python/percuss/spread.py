@@ -54,7 +54,7 @@ class Uncertainty(Result):
     model: str
     samples: int
     seed: int
-    shots: int
+    runs: int
     inputs: list[Record]
     correlated: bool
     nominal: Record

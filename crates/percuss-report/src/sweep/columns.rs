@@ -3,7 +3,7 @@
 use percuss::{
     model_error::ModelErrorEstimate,
     summary::{ResultRecord, Role, result_numbers},
-    sweep::{SweepRow, Sweep},
+    sweep::{Sweep, SweepRow},
 };
 use serde::Serialize;
 

@@ -9,7 +9,7 @@ use std::{
 
 use bytes::Bytes;
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use percuss::sweep::{Kernel, SweepRow, Sweep};
+use percuss::sweep::{Kernel, Sweep, SweepRow};
 use rayon::prelude::*;
 
 use super::{

@@ -10,7 +10,7 @@ use parquet::{
 };
 use percuss::{
     outcome::Outcome,
-    sweep::{SweepRow, Sweep},
+    sweep::{Sweep, SweepRow},
 };
 
 use super::{

@@ -1,6 +1,6 @@
 //! The rows of a sweep as one table.
 
-use percuss::sweep::{SweepRow, Sweep};
+use percuss::sweep::{Sweep, SweepRow};
 
 use super::columns::columns;
 use crate::{ReportError, column};

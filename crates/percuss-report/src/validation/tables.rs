@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use percuss::{
     material::references,
-    shots::{Kind, Experiment},
+    shots::{Experiment, Kind},
     units::significant,
     validate::{self, Errors, Group, Grouping, Prediction, SEPARATOR, Standing, Validation},
 };
@@ -110,7 +110,8 @@ pub(super) fn coverage(validation: &Validation, kind: Kind) -> Table {
 /// Suspect rows, with what the models say of them.
 pub(super) fn suspects(validation: &Validation) -> Table {
     let suspects = validation.tests.iter().enumerate();
-    let suspects: Vec<(usize, &Experiment)> = suspects.filter(|(_, shot)| shot.flag.is_some()).collect();
+    let suspects: Vec<(usize, &Experiment)> =
+        suspects.filter(|(_, shot)| shot.flag.is_some()).collect();
     Table::of(&suspects)
         .words("shot", |(_, shot)| shot.id.clone())
         .words("source", |(_, shot)| shot.source.clone())
@@ -145,7 +146,9 @@ pub(super) fn sources(validation: &Validation) -> Table {
         groups.entry(&shot.source).or_default().push(shot);
     }
     let groups: Vec<(&str, Vec<&Experiment>)> = groups.into_iter().collect();
-    let all = |shots: &[&Experiment], of: fn(&Experiment) -> &str| words(shots.iter().map(|shot| of(shot)));
+    let all = |shots: &[&Experiment], of: fn(&Experiment) -> &str| {
+        words(shots.iter().map(|shot| of(shot)))
+    };
     Table::of(&groups)
         .words("source", |(source, _)| *source)
         .words("work", |(source, _)| {

@@ -124,8 +124,9 @@ pub(super) fn every_shot(compared: &Benchmark) -> Table {
         })
         .each(candidates(), |rows, candidate| {
             let of = |shot: &Shot| {
-                let is_own =
-                    |verdict: &&ErrorRecord| verdict.candidate == candidate.name && shot.is_of(verdict);
+                let is_own = |verdict: &&ErrorRecord| {
+                    verdict.candidate == candidate.name && shot.is_of(verdict)
+                };
                 compared.verdicts.iter().find(is_own)
             };
             rows.numbers(format!("{} [mm] (%)", candidate.name), "", |entry| {

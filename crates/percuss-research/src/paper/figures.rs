@@ -123,7 +123,9 @@ fn figure_8(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
             .order()
             .map_or_else(none, |order| format!("{order:.2}"));
         let limit = match verdict {
-            converge::ConvergenceStatus::Converging { richardson, .. } => format!("{richardson:.4} mm"),
+            converge::ConvergenceStatus::Converging { richardson, .. } => {
+                format!("{richardson:.4} mm")
+            }
             _ => none(),
         };
         let words = verdict.describe();

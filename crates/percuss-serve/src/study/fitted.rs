@@ -33,7 +33,7 @@ pub(super) fn fitted(job: &Job<'_>) -> Result<Study, Problem> {
     let asked = job.asked;
     let case = job.read()?;
     let model = job.model(&case.scenario)?;
-    if model.is_slow() {
+    if model.cost() == percuss::model::CostClass::Minutes {
         return Err(Problem::refused(
             format!(
                 "the model `{}` takes too long for the many runs of a calibration",

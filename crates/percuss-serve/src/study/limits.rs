@@ -17,8 +17,13 @@ pub(super) fn limits(job: &Job<'_>) -> Result<Study, Problem> {
     let mut watch = limit::Observer {
         progress: Some(&mut report),
     };
-    let limits = limit::limits(&model::quick(), &scenario, &Search::default(), &mut watch)
-        .map_err(|error| job.stop.problem(error))?;
+    let limits = limit::limits(
+        &model::fast_models(),
+        &scenario,
+        &Search::default(),
+        &mut watch,
+    )
+    .map_err(|error| job.stop.problem(error))?;
     let chart = limit_chart(&scenario, &limits);
     let outcomes: Vec<&str> = limits
         .results

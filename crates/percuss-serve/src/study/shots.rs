@@ -8,7 +8,7 @@ use std::{
 
 use percuss::{
     model::Model,
-    sweep::{BatchKernel, Kernel, Observer, SweepRow, SweepRun, Stopped},
+    sweep::{BatchKernel, Kernel, Observer, Stopped, SweepRow, SweepRun},
 };
 
 use super::Job;

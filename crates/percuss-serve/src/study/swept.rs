@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use percuss::{
     case::Document,
     outcome::Outcome,
-    sweep::{Axis, SweepRow, Sweep},
+    sweep::{Axis, Sweep, SweepRow},
 };
 use percuss_report::sweep::{PlotStyle, charts, numbers, parallel_figure, rows_csv};
 use serde_json::{Value, json};

@@ -118,10 +118,7 @@ fn an_analysis_of_uncertainty_has_its_bounds() {
         "{last}"
     );
     let last = elements("20, 9000");
-    assert_eq!(
-        last["done"]["uncertainty"]["failures"]["shots"], 8,
-        "{last}"
-    );
+    assert_eq!(last["done"]["uncertainty"]["failures"]["runs"], 8, "{last}");
     let last = outcome(&served, "uncertainty", &json!({ "case": PAPER }));
     let said = "the case says nothing of what is uncertain";
     assert_eq!(last["problem"]["message"], said);

@@ -24,7 +24,8 @@ fn studies_end_with_what_the_library_says() {
     let last = answer.lines().pop().unwrap();
     let scenario = case::load_str("shot", PAPER).unwrap();
     let mut watch = compare::Observer::default();
-    let comparison = compare::compare(&model::quick(), &scenario, &[230.0], &mut watch).unwrap();
+    let comparison =
+        compare::compare(&model::fast_models(), &scenario, &[230.0], &mut watch).unwrap();
     let printed = serde_json::to_string(&comparison).unwrap();
     let expected: Value = serde_json::from_str(&printed).unwrap();
     assert_eq!(last["done"]["comparison"], expected);
@@ -134,7 +135,7 @@ fn limits_are_those_of_the_library_and_say_what_they_rest_on() {
     let done = answer.lines().pop().unwrap()["done"].clone();
     let scenario = case::load_str("shot", text).unwrap();
     let found = limit::limits(
-        &model::quick(),
+        &model::fast_models(),
         &scenario,
         &limit::Search::default(),
         &mut limit::Observer::default(),

@@ -216,9 +216,9 @@ mod tests {
             )
             .unwrap()
         };
-        let verdict = |scenario: &Scenario| model::applicability(&LanzOdermatt, scenario);
-        assert!(verdict(&case(17600, "target_hardness = 300", 1500)).is_ok());
-        let missing = verdict(&case(17600, "", 1500)).unwrap_err();
+        let applicability = |scenario: &Scenario| model::applicability(&LanzOdermatt, scenario);
+        assert!(applicability(&case(17600, "target_hardness = 300", 1500)).is_ok());
+        let missing = applicability(&case(17600, "", 1500)).unwrap_err();
         let remedy = missing.remedy.unwrap_or_default();
         assert!(
             remedy.contains("`lanz_odermatt.target_hardness`"),
@@ -229,7 +229,7 @@ mod tests {
             (case(17600, "target_hardness = 150", 1500), "200 to 600"),
             (case(17600, "target_hardness = 300", 1000), "1011 m/s"),
         ] {
-            let reason = verdict(&refused).unwrap_err().reason;
+            let reason = applicability(&refused).unwrap_err().reason;
             assert!(reason.contains(word), "{reason}");
         }
     }

@@ -29,7 +29,7 @@ use crate::{
     guard::ValidityDomain,
     outcome::RunResult,
     regime::TargetKind,
-    solver::{Control, Model},
+    solver::{Control, CostClass, Model},
 };
 
 /// Axisymmetric material point method.
@@ -66,8 +66,8 @@ impl Model for Axi {
         }
     }
 
-    fn is_slow(&self) -> bool {
-        true
+    fn cost(&self) -> CostClass {
+        CostClass::Minutes
     }
 
     fn has_fields(&self) -> bool {

@@ -75,7 +75,7 @@ use crate::{
     options::{BorderShearLaw, Scheme, TargetResistanceModel},
     outcome::RunResult,
     regime::{ProjectileRegime, TargetKind},
-    solver::{Control, Model},
+    solver::{Control, CostClass, Model},
 };
 
 /// The 1-D discrete element model.
@@ -124,6 +124,10 @@ impl Model for Chain {
                 ..ValidityDomain::OPEN
             }
         }
+    }
+
+    fn cost(&self) -> CostClass {
+        CostClass::Seconds
     }
 
     fn has_fields(&self) -> bool {

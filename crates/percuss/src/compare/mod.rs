@@ -7,8 +7,8 @@
 //!     projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", impact_velocity = "183 m/s" }
 //!     target = { rigid_wall = true }
 //! "#)?;
-//! let comparison = compare(&quick(), &scenario, &[89.0, 183.0], &mut Observer::default())?;
-//! assert_eq!(comparison.results.len(), 2 * quick().len());
+//! let comparison = compare(&fast_models(), &scenario, &[89.0, 183.0], &mut Observer::default())?;
+//! assert_eq!(comparison.results.len(), 2 * fast_models().len());
 //! assert!(comparison.has_results());
 //! # Ok::<(), percuss::Error>(())
 //! ```

@@ -71,7 +71,7 @@ const SLOW: ValidityDomain = ValidityDomain {
 
 const OPEN: MadeUp = MadeUp {
     name: "open",
-    guard: ValidityDomain::OPEN,
+    validity: ValidityDomain::OPEN,
     result: deep,
 };
 
@@ -98,7 +98,7 @@ fn entries_stand_in_order_and_a_failure_stops_nothing() {
     };
     let slow = MadeUp {
         name: "slow",
-        guard: SLOW,
+        validity: SLOW,
         ..OPEN
     };
     let models: [&dyn Model; 3] = [&failing, &slow, &OPEN];
@@ -146,14 +146,14 @@ fn a_comparison_is_the_same_every_time() {
     let speeds = [100.0, 200.0, 400.0];
     let scenario = scenario(SEMI_INFINITE, "");
     let one = compare(
-        &model::quick(),
+        &model::fast_models(),
         &scenario,
         &speeds,
         &mut Observer::default(),
     )
     .unwrap();
     let two = compare(
-        &model::quick(),
+        &model::fast_models(),
         &scenario,
         &speeds,
         &mut Observer::default(),
@@ -214,23 +214,23 @@ fn the_leading_quantity_follows_from_the_target() {
 fn a_first_choice_is_recommended_if_it_gives_a_result() {
     const DEFORMING: &[FirstChoice] = &[first_choice(ProjectileRegime::Deforming)];
     const ERODING: &[FirstChoice] = &[first_choice(ProjectileRegime::Eroding)];
-    let guard = |first_choice| ValidityDomain {
+    let validity = |first_choice| ValidityDomain {
         first_choice,
         ..ValidityDomain::OPEN
     };
     let deforming = MadeUp {
         name: "deforming",
-        guard: guard(DEFORMING),
+        validity: validity(DEFORMING),
         ..OPEN
     };
     let eroding = MadeUp {
         name: "eroding",
-        guard: guard(ERODING),
+        validity: validity(ERODING),
         ..OPEN
     };
     let failing = MadeUp {
         name: "failing",
-        guard: guard(ERODING),
+        validity: validity(ERODING),
         result: fails,
     };
     let at = |models: &[&dyn Model], speed: f64| {
@@ -272,7 +272,7 @@ fn a_neighbouring_regime_is_named() {
     const DEFORMING: &[FirstChoice] = &[first_choice(ProjectileRegime::Deforming)];
     let rigid = MadeUp {
         name: "rigid",
-        guard: ValidityDomain {
+        validity: ValidityDomain {
             first_choice: RIGID,
             ..ValidityDomain::OPEN
         },
@@ -280,7 +280,7 @@ fn a_neighbouring_regime_is_named() {
     };
     let soft = MadeUp {
         name: "soft",
-        guard: ValidityDomain {
+        validity: ValidityDomain {
             first_choice: DEFORMING,
             ..ValidityDomain::OPEN
         },

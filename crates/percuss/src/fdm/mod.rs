@@ -16,7 +16,7 @@ use crate::{
     options::{ChainOptions, ErosionStrain},
     outcome::RunResult,
     regime::{ProjectileRegime, Regime},
-    solver::{Control, Model},
+    solver::{Control, CostClass, Model},
 };
 
 /// One-dimensional finite differences, as a rod or as a planar impact.
@@ -49,6 +49,10 @@ impl Model for Fdm {
                 ..ValidityDomain::OPEN
             }
         }
+    }
+
+    fn cost(&self) -> CostClass {
+        CostClass::Seconds
     }
 
     fn has_fields(&self) -> bool {

@@ -21,12 +21,12 @@ fn scenario(target: &str, nose: &str, speed: f64) -> Scenario {
     case::load_str("validity", &text).unwrap()
 }
 
-fn verdict(validity: &ValidityDomain, scenario: &Scenario) -> Applicability {
-    validity.verdict(scenario, &Regime::of(scenario))
+fn applicability(validity: &ValidityDomain, scenario: &Scenario) -> Applicability {
+    validity.applicability(scenario, &Regime::of(scenario))
 }
 
 fn reason(validity: &ValidityDomain, scenario: &Scenario) -> String {
-    match verdict(validity, scenario) {
+    match applicability(validity, scenario) {
         Applicability::Outside(refusal) => refusal.to_string(),
         Applicability::Inside(warnings) => panic!("let pass with {warnings:?}"),
     }
@@ -39,7 +39,7 @@ fn an_open_guard_lets_every_metal_pass() {
     for target in [PLATE, "rigid_wall = true", "constant_pressure = '2 GPa'"] {
         let scenario = scenario(target, "'flat'", 500.0);
         assert_eq!(
-            verdict(&ValidityDomain::OPEN, &scenario),
+            applicability(&ValidityDomain::OPEN, &scenario),
             Applicability::Inside(Vec::new())
         );
     }
@@ -77,7 +77,10 @@ fn target_and_nose_are_refused_by_name() {
         "it takes hemisphere, cone or ogive noses, and this nose is of the shape `flat`"
     );
     let cone = scenario(PLATE, "{ cone = { length_to_diameter = 1.0 } }", 500.0);
-    assert!(matches!(verdict(&sharp, &cone), Applicability::Inside(_)));
+    assert!(matches!(
+        applicability(&sharp, &cone),
+        Applicability::Inside(_)
+    ));
 }
 
 #[test]
@@ -94,10 +97,10 @@ fn a_neighbouring_regime_passes_with_a_warning() {
         )
     };
     assert_eq!(
-        verdict(&rigid, &pressed(300.0)),
+        applicability(&rigid, &pressed(300.0)),
         Applicability::Inside(Vec::new())
     );
-    let Applicability::Inside(warnings) = verdict(&rigid, &pressed(500.0)) else {
+    let Applicability::Inside(warnings) = applicability(&rigid, &pressed(500.0)) else {
         panic!("refused at the edge");
     };
     assert_eq!(
@@ -144,7 +147,7 @@ fn ranges_refuse_or_warn_and_hold_their_ends() {
     let at = |speed: f64| scenario(PLATE, "'flat'", speed);
     for inside in [100.0, 900.0] {
         assert_eq!(
-            verdict(&speed, &at(inside)),
+            applicability(&speed, &at(inside)),
             Applicability::Inside(Vec::new())
         );
     }
@@ -157,7 +160,7 @@ fn ranges_refuse_or_warn_and_hold_their_ends() {
         ..ValidityDomain::OPEN
     };
     assert_eq!(
-        verdict(&length, &at(500.0)),
+        applicability(&length, &at(500.0)),
         Applicability::Inside(vec![
             "length to diameter is 10, and it takes up to 8: it was fitted there".to_owned()
         ])
@@ -173,7 +176,7 @@ fn ranges_refuse_or_warn_and_hold_their_ends() {
     // What has no thickness has nothing to be measured.
     let wall = scenario("rigid_wall = true", "'flat'", 500.0);
     assert_eq!(
-        verdict(&thickness, &wall),
+        applicability(&thickness, &wall),
         Applicability::Inside(Vec::new())
     );
 }

@@ -8,7 +8,7 @@ use crate::{
     Scenario,
     guard::NoseKind,
     material::{Library, Material},
-    model::{Model, quick},
+    model::{Model, fast_models},
     model_error::ModelErrorEstimate,
     outcome::BandQuantity,
     regime::{ProjectileRegime, Regime, TargetKind},
@@ -106,7 +106,7 @@ struct LimitError {
 
 /// Errors of every quick model that predicts limits, on every published limit that counts.
 static ERRORS: LazyLock<Vec<LimitError>> = LazyLock::new(|| {
-    let mut models = quick();
+    let mut models = fast_models();
     models.retain(|model| {
         let predicts = model.validity().predicts;
         predicts.contains(&BandQuantity::BallisticLimit)

@@ -7,7 +7,7 @@
 //!     projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "300 m/s" }
 //!     target = { material = "weldox-460-e", thickness = "12 mm" }
 //! "#)?;
-//! let limits = limits(&quick(), &scenario, &Search::default(), &mut Observer::default())?;
+//! let limits = limits(&fast_models(), &scenario, &Search::default(), &mut Observer::default())?;
 //! let plugging = limits.results.iter().find(|limit| limit.model == "plugging").unwrap();
 //! assert_eq!(plugging.outcome, LimitOutcome::Found);
 //! assert!((plugging.ballistic_limit_m_s.unwrap() - 131.43).abs() < 0.01);
@@ -302,7 +302,7 @@ impl Limits {
 }
 
 impl ValidityDomain {
-    /// Whether a model with this guard can say that a target is perforated.
+    /// Whether a model with this validity can say that a target is perforated.
     pub fn decides_perforation(&self) -> bool {
         [BandQuantity::BallisticLimit, BandQuantity::ResidualVelocity]
             .iter()

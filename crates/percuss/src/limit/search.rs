@@ -148,7 +148,10 @@ mod tests {
 
     #[test]
     fn without_a_change_nothing_is_narrowed() {
-        for samples in [searched(|_| Passage::Stopped), searched(|_| Passage::Perforated)] {
+        for samples in [
+            searched(|_| Passage::Stopped),
+            searched(|_| Passage::Perforated),
+        ] {
             assert_eq!((samples.len(), speeds(&samples)), (17, None));
         }
     }

@@ -1,6 +1,6 @@
 //! Default model of a run: the chain where it applies, otherwise the model that a comparison recommends.
 
-use super::{Control, Model, applicability_in, model, quick, recommend, run_in};
+use super::{Control, Model, applicability_in, fast_models, model, recommend, run_in};
 use crate::{Error, Scenario, outcome::RunResult, regime::Regime};
 
 /// Name of the model of a run that names none.
@@ -66,7 +66,7 @@ pub fn default_model(scenario: &Scenario) -> Result<ChosenModel, Error> {
             note: None,
         });
     };
-    let models = quick();
+    let models = fast_models();
     let results: Vec<Result<(), String>> = models
         .iter()
         .map(|model| gives_result(*model, scenario, &regime))
@@ -183,7 +183,7 @@ mod tests {
             let case = scenario(projectile, target);
             let chosen = default_model(&case).unwrap_or_else(|error| panic!("{target}: {error}"));
             let compared = compare(
-                &quick(),
+                &fast_models(),
                 &case,
                 &[case.impact_velocity],
                 &mut Observer::default(),
@@ -209,7 +209,7 @@ mod tests {
         let Error::NoModelApplies { reasons } = &error else {
             panic!("{error}");
         };
-        assert_eq!(reasons.len(), quick().len());
+        assert_eq!(reasons.len(), fast_models().len());
         assert!(
             error.to_string().contains("chain: it takes flat noses"),
             "{error}"

@@ -97,7 +97,7 @@ pub fn candidates() -> &'static [Candidate] {
 
 fn list() -> Vec<Candidate> {
     let mut candidates = Vec::new();
-    for model in model::quick() {
+    for model in model::fast_models() {
         let depth = model
             .validity()
             .predicts

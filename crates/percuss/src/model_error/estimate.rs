@@ -4,7 +4,7 @@ use std::{collections::HashMap, sync::LazyLock};
 
 use serde::Serialize;
 
-use super::{ErrorRecord, Candidate, design};
+use super::{Candidate, ErrorRecord, design};
 use crate::{
     Scenario,
     case::{Nose, RearFaceCondition, TargetResistanceModel},

@@ -69,7 +69,7 @@ pub struct Experiment {
     pub uncertainty: Option<f64>,
     /// How far the row can be trusted.
     pub trust: Trust,
-    /// Whether a constant that all models share was fitted to its source; what single models were fitted to stands in their guards.
+    /// Whether a constant that all models share was fitted to its source; what single models were fitted to stands in their validity.
     pub split: Split,
     /// Why the row is suspect: it is listed, and no statistic counts it.
     pub flag: Option<String>,

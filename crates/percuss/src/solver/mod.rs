@@ -27,7 +27,18 @@ pub use input_limit::InputLimit;
 pub use particle::Particle;
 pub(crate) use particle::{equivalent, kinetic_energy};
 
-/// A way to compute what becomes of a shot.
+/// Order of the time that one run of a model takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum CostClass {
+    /// A formula or an ordinary differential equation: less than a millisecond.
+    Analytic,
+    /// A one-dimensional numerical model: up to seconds.
+    Seconds,
+    /// A two-dimensional numerical model: minutes. Comparisons and validations run it only where it is named.
+    Minutes,
+}
+
+/// A way to compute an impact.
 pub trait Model: Sync {
     /// Name on the command line and in results.
     fn name(&self) -> &'static str;
@@ -38,9 +49,9 @@ pub trait Model: Sync {
     /// The regime that it is made for.
     fn validity(&self) -> &'static ValidityDomain;
 
-    /// Whether a run takes minutes: comparisons and validations then run it only when it is asked for by name.
-    fn is_slow(&self) -> bool {
-        false
+    /// Order of the time that a run takes.
+    fn cost(&self) -> CostClass {
+        CostClass::Analytic
     }
 
     /// Whether it steps through time: then [`Control::frames`] gets its fields, and a run continues from a checkpoint.
@@ -53,7 +64,7 @@ pub trait Model: Sync {
         false
     }
 
-    /// Why the model does not apply to a case that its guard lets pass, if it does not: an option or a number is missing.
+    /// Why the model does not apply to a case that its validity lets pass, if it does not: an option or a number is missing.
     fn not_applicable(&self, _: &Scenario) -> Option<Refusal> {
         None
     }
@@ -148,7 +159,7 @@ pub(crate) fn complete(
     Ok(result)
 }
 
-/// Whether a model applies to a case: the warnings of its guard, or the reason why not.
+/// Whether a model applies to a case: the warnings of its validity, or the reason why not.
 ///
 /// # Errors
 /// Why it does not.
@@ -161,7 +172,7 @@ pub(crate) fn applicability_in(
     scenario: &Scenario,
     regime: &Regime,
 ) -> Result<Vec<String>, Refusal> {
-    match model.validity().verdict(scenario, regime) {
+    match model.validity().applicability(scenario, regime) {
         Applicability::Outside(refusal) => Err(refusal),
         Applicability::Inside(warnings) => match model.not_applicable(scenario) {
             Some(refusal) => Err(refusal),

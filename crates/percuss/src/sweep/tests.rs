@@ -169,7 +169,7 @@ normal = { mean = '100 m/s', standard_deviation = '200 m/s' }
 /// A model with a fault above 300 m/s.
 const FAULTY: MadeUp = MadeUp {
     name: "faulty",
-    guard: ValidityDomain::OPEN,
+    validity: ValidityDomain::OPEN,
     result: |scenario| {
         assert!(scenario.impact_velocity < 300.0, "a wrong {}", "index");
         let end = Termination::ClosedForm;

@@ -4,7 +4,7 @@
 //! use std::ops::ControlFlow;
 //! use percuss::{material::Library, model::quick, tests, validate};
 //!
-//! let validation = validate::run(&quick(), shots::built_in(), Library::built_in(), &|_| ControlFlow::Continue(()))?;
+//! let validation = validate::run(&fast_models(), shots::built_in(), Library::built_in(), &|_| ControlFlow::Continue(()))?;
 //! for group in validate::statistics(&validation, validate::Grouping::All) {
 //!     println!("{} {}: RMS {:.1} % of {}", group.model, group.kind.name(), 100.0 * group.errors.rms, group.errors.count);
 //! }

@@ -13,7 +13,7 @@ use crate::{
 /// A model whose ballistic limit is ten times the thickness in mm; it gives 450 m/s for 45 mm.
 const MADE_UP: MadeUp = MadeUp {
     name: "made_up",
-    guard: ValidityDomain {
+    validity: ValidityDomain {
         predicts: &[BandQuantity::BallisticLimit],
         fitted_to: &[FittedTo {
             sources: &["one"],

@@ -14,7 +14,7 @@ use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario,
     compare::{self, Comparison, Observer},
-    model::{self, MODELS},
+    model::{self, CostClass, MODELS},
 };
 
 use crate::{
@@ -153,7 +153,9 @@ impl Compare {
 
     /// Names the models that would apply and are too slow to run unasked.
     fn left_out(&self, scenario: &Scenario) -> String {
-        let slow = MODELS.iter().filter(|model| model.is_slow());
+        let slow = MODELS
+            .iter()
+            .filter(|model| model.cost() == CostClass::Minutes);
         let applying = slow.filter(|model| model::applicability(**model, scenario).is_ok());
         let names: Vec<&str> = applying.map(|model| model.name()).collect();
         if !self.model.is_empty() || names.is_empty() {

@@ -15,7 +15,7 @@ use super::{absent, head, shown, single, sweep, warnings};
 
 struct Fake {
     name: &'static str,
-    guard: ValidityDomain,
+    validity: ValidityDomain,
     depth_mm: f64,
 }
 
@@ -29,7 +29,7 @@ impl Model for Fake {
     }
 
     fn validity(&self) -> &'static ValidityDomain {
-        Box::leak(Box::new(self.guard))
+        Box::leak(Box::new(self.validity))
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
@@ -123,7 +123,7 @@ fn comparison(speeds: &[f64]) -> (Scenario, Comparison) {
         .enumerate()
         .map(|(i, name)| Fake {
             name,
-            guard: match *name {
+            validity: match *name {
                 "tate" => FAST,
                 "forrestal" | "poncelet" => MIDDLE,
                 "taylor" | "wilkins_guinan" => NEVER,

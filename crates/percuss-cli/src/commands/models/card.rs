@@ -13,12 +13,12 @@ pub fn text(model: &ModelRecord) -> String {
         wrap(model.summary, width(), 0),
         bold("made for")
     );
-    for line in model.guard.describe() {
+    for line in model.validity.describe() {
         text += &item(&line);
     }
-    if !model.guard.first_choice.is_empty() {
+    if !model.validity.first_choice.is_empty() {
         text += &format!("\n{}\n", bold("first choice for"));
-        for choice in model.guard.first_choice {
+        for choice in model.validity.first_choice {
             text += &item(&describe(choice));
         }
     }

@@ -25,7 +25,7 @@ pub fn text(models: &[ModelRecord]) -> String {
 }
 
 fn projectiles(model: &ModelRecord) -> String {
-    let regimes = model.guard.projectile;
+    let regimes = model.validity.projectile;
     if ProjectileRegime::ALL
         .iter()
         .all(|regime| regimes.contains(regime))
@@ -38,7 +38,7 @@ fn projectiles(model: &ModelRecord) -> String {
 
 /// Targets in one word each, and their material where it is not metal alone.
 fn targets(model: &ModelRecord) -> String {
-    let kinds = model.guard.targets;
+    let kinds = model.validity.targets;
     let word = |kind: &TargetKind| match kind {
         TargetKind::SemiInfinite => "semi-infinite",
         TargetKind::ThickPlate => "thick",
@@ -52,7 +52,7 @@ fn targets(model: &ModelRecord) -> String {
         true => "any".to_owned(),
         false => kinds.iter().map(word).collect::<Vec<_>>().join(", "),
     };
-    let materials = model.guard.target_materials;
+    let materials = model.validity.target_materials;
     if *materials != [MaterialClass::Metal] {
         let words: Vec<&str> = materials.iter().map(|class| class.describe()).collect();
         text += &format!("; {}", words.join(", "));

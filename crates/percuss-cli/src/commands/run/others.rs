@@ -19,7 +19,7 @@ pub fn rows(
     but: &str,
     progress: &mut Progress,
 ) -> Result<(String, Vec<Row>), Failure> {
-    let mut models = model::quick();
+    let mut models = model::fast_models();
     models.retain(|model| model.name() != but);
     let mut report = |now: compare::Progress| {
         progress.update(now.fraction, "other models");

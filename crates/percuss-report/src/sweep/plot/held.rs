@@ -1,6 +1,6 @@
 //! Figures of a sweep whose rows are in memory.
 
-use percuss::sweep::{SweepRow, Sweep};
+use percuss::sweep::{Sweep, SweepRow};
 
 use super::{
     super::{columns::columns, manifest::Manifest, rows::Rows},
