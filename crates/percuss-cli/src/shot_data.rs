@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use percuss::{
+    experiments::{self, Experiment},
     material::Library,
-    shots::{self, Experiment},
 };
 
 use crate::failure::Failure;
@@ -21,10 +21,10 @@ pub fn read(
     let (mut shots, mut files): (Vec<Experiment>, Vec<String>) = (Vec::new(), Vec::new());
     for path in data {
         let (more, name) = if path.as_path() == Path::new(BUILT_IN) {
-            let own = format!("the program's own ({})", shots::built_in().len());
-            (shots::built_in().to_vec(), own)
+            let own = format!("the program's own ({})", experiments::built_in().len());
+            (experiments::built_in().to_vec(), own)
         } else {
-            let read = shots::read(path, library)?;
+            let read = experiments::read(path, library)?;
             let name = format!("{} ({})", path.display(), read.len());
             (read, name)
         };

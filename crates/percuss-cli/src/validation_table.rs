@@ -1,7 +1,7 @@
 //! A validation in the terminal.
 
 use percuss::{
-    shots::Kind,
+    experiments::Kind,
     validate::{self, Coverage, Group, Grouping, Standing, Validation},
 };
 use percuss_report::validation::tables;

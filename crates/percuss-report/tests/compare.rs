@@ -6,11 +6,11 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use percuss::{
     Error, Scenario, case,
     compare::{Comparison, Observer, compare},
-    guard::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
     material::MaterialClass,
     model::{Control, Model},
     outcome::{Band, BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
+    validity::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 use percuss_report::{compare_figure, write_comparison};
 

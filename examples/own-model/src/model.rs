@@ -2,7 +2,7 @@
 
 use percuss::{
     Error, Refusal, Scenario,
-    guard::ValidityDomain,
+    validity::ValidityDomain,
     model::{Control, Model},
     outcome::{Outcome, RunResult, Termination},
 };

@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
-    Scenario,
+    Scenario, case,
     converge::{self, ConvergenceStatus, MeshStudy},
     model::{self, Control, MODELS, Model},
     units::significant,
@@ -116,7 +116,7 @@ impl Converge {
     }
 
     fn find(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Found, Failure> {
-        let scenario = at_hand.read(&self.case)?.scenario()?;
+        let scenario = case::scenario(&at_hand.read(&self.case)?)?;
         let model = model::model(&self.model)?;
         let mut folder = RunFolder::wanted(self.out.as_deref(), None)?;
         let study = self.compute(model, &scenario, hear)?;

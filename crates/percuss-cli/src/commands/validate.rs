@@ -3,9 +3,9 @@ use std::{ops::ControlFlow, path::PathBuf, sync::Mutex};
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     case,
+    experiments::{Experiment, Kind},
     material::Library,
     model::{self, MODELS, Model},
-    shots::{Experiment, Kind},
     validate::{self, Group, Grouping, PredictionRecord, Standing, Validation},
 };
 use percuss_report::validation::{self, Origin};

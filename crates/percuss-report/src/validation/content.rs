@@ -1,7 +1,7 @@
 //! What the validation report says, in which order.
 
 use percuss::{
-    shots::{Experiment, Kind, Split},
+    experiments::{Experiment, Kind, Split},
     validate::{Grouping, Standing, Validation, statistics, without_tests},
 };
 

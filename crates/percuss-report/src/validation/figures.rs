@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use percuss::{
-    shots::Kind,
+    experiments::Kind,
     validate::{Prediction, Standing, Validation},
 };
 

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use percuss::{
+    experiments::{Experiment, Kind},
     material::references,
-    shots::{Experiment, Kind},
     units::significant,
     validate::{self, Errors, Group, Grouping, Prediction, SEPARATOR, Standing, Validation},
 };

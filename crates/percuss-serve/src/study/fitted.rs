@@ -17,7 +17,7 @@ use percuss::{
 use percuss_report::calibration;
 use serde_json::json;
 
-use super::{Job, Study, csv_files, shots::watched};
+use super::{Job, Study, csv_files, runs::watched};
 use crate::{problem::Problem, request::Fitting, stream::pretty};
 
 /// Most numbers that are fitted, and measured values that they are fitted to.

@@ -5,7 +5,7 @@ mod compared;
 mod converged;
 mod fitted;
 mod limits;
-mod shots;
+mod runs;
 mod swept;
 mod uncertain;
 mod uncertain_example;

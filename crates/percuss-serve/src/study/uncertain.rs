@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::{
     Job, Study, csv_files,
-    shots::{Bounded, followed},
+    runs::{Bounded, followed},
 };
 use crate::{problem::Problem, stream::pretty};
 

@@ -15,9 +15,9 @@ use percuss::{
         Calibrated, Fitted, Noise, Observations, Observer, Problem, Sampling, Settings, Stage,
     },
     case,
+    experiments::Kind,
     material::Library,
     model::{MODELS, model},
-    shots::Kind,
 };
 
 use crate::{

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
-    Scenario,
+    Scenario, case,
     compare::{self, Comparison, Observer},
     model::{self, CostClass, MODELS},
 };
@@ -112,7 +112,7 @@ impl Compare {
 
     fn find(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Found, Failure> {
         let document = at_hand.read(&self.case)?;
-        let scenario = document.scenario()?;
+        let scenario = case::scenario(&document)?;
         let speeds = self.speeds(&scenario)?;
         let folder = RunFolder::wanted(self.out.as_deref(), Some(&document))?;
         let comparison = self.compute(&scenario, &speeds, hear)?;

@@ -3,12 +3,12 @@
 use percuss::{
     Error, Scenario, case,
     compare::{Comparison, Observer, compare},
-    guard::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
     material::MaterialClass,
     model::{Control, Model},
     model_error::ModelErrorEstimate,
     outcome::{Band, BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
+    validity::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 
 use super::{absent, head, shown, single, sweep, warnings};

@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
-    Scenario,
-    case::Document,
+    Scenario, case,
     limit::{self, LimitOutcome, Limits, Observer, Range, Search, Tolerance},
     model::MODELS,
     v50::{self, Test, V50},
@@ -154,7 +153,7 @@ impl Limit {
     fn find(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Found, Failure> {
         let document = self.case.as_ref().map(|path| at_hand.read(path));
         let document = document.transpose()?;
-        let scenario = document.as_ref().map(Document::scenario).transpose()?;
+        let scenario = document.as_ref().map(case::scenario).transpose()?;
         let shots = self.shots.as_ref().map(v50::read).transpose()?;
         let folder = RunFolder::wanted(self.out.as_deref(), document.as_ref())?;
         let shots = shots.map(|shots| {

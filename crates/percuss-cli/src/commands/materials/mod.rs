@@ -100,7 +100,7 @@ impl Materials {
 
     fn library(&self, at_hand: &AtHand) -> Result<Library, Failure> {
         if let Some(case) = &self.case {
-            return Ok(at_hand.read(case)?.library()?);
+            return Ok(case::library(&at_hand.read(case)?)?);
         }
         let mut library = Library::built_in().clone();
         if let Some(file) = &self.file {

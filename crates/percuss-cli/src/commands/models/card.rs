@@ -1,6 +1,6 @@
 //! One model in full.
 
-use percuss::guard::{FirstChoice, of_material};
+use percuss::validity::{FirstChoice, of_material};
 
 use super::ModelRecord;
 use crate::terminal::{bold, width, wrap};

@@ -5,8 +5,8 @@ mod table;
 use clap::Args;
 use percuss::{
     case,
-    guard::ValidityDomain,
     model::{self, MODELS, Model},
+    validity::ValidityDomain,
 };
 use serde::Serialize;
 use serde_json::Value;

@@ -1,0 +1,95 @@
+//! Model `axi`: axisymmetric continuum mechanics by the material point method, the reference of the one-dimensional models.
+
+mod axial;
+mod balance;
+mod block;
+mod body;
+mod boundary;
+mod contact;
+mod crater;
+mod deform;
+mod end;
+mod field;
+mod kernel;
+mod law;
+mod results;
+mod run;
+mod setup;
+mod solver;
+#[cfg(test)]
+mod tests;
+mod transfer;
+mod warnings;
+
+pub use crate::options::{AxiOptions, ContactKind, Edge, Eos};
+pub use crate::solver::Particle;
+
+use crate::{
+    Error, Refusal, Scenario,
+    outcome::RunResult,
+    regime::TargetKind,
+    solver::{Control, CostClass, Model},
+    validity::ValidityDomain,
+};
+
+/// Axisymmetric material point method.
+#[derive(Debug, Clone, Copy)]
+pub struct Axi;
+
+impl Model for Axi {
+    fn name(&self) -> &'static str {
+        "axi"
+    }
+
+    fn summary(&self) -> &'static str {
+        "axisymmetric reference: large deformation by the material point method"
+    }
+
+    fn validity(&self) -> &'static ValidityDomain {
+        const {
+            &ValidityDomain {
+                targets: &[
+                    TargetKind::SemiInfinite,
+                    TargetKind::ThickPlate,
+                    TargetKind::Plate,
+                    TargetKind::ThinPlate,
+                    TargetKind::Layered,
+                    TargetKind::RigidWall,
+                ],
+                start_temperature: true,
+                notes: &[
+                    "normal impact of a body of revolution",
+                    "minutes rather than seconds: it runs only when asked for by name",
+                ],
+                ..ValidityDomain::OPEN
+            }
+        }
+    }
+
+    fn cost(&self) -> CostClass {
+        CostClass::Minutes
+    }
+
+    fn has_fields(&self) -> bool {
+        true
+    }
+
+    fn is_two_dimensional(&self) -> bool {
+        true
+    }
+
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
+        run::not_applicable(scenario)
+    }
+
+    fn refined(&self, scenario: &Scenario, factor: u32) -> Option<Scenario> {
+        let mut refined = scenario.clone();
+        let options = &mut refined.options.axi;
+        options.cells_per_radius = Some(options.cells_per_radius().saturating_mul(factor));
+        Some(refined)
+    }
+
+    fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
+        run::AxiRun::new(scenario)?.run(control)
+    }
+}

@@ -1,0 +1,373 @@
+//! What a user should know before relying on a result of the conservative scheme.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::plug;
+use crate::{
+    material::{Material, Strength, cavity_expansion_pressure},
+    options::{BorderShearLaw, ErosionCriterion, TargetResistanceModel},
+    outcome::{Outcome, RunResult},
+    problem::RearFaceCondition,
+    scenario::{Plate, Scenario, TargetBody, modelled_thickness},
+    units::{StrainRate, Temperature, Velocity, significant},
+    validity::fixed_rear_face_warning,
+};
+
+const OUT_OF_TIME: &str =
+    "the run was ended before the impact was over: raise `chain.end_time` or `chain.max_steps`";
+/// Part of the thickness of a plate that a crater may take before a support behind it matters.
+const FREE_OF_BACK_FACE: f64 = 0.5;
+/// Thickness in projectile diameters from which on dishing adds less than a tenth to the depth in the axisymmetric reference.
+const FREE_OF_DISHING: f64 = 3.0;
+
+/// Warnings of a run, the weightiest first.
+pub(super) fn warnings(
+    scenario: &Scenario,
+    result: &RunResult,
+    reached: &[Reached],
+    erosion_strain: f64,
+) -> Vec<String> {
+    let mut warnings = Vec::new();
+    match result.outcome {
+        Outcome::OutOfTime => warnings.push(OUT_OF_TIME.to_owned()),
+        Outcome::Perforated if result.plug_mass.is_some() => {}
+        Outcome::Perforated if result.numerics().eroded_elements.1 == scenario.options.chain.target_elements() => {
+            warnings.push("the whole column of target eroded before the projectile did: give a thicker target".to_owned());
+        }
+        Outcome::Perforated => warnings.push(
+            "the target is perforated: a column without a plug or a bulge overestimates its resistance; the residual \
+             velocity is indicative"
+                .to_owned(),
+        ),
+        _ => {}
+    }
+    warnings.extend(fixed_rear_face_warning(scenario));
+    warn_of_plug(scenario, result, &mut warnings);
+    warn_of_closure(scenario, result, &mut warnings);
+    warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
+    warn_of_failure(scenario, result, &mut warnings);
+    let heated = scenario.options.chain.adiabatic_heating();
+    let mut warn = |what: &str, material: &Material, reached: Option<&Reached>| {
+        if let Some(reached) = reached {
+            warn_of_material(what, material, reached, heated, &mut warnings);
+        }
+    };
+    warn("projectile", &scenario.projectile.material, reached.first());
+    if let TargetBody::Layers { layers, .. } = &scenario.target {
+        for (i, plate) in layers.iter().enumerate() {
+            let name = match layers.len() {
+                1 => "target".to_owned(),
+                _ => format!("layer {}", i + 1),
+            };
+            warn(&name, &plate.material, reached.get(i + 1));
+        }
+    }
+    warnings
+}
+
+/// Warnings of a run with an expanding cavity for a target, the weightiest first.
+pub(super) fn warnings_of_cavity(
+    scenario: &Scenario,
+    result: &RunResult,
+    reached: &Reached,
+    erosion_strain: f64,
+) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if result.outcome == Outcome::OutOfTime {
+        warnings.push(OUT_OF_TIME.to_owned());
+    }
+    let depth = result.depth_of_penetration.unwrap_or(0.0);
+    if depth == 0.0 && scenario.impact_velocity > 0.0 {
+        warnings.push("the target stays elastic: it keeps no dent".to_owned());
+    }
+    if scenario.resistance.is_some() {
+        warnings.push("the depth rests on a resistance law of the caller's own".to_owned());
+    } else if depth > 0.0 {
+        warnings.push(
+            "the depth rests on the target resistance model `expanding-cavity`: no constant of it is fitted, but its form was selected \
+             on the benchmark cases that its model error is estimated from"
+                .to_owned(),
+        );
+    }
+    warnings.extend(warning_of_rear_face(scenario, depth));
+    warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
+    let heated = scenario.options.chain.adiabatic_heating();
+    let material = &scenario.projectile.material;
+    warn_of_material("projectile", material, reached, heated, &mut warnings);
+    warnings
+}
+
+/// What an expanding cavity leaves out of a rear face that is near.
+fn warning_of_rear_face(scenario: &Scenario, depth: f64) -> Option<String> {
+    let thickness = scenario.target_thickness()?;
+    let TargetBody::Layers { back_face, .. } = scenario.target else {
+        return None;
+    };
+    match back_face {
+        RearFaceCondition::Free if thickness < FREE_OF_DISHING * scenario.projectile.diameter => Some(
+            "the depth is that of the crater alone: a plate below 3 projectile diameters with a free rear face also dishes and bulges, \
+             which is not included"
+                .to_owned(),
+        ),
+        RearFaceCondition::Fixed if depth >= thickness => Some(
+            "perforation is not a result: the rear face is fixed (default) and the crater has reached it; set \
+             `target.back_face = \"free\"`"
+                .to_owned(),
+        ),
+        RearFaceCondition::Fixed | RearFaceCondition::NonReflecting if depth > FREE_OF_BACK_FACE * thickness => Some(
+            "the crater is more than half as deep as the plate: the support behind it is not included in the resistance"
+                .to_owned(),
+        ),
+        _ => None,
+    }
+}
+
+/// Part of the thickness beyond which a plate that dishes is more and more a membrane, which is left out.
+const LARGE_DISHING: f64 = 0.5;
+
+/// Whether a plate lets go a plug rests on the width and the failure of the shear band.
+fn warn_of_plug(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<String>) {
+    let detail = |name: &str| {
+        let found = result.details.iter().find(|detail| detail.name == name);
+        found.map(|detail| detail.value)
+    };
+    let Some(width) = detail(plug::WIDTH) else {
+        return;
+    };
+    warnings.push(format!(
+        "perforation rests on the shear around the plug, {} mm wide at its largest stress, and on when it fails: compare with half and \
+         twice that as `chain.shear_band.width`, and with failure = \"never\"",
+        significant(width, 3)
+    ));
+    if let (Some(dishing), Some(thickness)) = (detail(plug::DISHING), scenario.target_thickness())
+        && dishing * 1e-3 > LARGE_DISHING * thickness
+    {
+        warnings.push(
+            "the plate dished by more than half its thickness: its resistance as a membrane is left out".to_owned(),
+        );
+    }
+}
+
+/// A column of target resists by its constraint factor and its border shear: both are closures, not results.
+fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<String>) {
+    let (TargetBody::Layers { layers, .. }, Some(depth)) =
+        (&scenario.target, result.depth_of_penetration)
+    else {
+        return;
+    };
+    let thickness: f64 = layers
+        .iter()
+        .map(|plate| modelled_thickness(plate, scenario))
+        .sum();
+    let element = thickness / scenario.options.chain.target_elements() as f64;
+    let (permanent, at_rest) = (result.permanent_depth, result.time_to_rest.is_some());
+    if at_rest && permanent.is_some_and(|permanent| depth > 2.0 * permanent) {
+        warnings.push(format!(
+            "most of the depth is elastic deflection, which springs back: {} mm are permanent",
+            significant(permanent.unwrap_or(0.0) * 1e3, 3)
+        ));
+    }
+    if scenario.options.chain.erosion_criterion() == ErosionCriterion::Tate {
+        warnings.push(
+            "the depth rests on the erosion closure `tate`: the resistance of the target is its flow stress times the constraint \
+             factor, on the rod's area"
+                .to_owned(),
+        );
+    } else if scenario.options.chain.target_resistance() != TargetResistanceModel::Column {
+        warn_of_cone(scenario, layers, depth, warnings);
+    } else if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction
+        && scenario.options.chain.border_shear() > 0.0
+    {
+        warnings.push(format!(
+            "the depth rests on the target closure (constraint factor and border shear C = {}): `chain.border_shear = 0.0` \
+             gives the other end of the range",
+            significant(scenario.options.chain.border_shear(), 4)
+        ));
+    }
+    if depth > 0.0 && depth < element {
+        warnings.push(format!(
+            "the depth ({} mm) is less than one target element ({} mm): see `percuss converge`",
+            significant(depth * 1e3, 3),
+            significant(element * 1e3, 3)
+        ));
+    }
+    let semi_infinite = layers.iter().any(|plate| plate.thickness.is_none());
+    if semi_infinite && depth > 0.75 * thickness {
+        warnings.push(format!(
+            "the depth is close to the {} mm that stand for a semi-infinite target: give a thickness",
+            significant(thickness * 1e3, 3)
+        ));
+    }
+}
+
+/// Plastic strain at which a strength is judged: reached early in any impact that yields.
+const STRENGTH_STRAIN: f64 = 0.1;
+/// Factor on either side of the threshold of penetration within which the cones are at their weakest.
+const THRESHOLD_EDGE: f64 = 1.4;
+/// Part of the compliance of the cone that may lie behind a plate's back face.
+const COMPLIANCE_BEHIND: f64 = 0.25;
+
+/// A cone knows nothing of a crater that is deep against its mouth, nor of a back face that comes near.
+fn warn_of_cone(scenario: &Scenario, layers: &[Plate], depth: f64, warnings: &mut Vec<String>) {
+    let Some(struck) = layers.first().map(|plate| &plate.material) else {
+        return;
+    };
+    let closure = scenario.options.chain.target_resistance();
+    let rod = &scenario.projectile;
+    let radius = 0.5 * rod.diameter;
+    if closure == TargetResistanceModel::Diverging && depth > radius {
+        warnings.push(format!(
+            "the depth is more than a radius of the projectile: the crater floor has left the mouth of the cone, which resists more \
+             and more; compare with `chain.target_resistance` = \"{}\"",
+            TargetResistanceModel::DivergingPenetrable.name()
+        ));
+    }
+    if closure == TargetResistanceModel::DivergingPenetrable
+        && let (Some(resistance), Some(strength)) = (
+            cavity_expansion_pressure(struck),
+            rod.material.flow_stress(STRENGTH_STRAIN),
+        )
+        && resistance > strength
+    {
+        let threshold = (2.0 * (resistance - strength) / rod.material.density.si()).sqrt();
+        let ratio = scenario.impact_velocity / threshold;
+        if (1.0 / THRESHOLD_EDGE..THRESHOLD_EDGE).contains(&ratio) {
+            warnings.push(format!(
+                "the impact is near the threshold of penetration ({}), where the projectile begins to be turned back: the depth is \
+                 too small from there on until penetration is steady",
+                Velocity::new((threshold).round())
+            ));
+        }
+    }
+    let thickness: Option<f64> = layers.iter().map(|plate| plate.thickness).sum();
+    let apex = FRAC_PI_2 * (1.0 - struck.poissons_ratio * struck.poissons_ratio) * radius;
+    if let Some(thickness) = thickness
+        && apex > COMPLIANCE_BEHIND * (apex + thickness - depth)
+    {
+        warnings.push(
+            "the back face is near: a cone does not bulge, bend or plug, and keeps its length as the crater deepens".to_owned(),
+        );
+    }
+}
+
+fn warn_of_erosion(
+    scenario: &Scenario,
+    result: &RunResult,
+    erosion_strain: f64,
+    warnings: &mut Vec<String>,
+) {
+    let (projectile, target) = result.numerics().eroded_elements;
+    let by_strain = scenario.options.chain.erosion_criterion() == ErosionCriterion::Strain;
+    if projectile + target > 0 && by_strain {
+        warnings.push(format!(
+            "{projectile} of {} projectile elements and {target} target elements eroded at strain {}, a numerical limit: \
+             compare with `chain.erosion_strain` = {} and {}, and with half the Courant number",
+            scenario.options.chain.projectile_elements(),
+            significant(erosion_strain, 3),
+            significant(0.75 * erosion_strain, 3),
+            significant(1.5 * erosion_strain, 3),
+        ));
+    }
+}
+
+/// Bodies that cannot fail for want of numbers, and pieces that depend on the mesh.
+fn warn_of_failure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<String>) {
+    let Some(failure) = &scenario.options.chain.failure else {
+        return;
+    };
+    let mut without: Vec<&str> = Vec::new();
+    let mut look_at = |material: &Material, id| {
+        if failure.law().prepare(material).is_none() && !without.contains(&id) {
+            without.push(id);
+        }
+    };
+    let rod = &scenario.projectile;
+    look_at(&rod.material, &rod.material_id);
+    if let TargetBody::Layers { layers, .. } = &scenario.target {
+        for plate in layers {
+            look_at(&plate.material, &plate.material_id);
+        }
+    }
+    for id in without {
+        warnings.push(format!(
+            "`{id}` has no `{}`: it does not part",
+            failure.law().record_key()
+        ));
+    }
+    let energy = scenario.options.chain.fracture_energy;
+    if energy.is_none_or(|energy| energy.si() == 0.0) && result.fragments.len() > 3 {
+        warnings.push(
+            "cracks open at once: the first one is a result, the number of pieces and the smallest of them depend on the mesh; \
+             give `chain.fracture_energy`"
+                .to_owned(),
+        );
+    }
+}
+
+/// Extremes of a part.
+pub(super) struct Reached {
+    pub(super) plastic_strain: f64,
+    /// [1/s].
+    pub(super) strain_rate: f64,
+    /// [K].
+    pub(super) temperature: f64,
+}
+
+/// Part of the way from room temperature to melting that may be left: the strength goes with it, and with the strength the heat,
+/// so that nothing quite gets there.
+const NEARLY_MOLTEN: f64 = 0.01;
+
+fn warn_of_material(
+    what: &str,
+    material: &Material,
+    reached: &Reached,
+    heated: bool,
+    warnings: &mut Vec<String>,
+) {
+    let flowed = reached.plastic_strain > 0.0;
+    if let Some(melting) = material.melting_temperature
+        && reached.temperature
+            >= melting.si() - NEARLY_MOLTEN * (melting.si() - material.room_temperature.si())
+    {
+        warnings.push(format!(
+            "the {what} reached its melting point ({melting}): there the law has no strength"
+        ));
+    }
+    if flowed && heated && material.strength.law().depends_on_temperature() {
+        let johnson_cook = matches!(&material.strength, Strength::JohnsonCook(_));
+        if material.specific_heat.is_none() {
+            warnings.push(format!(
+                "the {what}'s material has no specific heat: it does not warm up, so its strength is not reduced"
+            ));
+        } else if johnson_cook && material.melting_temperature.is_none() {
+            warnings.push(format!(
+                "the {what}'s material has no melting temperature: heat does not reduce its strength"
+            ));
+        }
+    }
+    let validity = &material.validity;
+    if let Some(most) = validity.plastic_strain_max
+        && reached.plastic_strain > most
+    {
+        warnings.push(format!(
+            "the {what} reached a plastic strain of {}, beyond {most} to which its law was fitted",
+            significant(reached.plastic_strain, 3)
+        ));
+    }
+    if let Some(most) = validity.strain_rate_max
+        && reached.strain_rate > most.si()
+    {
+        warnings.push(format!(
+            "the {what} reached a strain rate of {}, beyond {most} to which its law was fitted",
+            StrainRate::new(reached.strain_rate)
+        ));
+    }
+    if let Some(most) = validity.temperature_max
+        && reached.temperature > most.si()
+    {
+        warnings.push(format!(
+            "the {what} reached {}, beyond {most} to which its law was fitted",
+            Temperature::new(reached.temperature)
+        ));
+    }
+}

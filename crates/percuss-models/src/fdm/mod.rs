@@ -1,0 +1,126 @@
+//! Model `fdm`: one-dimensional finite differences on a staggered grid, stresses in cells and velocities at nodes.
+
+mod audit;
+mod grid;
+pub mod planar;
+mod rod;
+mod viscosity;
+mod warnings;
+
+pub use crate::options::{FdmOptions, Geometry};
+pub use planar::StateEquation;
+
+use crate::{
+    Error, Refusal, Scenario,
+    options::{ChainOptions, ErosionStrain},
+    outcome::RunResult,
+    regime::{ProjectileRegime, Regime},
+    solver::{Control, CostClass, Model},
+    validity::{NoseKind, Range, ValidityDomain, fixed_rear_face_warning},
+};
+
+/// One-dimensional finite differences, as a rod or as a planar impact.
+#[derive(Debug, Clone, Copy)]
+pub struct Fdm;
+
+impl Model for Fdm {
+    fn name(&self) -> &'static str {
+        "fdm"
+    }
+
+    fn summary(&self) -> &'static str {
+        "1-D finite differences: a rod on a column of target, or a planar impact with shocks and spall"
+    }
+
+    fn validity(&self) -> &'static ValidityDomain {
+        const {
+            &ValidityDomain {
+                noses: &[NoseKind::Flat],
+                notes: &[
+                    "normal impact of a flat-ended projectile",
+                    "geometry `rod` has no erosion: a rod that erodes gets no number, unless the case asks for a comparison without \
+                     erosion by `chain.erosion_strain = \"never\"`",
+                    "geometry `rod`: the column of target in line with the rod stands for the target, closed as in `chain`",
+                    "geometry `planar`: uniaxial strain, until release waves from the edges arrive; needs the materials' equations \
+                     of state",
+                    "geometry `planar`: the plateau of the interface stress is its mean over the second half of the time in which a \
+                     wave crosses the thinner body; the peak force leaves out the first half",
+                ],
+                ..ValidityDomain::OPEN
+            }
+        }
+    }
+
+    fn cost(&self) -> CostClass {
+        CostClass::Seconds
+    }
+
+    fn has_fields(&self) -> bool {
+        true
+    }
+
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
+        match scenario.options.fdm.geometry {
+            Geometry::Rod => erodes(scenario),
+            Geometry::Planar => planar::not_applicable(scenario),
+        }
+    }
+
+    fn refined(&self, scenario: &Scenario, factor: u32) -> Option<Scenario> {
+        let (projectile, target) = elements(scenario);
+        let mut refined = scenario.clone();
+        let options = &mut refined.options.fdm;
+        options.projectile_elements = Some(projectile.saturating_mul(factor));
+        options.target_elements = Some(target.saturating_mul(factor));
+        Some(refined)
+    }
+
+    fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
+        match scenario.options.fdm.geometry {
+            Geometry::Rod => {
+                let mut result = rod::RodRun::new(scenario)?.run(control)?;
+                result.warnings.extend(Range::COLUMN.diagnostic(scenario));
+                result.warnings.extend(fixed_rear_face_warning(scenario));
+                Ok(result)
+            }
+            Geometry::Planar => planar::PlanarRun::new(scenario)?.run(control),
+        }
+    }
+}
+
+/// Why a rod that erodes gets no number: its cells are crushed instead, to nothing and at the cost of any number of time steps.
+fn erodes(scenario: &Scenario) -> Option<Refusal> {
+    let regime = Regime::of(scenario);
+    let asked = scenario.options.chain.erosion_strain == Some(ErosionStrain::Never);
+    let sharply = regime.projectile == ProjectileRegime::Eroding
+        && regime.neighbour != Some(ProjectileRegime::Deforming);
+    (sharply && !asked).then(|| {
+        let reason = format!(
+            "geometry `rod` has no erosion, and this rod erodes: {}",
+            regime.because
+        );
+        Refusal::new(reason)
+            .with_remedy("for a comparison without erosion give `chain.erosion_strain = \"never\"`")
+    })
+}
+
+/// Cells along the projectile and through the target, as a case resolves them.
+pub fn elements(scenario: &Scenario) -> (u32, u32) {
+    match scenario.options.fdm.geometry {
+        Geometry::Planar => planar::cells(scenario),
+        Geometry::Rod => {
+            let options = scenario
+                .options
+                .fdm
+                .with_defaults_of(&scenario.options.chain);
+            (
+                options
+                    .projectile_elements
+                    .unwrap_or(ChainOptions::PROJECTILE_ELEMENTS),
+                options
+                    .target_elements
+                    .unwrap_or(ChainOptions::TARGET_ELEMENTS),
+            )
+        }
+    }
+}

@@ -1,0 +1,298 @@
+//! Calibration: parameters of cases fitted to what was measured, by least squares and by sampling the posterior.
+//!
+//! Measured values come from the `[[experiments]]` of case files and from published tests; a parameter is any number of the cases by
+//! its dotted key, constants of library materials included. What is calibrated on a source is no blind test of it: the record that
+//! comes out says so, and validation heeds it.
+//!
+//! ```
+//! use std::ops::ControlFlow;
+//! use percuss::{calibrate::{self, Fitted, Noise, Observations, Problem, Settings}, material::Library, model::model, tests};
+//!
+//! let fitted = Fitted::read("materials.ofhc-copper-johnson-cook.strength.johnson_cook.a=20..300 MPa")?;
+//! let mut observations = Observations::default();
+//! observations.add_tests(experiments::built_in(), Library::built_in(), &fitted)?;
+//! let problem = Problem::new(model("wilkins_guinan")?, fitted, observations, Noise::Estimated)?;
+//! let settings = Settings { sampling: None, seed: 0 };
+//! let found = calibrate::run(&problem, &settings, &|_, _, _| ControlFlow::Continue(()))?;
+//! println!("A = {} MPa, RMS error {:.1} %", found.parameters[0].best, 100.0 * found.training.rms);
+//! # assert!((50.0..250.0).contains(&found.parameters[0].best));
+//! # Ok::<(), percuss::Error>(())
+//! ```
+
+mod calibrated;
+mod diagnostics;
+mod fit;
+mod identifiability;
+mod least_squares;
+mod noise;
+mod observation;
+mod parameter;
+mod posterior;
+mod predictive;
+mod problem;
+#[cfg(test)]
+mod problem_tests;
+mod record;
+mod sampler;
+mod stage;
+#[cfg(test)]
+mod tests;
+
+use std::{
+    ops::ControlFlow,
+    sync::atomic::{AtomicUsize, Ordering},
+};
+
+use serde::Serialize;
+
+pub use calibrated::Calibrated;
+pub use diagnostics::{bulk_effective_size, r_hat, tail_effective_size};
+pub use identifiability::{Unidentified, Weakness};
+pub use noise::Noise;
+pub use observation::{LeftOut, Observation, Observations};
+pub use parameter::Fitted;
+pub use posterior::Marginal;
+pub use predictive::{Prediction, Quality};
+pub use problem::Problem;
+pub use record::{CalibratedRecord, records};
+pub use sampler::{Sample, Sampling};
+pub use stage::Stage;
+
+use crate::Error;
+
+/// How a problem is solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Settings {
+    /// How the posterior is sampled; least squares only when not given.
+    pub sampling: Option<Sampling>,
+    /// What decides over everything drawn at random.
+    pub seed: u64,
+}
+
+/// Hears the stage, the part of it that is done (0 to 1) and the runs so far, from several threads; [`ControlFlow::Break`] ends the
+/// calibration.
+pub type Observer<'a> = &'a (dyn Fn(Stage, f64, u64) -> ControlFlow<()> + Sync);
+
+/// A fitted parameter. Values are in its unit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ParameterRecord {
+    /// Dotted key.
+    pub key: String,
+    /// Unit; empty for a plain number.
+    pub unit: String,
+    /// 2.5 %, 50 % and 97.5 % of the prior.
+    pub prior: [f64; 3],
+    /// The best value: least squares, a normal or lognormal prior counting as a measurement.
+    pub best: f64,
+    /// Its standard error by the derivatives; null where the data do not determine it.
+    pub standard_error: Option<f64>,
+    /// What the sample says of it.
+    pub posterior: Option<Marginal>,
+}
+
+/// The relative scatter of measured values about the model.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ScatterRecord {
+    /// Whether it was estimated.
+    pub estimated: bool,
+    /// Its value with the best parameters.
+    pub best: f64,
+    /// What the sample says of it.
+    pub posterior: Option<Marginal>,
+}
+
+/// How the posterior was sampled.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SamplingRecord {
+    /// Ensembles, walkers and steps.
+    #[serde(flatten)]
+    pub sampling: Sampling,
+    /// Part of the proposed moves that were made.
+    pub acceptance: f64,
+}
+
+/// The result of a calibration. The names are stable.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Calibration {
+    /// Version of the program.
+    pub percuss_version: &'static str,
+    /// The model.
+    pub model: &'static str,
+    /// What decided over everything drawn at random.
+    pub seed: u64,
+    /// Runs of the model.
+    pub runs: u64,
+    /// What was fitted.
+    pub parameters: Vec<ParameterRecord>,
+    /// Scatter of the measured values.
+    pub scatter: ScatterRecord,
+    /// Correlations of the parameters, in their order: of the sample, or by the derivatives.
+    pub correlations: Vec<Vec<f64>>,
+    /// Parameters that the data do not determine.
+    pub findings: Vec<Unidentified>,
+    /// How the values that were fitted to are met.
+    pub training: Quality,
+    /// How those that were kept out are met.
+    pub hold_out: Option<Quality>,
+    /// How the posterior was sampled.
+    pub sampling: Option<SamplingRecord>,
+    /// What to know before relying on the numbers.
+    pub warnings: Vec<String>,
+    /// What the calibrated model says of each value.
+    pub predictions: Vec<Prediction>,
+    /// Values that were not used.
+    pub left_out: Vec<LeftOut>,
+    /// The sample.
+    #[serde(skip)]
+    pub sample: Option<Sample>,
+}
+
+/// Solves a problem.
+///
+/// # Errors
+/// [`Error::Cancelled`] when the caller ends it, [`Error::Calibration`] when no values are found that the model works with.
+pub fn run(
+    problem: &Problem,
+    settings: &Settings,
+    observer: Observer<'_>,
+) -> Result<Calibration, Error> {
+    let fit = fit::least_squares(problem, settings.seed, observer)?;
+    let keys: Vec<&str> = problem.fitted.iter().map(Fitted::key).collect();
+    let mut findings = identifiability::of_rank(&keys, &fit.slopes);
+    let sample = match settings.sampling {
+        Some(sampling) => Some(posterior::sample(
+            problem,
+            &fit,
+            sampling,
+            settings.seed,
+            observer,
+        )?),
+        None => None,
+    };
+    let (widths, correlations) = match &sample {
+        Some(sample) => posterior::shape(problem, sample),
+        None => fit.shape(),
+    };
+    let more = identifiability::of_posterior(&keys, &widths, &correlations, &findings);
+    findings.extend(more);
+    for ((parameter, value), bounds) in problem.fitted.iter().zip(&fit.values).zip(problem.bounds())
+    {
+        let near = 1e-3 * bounds.width();
+        if value - bounds.low < near {
+            findings.push(identifiability::at_bound(parameter.key(), "lower"));
+        } else if bounds.high - value < near {
+            findings.push(identifiability::at_bound(parameter.key(), "upper"));
+        }
+    }
+    let predictions = predictive::predictions(problem, &fit.values, sample.as_ref(), &|part| {
+        let runs = problem.runs.load(Ordering::Relaxed);
+        heard(problem, observer(Stage::Predicting, part, runs))
+    });
+    if problem.stop.load(Ordering::Relaxed) {
+        return Err(cancelled(problem));
+    }
+    let quality =
+        |held_out: bool| Quality::of(predictions.iter().filter(|p| p.held_out == held_out));
+    let training = quality(false).ok_or_else(|| {
+        problem::refuse(
+            "the model fails on every measured value with the best parameters".to_owned(),
+            "give other ranges".to_owned(),
+        )
+    })?;
+    let marginal = |i: usize| sample.as_ref().map(|sample| Marginal::of(sample, i));
+    let parameters: Vec<ParameterRecord> = problem
+        .fitted
+        .iter()
+        .enumerate()
+        .map(|(i, parameter)| ParameterRecord {
+            key: parameter.key().to_owned(),
+            unit: parameter.unit().to_owned(),
+            prior: predictive::CHANCES.map(|chance| parameter.quantile(chance)),
+            best: fit.values[i],
+            standard_error: fit.standard_error(i),
+            posterior: marginal(i),
+        })
+        .collect();
+    let estimated = problem.noise == Noise::Estimated;
+    let scatter = ScatterRecord {
+        estimated,
+        best: fit.scatter,
+        // The last number of a state, where it is one.
+        posterior: estimated
+            .then(|| marginal(problem.fitted.len()))
+            .flatten()
+            .map(Marginal::exponential),
+    };
+    let mut warnings = fit.warnings.clone();
+    warnings.extend(not_blind(problem));
+    warnings.extend(posterior::warnings(&parameters, &scatter));
+    Ok(Calibration {
+        percuss_version: env!("CARGO_PKG_VERSION"),
+        model: problem.model.name(),
+        seed: settings.seed,
+        runs: problem.runs.load(Ordering::Relaxed),
+        parameters,
+        scatter,
+        correlations: correlations
+            .row_iter()
+            .map(|row| row.iter().copied().collect())
+            .collect(),
+        findings,
+        training,
+        hold_out: quality(true),
+        sampling: sample.as_ref().map(|sample| SamplingRecord {
+            sampling: sample.sampling,
+            acceptance: sample.acceptance,
+        }),
+        warnings,
+        predictions,
+        left_out: problem.left_out.clone(),
+        sample,
+    })
+}
+
+/// Says which sources that were kept out test the model no more than those that were fitted to.
+fn not_blind(problem: &Problem) -> Option<String> {
+    let held_out = problem.observations.iter().filter(|o| o.held_out);
+    let mut known: Vec<&str> = held_out
+        .flat_map(|observation| &observation.sources)
+        .filter(|source| problem.model.validity().is_fitted_to(source))
+        .map(String::as_str)
+        .collect();
+    known.dedup();
+    (!known.is_empty()).then(|| {
+        format!(
+            "the model `{}` itself was fitted to {} or chosen on it: keeping that out is no blind test",
+            problem.model.name(),
+            known.join(", ")
+        )
+    })
+}
+
+/// Passes on what the caller answered to a report.
+fn heard(problem: &Problem, answer: ControlFlow<()>) {
+    if answer.is_break() {
+        problem.stop.store(true, Ordering::Relaxed);
+    }
+}
+
+fn cancelled(problem: &Problem) -> Error {
+    Error::Cancelled {
+        step: problem.runs.load(Ordering::Relaxed),
+        time_us: 0.0,
+    }
+}
+
+/// Counts what is done of a number of jobs.
+struct Counter<'a> {
+    done: AtomicUsize,
+    total: usize,
+    report: &'a (dyn Fn(f64) + Sync),
+}
+
+impl Counter<'_> {
+    fn count(&self) {
+        let done = 1 + self.done.fetch_add(1, Ordering::Relaxed);
+        (self.report)((done as f64 / self.total as f64).min(1.0));
+    }
+}

@@ -1,0 +1,292 @@
+//! Expected error of a ballistic limit: the errors of its model on published limits of the same kind.
+
+use std::sync::LazyLock;
+
+use serde::Serialize;
+
+use crate::{
+    Scenario,
+    experiments::{self, Kind, Split},
+    material::{Library, Material},
+    model::{Model, fast_models},
+    model_error::ModelErrorEstimate,
+    outcome::BandQuantity,
+    regime::{ProjectileRegime, Regime, TargetKind},
+    scenario::TargetBody,
+    validate::{self, Standing},
+    validity::NoseKind,
+};
+
+/// Fewest published limits that an expected error rests on.
+const FEWEST: usize = 5;
+/// Factor by which densities and Young's moduli of plates of the same kind of metal differ at most.
+const SAME_METAL: f64 = 1.3;
+
+/// Expected error of a ballistic limit; plain numbers, 0.1 for a limit 10 % too high. The names are stable.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ExpectedLimitError {
+    /// Median and 10th and 90th percentile of the errors, and how many there are.
+    #[serde(flatten)]
+    pub errors: ModelErrorEstimate,
+    /// Errors on limits that the model was neither fitted to nor chosen on.
+    pub blind: usize,
+    /// What the published limits have in common with the case.
+    pub kind: String,
+}
+
+impl ExpectedLimitError {
+    /// The error and its basis in words.
+    pub fn describe(&self) -> String {
+        let count = self.errors.cases;
+        let blind = match self.blind {
+            0 => "; not blind: the model was fitted to or chosen on them".to_owned(),
+            blind if blind < count => format!("; {blind} of them blind"),
+            _ => String::new(),
+        };
+        format!(
+            "{}, from {count} published limits of {}{blind}",
+            self.errors.describe(),
+            self.kind
+        )
+    }
+}
+
+/// What published limits are compared by.
+#[derive(Debug, Clone, PartialEq)]
+struct Plate {
+    is_flat: bool,
+    projectile: ProjectileRegime,
+    target: TargetKind,
+    density: f64,
+    youngs_modulus: f64,
+}
+
+impl Plate {
+    /// The kind of a case at its impact velocity; `None` unless one plate is struck.
+    fn of(scenario: &Scenario) -> Option<Self> {
+        let TargetBody::Layers { layers, .. } = &scenario.target else {
+            return None;
+        };
+        let [layer] = layers.as_slice() else {
+            return None;
+        };
+        let regime = Regime::of(scenario);
+        let material: &Material = &layer.material;
+        Some(Self {
+            is_flat: NoseKind::of(scenario.projectile.nose) == NoseKind::Flat,
+            projectile: regime.projectile,
+            target: regime.target,
+            density: material.density.si(),
+            youngs_modulus: material.youngs_modulus.si(),
+        })
+    }
+
+    fn is_of_metal(&self, other: &Self) -> bool {
+        let near = |a: f64, b: f64| (a / b).max(b / a) <= SAME_METAL;
+        near(self.density, other.density) && near(self.youngs_modulus, other.youngs_modulus)
+    }
+
+    fn nose(&self) -> &'static str {
+        match self.is_flat {
+            true => "flat",
+            false => "sharp",
+        }
+    }
+}
+
+/// Error of a model on a published limit.
+#[derive(Debug, Clone)]
+struct LimitError {
+    model: &'static str,
+    source: String,
+    is_blind: bool,
+    plate: Plate,
+    error: f64,
+}
+
+/// Errors of every quick model that predicts limits, on every published limit that counts.
+static ERRORS: LazyLock<Vec<LimitError>> = LazyLock::new(|| {
+    let mut models = fast_models();
+    models.retain(|model| {
+        let predicts = model.validity().predicts;
+        predicts.contains(&BandQuantity::BallisticLimit)
+    });
+    let limits = experiments::built_in().iter().enumerate();
+    let limits = limits.filter(|(_, test)| test.kind == Kind::BallisticLimit);
+    validate::with_main_records(&models, limits, Library::built_in())
+        .filter(|(prediction, _)| prediction.standing == Standing::Counted)
+        .filter_map(|(prediction, scenario)| {
+            Some(LimitError {
+                model: prediction.model,
+                source: experiments::built_in()[prediction.test].source.clone(),
+                is_blind: prediction.split == Split::Blind,
+                plate: Plate::of(&scenario)?,
+                error: prediction.relative_error?,
+            })
+        })
+        .collect()
+});
+
+/// Expected error of the limit that a model finds for a case; `None` where fewer than five published limits are of its kind.
+/// Limits of a source that the case's own experiments cite are left out.
+pub(super) fn expected_error(
+    model: &dyn Model,
+    scenario: &Scenario,
+    limit: f64,
+) -> Option<ExpectedLimitError> {
+    let predicts = model.validity().predicts;
+    if !predicts.contains(&BandQuantity::BallisticLimit) {
+        return None;
+    }
+    let plate = Plate::of(&scenario.at_speed(limit))?;
+    let is_own = |source: &String| {
+        let mut cited = scenario.experiments.iter().flat_map(|e| &e.sources);
+        cited.any(|cited| cited == source)
+    };
+    let errors: Vec<&LimitError> = ERRORS
+        .iter()
+        .filter(|error| error.model == model.name() && !is_own(&error.source))
+        .collect();
+    expected_among(&errors, &plate)
+}
+
+/// A condition on published limits, and what it is in words.
+type Level<'a> = (Box<dyn Fn(&Plate) -> bool + 'a>, String);
+
+/// The expected error from the narrowest kind that has enough errors.
+fn expected_among(errors: &[&LimitError], plate: &Plate) -> Option<ExpectedLimitError> {
+    let metal = move |other: &Plate| other.is_flat == plate.is_flat && plate.is_of_metal(other);
+    let thickness = move |other: &Plate| metal(other) && other.target == plate.target;
+    let regime = move |other: &Plate| thickness(other) && other.projectile == plate.projectile;
+    let (shape, kind) = (plate.nose(), plate.target.describe());
+    let levels: [Level<'_>; 3] = [
+        (
+            Box::new(regime),
+            format!(
+                "{} projectiles with {shape} noses on {kind} of such a metal",
+                plate.projectile.describe()
+            ),
+        ),
+        (
+            Box::new(thickness),
+            format!("projectiles with {shape} noses on {kind} of such a metal"),
+        ),
+        (
+            Box::new(metal),
+            format!("projectiles with {shape} noses on plates of such a metal, of any thickness"),
+        ),
+    ];
+    levels.into_iter().find_map(|(is_of, kind)| {
+        let alike: Vec<&&LimitError> = errors.iter().filter(|e| is_of(&e.plate)).collect();
+        if alike.len() < FEWEST {
+            return None;
+        }
+        Some(ExpectedLimitError {
+            errors: ModelErrorEstimate::of(alike.iter().map(|error| error.error)),
+            blind: alike.iter().filter(|error| error.is_blind).count(),
+            kind,
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{case, model};
+
+    fn error(density: f64, target: TargetKind, error: f64) -> LimitError {
+        LimitError {
+            model: "made up",
+            source: "one".to_owned(),
+            is_blind: error > 0.05,
+            plate: Plate {
+                is_flat: true,
+                projectile: ProjectileRegime::Rigid,
+                target,
+                density,
+                youngs_modulus: 26e6 * density,
+            },
+            error,
+        }
+    }
+
+    #[test]
+    fn the_narrowest_kind_with_enough_limits_decides() {
+        let steel = (0..5).map(|i| error(7850.0, TargetKind::Plate, -0.3 + 0.1 * f64::from(i)));
+        let thin = (0..4).map(|_| error(7850.0, TargetKind::ThinPlate, -0.5));
+        let light = (0..6).map(|_| error(2700.0, TargetKind::ThinPlate, 0.4));
+        let all: Vec<LimitError> = steel.chain(thin).chain(light).collect();
+        let errors: Vec<&LimitError> = all.iter().collect();
+        let of = |plate: &Plate| expected_among(&errors, plate).unwrap();
+        let medium = of(&all[0].plate);
+        assert_eq!((medium.errors.cases, medium.blind), (5, 1));
+        assert!((medium.errors.median + 0.1).abs() < 1e-12);
+        assert!(medium.kind.contains("rigid projectiles"), "{}", medium.kind);
+        // Four thin steel plates are too few: all of steel are taken.
+        let thin = of(&all[5].plate);
+        assert_eq!(thin.errors.cases, 9);
+        assert!(thin.kind.contains("of any thickness"), "{}", thin.kind);
+        let copper = Plate {
+            density: 8960.0,
+            youngs_modulus: 124e9,
+            ..all[0].plate.clone()
+        };
+        // Errors on one metal give no estimate for another one.
+        assert_eq!(expected_among(&errors, &copper), None);
+        let sharp = Plate {
+            is_flat: false,
+            ..all[0].plate.clone()
+        };
+        assert_eq!(expected_among(&errors, &sharp), None);
+    }
+
+    /// The errors are those of the validation, limit by limit.
+    #[test]
+    fn errors_are_those_of_the_validation() {
+        for name in ["plugging", "awerbuch_bodner", "plate_cavity"] {
+            let model = model::model(name).unwrap();
+            let limits: Vec<experiments::Experiment> = experiments::built_in()
+                .iter()
+                .filter(|test| test.kind == Kind::BallisticLimit)
+                .cloned()
+                .collect();
+            let go_on = |_| std::ops::ControlFlow::Continue(());
+            let validation = validate::run(&[model], &limits, Library::built_in(), &go_on).unwrap();
+            let counted = |p: &&validate::Prediction| p.standing == Standing::Counted;
+            let main = validation.predictions.iter().filter(|p| p.main_record);
+            let expected: Vec<f64> = main
+                .filter(counted)
+                .filter_map(|p| p.relative_error)
+                .collect();
+            let found: Vec<f64> = ERRORS
+                .iter()
+                .filter(|error| error.model == name)
+                .map(|error| error.error)
+                .collect();
+            assert!(found.len() > 30, "{name}: {}", found.len());
+            assert_eq!(found, expected, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_limit_of_its_own_source_gives_no_estimate() {
+        let of = |plate: &str, name: &str, more: &str| {
+            let text = format!(
+                "projectile = {{ material = 'tool-steel-hrc53', mass = '50 g', diameter = '20 mm', impact_velocity = '300 m/s' }}\n\
+                 target = {{ material = '{plate}', thickness = '24 mm' }}\n{more}"
+            );
+            let scenario = case::load_str("blunt", &text).unwrap();
+            let model = model::model(name).unwrap();
+            expected_error(model, &scenario, 400.0)
+        };
+        let own = "[[experiments]]\nballistic_limit = '400 m/s'\nsource = 'gallardy2016'\n";
+        let light = "aluminium-2024-t351";
+        let all = of(light, "plugging", "").unwrap();
+        let others = of(light, "plugging", own).unwrap();
+        assert!(others.errors.cases < all.errors.cases, "{others:?} {all:?}");
+        assert!(all.blind == all.errors.cases && all.describe().contains("published limits"));
+        // Four published limits of flat noses on steel are too few; limits of the chain have not been compared.
+        assert_eq!(of("weldox-460-e", "plugging", ""), None);
+        assert_eq!(of(light, "chain", ""), None);
+    }
+}

@@ -1,0 +1,133 @@
+//! Sweeps: one case with some of its numbers varied, computed in blocks.
+//!
+//! SweepRun i of a sweep is a pure function of the sweep file, the base case and i, and so is its row: which thread, process or
+//! machine computes it, and when, makes no difference.
+
+mod batch;
+#[cfg(test)]
+mod block_tests;
+mod compute;
+#[cfg(test)]
+mod copula_tests;
+mod file;
+mod kernel;
+mod load;
+mod panic_guard;
+mod points;
+mod random;
+mod sobol;
+#[cfg(test)]
+mod tests;
+mod written_values;
+
+use std::{
+    ops::Range,
+    path::{Path, PathBuf},
+};
+
+pub use batch::BatchKernel;
+pub use compute::Observer;
+pub(crate) use compute::in_blocks;
+pub use kernel::{Kernel, ScalarKernel, Stopped, SweepRow, SweepRun};
+pub(crate) use points::Points;
+pub(crate) use random::{bits, permuted, stream};
+pub(crate) use sobol::MAX_DIMENSIONS;
+pub(crate) use written_values::check_values;
+
+pub use crate::inputs::{
+    Axis, Correlation, Design, ListValue, Lognormal, Normal, Parameter, QuantityLiteral, Steps,
+    Triangular, UncertainInputs, Uniform,
+};
+pub(crate) use crate::inputs::{Copula, Distribution, Values, score, values};
+
+use crate::{
+    Error,
+    case::{Document, Template},
+    model::Model,
+};
+
+/// A sweep that was read and checked.
+pub struct Sweep {
+    /// One line that says what it is.
+    pub title: String,
+    /// The case that is varied.
+    pub base: PathBuf,
+    /// The model that computes it.
+    pub model: &'static dyn Model,
+    /// The numbers that are varied.
+    pub axes: Vec<Axis>,
+    /// What decides over everything drawn at random.
+    pub seed: u64,
+    /// Runs in a block; the last block may have fewer.
+    pub block_size: u64,
+    points: Points,
+    copula: Option<Copula>,
+    template: Template,
+    content: String,
+}
+
+impl Sweep {
+    /// Reads a sweep file and the case that it names.
+    ///
+    /// # Errors
+    /// [`Error::Read`] and [`Error::Input`]: every value that the file writes down has to be one that the case can have.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, Error> {
+        load::load(path.as_ref())
+    }
+
+    /// Reads a sweep from a text, with the case of another text in the place of the file that it names.
+    ///
+    /// # Errors
+    /// [`Error::Input`], as [`Sweep::load`].
+    pub fn of(file: &Document, case: &Document) -> Result<Self, Error> {
+        load::read(file, |_| Ok(case.clone()))
+    }
+
+    /// Name of the case that is varied.
+    pub fn case(&self) -> &str {
+        self.template.name()
+    }
+
+    /// How its runs are chosen.
+    pub fn design(&self) -> Design {
+        self.points.design
+    }
+
+    /// Number of runs.
+    pub fn runs(&self) -> u64 {
+        self.points.runs
+    }
+
+    /// Number of blocks.
+    pub fn blocks(&self) -> u64 {
+        self.runs().div_ceil(self.block_size)
+    }
+
+    /// The runs of a block.
+    pub fn block(&self, block: u64) -> Range<u64> {
+        let start = block * self.block_size;
+        start..(start + self.block_size).min(self.runs())
+    }
+
+    /// What the results rest on besides the program: sweep file, case and its material files, without comments.
+    pub fn content(&self) -> [&str; 2] {
+        [&self.content, &self.template.content]
+    }
+
+    /// A run, counted from 0.
+    pub fn run(&self, index: u64) -> SweepRun {
+        let inputs = self.points.values(&self.axes, self.copula.as_ref(), index);
+        SweepRun::new(&self.template, &self.axes, index, inputs, &[])
+    }
+}
+
+impl std::fmt::Debug for Sweep {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Sweep")
+            .field("base", &self.base)
+            .field("model", &self.model.name())
+            .field("axes", &self.axes)
+            .field("points", &self.points)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,155 @@
+//! Validation: every model on every published test that it applies to, and how far off it is.
+//!
+//! ```no_run
+//! use std::ops::ControlFlow;
+//! use percuss::{material::Library, model::quick, tests, validate};
+//!
+//! let validation = validate::run(&fast_models(), experiments::built_in(), Library::built_in(), &|_| ControlFlow::Continue(()))?;
+//! for group in validate::statistics(&validation, validate::Grouping::All) {
+//!     println!("{} {}: RMS {:.1} % of {}", group.model, group.kind.name(), 100.0 * group.errors.rms, group.errors.count);
+//! }
+//! # Ok::<(), percuss::Error>(())
+//! ```
+
+mod grouping;
+mod prediction;
+mod record;
+mod statistics;
+#[cfg(test)]
+mod tests;
+
+use std::{
+    ops::ControlFlow,
+    sync::atomic::{AtomicBool, AtomicUsize, Ordering},
+};
+
+use rayon::prelude::*;
+
+pub use grouping::{
+    Coverage, Group, Grouping, HOT, SEPARATOR, coverage, statistics, without_tests,
+};
+pub use prediction::{Prediction, Standing};
+pub use record::PredictionRecord;
+pub use statistics::Errors;
+
+use prediction::Computed;
+
+use crate::{
+    Error, Scenario, experiments::Experiment, material::Library, model::Model, validity::FittedTo,
+};
+
+/// What every model said of every test.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Validation {
+    /// The tests.
+    pub tests: Vec<Experiment>,
+    /// Names of the models, in their own order.
+    pub models: Vec<&'static str>,
+    /// What each of them was fitted to or chosen on.
+    pub fitted_to: Vec<&'static [FittedTo]>,
+    /// One entry a test, material record and model, in that order.
+    pub predictions: Vec<Prediction>,
+}
+
+impl Validation {
+    /// The test that a prediction is of.
+    pub fn test(&self, prediction: &Prediction) -> &Experiment {
+        &self.tests[prediction.test]
+    }
+}
+
+/// Computes every test with every model that applies, on all cores.
+///
+/// `progress` is called with the part done, 0 to 1, from several threads; [`ControlFlow::Break`] ends the validation.
+///
+/// # Errors
+/// [`Error::Cancelled`]; a model that fails on a test is an entry of the result and no error.
+pub fn run(
+    models: &[&'static dyn Model],
+    tests: &[Experiment],
+    library: &Library,
+    progress: &(dyn Fn(f64) -> ControlFlow<()> + Sync),
+) -> Result<Validation, Error> {
+    let records = |test: &Experiment| test.projectile_materials.len().max(1);
+    let jobs: Vec<(usize, usize)> = tests
+        .iter()
+        .enumerate()
+        .flat_map(|(i, test)| (0..records(test)).map(move |record| (i, record)))
+        .collect();
+    let total = (jobs.len() * models.len()).max(1);
+    let (done, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let compute = |&(test, record): &(usize, usize)| -> Vec<Prediction> {
+        let names = &tests[test].projectile_materials;
+        let name = names.get(record).map_or("", String::as_str);
+        let scenario = tests[test].scenario(name, library);
+        let regime = scenario
+            .as_ref()
+            .map_or_else(|_| String::new(), prediction::regime_of);
+        let of_model = |&model: &&'static dyn Model| {
+            let case = Computed {
+                test: &tests[test],
+                index: test,
+                record,
+                scenario: &scenario,
+                regime: &regime,
+            };
+            let prediction = case.predict(model, &stop);
+            let finished = 1 + done.fetch_add(1, Ordering::Relaxed);
+            if progress(finished as f64 / total as f64).is_break() {
+                stop.store(true, Ordering::Relaxed);
+            }
+            prediction
+        };
+        models
+            .iter()
+            .take_while(|_| !stop.load(Ordering::Relaxed))
+            .map(of_model)
+            .collect()
+    };
+    // Tests differ in cost by orders of magnitude: one at a time, so that no core is left with a block of slow ones.
+    let predictions: Vec<Vec<Prediction>> = jobs.par_iter().with_max_len(1).map(compute).collect();
+    if stop.load(Ordering::Relaxed) {
+        return Err(Error::Cancelled {
+            step: done.load(Ordering::Relaxed) as u64,
+            time_us: 0.0,
+        });
+    }
+    Ok(Validation {
+        tests: tests.to_vec(),
+        models: models.iter().map(|model| model.name()).collect(),
+        fitted_to: models
+            .iter()
+            .map(|model| model.validity().fitted_to)
+            .collect(),
+        predictions: predictions.into_iter().flatten().collect(),
+    })
+}
+
+/// Predictions of models for published tests with their main material records, and the cases that they are of, computed on this
+/// thread. A test that no case can be made of is left out.
+pub(crate) fn with_main_records<'a>(
+    models: &'a [&'static dyn Model],
+    tests: impl IntoIterator<Item = (usize, &'a Experiment)>,
+    library: &'a Library,
+) -> impl Iterator<Item = (Prediction, Scenario)> {
+    let of_test = move |(index, test): (usize, &'a Experiment)| {
+        let name = test.projectile_materials.first();
+        let scenario = test.scenario(name.map_or("", String::as_str), library);
+        let case = Computed {
+            test,
+            index,
+            record: 0,
+            scenario: &scenario,
+            regime: "",
+        };
+        let go_on = AtomicBool::new(false);
+        let predictions = models.iter().map(|model| case.predict(*model, &go_on));
+        let predictions: Vec<Prediction> = predictions.collect();
+        let made = scenario.into_iter();
+        made.flat_map(move |scenario| {
+            let predictions = predictions.clone().into_iter();
+            predictions.map(move |prediction| (prediction, scenario.clone()))
+        })
+    };
+    tests.into_iter().flat_map(of_test)
+}
