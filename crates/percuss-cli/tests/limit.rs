@@ -148,7 +148,7 @@ target = { rigid_wall = true }
     let said = limit(&folder, &["shot.toml"]);
     assert_eq!((said.code, said.stdout.as_str()), (2, ""));
     assert!(
-        flat(&said.stderr).contains("the target has no back face to perforate"),
+        flat(&said.stderr).contains("the target has no rear face to perforate"),
         "{}",
         said.stderr
     );

@@ -18,7 +18,7 @@ linear = { from = '150 m/s', to = '400 m/s', count = 8 }\n";
 const DRAWN_SPEEDS: &str = "[[parameter]]
 key = 'projectile.impact_velocity'
 normal = { mean = '150 m/s', standard_deviation = '120 m/s' }\n";
-const CLOSURES: &str = "[[parameter]]
+const RESISTANCE_MODELS: &str = "[[parameter]]
 key = 'chain.target_resistance'
 values = ['column', 'diverging', 'expanding-cavity']\n";
 const LENGTHS: &str = "[[parameter]]
@@ -59,7 +59,7 @@ const DEPTH: &str = "depth_of_penetration_mm";
 
 #[test]
 fn one_parameter_makes_a_curve_and_words_make_one_each() {
-    let folder = computed("design = 'grid'", &[SPEEDS, CLOSURES]);
+    let folder = computed("design = 'grid'", &[SPEEDS, RESISTANCE_MODELS]);
     let svg = drawn(&folder, &[], &format!("curves-{DEPTH}"));
     for word in [
         "column",
@@ -100,7 +100,7 @@ fn shots_that_failed_are_shown_and_counted() {
     assert!(svg.contains(&format!("40 shots, {failed} failed")));
     let folder = computed(
         "design = 'sobol'\nsamples = 40",
-        &[DRAWN_SPEEDS, CLOSURES, LENGTHS],
+        &[DRAWN_SPEEDS, RESISTANCE_MODELS, LENGTHS],
     );
     let svg = drawn(&folder, &[], &format!("parallel-{DEPTH}"));
     let failed = count(&svg, "failed (", ')');

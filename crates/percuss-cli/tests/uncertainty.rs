@@ -94,7 +94,7 @@ fn tables_json_and_pairs_say_the_same() {
     for part in [
         "statistics of 32 shots, seed 5, 133 shots in all",
         "normal, 230 ± 3 m/s",
-        "chance of perforation 0 % (0 …",
+        "probability of perforation 0 % (0 …",
         "what moves the depth of penetration",
         "first order",
         "The model's own error comes on top",
@@ -184,16 +184,16 @@ fn a_folder_holds_numbers_and_figures() {
     // Half of the difference of two normal variables over its deviation of 7.07 m/s.
     let probability = object["perforation"]["probability"].as_f64().unwrap();
     assert!((probability - 0.638).abs() < 0.004, "{probability}");
-    let chances: Vec<f64> = object["bands"]
+    let probabilities: Vec<f64> = object["bands"]
         .as_array()
         .unwrap()
         .iter()
         .map(|band| band["perforation"]["probability"].as_f64().unwrap())
         .collect();
-    assert_eq!(chances.len(), 11);
+    assert_eq!(probabilities.len(), 11);
     assert!(
-        chances.is_sorted() && chances[0] == 0.0 && chances[10] == 1.0,
-        "{chances:?}"
+        probabilities.is_sorted() && probabilities[0] == 0.0 && probabilities[10] == 1.0,
+        "{probabilities:?}"
     );
     for name in figures {
         let svg = fs::read_to_string(found.join(format!("{name}.svg"))).unwrap();

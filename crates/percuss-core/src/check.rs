@@ -116,7 +116,7 @@ impl<'a> Check<'a> {
                     "allowed: {} to {}{}",
                     display::<D>(limits.min),
                     display::<D>(limits.max),
-                    slip(value.si(), limits)
+                    unit_error(value.si(), limits)
                 ),
             );
         }
@@ -139,7 +139,7 @@ impl<'a> Check<'a> {
 }
 
 /// Says that a value would fit with another prefix of its unit, if it would.
-fn slip(value: f64, limits: Limits) -> &'static str {
+fn unit_error(value: f64, limits: Limits) -> &'static str {
     let fits = |value: f64| value > 0.0 && (limits.min..=limits.max).contains(&value);
     if fits(value * 1000.0) || fits(value / 1000.0) {
         "; is it off by a factor of 1000?"
@@ -148,7 +148,7 @@ fn slip(value: f64, limits: Limits) -> &'static str {
     }
 }
 
-/// Limits of what a case or a material may hold: wide enough for any real one, narrow enough to catch a slip of units.
+/// Limits of what a case or a material may hold: wide enough for any real one, narrow enough to detect a unit error.
 pub mod limits {
     use super::Limits;
 
@@ -169,7 +169,7 @@ pub mod limits {
     pub const DIAMETER: Limits = limits(1e-5, 10.0);
     /// Mass [kg].
     pub const MASS: Limits = limits(1e-9, 1e5);
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub const IMPACT_SPEED: Limits = limits(0.0, 10_000.0);
     /// Angle of an impact to the normal [rad]: up to 85 degrees.
     pub const OBLIQUITY: Limits = limits(0.0, 85.0 * std::f64::consts::PI / 180.0);

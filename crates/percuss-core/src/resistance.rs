@@ -11,7 +11,7 @@ pub trait ResistanceLaw {
 
 /// A law of the caller's own. No file can name it, and it equals itself only.
 ///
-/// Model `chain` takes it in its target closure `expanding-cavity`, in the place of the pressure of the expanding cavity; what the
+/// Model `chain` takes it in its target resistance model `expanding-cavity`, instead of the pressure of the expanding cavity; what the
 /// projectile has spread beyond its own area presses with its flow stress, and no harder than the law.
 ///
 /// ```

@@ -22,7 +22,7 @@ pub struct Scenario {
     pub sources: Vec<String>,
     /// What strikes.
     pub projectile: Rod,
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity: f64,
     /// Angle between the path and the normal of the struck face [rad].
     pub obliquity: f64,
@@ -59,7 +59,7 @@ pub struct Given {
 pub struct Measurement {
     /// What was measured.
     pub quantity: BandQuantity,
-    /// Impact speed [m/s]; `None` for a ballistic limit without one.
+    /// Impact velocity [m/s]; `None` for a ballistic limit without one.
     pub impact_velocity: Option<f64>,
     /// The value [m or m/s].
     pub value: f64,
@@ -67,7 +67,7 @@ pub struct Measurement {
     pub uncertainty: Option<f64>,
     /// Bibliography keys.
     pub sources: Vec<String>,
-    /// What a user should know of it.
+    /// Remarks on it.
     pub note: String,
 }
 
@@ -104,7 +104,7 @@ pub enum TargetBody {
     Layers {
         /// From the struck face to the back.
         layers: Vec<Plate>,
-        /// What holds the back face.
+        /// Boundary condition of the rear face.
         back_face: RearFaceCondition,
         /// Diameter of the column that is modelled [m], where a layer has none of its own.
         column_diameter: f64,
@@ -146,7 +146,7 @@ pub struct Plate {
 }
 
 impl Scenario {
-    /// The same case at another impact speed [m/s].
+    /// The same case at another impact velocity [m/s].
     pub fn at_speed(&self, impact_velocity: f64) -> Self {
         Self {
             impact_velocity,
@@ -162,7 +162,7 @@ impl Scenario {
         }
     }
 
-    /// Whether the constants of one of its materials were calibrated on shots of a source.
+    /// Whether the constants of one of its materials were calibrated on tests of a source.
     pub fn is_calibrated_on(&self, source: &str) -> bool {
         let layers: &[Plate] = match &self.target {
             TargetBody::Layers { layers, .. } => layers,

@@ -30,7 +30,7 @@ use lists::conjunction;
 pub use lists::list;
 pub use lists::of_material;
 
-/// The regime that a model declares. A case outside gets a reason in place of a number; at an edge, a warning.
+/// The regime that a model declares. A case outside gets a reason instead of a number; at an edge, a warning.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ValidityDomain {
     /// What the projectile may do.
@@ -56,7 +56,7 @@ pub struct ValidityDomain {
     /// Whether it takes a law of resistance of the caller's own.
     #[serde(skip)]
     pub own_resistance: bool,
-    /// Whether it sees the back face of a plate: one that does not gives no depth close to the thickness.
+    /// Whether it models the rear face of a plate: one that does not gives no depth close to the thickness.
     pub sees_back_face: bool,
     /// Cases for which it is the first choice.
     pub first_choice: &'static [FirstChoice],
@@ -66,7 +66,7 @@ pub struct ValidityDomain {
     pub notes: &'static [&'static str],
 }
 
-/// Part of a plate's thickness beyond which a depth depends on the back face.
+/// Part of a plate's thickness beyond which a depth depends on the rear face.
 const BACK_FACE_DEPTH: f64 = 0.8;
 
 impl ValidityDomain {
@@ -77,7 +77,7 @@ impl ValidityDomain {
             .any(|quantity| self.predicts.contains(quantity))
     }
 
-    /// A validity that lets everything made of metal pass, for a model to narrow down.
+    /// A validity domain of everything made of metal, for a model to narrow down.
     pub const OPEN: Self = Self {
         projectile: ProjectileRegime::ALL,
         targets: TargetKind::ALL,
@@ -216,7 +216,7 @@ impl ValidityDomain {
             if self.sees_back_face {
                 ""
             } else {
-                "; it does not see the back face of a plate"
+                "; it does not model the rear face of a plate"
             }
         );
         let temperature =
@@ -254,13 +254,13 @@ impl ValidityDomain {
             .any(|fitted| fitted.sources.contains(&source))
     }
 
-    /// Why a depth of penetration [m] cannot stand, if the back face of the target would have had a say in it.
+    /// Why a depth of penetration [m] cannot stand, if the rear face of the target would have affected it.
     pub fn depth_at_back_face(&self, scenario: &Scenario, depth: f64) -> Option<String> {
         let thickness = scenario.target_thickness()?;
         (!self.sees_back_face && depth > BACK_FACE_DEPTH * thickness).then(|| {
             format!(
                 "it takes the target for semi-infinite, and its depth of {} mm is more than {} % of the thickness of {} mm: \
-                 the back face would have a say",
+                 the rear face would affect it",
                 significant(depth * 1e3, 3),
                 100.0 * BACK_FACE_DEPTH,
                 significant(thickness * 1e3, 3)

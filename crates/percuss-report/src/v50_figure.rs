@@ -1,6 +1,6 @@
-//! Figure of shots that were stopped or went through, and of the chance of going through.
+//! Figure of shots that were stopped or went through, and of the probability of going through.
 
-use percuss::v50::{Estimate, Method, Test, V50, chance};
+use percuss::v50::{Estimate, Method, Test, V50, probability};
 
 use crate::{Axis, Figure, LineChart, Mark, Series, Style, caption::significant, palette};
 
@@ -13,7 +13,7 @@ pub fn v50_figure(name: &str, shots: &[Test], v50: &V50) -> Figure {
         "v50",
         format!("Shots stopped and gone through: {name}"),
         Axis::new("impact speed [m/s]"),
-        Axis::new("chance of going through").range(-0.05, 1.05),
+        Axis::new("probability of going through").range(-0.05, 1.05),
     )
     .caption(caption(v50));
     let (slowest, fastest) = shots
@@ -38,7 +38,7 @@ pub fn v50_figure(name: &str, shots: &[Test], v50: &V50) -> Figure {
         };
         let curve: Vec<(f64, f64)> = speeds
             .clone()
-            .filter_map(|speed| Some((speed, chance(entry, speed)?)))
+            .filter_map(|speed| Some((speed, probability(entry, speed)?)))
             .collect();
         chart = chart.series(Series::new(method.describe(), curve).style(style));
     }

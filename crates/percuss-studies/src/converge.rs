@@ -27,7 +27,7 @@ const SAME_ORDER: f64 = 0.5;
 pub struct MeshStudy {
     /// The meshes, from coarse to fine.
     pub meshes: Vec<Mesh>,
-    /// One entry a quantity that every mesh gives.
+    /// One entry per quantity that every mesh gives.
     pub quantities: Vec<Quantity>,
 }
 

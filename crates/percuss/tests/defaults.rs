@@ -229,7 +229,7 @@ fn every_option_has_a_default_or_its_description_says_when_it_has_none() {
             if is_table(&schema, property) {
                 continue;
             }
-            let words = ["when not given", " Default: ", "in place of"];
+            let words = ["when not given", " Default: ", "instead of"];
             let said = words.iter().any(|words| description.contains(words));
             assert!(
                 said != property.get("default").is_some(),
@@ -252,12 +252,12 @@ fn lines(defaults: &[&str]) -> Vec<String> {
 /// Defaults that depend on another option.
 #[test]
 fn of_the_courant_number_by_target_resistance_model() {
-    for (closure, courant) in [
+    for (resistance, courant) in [
         ("expanding-cavity", ChainOptions::EXPANDING_CAVITY_COURANT),
         ("column", ChainOptions::COURANT),
         ("diverging", ChainOptions::COURANT),
     ] {
-        let options = format!("chain.target_resistance = '{closure}'");
+        let options = format!("chain.target_resistance = '{resistance}'");
         unchanged(
             THICK,
             "chain",

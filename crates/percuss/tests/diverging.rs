@@ -132,22 +132,22 @@ fn an_independent_program_gives_the_same_depths() {
 
 #[test]
 fn depths_converge() {
-    for (closure, velocity, tolerance) in [
+    for (resistance, velocity, tolerance) in [
         ("diverging", 230.0, 0.04),
         ("diverging-penetrable", 230.0, 0.04),
         ("diverging-penetrable", 600.0, 0.01),
         ("diverging-penetrable", 1500.0, 0.05),
     ] {
-        let options = format!("target_resistance = \"{closure}\"");
+        let options = format!("target_resistance = \"{resistance}\"");
         let depths = [(40, 100), (80, 200)].map(|mesh| depth_mm(velocity, mesh, &options));
-        println!("{closure} at {velocity} m/s: {depths:?} mm");
+        println!("{resistance} at {velocity} m/s: {depths:?} mm");
         assert!((depths[0] / depths[1] - 1.0).abs() < tolerance);
     }
 }
 
 #[test]
 fn the_books_balance_with_any_back_face_and_layers() {
-    for closure in ["diverging", "diverging-penetrable"] {
+    for resistance in ["diverging", "diverging-penetrable"] {
         for target in [
             "material = \"6061-t6\", thickness = \"20 mm\", back_face = \"fixed\"",
             "material = \"6061-t6\", thickness = \"20 mm\", back_face = \"free\"",
@@ -155,7 +155,7 @@ fn the_books_balance_with_any_back_face_and_layers() {
             "material = \"4340\", thickness = \"semi-infinite\"",
             "layers = [{ material = \"4340\", thickness = \"3 mm\" }, { material = \"6061-t6\", thickness = \"semi-infinite\" }]",
         ] {
-            if closure == "diverging-penetrable" && target.starts_with("layers") {
+            if resistance == "diverging-penetrable" && target.starts_with("layers") {
                 continue;
             }
             for velocity in [100.0, 600.0, 1500.0] {
@@ -165,13 +165,13 @@ fn the_books_balance_with_any_back_face_and_layers() {
                     target = {{ {target} }}
                     [chain]
                     projectile_elements = 40
-                    target_resistance = "{closure}"
+                    target_resistance = "{resistance}"
                     "#
                 ));
                 let numerics = result.numerics();
                 let residuals = (numerics.energy_residual, numerics.momentum_residual);
                 println!(
-                    "{closure}, {target}, {velocity} m/s: {residuals:?}, {:?}, {:?}",
+                    "{resistance}, {target}, {velocity} m/s: {residuals:?}, {:?}, {:?}",
                     result.depth_of_penetration, result.outcome
                 );
                 assert!(residuals.0 <= 1e-3 && residuals.1 <= 1e-12);
@@ -215,7 +215,7 @@ fn tate(strengths_mpa: (f64, f64)) -> Rods {
     }
 }
 
-/// A rod that stays rigid stops at `(ρ_p L/ρ_t) ln(1 + ρ_t V²/2p_s)`, but for what the cone yields until it carries p_s.
+/// A rod that stays rigid stops at `(ρ_p L/ρ_t) ln(1 + ρ_t V²/2p_s)`, except for what the cone yields until it carries p_s.
 #[test]
 fn a_rigid_rod_stops_where_steady_penetration_stops_it() {
     let strengths = (20_000.0, 200.0);
@@ -268,11 +268,11 @@ fn an_eroding_rod_digs_at_the_speed_of_steady_flow() {
 fn below_the_threshold_a_penetrable_cone_is_the_plain_one() {
     let never = "erosion_strain = \"never\"";
     for velocity in [100.0, 230.0, 400.0] {
-        let [plain, penetrable] = ["diverging", "diverging-penetrable"].map(|closure| {
+        let [plain, penetrable] = ["diverging", "diverging-penetrable"].map(|resistance| {
             depth_mm(
                 velocity,
                 (40, 100),
-                &format!("target_resistance = \"{closure}\"\n{never}"),
+                &format!("target_resistance = \"{resistance}\"\n{never}"),
             )
         });
         println!("{velocity} m/s: {plain:.4} mm, penetrable {penetrable:.4} mm");

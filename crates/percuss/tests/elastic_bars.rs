@@ -107,7 +107,7 @@ fn equal_bars_exchange_velocities_and_part_after_a_round_trip() {
         .unwrap()
         .time;
     assert_near("contact time [s]", parted, transit, 5e-3);
-    // All momentum and, but for what rings in the bars, all energy are the target's.
+    // All momentum and, except for what rings in the bars, all energy are the target's.
     let ledger = &result.numerics().momentum;
     assert_near(
         "momentum of the struck bar [N s]",

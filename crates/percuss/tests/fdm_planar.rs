@@ -509,7 +509,7 @@ fn a_flyer_plate_as_a_case() {
         250.0,
         1e-9,
     );
-    assert!((480.0..520.0).contains(&detail(&result, "largest speed of the back face")));
+    assert!((480.0..520.0).contains(&detail(&result, "largest speed of the rear face")));
     // Plastic release lags behind elastic, so the plane lies near, not at, one flyer thickness under the back.
     assert!((2.5..4.5).contains(&detail(&result, "first spall plane, below the struck face")));
     assert_eq!(result.depth_of_penetration, None);

@@ -104,9 +104,9 @@ fn options() -> impl Strategy<Value = String> {
         0.0..2.0_f64,
         any::<bool>(),
     )
-        .prop_map(|(closure, erosion, viscosity, small)| {
+        .prop_map(|(resistance, erosion, viscosity, small)| {
             format!(
-                "target_resistance = \"{closure}\"\nerosion_strain = {erosion}\nkinematics = \"{}\"\n\
+                "target_resistance = \"{resistance}\"\nerosion_strain = {erosion}\nkinematics = \"{}\"\n\
                  artificial_viscosity = {{ linear = {}, quadratic = {viscosity} }}",
                 if small { "small-strain" } else { "logarithmic" },
                 0.1 * viscosity

@@ -134,7 +134,7 @@ fn two_bonded_layers_of_one_material_are_one_layer() {
     }
 }
 
-/// Free plates of one length pass a velocity on across gaps, as balls do: every one flies at the speed of the projectile until it
+/// Free plates of one length pass a velocity on across gaps, as balls do: every one flies at the velocity of the projectile until it
 /// strikes the next.
 #[test]
 fn a_row_of_plates_with_gaps_passes_the_velocity_on() {

@@ -319,7 +319,7 @@ fn the_books_close_where_the_plug_spalls() {
                 "{more:?} {speed}"
             );
         }
-        // What flies free at the end is all there is, but for what eroded, once the plug is free.
+        // What flies free at the end is all there is, except for what eroded, once the plug is free.
         if result.outcome == Outcome::Perforated && !more.contains("erosion") {
             let free: f64 = result.fragments.iter().map(|piece| piece.mass).sum();
             let (mass, plug) = masses();

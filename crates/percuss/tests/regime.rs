@@ -25,7 +25,7 @@ fn scenario(rod: f64, plate: f64, target: &str, nose: &str, speed: f64) -> Scena
 
 const DEEP: &str = "material = 'plate', thickness = 'semi-infinite'";
 
-fn judged(
+fn classified(
     rod: f64,
     plate: f64,
     target: &str,
@@ -41,7 +41,7 @@ use ProjectileRegime::{Deforming, Eroding, Rigid};
 #[test]
 fn a_wall_and_a_pressure_compare_one_stress() {
     // On a wall: ρ c V = 8000 × 5000 × V, 400 MPa at 10 m/s.
-    let wall = |speed| judged(400.0, 100.0, "rigid_wall = true", "'flat'", speed);
+    let wall = |speed| classified(400.0, 100.0, "rigid_wall = true", "'flat'", speed);
     assert_eq!(wall(0.0), (Rigid, None));
     assert_eq!(wall(6.6), (Rigid, None));
     assert_eq!(wall(6.7), (Rigid, Some(Deforming)));
@@ -50,7 +50,7 @@ fn a_wall_and_a_pressure_compare_one_stress() {
     assert_eq!(wall(14.9), (Deforming, Some(Rigid)));
     assert_eq!(wall(15.1), (Deforming, None));
     let pressure = |stress: &str| {
-        judged(
+        classified(
             400.0,
             100.0,
             &format!("constant_pressure = '{stress}'"),
@@ -86,7 +86,7 @@ fn a_strong_rod_stays_rigid_up_to_the_speed_at_which_its_nose_yields() {
     let resistance = resistance(200.0);
     for (nose, factor) in [("'flat'", 1.0), ("'hemisphere'", 0.5)] {
         let yields = ((2e9 - resistance) / (2700.0 * factor)).sqrt();
-        let at = |speed: f64| judged(2000.0, 200.0, DEEP, nose, speed);
+        let at = |speed: f64| classified(2000.0, 200.0, DEEP, nose, speed);
         assert_eq!(at(0.999 * yields), (Rigid, Some(Deforming)), "{nose}");
         assert_ne!(at(1.001 * yields).0, Rigid, "{nose}");
         // Not close: 1.5 (R + N ρ V²) < 2 GPa.
@@ -96,7 +96,7 @@ fn a_strong_rod_stays_rigid_up_to_the_speed_at_which_its_nose_yields() {
     }
     // A flat nose yields below √(2(Y − R)/ρt), so there is a range in which the rod deforms; it is close to rigid there.
     let erodes = (2.0 * (2e9 - resistance) / 2700.0).sqrt();
-    let at = |speed: f64| judged(2000.0, 200.0, DEEP, "'flat'", speed);
+    let at = |speed: f64| classified(2000.0, 200.0, DEEP, "'flat'", speed);
     assert_eq!(at(0.999 * erodes).0, Deforming);
     assert_eq!(at(1.001 * erodes).0, Eroding);
 }
@@ -105,7 +105,7 @@ fn a_strong_rod_stays_rigid_up_to_the_speed_at_which_its_nose_yields() {
 fn a_weak_rod_erodes_above_the_speed_at_which_it_penetrates() {
     // Y = 100 MPa < R: √(2(R − Y)/ρp), whatever the density of the target.
     let threshold = (2.0 * (resistance(200.0) - 100e6) / 8000.0).sqrt();
-    let at = |speed: f64| judged(100.0, 200.0, DEEP, "'flat'", speed);
+    let at = |speed: f64| classified(100.0, 200.0, DEEP, "'flat'", speed);
     assert_eq!(at(0.79 * threshold), (Deforming, None));
     assert_eq!(at(0.81 * threshold), (Deforming, Some(Eroding)));
     assert_eq!(at(0.999 * threshold), (Deforming, Some(Eroding)));

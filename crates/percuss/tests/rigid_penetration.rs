@@ -251,7 +251,7 @@ fn what_lies_outside_is_refused_or_warned_of() {
     }
     for model in METAL_MODELS {
         assert!(
-            refusal(model, &plate).contains("the back face would have a say"),
+            refusal(model, &plate).contains("the rear face would affect it"),
             "{model}"
         );
     }

@@ -155,7 +155,7 @@ fn ranges_refuse_or_warn_and_hold_their_ends() {
     }
     assert_eq!(
         reason(&speed, &at(99.9)),
-        "impact speed is 99.9 m/s, and it takes 100 to 900 m/s: it was fitted there"
+        "impact velocity is 99.9 m/s, and it takes 100 to 900 m/s: it was fitted there"
     );
     let length = ValidityDomain {
         ranges: LENGTH,

@@ -265,7 +265,7 @@ fn syntax(message: &str, source: &str) -> Option<Reworded> {
         ),
         "unexpected key or value, expected newline, `#`" => says(
             "the line goes on after the value",
-            "write one KEY = VALUE a line; a comment starts with `#`",
+            "write one KEY = VALUE per line; a comment starts with `#`",
         ),
         _ if message.starts_with("missing escaped value") => says(
             "`\\` starts an escape code, and this is none",

@@ -1,4 +1,4 @@
-//! Checks that every material passes on load: wide enough for any real solid, narrow enough to catch a slip of 1000.
+//! Checks that every material passes on load: wide enough for any real solid, narrow enough to detect a unit error of 1000.
 
 use super::Material;
 use crate::{
@@ -6,7 +6,7 @@ use crate::{
     units::Pressure,
 };
 
-/// Plastic strain at which a hardened flow stress is judged: every impact reaches it, and fits hold there.
+/// Plastic strain at which a hardened flow stress is checked: every impact reaches it, and fits hold there.
 const HARDENED_STRAIN: f64 = 0.1;
 
 impl Material {
@@ -78,7 +78,7 @@ impl Material {
             "initial yield stress",
             law.initial_yield_stress(self),
         );
-        // One slip, one diagnostic: a wrong yield stress is in the hardened stress as well.
+        // One error, one diagnostic: a wrong yield stress is also in the hardened stress.
         if yields {
             self.check_ratio(
                 check,

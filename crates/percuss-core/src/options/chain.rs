@@ -174,7 +174,7 @@ impl ChainOptions {
                 if given {
                     check.fail(
                         key,
-                        format!("`{key}` has no effect with the erosion closure `tate`"),
+                        format!("`{key}` has no effect with the erosion criterion `tate`"),
                         "remove one of the two keys",
                     );
                 }
@@ -191,11 +191,11 @@ impl ChainOptions {
 
     /// Reports keys that a cone has no use for.
     fn check_closure(&self, check: &mut Check<'_>, target: &Target) {
-        let closure = self.target_resistance();
-        if closure == TargetResistanceModel::Column {
+        let resistance = self.target_resistance();
+        if resistance == TargetResistanceModel::Column {
             return;
         }
-        let lacks: Vec<_> = match closure {
+        let lacks: Vec<_> = match resistance {
             TargetResistanceModel::ExpandingCavity => self.cavity_lacks().collect(),
             _ => self.column_keys().to_vec(),
         };
@@ -203,8 +203,8 @@ impl ChainOptions {
             check.fail(
                 key,
                 format!(
-                    "`{key}` belongs to a column: the target closure `{}` has none",
-                    closure.name()
+                    "`{key}` belongs to a column: the target resistance model `{}` has none",
+                    resistance.name()
                 ),
                 "remove the key, or use target_resistance = \"column\"",
             );
@@ -213,8 +213,8 @@ impl ChainOptions {
             check.fail(
                 "target_resistance",
                 format!(
-                    "the target closure `{}` starts with the projectile's area: `target.column_diameter` has no effect",
-                    closure.name()
+                    "the target resistance model `{}` starts with the projectile's area: `target.column_diameter` has no effect",
+                    resistance.name()
                 ),
                 "remove `target.column_diameter`, or use target_resistance = \"column\"",
             );
@@ -223,12 +223,12 @@ impl ChainOptions {
             TargetResistanceModel::DivergingPenetrable,
             TargetResistanceModel::ExpandingCavity,
         ];
-        if one_material.contains(&closure) && target.layers.len() > 1 {
+        if one_material.contains(&resistance) && target.layers.len() > 1 {
             check.fail(
                 "target_resistance",
                 format!(
-                    "the target closure `{}` has one resistance: it takes a target of one material",
-                    closure.name()
+                    "the target resistance model `{}` has one resistance: it takes a target of one material",
+                    resistance.name()
                 ),
                 "use target_resistance = \"diverging\" or \"column\"",
             );

@@ -1,4 +1,4 @@
-//! Options of the 1-D discrete element model with their defaults in place of what is not given.
+//! Options of the 1-D discrete element model with their defaults for options that are not given.
 
 use super::{
     chain::ChainOptions,
@@ -160,7 +160,7 @@ impl ChainOptions {
                 .is_some_and(|key| keys.any(|(own, _)| key.split('.').next() == Some(own)))
     }
 
-    /// Strain measure; the closure of Tate has one of its own.
+    /// Strain measure; the erosion criterion of Tate has one of its own.
     pub fn kinematics(&self) -> Kinematics {
         match self.erosion_criterion() {
             ErosionCriterion::Strain => self.kinematics.unwrap_or_default(),

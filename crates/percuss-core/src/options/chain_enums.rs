@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scheme {
-    /// Large strain, plastic unloading, balanced books; converges.
+    /// Large strain, plastic unloading, balanced energy; converges.
     #[default]
     Conservative,
     /// The equations of the paper as printed, with every ambiguous reading selectable.

@@ -17,7 +17,7 @@ impl ChainOptions {
             if self.erosion_criterion() == ErosionCriterion::Tate {
                 check.fail(
                     "failure",
-                    "the erosion closure `tate` holds the target in place: nothing of it can part",
+                    "the erosion criterion `tate` holds the target in place: nothing of it can separate",
                     "remove one of the two keys",
                 );
             }
@@ -42,7 +42,7 @@ impl ChainOptions {
         let held = match (self.erosion_criterion(), self.target_resistance()) {
             (ErosionCriterion::Tate, _) => Some(("erosion_criterion", "tate")),
             (_, TargetResistanceModel::Column) => None,
-            (_, closure) => Some(("target_resistance", closure.name())),
+            (_, resistance) => Some(("target_resistance", resistance.name())),
         };
         if let Some((key, name)) = held {
             check.fail(

@@ -33,9 +33,9 @@ pub struct ShearBandOptions {
     pub width: Option<Length>,
     /// When the band fails; `damage` where the material has damage, otherwise `instability` when not given.
     pub failure: Option<BandFailure>,
-    /// Plastic shear strain at which the band fails, in place of `failure`.
+    /// Plastic shear strain at which the band fails, instead of `failure`.
     pub failure_strain: Option<f64>,
-    /// Constant shear strength [Pa] in place of the material's strength law.
+    /// Constant shear strength [Pa] instead of the material's strength law.
     pub shear_strength: Option<Pressure>,
 }
 
@@ -82,12 +82,12 @@ impl ChainOptions {
             ),
             (
                 !target.is_solid() || target.without_back_in_words().is_some(),
-                "a plug needs a plate with a back face",
+                "a plug needs a plate with a rear face",
                 "give the target a thickness, or remove the key",
             ),
             (
                 target.back_face != Some(RearFaceCondition::Free),
-                "a plug leaves through a free back face",
+                "a plug leaves through a free rear face",
                 "add back_face = \"free\" to the target",
             ),
             (

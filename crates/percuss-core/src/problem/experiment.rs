@@ -22,7 +22,7 @@ pub struct Experiment {
     /// Measured depth of penetration [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth_of_penetration: Option<Length>,
-    /// Measured speed behind the target [m/s]; 0 when it was stopped.
+    /// Measured residual velocity [m/s]; 0 when it was stopped.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub residual_velocity: Option<Velocity>,
     /// Measured ballistic limit [m/s].
@@ -36,7 +36,7 @@ pub struct Experiment {
     pub uncertainty: Option<Uncertainty>,
     /// Bibliography key, or a list of keys, of where the value was read.
     pub source: SourceKeys,
-    /// What a user should know of the value.
+    /// Remarks on the value.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
 }

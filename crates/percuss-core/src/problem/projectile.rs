@@ -112,7 +112,7 @@ impl Projectile {
         }
     }
 
-    /// The same of a mass in place of the length.
+    /// The same of a mass instead of the length.
     pub fn of_mass(
         material: impl Into<String>,
         mass: Mass,

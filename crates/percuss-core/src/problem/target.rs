@@ -18,10 +18,10 @@ pub struct Target {
     /// Thickness of a target of one layer, or `"semi-infinite"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<Thickness>,
-    /// Layers from the struck face to the back, in place of `material` and `thickness`.
+    /// Layers from the struck face to the back, instead of `material` and `thickness`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub layers: Vec<Layer>,
-    /// What holds the back face; `fixed` when not given, `non-reflecting` behind a semi-infinite layer.
+    /// Boundary condition of the rear face; `fixed` when not given, `non-reflecting` behind a semi-infinite layer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub back_face: Option<RearFaceCondition>,
     /// Diameter of the column of target that is modelled [m]; the projectile's when not given.
@@ -71,7 +71,7 @@ pub enum LayerInterface {
     Bonded,
 }
 
-/// What holds the back face of a target.
+/// Boundary condition of the rear face of a target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RearFaceCondition {
@@ -111,7 +111,7 @@ pub enum EdgeSupport {
 pub enum Thickness {
     /// A plate [m].
     Finite(Length),
-    /// So thick that its back face does not matter.
+    /// So thick that its rear face does not matter.
     SemiInfinite,
 }
 
@@ -410,7 +410,7 @@ impl Target {
         {
             check.fail(
                 "back_face",
-                "a semi-infinite target has no back face that is fixed or free",
+                "a semi-infinite target has no rear face that is fixed or free",
                 "remove `back_face`, or give a thickness",
             );
         }
@@ -425,7 +425,7 @@ impl Target {
         if self.back_face.is_some() && !solid {
             check.fail(
                 "back_face",
-                "a rigid wall or a constant pressure has no back face",
+                "a rigid wall or a constant pressure has no rear face",
                 "remove `back_face`",
             );
         }

@@ -64,7 +64,7 @@ pub trait Model: Sync {
         false
     }
 
-    /// Why the model does not apply to a case that its validity lets pass, if it does not: an option or a number is missing.
+    /// Why the model does not apply to a case inside its validity domain, if it does not: an option or a number is missing.
     fn not_applicable(&self, _: &Scenario) -> Option<Refusal> {
         None
     }

@@ -18,7 +18,7 @@ impl FittedTo {
     /// The sources, and what was fitted to them or chosen on them.
     pub fn describe(&self) -> String {
         let sources = if self.sources.len() > FEW {
-            format!("{} sources of shots", self.sources.len())
+            format!("{} sources of tests", self.sources.len())
         } else {
             self.sources.join(", ")
         };

@@ -6,7 +6,7 @@ use crate::{
     scenario::{Scenario, TargetBody},
 };
 
-/// Warning that a fixed rear face lets nothing out of a plate that is not thick.
+/// Warning of a fixed rear face behind a plate that is not thick: perforation is impossible.
 pub fn fixed_rear_face_warning(scenario: &Scenario) -> Option<String> {
     let TargetBody::Layers {
         back_face: RearFaceCondition::Fixed,
@@ -17,7 +17,7 @@ pub fn fixed_rear_face_warning(scenario: &Scenario) -> Option<String> {
     };
     let ratio = scenario.target_thickness()? / scenario.projectile.diameter;
     (ratio < THICK).then(|| {
-        "the back face is held (`target.back_face = \"fixed\"`, the default of a plate): nothing can leave through it; give \
+        "perforation is impossible: the rear face is fixed (the default). Set \
          \"free\" for a plate that the projectile may perforate"
             .to_owned()
     })

@@ -20,7 +20,7 @@ pub struct Range {
 }
 
 impl Range {
-    /// A warning on thin plates, for models whose target is a column: it can neither let go a plug nor bend.
+    /// A warning on thin plates, for models whose target is a column: it models neither plugging nor bending.
     pub const COLUMN: Self = Self {
         measure: Measure::ThicknessToDiameter,
         min: crate::regime::THIN,
@@ -88,7 +88,7 @@ pub enum Measure {
     FlatRodLengthToDiameter,
     /// Thickness of the target over the projectile's diameter.
     ThicknessToDiameter,
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     ImpactSpeed,
     /// Angle between the path and the normal of the struck face [deg].
     Obliquity,
@@ -116,7 +116,7 @@ impl Measure {
             Self::LengthToDiameter => "length to diameter",
             Self::FlatRodLengthToDiameter => "length to diameter, as a flat-ended rod of its mass,",
             Self::ThicknessToDiameter => "thickness to projectile diameter",
-            Self::ImpactSpeed => "impact speed",
+            Self::ImpactSpeed => "impact velocity",
             Self::Obliquity => "angle to the normal",
         }
     }

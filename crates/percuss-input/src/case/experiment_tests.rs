@@ -63,7 +63,7 @@ fn what_a_target_cannot_have_is_refused() {
         (
             PLATE,
             "residual_velocity = '301 m/s'",
-            "larger than the impact speed",
+            "larger than the impact velocity",
         ),
     ] {
         let error = load(target, &format!("{speed}{quantity}")).unwrap_err();

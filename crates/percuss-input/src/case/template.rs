@@ -29,7 +29,7 @@ impl Template {
     pub fn of(document: &Document) -> Result<Self, Error> {
         super::scenario(document)?;
         let mut table: Table = document.parse()?;
-        // No shot depends on what is uncertain.
+        // No run depends on what is uncertain.
         table.remove("uncertainty");
         let mut case: Case = document.parse()?;
         // Its own materials are among the numbers that can be changed: only those of other files are looked up beforehand.

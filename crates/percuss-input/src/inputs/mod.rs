@@ -91,7 +91,7 @@ pub fn resolve(
             );
             None
         }
-        // A parameter that is wrong would be missing here as well.
+        // A parameter that is wrong would also be missing here.
         Some(correlation) if axes.len() == parameters.len() => {
             correlation.resolve(&axes, &mut check.within("correlation"))
         }

@@ -70,7 +70,7 @@ fn crater_speed(
 /// Area of a crater over that of the rod that flows out in it: `1 + 2ρ_p(V−U)²/R`.
 ///
 /// The rod's section holds its own against R. In the frame of the crater's bottom the projectile comes in at V − U and is turned
-/// back at the same speed, so that it pushes with `2ρ_p A (V−U)²` more; the crater is as wide as R lets that force make it.
+/// back at the same speed, so that it pushes with `2ρ_p A (V−U)²` more; the crater is as wide as R allows under that force.
 fn crater_growth(density: f64, relative_speed: f64, resistance: f64) -> f64 {
     1.0 + 2.0 * density * relative_speed * relative_speed / resistance
 }
@@ -111,8 +111,8 @@ impl Model for CraterEnergy {
         let rod = case.rod;
         let energy = 0.5 * rod.mass * case.speed * case.speed;
         let given = scenario.options.crater_energy.crater_to_projectile_diameter;
-        let judged = Regime::of(scenario);
-        let regime = judged.projectile;
+        let classified = Regime::of(scenario);
+        let regime = classified.projectile;
         let strength = rod.material.flow_stress(STRENGTH_STRAIN);
         let (mut result, growth) = match (regime, given, strength) {
             (ProjectileRegime::Rigid, None, _) | (_, None, None) => {
@@ -153,14 +153,14 @@ impl Model for CraterEnergy {
             detail("crater diameter ratio", "", growth.sqrt()),
             detail("crater volume", "cm3", energy / resistance * 1e6),
         ];
-        let rigid_or_not = [regime].into_iter().chain(judged.neighbour);
-        if judged.neighbour.is_some()
+        let rigid_or_not = [regime].into_iter().chain(classified.neighbour);
+        if classified.neighbour.is_some()
             && rigid_or_not
                 .into_iter()
                 .any(|r| r == ProjectileRegime::Rigid)
         {
             result.warnings.push(
-                "the judgement whether the projectile stays rigid is not sharp here, and this model's depth jumps there: compare \
+                "whether the projectile stays rigid is uncertain here, and this model's depth jumps there: compare \
                  with the models of the other regime"
                     .to_owned(),
             );

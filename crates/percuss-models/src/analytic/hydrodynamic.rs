@@ -49,7 +49,7 @@ impl Model for Hydrodynamic {
                 ],
                 sees_back_face: false,
                 notes: &[
-                    "the limit that the models with strength tend to at high speed; the speed has no say in it",
+                    "the limit that the models with strength tend to at high speed; it is independent of the impact velocity",
                 ],
                 ..ValidityDomain::OPEN
             }

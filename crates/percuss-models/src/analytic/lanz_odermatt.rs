@@ -123,7 +123,7 @@ impl Model for LanzOdermatt {
         let smallest = smallest_speed(projectile, hardness);
         (rod.speed < smallest).then(|| {
             Refusal::new(format!(
-                "an impact speed of {} m/s is below the smallest one of the regression, {} m/s",
+                "an impact velocity of {} m/s is below the smallest one of the regression, {} m/s",
                 significant(rod.speed, 4),
                 significant(smallest, 4)
             ))

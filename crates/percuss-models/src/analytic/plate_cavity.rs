@@ -49,7 +49,7 @@ const PLATES: &[&str] = &[
     "showalter2008b",
 ];
 
-/// Numbers of a perforation that do not depend on the impact speed.
+/// Numbers of a perforation that do not depend on the impact velocity.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Passage {
     /// Quasi-static pressure of the cavity [Pa].
@@ -163,7 +163,7 @@ impl Model for PlateCavity {
                         min: 1.0,
                         max: 10.0,
                         outside: Outside::Warning,
-                        because: "a thinner plate bends as well; in a thicker one the tip meets the pressure of a sphere",
+                        because: "a thinner plate also bends; in a thicker one the tip meets the pressure of a sphere",
                     },
                     Range {
                         measure: Measure::Obliquity,
@@ -189,7 +189,7 @@ impl Model for PlateCavity {
                 }],
                 fitted_to: &[FittedTo {
                     sources: PLATES,
-                    because: "the form of the inertial pressure, V sin θ in place of V tan θ, was chosen with limits of the REL V50 database in view",
+                    because: "the form of the inertial pressure, V sin θ instead of V tan θ, was chosen with limits of the REL V50 database in view",
                 }],
                 notes: &[
                     "no friction, no free faces, no heat; an oblique path is straight, and the hole along it is longer (reconstructed)",
@@ -253,7 +253,7 @@ impl Model for PlateCavity {
 
 /// Says that a plate is so hard that projectiles break or plates plug.
 fn hard_plate(plate: &Material) -> Option<String> {
-    let tail = "hard steel plates break armour-piercing cores or let go a plug, which a cavity expansion does not see; \
+    let tail = "hard steel plates break armour-piercing cores or fail by plugging, which a cavity expansion does not model; \
                 expect errors of tens of per cent";
     match (plate.brinell_hardness, tensile_strength(plate)) {
         (Some(hardness), _) if hardness > HARD => Some(format!(

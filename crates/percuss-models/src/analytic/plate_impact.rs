@@ -15,7 +15,7 @@ use crate::{
 pub(super) struct PlateImpact<'a> {
     /// Mass of the projectile [kg].
     pub mass: f64,
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub speed: f64,
     /// Diameter of the shank [m].
     pub diameter: f64,

@@ -1,4 +1,4 @@
-//! Model `plugging`: whether a plate lets go a plug, and the work to shear one out.
+//! Model `plugging`: plugging criterion, plugging work, ballistic limit and residual velocity.
 
 use std::f64::consts::PI;
 

@@ -86,7 +86,7 @@ impl TaylorRod {
     }
 }
 
-/// Dynamic yield stress [Pa] of a rod from its density [kg/m3], impact speed [m/s] and final over initial length, by
+/// Dynamic yield stress [Pa] of a rod from its density [kg/m3], impact velocity [m/s] and final over initial length, by
 /// [`TaylorRod`]; `None` unless the length is between 0 and 1 and the speed above 0.
 pub fn taylor_yield_stress(density: f64, speed: f64, length_ratio: f64) -> Option<f64> {
     let valid = length_ratio > 0.0 && length_ratio < 1.0 && speed > 0.0 && density > 0.0;
@@ -179,7 +179,7 @@ pub(super) const WALL: &ValidityDomain = &ValidityDomain {
     }],
     notes: &[
         "rigid, perfectly plastic rod: one flow stress stands for the strength law",
-        "below the impact speed at which an elastic wave reaches the yield stress the rod keeps its length",
+        "below the impact velocity at which an elastic wave reaches the yield stress the rod keeps its length",
     ],
     ..ValidityDomain::OPEN
 };

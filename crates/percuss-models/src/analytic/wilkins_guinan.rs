@@ -20,7 +20,7 @@ pub fn wilkins_guinan_length(number: f64, front: f64) -> f64 {
     (1.0 - front) * (-number / 2.0).exp() + front
 }
 
-/// Dynamic yield stress [Pa] of a rod from its density [kg/m3], impact speed [m/s], final over initial length, and the front's
+/// Dynamic yield stress [Pa] of a rod from its density [kg/m3], impact velocity [m/s], final over initial length, and the front's
 /// distance from the wall over the initial length; `None` unless the final length is between the front and 1.
 pub fn wilkins_guinan_yield_stress(
     density: f64,

@@ -1,4 +1,4 @@
-//! What holds a body at its edges: symmetry axis, rigid wall, back face and far edge.
+//! What holds a body at its edges: symmetry axis, rigid wall, rear face and far edge.
 
 use super::field::{FORCE, Field, MASS, MOMENTUM, Node};
 
@@ -23,11 +23,11 @@ pub(super) enum BoundaryCondition {
 pub(super) struct BoundaryConditions {
     /// Whether a rigid, smooth wall stands at row 0, in front of the body.
     pub(super) wall: bool,
-    /// Row of the back face and its support.
+    /// Row of the rear face and its support.
     pub(super) back: (isize, BoundaryCondition),
     /// Column of the far edge, counted with the mirrored one, and its support.
     pub(super) edge: (usize, BoundaryCondition),
-    /// Displacement of the back face at each column [m].
+    /// Displacement of the rear face at each column [m].
     pub(super) displacement: Vec<f64>,
 }
 
@@ -39,7 +39,7 @@ impl BoundaryConditions {
         displacement: Vec::new(),
     };
 
-    /// Keeps up the displacement of the back face.
+    /// Keeps up the displacement of the rear face.
     pub(super) fn follow(&mut self, field: &Field, time_step: f64) {
         let (row, BoundaryCondition::NonReflecting { .. }) = self.back else {
             return;
@@ -53,7 +53,7 @@ impl BoundaryConditions {
         }
     }
 
-    /// Row of the plane in which the body is mirrored, if there is one: that of the wall or of a smooth back face.
+    /// Row of the plane in which the body is mirrored, if there is one: that of the wall or of a smooth rear face.
     pub(super) fn mirror(&self) -> Option<isize> {
         match self.back {
             _ if self.wall => Some(0),

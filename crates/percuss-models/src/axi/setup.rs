@@ -49,7 +49,7 @@ pub(super) fn extent(scenario: &Scenario) -> Option<Extent> {
         |depth| depth.si(),
     );
     let total = scenario.target_thickness();
-    // A little more than needed is modelled whole: the back face is then the case's own.
+    // A little more than needed is modelled whole: the rear face is then the case's own.
     let slack = if options.target_depth.is_some() {
         1.0
     } else {
@@ -321,7 +321,7 @@ fn impedance(material: &Material) -> [f64; 2] {
     [(longitudinal * density).sqrt(), (shear * density).sqrt()]
 }
 
-/// BoundaryCondition of a back face at a depth.
+/// Boundary condition of a rear face at a depth.
 ///
 /// Below a point force on a half-space the axial stress is `3F/(2πz²)` and the displacement `F(1 + ν)(3 − 2ν)/(2πEz)`
 /// \[johnson1985\]: what was cut off has the stiffness of their ratio.

@@ -363,7 +363,7 @@ fn move_row(
         velocity[0] = [-velocity[2][0], velocity[2][1]];
     }
     if !supports.wall {
-        // What a smooth back face takes is the support's, not a contact's.
+        // What a smooth rear face takes is the support's, not a contact's.
         sums.boundary += sums.kinetic[0] - sums.kinetic[1];
         sums.kinetic[1] = sums.kinetic[0];
         sums.wall = 0.0;

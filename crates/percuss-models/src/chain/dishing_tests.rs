@@ -71,7 +71,7 @@ fn drive(
 }
 
 #[test]
-fn its_books_close() {
+fn its_energy_balance_closes() {
     let strengths = [
         "elastic = {}",
         "perfectly_plastic = { flow_stress = '400 MPa' }",

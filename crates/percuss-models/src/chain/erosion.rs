@@ -46,7 +46,7 @@ impl State {
         let half_friction = 0.5 * part.friction_per_length * self.elements[e].rest_length;
         self.accumulated.eroded_energy += self.elastic_energy(e, part);
         let left = e + segment.shift;
-        // The closure of Tate has a column: both halves are alike.
+        // the erosion criterion of Tate has a column: both halves are alike.
         let leaving = self.leave_tip(s, left, masses[0]);
         for (i, mass) in [left, left + 1].into_iter().zip(masses) {
             let velocity = match leaving {

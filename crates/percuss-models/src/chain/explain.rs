@@ -10,7 +10,7 @@ use crate::{
     units::significant,
 };
 
-/// Difference of two depths that a user has to know of.
+/// Difference of two depths that is reported to the user.
 const NOTABLE_DIFFERENCE: f64 = 0.1;
 /// Erosion strain below which the rod would lose material that still presses on the target.
 const EARLIEST_EROSION: f64 = 1.0;

@@ -160,7 +160,7 @@ impl State {
 }
 
 impl Element {
-    /// Whether it has failed and not yet parted from a neighbour.
+    /// Whether it has failed and not yet separated from a neighbour.
     fn has_failed(&self) -> bool {
         self.damage >= 1.0 && !self.parted
     }

@@ -100,7 +100,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
                 part.friction_per_length =
                     options.border_shear() * PI * diameter(plate) * flow_stress.unwrap_or(0.0);
                 if options.erosion_criterion() == ErosionCriterion::Tate || cone.is_some() {
-                    // What holds the target ahead of the tip stands in the place of border shear; a cone widens instead.
+                    // What holds the target ahead of the tip stands instead of border shear; a cone widens instead.
                     part.friction_per_length = 0.0;
                 }
                 parts.push(part);
@@ -159,7 +159,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     for node in &mut state.nodes[..=rod_elements] {
         node.velocity = scenario.impact_velocity;
     }
-    // At the first step the elements at the interface see the whole impact speed.
+    // At the first step the elements at the interface see the whole impact velocity.
     if state.parts[0].kinematics == Kinematics::Logarithmic {
         let lengths = state.elements.iter().map(|element| element.rest_length);
         let smallest = lengths.fold(f64::INFINITY, f64::min);

@@ -118,7 +118,7 @@ impl Model for Chain {
                      unless the case chooses otherwise: the depth is only as good as the theory of cavities",
                     "every other target is the column in line with the rod: the depth is only as good as the constraint factor and \
                      the border shear that close it",
-                    "a plate is perforated by a plug with `border_shear_law = \"shear-band\"`; without it a column can neither let go a \
+                    "a plate is perforated by a plug with `border_shear_law = \"shear-band\"`; without it a column models neither \
                      plug nor bend",
                 ],
                 ..ValidityDomain::OPEN
@@ -141,7 +141,7 @@ impl Model for Chain {
             }
             _ if scenario.resistance.is_some() => Some(
                 Refusal::new(
-                    "a resistance law replaces the target's in the closure `expanding-cavity` only",
+                    "a resistance law replaces the target's in the target resistance model `expanding-cavity` only",
                 )
                 .with_remedy("set `chain.target_resistance = \"expanding-cavity\"`"),
             ),

@@ -12,8 +12,8 @@ use crate::{
 pub fn choose_target_resistance(scenario: &mut Scenario) {
     if !scenario.given.target_resistance {
         scenario.options.chain.target_resistance = None;
-        let (closure, reason) = default_resistance_model(scenario);
-        scenario.options.chain.target_resistance = Some(closure);
+        let (resistance, reason) = default_resistance_model(scenario);
+        scenario.options.chain.target_resistance = Some(resistance);
         scenario.resistance_reason = reason;
     }
 }
@@ -56,7 +56,7 @@ fn why_a_column(scenario: &Scenario) -> Option<String> {
     })
 }
 
-/// The closure that a run has; `None` where the scheme or the target has no choice of one.
+/// The target resistance model that a run has; `None` where the scheme or the target has no choice of one.
 pub fn resistance_model_in_use(scenario: &Scenario) -> Option<TargetResistanceModel> {
     let options = &scenario.options.chain;
     let solid = matches!(scenario.target, TargetBody::Layers { .. });

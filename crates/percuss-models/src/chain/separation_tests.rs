@@ -50,7 +50,7 @@ const LAYERS: &str = r#"
     { material = "brittle", thickness = "3 mm", interface = "bonded" },
     { material = "copper", thickness = "6 mm", gap = "0.1 mm" }"#;
 
-/// How often ends had met, bodies had parted and elements had eroded when a time was over; the balances are checked in every step.
+/// How often ends had met, bodies had separated and elements had eroded when a time was over; the balances are checked in every step.
 fn run(scenario: &Scenario, control: &StepControl, until: f64) -> (State, usize) {
     let mut state = mesh::build(scenario);
     let mass: f64 = state.nodes.iter().map(|node| node.mass).sum();
@@ -102,7 +102,7 @@ fn run(scenario: &Scenario, control: &StepControl, until: f64) -> (State, usize)
 }
 
 #[test]
-fn the_books_close_through_partings_erosion_and_meetings() {
+fn the_balances_close_through_partings_erosion_and_meetings() {
     for (failure, speed) in [
         ("failure = { spall = { strength = \"0.6 GPa\" } }", 250.0),
         (
@@ -135,7 +135,7 @@ fn the_books_close_through_partings_erosion_and_meetings() {
 }
 
 #[test]
-fn local_damping_keeps_the_books() {
+fn local_damping_keeps_the_balances() {
     let control = StepControl {
         local_damping: 0.4,
         ..CONTROL

@@ -177,7 +177,7 @@ fn a_band_is_shared_where_the_plug_parts() {
     assert!((bands.elastic_energy() / energy - 1.0).abs() < 1e-12);
     assert!(energy > 0.0);
     assert!((bands.pull(&mut nodes) / force - 1.0).abs() < 1e-12);
-    // Nothing is let go that was not about to leave anyway.
+    // Nothing is ejected that was not about to leave anyway.
     bands.update(&nodes, 0.0, 1e-6, 3e-6);
     assert!(close(bands.bands[1].held + bands.bands[2].held, 0.0011));
     assert!(close(bands.bands[2].held, 0.0006));

@@ -23,7 +23,7 @@ use crate::{
     solver::archive::Archive,
 };
 
-/// What holds the last node of the chain.
+/// Boundary condition of the last node of the chain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BoundaryCondition {
     Free,
@@ -105,14 +105,14 @@ pub(super) struct Element {
     pub(super) eroded: bool,
     /// Damage by the failure law; 1 is failed.
     pub(super) damage: f64,
-    /// Whether its failure has parted it from a neighbour.
+    /// Whether its failure has separated it from a neighbour.
     pub(super) parted: bool,
     /// Length of target that the tip has gone through [m], and its part in the last step.
     pub(super) advance: f64,
     pub(super) advance_step: f64,
 }
 
-/// A place where a body or a bonded interface has parted.
+/// A place where a body or a bonded interface has separated.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Parting {
     /// Initial position, struck face at 0 [m].
@@ -150,11 +150,11 @@ pub(super) struct State {
     pub(super) end: BoundaryCondition,
     /// Force of a constant-pressure target on the projectile's tip [N]; 0 with any other target.
     pub(super) tip_friction: f64,
-    /// What moves with the tip under the erosion closure of Tate.
+    /// What moves with the tip under the erosion criterion of Tate.
     pub(super) tip: Option<Tip>,
     /// What the tip has to overcome to penetrate a cone.
     pub(super) penetration: Option<Penetration>,
-    /// What holds a plug, in the place of friction.
+    /// What holds a plug, instead of friction.
     pub(super) hold: Option<PlugConstraint>,
     /// Force of the target that is turned aside on the tip [N].
     pub(super) drag: f64,
@@ -173,7 +173,7 @@ pub(super) struct State {
     pub(super) time_step: f64,
     /// Largest stable time step of the current state.
     pub(super) stable_step: f64,
-    /// Places where bodies and bonded interfaces have parted, in the order of time.
+    /// Places where bodies and bonded interfaces have separated, in the order of time.
     pub(super) partings: Vec<Parting>,
     /// How often two ends have met.
     pub(super) meetings: u64,

@@ -1,4 +1,4 @@
-//! What a user should know before relying on a result of the conservative scheme.
+//! Limitations of a result of the conservative scheme.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -125,7 +125,7 @@ fn warning_of_rear_face(scenario: &Scenario, depth: f64) -> Option<String> {
 /// Part of the thickness beyond which a plate that dishes is more and more a membrane, which is left out.
 const LARGE_DISHING: f64 = 0.5;
 
-/// Whether a plate lets go a plug rests on the width and the failure of the shear band.
+/// Plugging depends on the width and the failure of the shear band.
 fn warn_of_plug(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<String>) {
     let detail = |name: &str| {
         let found = result.details.iter().find(|detail| detail.name == name);
@@ -148,7 +148,7 @@ fn warn_of_plug(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<Stri
     }
 }
 
-/// A column of target resists by its constraint factor and its border shear: both are closures, not results.
+/// A column of target resists by its constraint factor and its border shear: both are model assumptions, not results.
 fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<String>) {
     let (TargetBody::Layers { layers, .. }, Some(depth)) =
         (&scenario.target, result.depth_of_penetration)
@@ -169,7 +169,7 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
     }
     if scenario.options.chain.erosion_criterion() == ErosionCriterion::Tate {
         warnings.push(
-            "the depth rests on the erosion closure `tate`: the resistance of the target is its flow stress times the constraint \
+            "the depth depends on the erosion criterion `tate`: the resistance of the target is its flow stress times the constraint \
              factor, on the rod's area"
                 .to_owned(),
         );
@@ -179,7 +179,7 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
         && scenario.options.chain.border_shear() > 0.0
     {
         warnings.push(format!(
-            "the depth rests on the target closure (constraint factor and border shear C = {}): `chain.border_shear = 0.0` \
+            "the depth depends on the target resistance model (constraint factor and border shear C = {}): `chain.border_shear = 0.0` \
              gives the other end of the range",
             significant(scenario.options.chain.border_shear(), 4)
         ));
@@ -200,29 +200,29 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
     }
 }
 
-/// Plastic strain at which a strength is judged: reached early in any impact that yields.
+/// Plastic strain at which a strength is evaluated: reached early in any impact that yields.
 const STRENGTH_STRAIN: f64 = 0.1;
 /// Factor on either side of the threshold of penetration within which the cones are at their weakest.
 const THRESHOLD_EDGE: f64 = 1.4;
-/// Part of the compliance of the cone that may lie behind a plate's back face.
+/// Part of the compliance of the cone that may lie behind a plate's rear face.
 const COMPLIANCE_BEHIND: f64 = 0.25;
 
-/// A cone knows nothing of a crater that is deep against its mouth, nor of a back face that comes near.
+/// A cone models neither a crater that is deep against its mouth nor a near rear face.
 fn warn_of_cone(scenario: &Scenario, layers: &[Plate], depth: f64, warnings: &mut Vec<String>) {
     let Some(struck) = layers.first().map(|plate| &plate.material) else {
         return;
     };
-    let closure = scenario.options.chain.target_resistance();
+    let resistance = scenario.options.chain.target_resistance();
     let rod = &scenario.projectile;
     let radius = 0.5 * rod.diameter;
-    if closure == TargetResistanceModel::Diverging && depth > radius {
+    if resistance == TargetResistanceModel::Diverging && depth > radius {
         warnings.push(format!(
             "the depth is more than a radius of the projectile: the crater floor has left the mouth of the cone, which resists more \
              and more; compare with `chain.target_resistance` = \"{}\"",
             TargetResistanceModel::DivergingPenetrable.name()
         ));
     }
-    if closure == TargetResistanceModel::DivergingPenetrable
+    if resistance == TargetResistanceModel::DivergingPenetrable
         && let (Some(resistance), Some(strength)) = (
             cavity_expansion_pressure(struck),
             rod.material.flow_stress(STRENGTH_STRAIN),
@@ -245,7 +245,7 @@ fn warn_of_cone(scenario: &Scenario, layers: &[Plate], depth: f64, warnings: &mu
         && apex > COMPLIANCE_BEHIND * (apex + thickness - depth)
     {
         warnings.push(
-            "the back face is near: a cone does not bulge, bend or plug, and keeps its length as the crater deepens".to_owned(),
+            "the rear face is near: a cone does not bulge, bend or plug, and keeps its length as the crater deepens".to_owned(),
         );
     }
 }

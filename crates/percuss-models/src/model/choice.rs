@@ -57,7 +57,7 @@ pub fn choose(name: Option<&str>, scenario: &Scenario) -> Result<ChosenModel, Er
 /// the first quick one that gives a result.
 ///
 /// # Errors
-/// [`Error::NoModelApplies`] with the reason of every quick model.
+/// [`Error::NoModelApplies`] with the reason of every fast model.
 pub fn default_model(scenario: &Scenario) -> Result<ChosenModel, Error> {
     let chain = model(DEFAULT_MODEL)?;
     let regime = Regime::of(scenario);

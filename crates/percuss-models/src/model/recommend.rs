@@ -11,11 +11,11 @@ use crate::{
 /// What to rely on at a speed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Recommendation {
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
     /// The models that are the first choice for this kind of case and gave a result; may be empty.
     pub models: Vec<Choice>,
-    /// What to know of the choice, if there is something.
+    /// Remarks on the choice, if there is something.
     pub note: Option<String>,
 }
 
@@ -98,7 +98,7 @@ pub fn recommend(
         (false, None) => own.given,
         (false, Some((kind, choices))) => {
             notes.push(format!(
-                "the projectile may be {} as well, for which {} is the first choice: compare both",
+                "the projectile may also be {}, for which {} is the first choice: compare both",
                 kind.describe(),
                 names(&choices)
             ));
@@ -106,7 +106,7 @@ pub fn recommend(
         }
         (true, Some((kind, choices))) => {
             notes.push(format!(
-                "no first choice for {} projectiles gives a result here; the projectile may be {} as well",
+                "no first choice for {} projectiles gives a result here; the projectile may also be {}",
                 regime.projectile.describe(),
                 kind.describe()
             ));

@@ -1,4 +1,4 @@
-//! What comes of a calibration.
+//! Results of a calibration.
 
 use serde::{Serialize, Serializer};
 

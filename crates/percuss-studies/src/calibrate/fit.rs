@@ -139,15 +139,15 @@ impl Solver<'_> {
         };
         let mut points: Vec<Vec<f64>> = vec![self.problem.middle()];
         points.extend((0..tried).map(point));
-        let mut judged: Vec<(f64, Vec<f64>)> = points
+        let mut ranked: Vec<(f64, Vec<f64>)> = points
             .into_par_iter()
             .filter_map(|point| {
                 let residuals = self.residuals(&point, scatter).ok()?;
                 Some((residuals.iter().map(|r| r * r).sum(), point))
             })
             .collect();
-        judged.sort_by(|a, b| a.0.total_cmp(&b.0));
-        judged.into_iter().take(STARTS).map(|(_, p)| p).collect()
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ranked.into_iter().take(STARTS).map(|(_, p)| p).collect()
     }
 
     /// Scatter of the measured values about the model.

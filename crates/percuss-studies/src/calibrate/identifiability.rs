@@ -1,4 +1,4 @@
-//! Which parameters the data say something about.
+//! Which parameters the data determine.
 
 use nalgebra::{DMatrix, SVD};
 use serde::Serialize;
@@ -41,7 +41,7 @@ pub struct Unidentified {
 
 /// Parameters of which nothing, or only a combination, can be found from the derivatives of what the model gives.
 ///
-/// `slopes` has a row a measured value over its standard deviation and a column a parameter over the standard deviation of its prior.
+/// `slopes` has one row per measured value over its standard deviation and one column per parameter over the standard deviation of its prior.
 pub(super) fn of_rank(keys: &[&str], slopes: &DMatrix<f64>) -> Vec<Unidentified> {
     let largest = slopes.column_iter().map(|c| c.norm()).fold(0.0, f64::max);
     let silent = |i: usize| slopes.column(i).norm() <= RANK * largest;

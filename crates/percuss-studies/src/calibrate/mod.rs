@@ -136,7 +136,7 @@ pub struct Calibration {
     pub hold_out: Option<Quality>,
     /// How the posterior was sampled.
     pub sampling: Option<SamplingRecord>,
-    /// What to know before relying on the numbers.
+    /// Limitations of the numbers.
     pub warnings: Vec<String>,
     /// What the calibrated model says of each value.
     pub predictions: Vec<Prediction>,
@@ -207,7 +207,7 @@ pub fn run(
         .map(|(i, parameter)| ParameterRecord {
             key: parameter.key().to_owned(),
             unit: parameter.unit().to_owned(),
-            prior: predictive::CHANCES.map(|chance| parameter.quantile(chance)),
+            prior: predictive::PROBABILITIES.map(|probability| parameter.quantile(probability)),
             best: fit.values[i],
             standard_error: fit.standard_error(i),
             posterior: marginal(i),

@@ -21,7 +21,7 @@ pub struct Observation {
     pub sources: Vec<String>,
     /// What was measured.
     pub quantity: BandQuantity,
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity: f64,
     /// The measured value [m or m/s].
     pub measured: f64,
@@ -181,7 +181,7 @@ impl Observations {
 }
 
 impl Observation {
-    /// The case with its impact speed and with values for what is fitted; otherwise why there is none.
+    /// The case with its impact velocity and with values for what is fitted; otherwise why there is none.
     pub(super) fn scenario(&self, fitted: &[Fitted], values: &[f64]) -> Result<Scenario, String> {
         let changes: Vec<(&str, toml::Value)> = fitted
             .iter()
@@ -195,7 +195,7 @@ impl Observation {
         Ok(scenario.at_speed(self.impact_velocity))
     }
 
-    /// What a relative scatter is a part of: the measured value, or the impact speed for a speed behind the target, which may be 0.
+    /// What a relative scatter is a part of: the measured value, or the impact velocity for a residual velocity, which may be 0.
     pub(super) fn scale(&self) -> f64 {
         match self.quantity {
             BandQuantity::ResidualVelocity => self.impact_velocity,

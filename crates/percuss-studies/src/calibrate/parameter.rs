@@ -175,7 +175,7 @@ impl Fitted {
         &self.axis.unit
     }
 
-    /// Value that the number is below with a chance of `u` before anything was measured.
+    /// Value that the number is below with a probability of `u` before anything was measured.
     pub(super) fn quantile(&self, u: f64) -> f64 {
         self.prior.quantile(u)
     }

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::{
     Noise, Observer, ParameterRecord, Problem, Sample, Sampling, ScatterRecord, Stage, cancelled,
-    fit::Fit, heard, noise::SCATTER, predictive::CHANCES, sampler,
+    fit::Fit, heard, noise::SCATTER, predictive::PROBABILITIES, sampler,
 };
 use crate::{
     Error,
@@ -47,7 +47,7 @@ impl Marginal {
         Self {
             mean: mean(&values),
             standard_deviation: variance(&values).sqrt(),
-            quantiles: CHANCES.map(|chance| quantile(&sorted, chance)),
+            quantiles: PROBABILITIES.map(|probability| quantile(&sorted, probability)),
             r_hat: sample.r_hat(parameter),
             bulk_effective_size: sample.bulk_effective_size(parameter),
             tail_effective_size: sample.tail_effective_size(parameter),

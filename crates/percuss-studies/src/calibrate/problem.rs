@@ -225,7 +225,7 @@ impl Problem {
         match result.measurable(quantity) {
             None => Err(Silent::Always(gives_no(self.model.name(), quantity))),
             Some(value) if !value.is_finite() => Err(Silent::Here(format!("it gives {value}"))),
-            // A projectile that is stopped or thrown back has no speed behind the target.
+            // A projectile that is stopped or thrown back has no residual velocity.
             Some(value) if quantity == BandQuantity::ResidualVelocity => Ok(value.max(0.0)),
             Some(value) => Ok(value),
         }

@@ -1,4 +1,4 @@
-//! Every model on one case, at one or many impact speeds, and which of them to rely on.
+//! Every model on one case, at one or many impact velocitys, and which of them to rely on.
 //!
 //! ```
 //! use percuss::{case, compare::{compare, Observer}, model::quick};
@@ -39,9 +39,9 @@ pub struct Comparison {
     pub case: String,
     /// Version of the program.
     pub percuss_version: &'static str,
-    /// The recognised regime, one entry a speed.
+    /// The recognised regime, one entry per impact velocity.
     pub regime: Vec<SpeedRegime>,
-    /// What to rely on, one entry a speed.
+    /// What to rely on, one entry per impact velocity.
     pub recommended: Vec<Recommendation>,
     /// Quantities that tell most of this case, the leading one first.
     pub quantities: Vec<BandQuantity>,
@@ -54,7 +54,7 @@ pub struct Comparison {
 /// The regime at a speed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SpeedRegime {
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
     /// The regime.
     #[serde(flatten)]
@@ -66,7 +66,7 @@ pub struct SpeedRegime {
 pub struct ExperimentRecord {
     /// What was measured.
     pub quantity: BandQuantity,
-    /// Impact speed [m/s]; null for a ballistic limit without one.
+    /// Impact velocity [m/s]; null for a ballistic limit without one.
     pub impact_velocity_m_s: Option<f64>,
     /// The value.
     pub value: f64,
@@ -74,7 +74,7 @@ pub struct ExperimentRecord {
     pub uncertainty: Option<f64>,
     /// Bibliography keys.
     pub sources: Vec<String>,
-    /// What a user should know of it.
+    /// Remarks on it.
     pub note: String,
 }
 
@@ -93,7 +93,7 @@ impl ExperimentRecord {
     }
 }
 
-/// Runs models on a case at each of these impact speeds [m/s], on all cores.
+/// Runs models on a case at each of these impact velocitys [m/s], on all cores.
 ///
 /// A model that does not apply or that fails leaves the reason in its entry and never stops the others. The order of the
 /// entries does not depend on the order in which runs end.
@@ -133,7 +133,7 @@ pub fn compare(
     })
 }
 
-/// Part of an impact speed by which a run may differ from a measured one and still be the same.
+/// Part of an impact velocity by which a run may differ from a measured one and still be the same.
 const SAME_SPEED: f64 = 1e-3;
 
 fn same_speed(measured: f64, speed: f64) -> bool {
@@ -141,7 +141,7 @@ fn same_speed(measured: f64, speed: f64) -> bool {
 }
 
 impl Comparison {
-    /// Impact speeds [m/s].
+    /// Impact velocitys [m/s].
     pub fn speeds(&self) -> Vec<f64> {
         self.regime
             .iter()

@@ -300,7 +300,7 @@ fn a_neighbouring_regime_is_named() {
     assert_eq!(model, "soft");
     assert_eq!(
         note,
-        "the projectile may be rigid as well, for which `rigid` is the first choice: compare both"
+        "the projectile may also be rigid, for which `rigid` is the first choice: compare both"
     );
     let (model, note) = recommend(&[&rigid]);
     assert_eq!(model, "rigid");

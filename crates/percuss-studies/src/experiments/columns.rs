@@ -2,7 +2,7 @@
 
 /// Name of the target of a Taylor test.
 pub(super) const RIGID_WALL: &str = "rigid-wall";
-/// Thickness of a target whose back face does not matter.
+/// Thickness of a target whose rear face does not matter.
 pub(super) const SEMI_INFINITE: &str = "semi-infinite";
 
 /// A column of a file of tests.
@@ -64,7 +64,7 @@ pub const COLUMNS: &[CsvColumn] = &[
     ),
     required(
         "impact_velocity_m_s",
-        "impact speed; may be empty for a ballistic limit, which stands for it",
+        "impact velocity; may be empty for a ballistic limit, which stands for it",
     ),
     optional("obliquity_deg", "angle to the normal of the struck face"),
     required(
@@ -84,12 +84,12 @@ pub const COLUMNS: &[CsvColumn] = &[
     optional("target_brinell_hardness", "its Brinell hardness number"),
     optional(
         "target_concrete_strength_mpa",
-        "unconfined compressive strength, in place of a yield stress",
+        "unconfined compressive strength, instead of a yield stress",
     ),
     required("measured", "what was measured, in the unit of its kind"),
     required("unit", "mm for taylor and depth, m/s otherwise"),
     optional("uncertainty", "standard deviation, in the same unit"),
-    optional("trust", "A, B or C; empty when it is not judged"),
+    optional("trust", "A, B or C; empty when it is not graded"),
     optional("split", "blind (when empty) or calibration"),
     optional("flag", "why the row is suspect; no statistic counts it"),
     optional(
@@ -97,5 +97,5 @@ pub const COLUMNS: &[CsvColumn] = &[
         "id of the row that it repeats; no statistic counts it",
     ),
     optional("unusable", "why no case can be made of the row"),
-    optional("note", "what else to know"),
+    optional("note", "Other remarks"),
 ];

@@ -57,7 +57,7 @@ pub struct Experiment {
     pub mass: Option<f64>,
     /// Temperature of the projectile before the impact [K].
     pub temperature: Option<f64>,
-    /// Impact speed [m/s]; of a ballistic limit, the limit.
+    /// Impact velocity [m/s]; of a ballistic limit, the limit.
     pub impact_velocity: f64,
     /// Angle between the path and the normal of the struck face \[deg\].
     pub obliquity_deg: f64,
@@ -77,7 +77,7 @@ pub struct Experiment {
     pub duplicate_of: Option<String>,
     /// Why no case can be made of it.
     pub unusable: Option<String>,
-    /// What else to know.
+    /// Other remarks.
     pub note: String,
 }
 
@@ -152,11 +152,11 @@ pub enum Strength {
 pub enum Kind {
     /// Final length of a rod that struck a rigid wall.
     Taylor,
-    /// Impact speed at which half of the tests perforate, or what stands for it.
+    /// Impact velocity at which half of the tests perforate, or what stands for it.
     BallisticLimit,
     /// Depth of penetration.
     Depth,
-    /// Speed of the projectile behind the target; 0 when it was stopped.
+    /// Velocity of the projectile behind the target; 0 when it was stopped.
     ResidualVelocity,
 }
 

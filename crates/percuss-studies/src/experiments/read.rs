@@ -72,7 +72,7 @@ pub fn read_str(name: &str, text: &str, library: &Library) -> Result<Vec<Experim
                 0..0,
                 "",
                 "the file holds no test",
-                "write one row a test below the header",
+                "write one row per test below the header",
             )
             .into());
     }

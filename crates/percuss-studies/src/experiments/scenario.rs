@@ -18,7 +18,7 @@ impl Experiment {
     /// The test as a case, with one of its material records for the projectile.
     ///
     /// A ballistic limit becomes an impact at the limit. A plate that brought its properties has the strength law
-    /// `σ = Y (E ε/Y)ⁿ`; its back face is free. The projectile has a temperature of its own where it differs by more than 20 K from
+    /// `σ = Y (E ε/Y)ⁿ`; its rear face is free. The projectile has a temperature of its own where it differs by more than 20 K from
     /// the one at which its material was measured.
     ///
     /// # Errors

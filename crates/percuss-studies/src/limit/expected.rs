@@ -104,7 +104,7 @@ struct LimitError {
     error: f64,
 }
 
-/// Errors of every quick model that predicts limits, on every published limit that counts.
+/// Errors of every fast model that predicts limits, on every published limit that counts.
 static ERRORS: LazyLock<Vec<LimitError>> = LazyLock::new(|| {
     let mut models = fast_models();
     models.retain(|model| {

@@ -42,7 +42,7 @@ pub use expected::ExpectedLimitError;
 pub use fit::{LambertJonasFit, fit_lambert_jonas};
 pub use rear_face::{RearFace, with_free_rear_face};
 
-/// Range of impact speeds [m/s], ends included.
+/// Range of impact velocitys [m/s], ends included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
     /// Lowest.
@@ -80,7 +80,7 @@ impl Tolerance {
 /// Where and how closely to search, and how many residual velocities to compute.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
-    /// Range of impact speeds.
+    /// Range of impact velocitys.
     pub range: Range,
     /// How narrow the bracket is to be.
     pub tolerance: Tolerance,
@@ -139,16 +139,16 @@ impl LimitOutcome {
 /// The two runs that enclose a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bracket {
-    /// Highest impact speed below the limit that was stopped [m/s].
+    /// Highest impact velocity below the limit that was stopped [m/s].
     pub stopped_m_s: f64,
-    /// Lowest impact speed above it that perforated [m/s].
+    /// Lowest impact velocity above it that perforated [m/s].
     pub perforated_m_s: f64,
 }
 
-/// A speed behind the target.
+/// A residual velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CurvePoint {
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
     /// Residual velocity [m/s].
     pub residual_velocity_m_s: f64,
@@ -181,7 +181,7 @@ pub struct ModelLimit {
     pub curve: Vec<CurvePoint>,
     /// The curve of Lambert and Jonas through them.
     pub fit: Option<LambertJonasFit>,
-    /// What a user should know before relying on the numbers.
+    /// Limitations of the numbers.
     pub warnings: Vec<String>,
 }
 
@@ -192,13 +192,13 @@ pub struct Limits {
     pub case: String,
     /// Version of the program.
     pub percuss_version: &'static str,
-    /// Lowest and highest impact speed of the search [m/s].
+    /// Lowest and highest impact velocity of the search [m/s].
     pub searched_m_s: (f64, f64),
     /// Rear face of the target; null where it has none.
     pub rear_face: Option<RearFace>,
     /// The models that are the first choice at their own limit and predict limits; may be empty.
     pub recommended: Vec<Choice>,
-    /// What to know of that choice, if there is something.
+    /// Remarks on that choice, if there is something.
     pub note: Option<String>,
     /// Range of the limits that models predict; null where none does.
     pub range: Option<LimitRange>,

@@ -38,7 +38,7 @@ impl RearFace {
         })
     }
 
-    /// What a reader of a limit has to know of it; `None` where the case gives a free one.
+    /// Remark on the limit; `None` where the case gives a free one.
     pub fn describe(self) -> Option<String> {
         match (self.assumed, self.impossible()) {
             (_, Some(impossible)) => Some(impossible),

@@ -3,7 +3,7 @@
 use super::{LimitOutcome, ModelLimit};
 use crate::{Scenario, compare::Choice, model::Model, outcome::BandQuantity, regime::Regime};
 
-/// The first choices among the models that predict limits, each judged at its own limit, and what to know of them.
+/// The first choices among the models that predict limits, each classified at its own limit, and what to know of them.
 ///
 /// A first choice that predicts depths alone has not been compared with measured limits: it is named, not recommended.
 pub(super) fn recommended(

@@ -17,7 +17,7 @@ use crate::{
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct LimitRun {
     pub scheme: &'static str,
-    /// Speed behind the target [m/s].
+    /// Residual velocity [m/s].
     pub residual: Option<f64>,
     /// Ballistic limit that the model states [m/s].
     pub stated: Option<f64>,
@@ -61,12 +61,12 @@ pub(super) fn unsuited(model: &dyn Model, scenario: &Scenario) -> Option<(LimitO
         Some(face) => Some((LimitOutcome::NeverPerforates, face.impossible()?)),
         None => Some((
             LimitOutcome::NotApplicable,
-            "the target has no back face to perforate".to_owned(),
+            "the target has no rear face to perforate".to_owned(),
         )),
     }
 }
 
-/// Whether a run went through.
+/// Whether a run perforates.
 pub(super) fn passage(result: &RunResult) -> Passage {
     let why = match result.outcome {
         Outcome::Separated => {

@@ -15,7 +15,7 @@ const MOST_RUNS: usize = 100;
 pub(super) enum Passage {
     /// The target stops it.
     Stopped,
-    /// It goes through.
+    /// Perforated.
     Perforated,
     /// Neither is known, for this reason.
     Undecided(String),
@@ -24,7 +24,7 @@ pub(super) enum Passage {
 /// A run at a speed.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Sample<T> {
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub speed: f64,
     /// What became of it.
     pub passage: Passage,

@@ -13,7 +13,7 @@ use crate::{
 
 const FREE: &str = "back_face = \"free\"";
 const FIXED: &str = "back_face = \"fixed\"";
-/// A plate that a column of material lets a fast rod through.
+/// A plate whose column is perforated by a fast rod.
 const SHEET: &str = r#"
     projectile = { material = "copper", length = "20 mm", diameter = "5 mm", impact_velocity = "300 m/s" }
     target = { material = "aluminium-2024-t351", thickness = "5 mm"BACK }

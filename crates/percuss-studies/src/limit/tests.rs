@@ -270,7 +270,7 @@ fn what_has_no_back_or_says_nothing_of_perforation_is_not_applicable() {
         (found.outcome, found.runs),
         (LimitOutcome::NotApplicable, 0)
     );
-    assert!(found.reason.unwrap().contains("no back face"));
+    assert!(found.reason.unwrap().contains("no rear face"));
     let poncelet = one(
         &crate::analytic::Poncelet,
         &scenario(OGIVE),

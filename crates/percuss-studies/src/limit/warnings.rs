@@ -1,4 +1,4 @@
-//! What a user should know before relying on a limit that was searched for.
+//! Limitations of a limit that was searched for.
 
 use super::{
     Bracket, LambertJonasFit,

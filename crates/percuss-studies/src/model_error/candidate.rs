@@ -1,4 +1,4 @@
-//! What is judged: every quick model that gives depths, and every closure of the chain's target.
+//! Candidates of the benchmark: every fast model that gives depths, and every target resistance model of the chain.
 
 use std::sync::LazyLock;
 
@@ -12,46 +12,49 @@ use crate::{
 /// A model, with one choice of the options that decide its depth.
 #[derive(Clone, Copy)]
 pub struct Candidate {
-    /// Its name: that of the model, and of the closure where it is not the default one.
+    /// Its name: that of the model, and of the target resistance model where it is not the default one.
     pub name: &'static str,
     /// The model.
     pub model: &'static dyn Model,
-    /// The closure, for the chain.
-    closure: Option<Closure>,
+    /// The target resistance model, for the chain.
+    resistance: Option<ResistanceOptions>,
 }
 
 /// Options of the chain that close its target.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Closure {
+struct ResistanceOptions {
     target: TargetResistanceModel,
     border_shear: Option<f64>,
 }
 
 /// Closures of the chain's target.
-const CLOSURES: &[(&str, Closure)] = &[
-    ("chain: column", Closure::of(TargetResistanceModel::Column)),
+const RESISTANCE_MODELS: &[(&str, ResistanceOptions)] = &[
+    (
+        "chain: column",
+        ResistanceOptions::of(TargetResistanceModel::Column),
+    ),
     (
         "chain: column, no border shear",
-        Closure {
+        ResistanceOptions {
             target: TargetResistanceModel::Column,
             border_shear: Some(0.0),
         },
     ),
     (
         "chain: diverging",
-        Closure::of(TargetResistanceModel::Diverging),
+        ResistanceOptions::of(TargetResistanceModel::Diverging),
     ),
     (
         "chain: diverging-penetrable",
-        Closure::of(TargetResistanceModel::DivergingPenetrable),
+        ResistanceOptions::of(TargetResistanceModel::DivergingPenetrable),
     ),
     (
         "chain: expanding-cavity",
-        Closure::of(TargetResistanceModel::ExpandingCavity),
+        ResistanceOptions::of(TargetResistanceModel::ExpandingCavity),
     ),
 ];
 
-impl Closure {
+impl ResistanceOptions {
     const fn of(target: TargetResistanceModel) -> Self {
         Self {
             target,
@@ -59,7 +62,7 @@ impl Closure {
         }
     }
 
-    /// Whether a case has this closure, and the constants that it was judged with.
+    /// Whether a case has this target resistance model, and the constants that it had in the benchmark.
     fn is_of(&self, options: &ChainOptions) -> bool {
         let own = self.options();
         let column = options.border_shear() == own.border_shear()
@@ -103,16 +106,20 @@ fn list() -> Vec<Candidate> {
             .predicts
             .contains(&BandQuantity::DepthOfPenetration);
         if model.name() == "chain" {
-            candidates.extend(CLOSURES.iter().map(|(name, closure)| Candidate {
-                name,
-                model,
-                closure: Some(*closure),
-            }));
+            candidates.extend(
+                RESISTANCE_MODELS
+                    .iter()
+                    .map(|(name, resistance)| Candidate {
+                        name,
+                        model,
+                        resistance: Some(*resistance),
+                    }),
+            );
         } else if depth {
             candidates.push(Candidate {
                 name: model.name(),
                 model,
-                closure: None,
+                resistance: None,
             });
         }
     }
@@ -120,24 +127,24 @@ fn list() -> Vec<Candidate> {
 }
 
 impl Candidate {
-    /// The candidate that a model is, with the options of a case; `None` with options that were not judged.
+    /// The candidate that a model is, with the options of a case; `None` with options that are not in the benchmark.
     pub fn of(model: &dyn Model, scenario: &Scenario) -> Option<Self> {
         let options = &scenario.options;
-        let judged = |candidate: &Candidate| match candidate.closure {
-            Some(closure) => closure.is_of(&options.chain),
+        let matching = |candidate: &Candidate| match candidate.resistance {
+            Some(resistance) => resistance.is_of(&options.chain),
             None => options.are_default(candidate.name),
         };
         let mut own = candidates()
             .iter()
             .filter(|c| c.model.name() == model.name());
-        own.find(|candidate| judged(candidate)).copied()
+        own.find(|candidate| matching(candidate)).copied()
     }
 
     /// A case with the options of the candidate.
     pub fn scenario(&self, scenario: &Scenario) -> Scenario {
         let mut scenario = scenario.clone();
-        if let Some(closure) = self.closure {
-            scenario.options.chain = closure.options();
+        if let Some(resistance) = self.resistance {
+            scenario.options.chain = resistance.options();
         }
         scenario
     }
@@ -157,7 +164,7 @@ mod tests {
     use crate::{case, model};
 
     #[test]
-    fn only_what_was_judged_is_a_contender() {
+    fn only_what_is_in_the_benchmark_is_a_candidate() {
         let case = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '900 m/s' }\n\
                     target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n";
         for (name, options, expected) in [

@@ -15,7 +15,7 @@ pub struct ErrorRecord {
     pub target: String,
     /// Length of the projectile over its diameter.
     pub length_to_diameter: f64,
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
     /// What the projectile does in this case.
     pub regime: ProjectileRegime,

@@ -84,7 +84,7 @@ pub fn records() -> &'static [ErrorRecord] {
 }
 
 /// Error to expect of a model's depth on a case; `None` where the design has too few cases like it: other noses, thin targets,
-/// speeds or lengths beyond the design, options that were not judged.
+/// speeds or lengths beyond the design, options that were not classified.
 pub fn estimate_error(
     model: &dyn Model,
     scenario: &Scenario,

@@ -89,8 +89,8 @@ impl ResultRecord {
 }
 
 fn target_resistance(scenario: &Scenario, model: &str) -> Option<&'static str> {
-    let closure = resistance_model_in_use(scenario).filter(|_| model == "chain");
-    closure.map(TargetResistanceModel::name)
+    let resistance = resistance_model_in_use(scenario).filter(|_| model == "chain");
+    resistance.map(TargetResistanceModel::name)
 }
 
 impl CaseResults {

@@ -217,7 +217,7 @@ result_record! {
         fragments: Vec<FragmentRecord>;
         /// Numbers that this model alone has.
         details: Vec<ModelDetail>;
-        /// Warnings: what to know before relying on the numbers.
+        /// Warnings: Limitations of the numbers.
         warnings: Vec<String>;
     }
 }

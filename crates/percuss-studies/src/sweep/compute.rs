@@ -17,7 +17,7 @@ pub struct Observer<'a> {
     pub progress: &'a (dyn Fn(u64, u64) + Sync),
 }
 
-/// What comes of `count` runs in blocks of `size`, in the order of the runs.
+/// Results of `count` runs in blocks of `size`, in the order of the runs.
 pub(crate) fn in_blocks<T: Send>(
     count: u64,
     size: u64,

@@ -63,7 +63,7 @@ fn covariance(a: &[f64], b: &[f64]) -> f64 {
     products.sum::<f64>() / count
 }
 
-/// Places in the order of size, over the count: chances by the sample itself.
+/// Places in the order of size, over the count: probabilities by the sample itself.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
@@ -132,8 +132,8 @@ fn marginals_stay_and_ranks_correlate_as_the_copula_says() {
         assert!((a / b - 1.0).abs() < 1e-12);
     }
     assert_eq!(joined[3], alone[3]);
-    // Kolmogorov's distance of the chances of each value from even ones.
-    let chances: [Box<dyn Fn(f64) -> f64>; 3] = [
+    // Kolmogorov's distance of the probabilities of each value from even ones.
+    let probabilities: [Box<dyn Fn(f64) -> f64>; 3] = [
         Box::new(|v| (v - 200.0) / 60.0),
         Box::new(|h| match h < 22.0 {
             true => (h - 20.0).powi(2) / 20.0,
@@ -141,11 +141,11 @@ fn marginals_stay_and_ranks_correlate_as_the_copula_says() {
         }),
         Box::new(|f: f64| 0.5 * libm::erfc(-(f / 2.7).ln() / 0.1 / 2.0_f64.sqrt())),
     ];
-    for (column, chance) in joined.iter().zip(&chances) {
+    for (column, probability) in joined.iter().zip(&probabilities) {
         let distances = column
             .iter()
             .zip(ranks(column))
-            .map(|(v, rank)| (chance(*v) - rank).abs());
+            .map(|(v, rank)| (probability(*v) - rank).abs());
         let largest = distances.fold(0.0, f64::max);
         assert!(largest < 0.004, "{largest}");
     }

@@ -75,7 +75,7 @@ impl Sweep {
         load::load(path.as_ref())
     }
 
-    /// Reads a sweep from a text, with the case of another text in the place of the file that it names.
+    /// Reads a sweep from a text, with the case of another text instead of the file that it names.
     ///
     /// # Errors
     /// [`Error::Input`], as [`Sweep::load`].

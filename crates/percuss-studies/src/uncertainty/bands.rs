@@ -1,4 +1,4 @@
-//! What a study says over a range of impact speeds.
+//! What a study says over a range of impact velocitys.
 
 use super::{
     design::Rows,

@@ -35,15 +35,15 @@ pub struct Uncertainty {
     pub nominal: Nominal,
     /// Runs of the sample without a result.
     pub failures: Failures,
-    /// Chance of perforation; null when no run decides it.
+    /// Probability of perforation; null when no run decides it.
     pub perforation: Option<Perforation>,
     /// Each quantity that was looked at.
     pub quantities: Vec<QuantityResult>,
     /// Why there are no Sobol' indices, if there are none at all.
     pub no_indices: Option<String>,
-    /// Spread at each impact speed, where speeds were asked for.
+    /// Spread at each impact velocity, where speeds were asked for.
     pub bands: Vec<Band>,
-    /// What to know before relying on the numbers.
+    /// Limitations of the numbers.
     pub warnings: Vec<String>,
     /// The runs of the sample; not in JSON.
     #[serde(skip)]
@@ -166,22 +166,22 @@ impl TornadoBar {
     }
 }
 
-/// Spread at one impact speed.
+/// Spread at one impact velocity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Band {
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
     /// Runs at this speed.
     pub runs: usize,
     /// Runs without a result among them.
     pub failed: usize,
-    /// Chance of perforation.
+    /// Probability of perforation.
     pub perforation: Option<Perforation>,
     /// Each quantity that was looked at.
     pub quantities: Vec<QuantitySpread>,
 }
 
-/// Spread of a quantity at one impact speed.
+/// Spread of a quantity at one impact velocity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct QuantitySpread {
     /// Its name in results, with the unit.

@@ -9,7 +9,7 @@ use crate::sweep::{Kernel, Observer, Stopped, SweepRun, in_blocks};
 const BLOCKS: u64 = 64;
 /// Most runs in a block.
 const LARGEST_BLOCK: u64 = 256;
-/// Key of the impact speed.
+/// Key of the impact velocity.
 pub(super) const SPEED: &str = "projectile.impact_velocity";
 
 /// Computes runs in blocks, in parallel.

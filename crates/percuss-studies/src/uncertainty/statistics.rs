@@ -6,7 +6,7 @@ use crate::statistics::{quantile, sorted};
 
 /// Percentiles that are given of everything.
 pub const PERCENTS: [f64; 7] = [1.0, 5.0, 25.0, 50.0, 75.0, 95.0, 99.0];
-/// Score within which a normal variable lies with a chance of 95 %.
+/// Score within which a normal variable lies with a probability of 95 %.
 pub(super) const SCORE_95: f64 = 1.959_963_984_540_054;
 
 /// A number with its 95 % interval.

@@ -30,11 +30,9 @@ pub(super) fn likeliest(link: Link, tests: &[Test], pattern: Pattern) -> Estimat
             };
         }
         Pattern::Reversed => {
-            return none(
-                "the faster tests were stopped and the slower ones went through".to_owned(),
-            );
+            return none("the partial penetrations are faster than the complete ones".to_owned());
         }
-        Pattern::AllStopped => return none("no test went through".to_owned()),
+        Pattern::AllStopped => return none("there is no complete penetration".to_owned()),
         Pattern::AllPerforated => return none("no test was stopped".to_owned()),
     }
     let count = tests.len() as f64;
@@ -65,7 +63,7 @@ pub(super) fn likeliest(link: Link, tests: &[Test], pattern: Pattern) -> Estimat
     }
 }
 
-/// Speeds of the fastest test that was stopped and of the slowest that went through [m/s].
+/// Impact velocities of the fastest partial and of the slowest complete penetration [m/s].
 fn gap(tests: &[Test]) -> (f64, f64) {
     (
         speeds(tests, false).fold(f64::MIN, f64::max),
@@ -76,12 +74,12 @@ fn gap(tests: &[Test]) -> (f64, f64) {
 fn separated(stopped: f64, through: f64) -> String {
     let (stopped, through) = (significant(stopped, 6), significant(through, 6));
     format!(
-        "no zone of mixed results: every test up to {stopped} m/s was stopped and every one from {through} m/s went through; \
+        "no zone of mixed results: all tests up to {stopped} m/s are partial penetrations and all from {through} m/s are complete; \
          any V50 between them with a scatter of zero is equally likely"
     )
 }
 
-/// 1 for a test that went through, −1 for one that was stopped.
+/// 1 for a complete penetration, −1 for a partial one.
 pub(super) fn sign(test: &Test) -> f64 {
     match test.perforated {
         true => 1.0,
@@ -90,7 +88,7 @@ pub(super) fn sign(test: &Test) -> f64 {
 }
 
 fn log_likelihood(link: Link, scaled: &[(f64, f64)], line: Line) -> f64 {
-    let log = |(x, sign): &(f64, f64)| link.log_chance(sign * (line.alpha + line.beta * x));
+    let log = |(x, sign): &(f64, f64)| link.log_probability(sign * (line.alpha + line.beta * x));
     scaled.iter().map(log).sum()
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Test, fit::sign, link::Link};
 
-/// Value that a chi-square variable of one degree of freedom stays below with a chance of 0.95.
+/// Value that a chi-square variable of one degree of freedom stays below with a probability of 0.95.
 const CHI_SQUARE: f64 = 3.841_458_820_694_124;
 /// Spreads of the speeds beyond which an end is looked for no further.
 const FARTHEST: f64 = 1e4;
@@ -62,7 +62,9 @@ fn profile(link: Link, tests: &[Test], v50: f64) -> f64 {
         .map(|test| sign(test) * (test.impact_velocity - v50))
         .collect();
     let at = |steepness: f64| -> f64 {
-        let logs = distances.iter().map(|d| link.log_chance(steepness * d));
+        let logs = distances
+            .iter()
+            .map(|d| link.log_probability(steepness * d));
         logs.sum()
     };
     if distances.iter().all(|distance| *distance >= 0.0) {
@@ -71,7 +73,7 @@ fn profile(link: Link, tests: &[Test], v50: f64) -> f64 {
             .iter()
             .filter(|distance| **distance == 0.0)
             .count();
-        return even as f64 * link.log_chance(0.0);
+        return even as f64 * link.log_probability(0.0);
     }
     let slope = |steepness: f64| -> f64 {
         let slopes = distances.iter().map(|d| d * link.slopes(steepness * d).0);

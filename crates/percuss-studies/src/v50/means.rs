@@ -1,4 +1,4 @@
-//! V50 as the mean of equal numbers of the fastest stopped tests and the slowest that went through \[milstd662f\].
+//! V50 as the mean of equal numbers of the fastest partial and the slowest complete penetrations \[milstd662f\].
 
 use super::{Estimate, Method, Test, speeds};
 use crate::{statistics::sorted, units::significant};
@@ -31,7 +31,7 @@ pub(super) fn of_extremes(tests: &[Test], span: f64) -> Estimate {
         return Estimate::none(
             method,
             format!(
-                "the {FEWEST} fastest stopped tests and the {FEWEST} slowest that went through span {} m/s, more than {} m/s",
+                "the {FEWEST} fastest partial and the {FEWEST} slowest complete penetrations span {} m/s, more than {} m/s",
                 significant(span_of(FEWEST), 4),
                 significant(span, 4)
             ),

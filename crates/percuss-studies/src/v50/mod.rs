@@ -1,6 +1,6 @@
-//! V50, the speed at which half of the tests go through, from tests that were stopped or went through.
+//! V50, the impact velocity with a probability of complete penetration of one half, from partial and complete penetrations.
 //!
-//! Tests scatter: near the limit some are stopped that are faster than others that go through. The chance of going through is taken
+//! Tests scatter: near the limit some partial penetrations are faster than some complete ones. The probability of complete penetration is taken
 //! as `F((v − V50)/s)` with the normal distribution (probit) or the logistic one (logit) for F, and V50 and s by maximum
 //! likelihood \[mckaig1983\]. The interval is that of the likelihood ratio \[neyer1992\].
 //!
@@ -29,13 +29,13 @@ use link::Link;
 
 pub use read::{COLUMNS, read, read_str};
 
-/// A test at a target that was stopped or went through.
+/// A test with a partial or a complete penetration.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Test {
     /// Impact velocity [m/s].
     #[serde(rename = "impact_velocity_m_s")]
     pub impact_velocity: f64,
-    /// Whether it went through.
+    /// Whether the penetration was complete.
     pub perforated: bool,
 }
 
@@ -45,19 +45,19 @@ pub const CONFIDENCE: f64 = 0.95;
 /// Widest span of the tests that V50 is the mean of [m/s]: 125 ft/s \[milstd662f\].
 pub const SPAN: f64 = 38.1;
 
-/// How stopped tests and those that went through lie to each other.
+/// Pattern of partial and complete penetrations over the impact velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Pattern {
-    /// Some stopped tests are faster than some that went through: there is a zone of mixed results.
+    /// Some partial penetrations are faster than some complete ones: a zone of mixed results.
     Mixed,
-    /// All stopped tests are slower than all that went through, or as fast as the slowest of them.
+    /// All partial penetrations are slower than all complete ones, or as fast as the slowest: complete separation.
     Separated,
-    /// All stopped tests are faster than all that went through, or as fast as the fastest of them.
+    /// All partial penetrations are faster than all complete ones, or as fast as the fastest.
     Reversed,
-    /// All were stopped.
+    /// All are partial penetrations.
     AllStopped,
-    /// All went through.
+    /// All are complete penetrations.
     AllPerforated,
 }
 
@@ -69,7 +69,7 @@ pub enum Method {
     Probit,
     /// Maximum likelihood with the logistic distribution.
     Logit,
-    /// Mean of equal numbers of the fastest stopped tests and the slowest that went through.
+    /// Mean of equal numbers of the fastest partial and the slowest complete penetrations.
     MeanOfExtremes,
 }
 
@@ -138,17 +138,17 @@ impl Estimate {
 pub struct V50 {
     /// Number of tests.
     pub tests: usize,
-    /// How many went through.
+    /// Number of complete penetrations.
     pub perforated: usize,
-    /// Fastest test that was stopped [m/s].
+    /// Fastest partial penetration [m/s].
     pub highest_stopped_m_s: Option<f64>,
-    /// Slowest test that went through [m/s].
+    /// Slowest complete penetration [m/s].
     pub lowest_perforated_m_s: Option<f64>,
     /// How the two kinds lie to each other.
     pub pattern: Pattern,
     /// Level of the intervals.
     pub confidence: f64,
-    /// One entry a method.
+    /// One entry per method.
     pub estimates: Vec<Estimate>,
 }
 
@@ -159,7 +159,7 @@ impl V50 {
     }
 }
 
-/// Speeds of the tests that were stopped, or of those that went through.
+/// Impact velocities of the partial penetrations, or of the complete ones.
 fn speeds(tests: &[Test], perforated: bool) -> impl Iterator<Item = f64> + Clone {
     let kind = tests.iter().filter(move |s| s.perforated == perforated);
     kind.map(|test| test.impact_velocity)
@@ -204,13 +204,13 @@ pub fn estimate(tests: &[Test], span: f64) -> V50 {
     }
 }
 
-/// Chance that a test of this speed [m/s] goes through, by an estimate of maximum likelihood.
-pub fn chance(estimate: &Estimate, speed: f64) -> Option<f64> {
+/// Probability of complete penetration at an impact velocity [m/s], by an estimate of maximum likelihood.
+pub fn probability(estimate: &Estimate, speed: f64) -> Option<f64> {
     let link = match estimate.method {
         Method::Probit => Link::Probit,
         Method::Logit => Link::Logit,
         Method::MeanOfExtremes => return None,
     };
     let scale = estimate.standard_deviation_m_s? / link.standard_deviation();
-    Some(link.chance((speed - estimate.v50_m_s?) / scale))
+    Some(link.probability((speed - estimate.v50_m_s?) / scale))
 }

@@ -1,4 +1,4 @@
-//! Reading a file of tests that were stopped or went through.
+//! Files of partial and complete penetrations.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use crate::{
 const VELOCITY: &str = "impact_velocity_m_s";
 const PERFORATED: &str = "perforated";
 
-/// Columns of a file: the impact speed [m/s], `yes` or `no`, and a note that nothing reads.
+/// Columns of a file: the impact velocity [m/s], `yes` or `no`, and a note that nothing reads.
 pub const COLUMNS: [&str; 3] = [VELOCITY, PERFORATED, "note"];
 
 /// Reads a file of tests: comma-separated values with the columns [`COLUMNS`], of which the first two are required.
@@ -41,7 +41,7 @@ pub fn read_str(name: &str, text: &str) -> Result<Vec<Test>, Error> {
         })?);
     }
     if tests.is_empty() {
-        let help = "write one row a test below the header, such as 184.3,yes";
+        let help = "write one row per test below the header, such as 184.3,yes";
         let error = table.error(0..0, "", "the file holds no test", help);
         return Err(error.into());
     }

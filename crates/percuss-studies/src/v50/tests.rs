@@ -16,7 +16,7 @@ fn by(method: Method, tests: &[Test]) -> Estimate {
     estimate(tests, SPAN).of(method).unwrap().clone()
 }
 
-/// Tests at two speeds: as many numbers as unknowns, so that the likeliest chances are the parts that went through.
+/// Tests at two speeds: as many numbers as unknowns, so that the most likely probabilities are the parts that went through.
 #[test]
 fn at_two_speeds_the_likeliest_chances_are_the_observed_parts() {
     // 1 of 4 at 200 m/s, 3 of 4 at 210 m/s.
@@ -71,7 +71,7 @@ fn at_the_ends_of_the_interval_the_likelihood_is_down_by_half_of_chi_square() {
                 .map(|i| 0.005 * f64::from(i))
                 .map(|scale| {
                     let log = |s: &Test| {
-                        link.log_chance(fit::sign(s) * (s.impact_velocity - v50) / scale)
+                        link.log_probability(fit::sign(s) * (s.impact_velocity - v50) / scale)
                     };
                     mixed.iter().map(log).sum::<f64>()
                 })
@@ -93,7 +93,7 @@ fn known_numbers_are_recovered() {
         let speeds = (0..21).map(|i| 284.0 + 1.6 * f64::from(i));
         let at = |speed: f64| {
             let z = (speed - v50) / deviation * link.standard_deviation();
-            let through = (100.0 * link.chance(z)).round() as usize;
+            let through = (100.0 * link.probability(z)).round() as usize;
             (0..100).map(move |i| Test {
                 impact_velocity: speed,
                 perforated: i < through,
@@ -198,7 +198,7 @@ fn tests_of_one_kind_and_reversed_ones_give_reasons() {
         (
             tests(&[180.0, 190.0], &[]),
             Pattern::AllStopped,
-            "no test went through",
+            "there is no complete penetration",
         ),
         (
             tests(&[], &[180.0, 190.0]),

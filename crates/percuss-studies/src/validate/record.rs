@@ -42,7 +42,7 @@ pub struct PredictionRecord {
     pub obliquity_deg: f64,
     /// Temperature of the projectile [K].
     pub temperature_k: Option<f64>,
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
     /// Name of the model.
     pub model: &'static str,

@@ -2,7 +2,7 @@
 
 mod laws;
 mod records;
-mod slips;
+mod unit_errors;
 
 use super::*;
 use crate::check::{Check, Diagnostic};

@@ -26,7 +26,7 @@ pub(super) struct MotionState {
     pub depth: f64,
     /// Thickness of plate that was crushed and moves with the projectile [m].
     pub crushed: f64,
-    /// Speed of the projectile [m/s].
+    /// Velocity of the projectile [m/s].
     pub speed: f64,
     /// Speed of the rest of the plug [m/s].
     pub plug_speed: f64,
@@ -57,7 +57,7 @@ pub(super) struct Perforation {
 
 /// Part of a changing quantity by which one step may change it.
 const STEP: f64 = 0.05;
-/// Steps over the time that the plate's thickness takes at the impact speed.
+/// Steps over the time that the plate's thickness takes at the impact velocity.
 const STEPS: f64 = 200.0;
 /// Difference of speeds, and thickness left, that count as none, as parts of the speed and the thickness at the start.
 const NOTHING: f64 = 1e-9;
@@ -110,7 +110,7 @@ impl Impact {
         self.mass / self.joint_mass() * self.rim_force * self.rim(moment)
     }
 
-    /// The case at an impact speed above zero [m/s].
+    /// The case at an impact velocity above zero [m/s].
     pub fn case(&self, speed: f64, record: bool) -> Perforation {
         let mut moments = Vec::new();
         let start = MotionState {

@@ -29,7 +29,7 @@ pub struct WalkerAnderson;
 /// Slope of shock speed against particle speed where a material has none: metals have 1.2 to 1.7.
 const TYPICAL_SLOPE: f64 = 1.5;
 
-/// Crater radius over the rod's at an impact speed [m/s], a fit to steel targets \[walker1995\].
+/// Crater radius over the rod's at an impact velocity [m/s], a fit to steel targets \[walker1995\].
 fn crater_ratio(speed: f64) -> f64 {
     1.0 + 2.87e-4 * speed + 1.48e-7 * speed * speed
 }

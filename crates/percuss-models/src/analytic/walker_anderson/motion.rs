@@ -11,7 +11,7 @@ use crate::error::NumericalError;
 
 /// Error of a step as a part of the quantity.
 const TOLERANCE: f64 = 1e-10;
-/// Part of the impact speed at which a speed counts as zero.
+/// Part of the impact velocity at which a speed counts as zero.
 const STOPPED: f64 = 1e-7;
 /// Part of the length at which a rod counts as used up.
 const USED_UP: f64 = 1e-7;

@@ -222,7 +222,7 @@ fn friction_without_bounds_is_sticking() {
 }
 
 #[test]
-fn slabs_that_are_held_at_their_edge_meet_with_closed_books() {
+fn slabs_that_are_held_at_their_edge_meet_with_a_closed_energy_balance() {
     const RADIUS: f64 = 10e-3;
     const HEIGHT: f64 = 5e-3;
     let cell = HEIGHT / 20.0;

@@ -182,7 +182,7 @@ fn spherical_shell(inner: f64, outer: f64, spacing: f64) -> Vec<([f64; 2], f64)>
     sections
 }
 
-/// A smooth back face in front of everything: nothing moves along the axis.
+/// A smooth rear face in front of everything: nothing moves along the axis.
 const ALL_ROWS: isize = isize::MIN;
 
 /// Bodies without supports, ready to move.

@@ -100,7 +100,7 @@ fn a_wave_leaves_through_a_back_face() {
         };
         let solver = supported(vec![slab], vec![supports], cell);
         let left = left(solver, |p| p.position[0] < 0.1 * LENGTH);
-        println!("back face, {cells} cells: {:.2} % comes back", 100.0 * left);
+        println!("rear face, {cells} cells: {:.2} % comes back", 100.0 * left);
         assert!(left < 2.0 / cells);
     }
 }

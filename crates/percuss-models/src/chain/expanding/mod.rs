@@ -1,4 +1,4 @@
-//! Target closure `expanding-cavity`: a projectile that takes time to widen, on a crater floor that advances against the pressure
+//! Target resistance model `expanding-cavity`: a projectile that takes time to widen, on a crater floor that advances against the pressure
 //! of an expanding cavity, carried by an elastic cone.
 //!
 //! It has a solver of its own: no part of the column is left in it.
@@ -61,10 +61,12 @@ const SMALLEST_COURANT: f64 = 0.05;
 /// Steps between two audits.
 const AUDIT_INTERVAL: u64 = 64;
 
-/// Why a case cannot be run with this closure, if it cannot.
+/// Why a case cannot be run with this target resistance model, if it cannot.
 pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     let Some(plate) = struck(scenario) else {
-        return Some("the target closure `expanding-cavity` needs a target of one material".into());
+        return Some(
+            "the target resistance model `expanding-cavity` needs a target of one material".into(),
+        );
     };
     if scenario.resistance.is_some() {
         return None;
@@ -76,7 +78,7 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
         .initial_yield_stress(&plate.material);
     yields
         .is_none()
-        .then(|| "the target closure `expanding-cavity` needs a target that yields".into())
+        .then(|| "the target resistance model `expanding-cavity` needs a target that yields".into())
 }
 
 fn struck(scenario: &Scenario) -> Option<&Plate> {
@@ -121,7 +123,7 @@ impl<'a> Cavity<'a> {
         let count = options.projectile_elements();
         let rod = Rod::new(metal, count, projectile.length, area, temperature, speed);
         let radius = (area / std::f64::consts::PI).sqrt();
-        // The floor advances at about half the impact speed, and the flow under it is as deep as the projectile is thick.
+        // The floor advances at about half the impact velocity, and the flow under it is as deep as the projectile is thick.
         let rate = if rate_effects {
             speed / (2.0 * radius)
         } else {

@@ -1,4 +1,4 @@
-//! Exact answers that the parts of the closure and their interplay must give.
+//! Exact answers that the parts of the expanding cavity and their interaction must give.
 
 use std::{f64::consts::PI, sync::Arc};
 
@@ -268,7 +268,7 @@ fn a_rigid_rod_is_stopped_by_the_resistance_alone() {
 }
 
 #[test]
-fn the_books_balance_and_the_depth_grows_with_speed() {
+fn the_balances_close_and_the_depth_grows_with_speed() {
     for (projectile, target) in [
         ("copper-woodward", "aluminium-2024-t351-woodward"),
         ("4340-johnson-cook", "6061-t6-lesuer"),

@@ -156,7 +156,7 @@ impl Published<'_> {
                 .count();
         if inverted > 0 {
             warnings.push(format!(
-                "{inverted} springs are shorter than nothing: small strain lets elements invert"
+                "{inverted} springs are shorter than nothing: elements can invert under small-strain kinematics"
             ));
         }
         match self.options.interface {

@@ -3,7 +3,7 @@
 use super::{BoundaryCondition, Grid, Law, kick::dry_friction};
 
 impl<L: Law> Grid<L> {
-    /// Moves the shared node of a closed contact, or lets it split when it would have to pull.
+    /// Moves the shared node of a closed contact, or splits it when it would have to pull.
     pub(super) fn kick_joined(&mut self, s: usize, time_step: f64) {
         let a = self.span(s).1;
         let b = a + 1;

@@ -32,7 +32,7 @@ const LARGEST_SHORTENING: f64 = 0.02;
 const SLACK: f64 = 1.1;
 const GROWTH: f64 = 1.05;
 
-/// What holds an end of the grid.
+/// Boundary condition of an end of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::fdm) enum BoundaryCondition {
     /// Nothing.

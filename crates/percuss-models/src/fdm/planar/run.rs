@@ -34,7 +34,7 @@ const PASSAGES: f64 = 3.0;
 /// Most cells of a target whose cells are to be as long as the projectile's.
 const MOST_CELLS: f64 = 20_000.0;
 
-/// Motion of the back face: whether it is one that can move freely, its largest speed, and the smallest one after that.
+/// Motion of the rear face: whether it is one that can move freely, its largest speed, and the smallest one after that.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct BackFaceMotion {
     pub(super) free: bool,

@@ -25,7 +25,7 @@ use crate::{
 
 /// Part of the initial energy that may still dissipate in a window of a run whose bodies touch.
 const QUIET_FRACTION: f64 = 1e-6;
-/// The same when they have parted: what rings inside them then changes neither depth nor speed.
+/// The same after separation: vibrations then change neither depth nor velocity.
 const PARTED_FRACTION: f64 = 1e-4;
 
 /// Projectile and target as rods.

@@ -1,4 +1,4 @@
-//! The chance of perforation where it is known.
+//! The probability of perforation where it is known.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 

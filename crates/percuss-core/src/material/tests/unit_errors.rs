@@ -1,11 +1,11 @@
-//! A slip of a factor of 1000 is caught.
+//! Unit errors of a factor of 1000 are detected.
 
 use super::*;
 
-/// The slip.
+/// The unit error.
 const K: f64 = 1e3;
 
-/// Every quantity of a record that a slip of units can reach, as a path into its file form.
+/// Every quantity of a record that a unit error can affect, as a path into its file form.
 ///
 /// Left out: the reference strain rate, which may be anything from quasi-static to shock, and the room temperature.
 fn quantities(table: &toml::Table) -> Vec<Vec<String>> {
@@ -70,5 +70,5 @@ fn a_slip_of_1000_is_caught() {
         .collect();
     assert_eq!(missed, expected);
     // Density, modulus and at least one stress of every record, both ways.
-    assert!(tried >= 6 * built_in().count(), "{tried} slips tried");
+    assert!(tried >= 6 * built_in().count(), "{tried} unit errors tried");
 }
