@@ -1,4 +1,4 @@
-//! What a target opposes to penetration, where a program brings a law of its own along.
+//! Penetration resistance law of the caller's own.
 
 use std::{fmt, ptr, sync::Arc};
 

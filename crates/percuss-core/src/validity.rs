@@ -1,4 +1,4 @@
-//! What a model is made for, as data: projectile, target, nose, materials, and ranges of ratios and speed.
+//! Validity domain of a model, as data: projectile, target, nose, materials, and ranges of ratios and velocity.
 
 mod first_choice;
 mod fitted_to;

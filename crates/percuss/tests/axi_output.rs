@@ -1,4 +1,4 @@
-//! What model `axi` gives besides its result: frames, and checkpoints that a run goes on from with the same bits.
+//! Output of model `axi` besides its result: frames, and checkpoints from which a run continues with the same bits.
 
 use std::ops::ControlFlow;
 

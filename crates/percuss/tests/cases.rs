@@ -1,4 +1,4 @@
-//! Every folder of `cases/` gives what its `expected.toml` says.
+//! Expected values of every folder of `cases/`.
 //!
 //! After an intended change of results, `RETAKE_GOLDEN=1 cargo test -p percuss --test all cases::` writes the golden numbers and the
 //! known errors of the files again; exact, published and measured values stay as they are. The difference is for a person to read.

@@ -1,4 +1,4 @@
-//! What must hold of every model of long eroding rods, through the case file.
+//! Properties of every model of long eroding rods, through the case file.
 
 use crate::common::scenario;
 use percuss::{

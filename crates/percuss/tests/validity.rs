@@ -1,4 +1,4 @@
-//! What guards let pass, warn of and refuse, and in what words.
+//! Validity domains: cases inside, at an edge and outside, with their messages.
 
 use percuss::validity::{
     Applicability, FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain, list,

@@ -1,4 +1,4 @@
-//! What a record was calibrated on.
+//! Provenance of a calibrated material record.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

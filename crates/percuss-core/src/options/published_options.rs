@@ -1,4 +1,4 @@
-//! Readings of the seed paper.
+//! Options of the published scheme: readings of the seed paper.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! What was measured on a test of the case: for comparison only, no model sees it.
+//! Measured values of a test of the case, for comparison with results; models do not read them.
 
 use std::{borrow::Cow, fmt};
 

@@ -1,4 +1,4 @@
-//! How a caller watches, records, interrupts and resumes a run.
+//! Control of a run by its caller: progress, cancellation, histories, fields, checkpoints, resumption.
 
 use std::ops::ControlFlow;
 

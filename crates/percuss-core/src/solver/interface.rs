@@ -1,4 +1,4 @@
-//! What a numerical model implements to run on the one time loop.
+//! Interface of a numerical model to the time loop.
 
 use super::{
     archive::Archive,

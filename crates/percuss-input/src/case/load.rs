@@ -1,4 +1,4 @@
-//! Reading a case file and turning it into a scenario, with errors that name the place.
+//! Case files: reading, checks, and conversion to a scenario; errors name the place.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! One parameter of a sweep: the values that it takes, checked. A value that is no number counts as its place in the list.
+//! One parameter of a sweep: its checked values. A value that is no number counts as its place in the list.
 
 use toml::Value;
 

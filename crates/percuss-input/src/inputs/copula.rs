@@ -1,4 +1,4 @@
-//! Parameters that depend on each other: a Gaussian copula.
+//! Gaussian copula of correlated parameters.
 //!
 //! Each parameter has its own distribution and a normal score, the quantile of the standard normal distribution at its probability.
 //! The scores are jointly normal with given correlations. Parameters with normal distributions are then jointly normal with the

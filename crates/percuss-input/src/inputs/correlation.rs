@@ -1,4 +1,4 @@
-//! Parameters that depend on each other: checking what a file says of them.
+//! Correlation of parameters as a file gives it, with its checks.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

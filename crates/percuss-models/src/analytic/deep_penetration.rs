@@ -1,4 +1,4 @@
-//! What the models of deep penetration read from a case, and the result that they have in common.
+//! Input and result that the models of deep penetration have in common.
 
 use crate::{
     Refusal,

@@ -1,4 +1,4 @@
-//! What the models of long rods read from a case: a rod of one metal on a target of one metal.
+//! Input of the models of long rods: a rod of one metal on a target of one metal.
 
 use crate::{
     Refusal,

@@ -1,4 +1,4 @@
-//! What holds a body at its edges: symmetry axis, rigid wall, rear face and far edge.
+//! Boundary conditions of a body: symmetry axis, rigid wall, rear face and far edge.
 
 use super::field::{FORCE, Field, MASS, MOMENTUM, Node};
 

@@ -1,4 +1,4 @@
-//! One time step: particles in parallel, their sums on the nodes, motion of the nodes, contact.
+//! Time step: particles in parallel, their sums on the nodes, motion of the nodes, contact.
 
 use rayon::prelude::*;
 

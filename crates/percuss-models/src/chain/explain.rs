@@ -1,4 +1,4 @@
-//! What the choices behind a depth are worth: runs beside the one that was asked for.
+//! Sensitivity of a depth to modelling choices: additional runs beside the one asked for.
 
 use super::expanding::{self, CavityRun};
 use crate::{

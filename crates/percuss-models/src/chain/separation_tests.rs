@@ -1,4 +1,4 @@
-//! What only the state of the chain can show of bodies that part and meet again.
+//! Separation and renewed contact of bodies, checked on the state of the chain.
 
 use super::{mesh, solver::StepControl, state::State};
 use crate::{

@@ -1,4 +1,4 @@
-//! One band that is driven by hand.
+//! Single shear band at a prescribed velocity.
 
 use super::{
     super::{adiabatic::Sheared, band_law::Failure, shear_zone::SQRT_3},

@@ -1,4 +1,4 @@
-//! What both geometries check, and what a run of either reaches.
+//! Audits and limits that both geometries have in common.
 
 use super::grid::{Grid, Law, View};
 use crate::{

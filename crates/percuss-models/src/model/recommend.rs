@@ -1,4 +1,4 @@
-//! Which of the models that gave a result to rely on.
+//! Recommended result among the models that gave one.
 
 use serde::Serialize;
 

@@ -1,4 +1,4 @@
-//! Whether a sample can be relied on: R-hat and effective sample sizes of ranks instead of values \[vehtari2021\].
+//! Convergence of a sample: R-hat and effective sample sizes of ranks instead of values \[vehtari2021\].
 //!
 //! Chains are lists of equal length. Ranks do not care about heavy tails, nor about the scale a parameter is measured on.
 

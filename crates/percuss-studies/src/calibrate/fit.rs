@@ -1,4 +1,4 @@
-//! The best values, with the scatter that goes with them and what the derivatives say of their uncertainty.
+//! Least-squares estimate with its scatter and the standard errors of the derivatives.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 

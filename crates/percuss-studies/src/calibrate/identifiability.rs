@@ -1,4 +1,4 @@
-//! Which parameters the data determine.
+//! Identifiability of the parameters.
 
 use nalgebra::{DMatrix, SVD};
 use serde::Serialize;

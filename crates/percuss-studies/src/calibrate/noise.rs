@@ -1,4 +1,4 @@
-//! How far a measured value may be from what the model gives.
+//! Standard deviation of a measured value about the model.
 
 use std::str::FromStr;
 

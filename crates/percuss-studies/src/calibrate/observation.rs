@@ -1,4 +1,4 @@
-//! What was measured: entries `[[experiments]]` of case files, and published tests.
+//! Measured values: entries `[[experiments]]` of case files, and published tests.
 
 use serde::Serialize;
 

@@ -1,4 +1,4 @@
-//! What is fitted: a number of the cases by its dotted key, and what is known of it beforehand.
+//! Fitted parameter: a number of the cases by its dotted key, with its prior.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! The posterior: sampling it from around the best values, and what the sample says.
+//! Posterior: a sample from around the best values, and its statistics.
 
 use std::sync::atomic::Ordering;
 

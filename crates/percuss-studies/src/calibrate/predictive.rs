@@ -1,4 +1,4 @@
-//! What the calibrated model says of each measured value, and how well that fits.
+//! Predictions of the calibrated model for each measured value, and their agreement.
 
 use std::sync::atomic::AtomicUsize;
 

@@ -1,4 +1,4 @@
-//! What is fitted to what, by which model.
+//! Calibration problem: parameters, measured values and model.
 
 use std::{
     ops::ControlFlow,

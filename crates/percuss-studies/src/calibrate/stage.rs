@@ -1,4 +1,4 @@
-//! How far a calibration has come.
+//! Stages of a calibration.
 
 /// What a calibration is doing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! Every model on one case, at one or many impact velocitys, and which of them to rely on.
+//! Every model on one case, at one or many impact velocities, and which of them to rely on.
 //!
 //! ```
 //! use percuss::{case, compare::{compare, Observer}, model::quick};
@@ -93,7 +93,7 @@ impl ExperimentRecord {
     }
 }
 
-/// Runs models on a case at each of these impact velocitys [m/s], on all cores.
+/// Runs models on a case at each of these impact velocities [m/s], on all cores.
 ///
 /// A model that does not apply or that fails leaves the reason in its entry and never stops the others. The order of the
 /// entries does not depend on the order in which runs end.
@@ -141,7 +141,7 @@ fn same_speed(measured: f64, speed: f64) -> bool {
 }
 
 impl Comparison {
-    /// Impact velocitys [m/s].
+    /// Impact velocities [m/s].
     pub fn speeds(&self) -> Vec<f64> {
         self.regime
             .iter()

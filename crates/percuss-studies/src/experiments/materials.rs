@@ -1,4 +1,4 @@
-//! Whether a case can be made of a row: materials that exist, quantities in their ranges.
+//! Check that a row makes a case: existing materials, quantities in their ranges.
 
 use super::{Experiment, Struck, row::CsvRow};
 use crate::{

@@ -1,4 +1,4 @@
-//! Reading a file of tests.
+//! Files of tests.
 
 use std::{collections::BTreeMap, path::Path};
 

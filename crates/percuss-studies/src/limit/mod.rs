@@ -1,4 +1,4 @@
-//! The ballistic limit of a case by every model that says whether the target is perforated, and speeds behind the target.
+//! Ballistic limit of a case by every model that predicts perforation, and residual velocities.
 //!
 //! ```
 //! use percuss::{case, limit::{limits, LimitOutcome, Search, Observer}, model::quick};
@@ -42,7 +42,7 @@ pub use expected::ExpectedLimitError;
 pub use fit::{LambertJonasFit, fit_lambert_jonas};
 pub use rear_face::{RearFace, with_free_rear_face};
 
-/// Range of impact velocitys [m/s], ends included.
+/// Range of impact velocities [m/s], ends included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
     /// Lowest.
@@ -80,7 +80,7 @@ impl Tolerance {
 /// Where and how closely to search, and how many residual velocities to compute.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
-    /// Range of impact velocitys.
+    /// Range of impact velocities.
     pub range: Range,
     /// How narrow the bracket is to be.
     pub tolerance: Tolerance,

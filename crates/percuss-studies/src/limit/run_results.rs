@@ -1,4 +1,4 @@
-//! What runs of a model come to: whether one is perforated, where the limit is, and what to warn of.
+//! Results of the runs of a model: perforation, ballistic limit, warnings.
 
 use super::{
     Bracket, CurvePoint, LimitOutcome, ModelLimit, RearFace, fit_lambert_jonas,

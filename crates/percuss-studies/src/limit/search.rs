@@ -1,4 +1,4 @@
-//! Search for the speed at which stopping ends and perforation begins, over anything that says which of them a run does.
+//! Search for the impact velocity at which perforation begins.
 
 use rayon::prelude::*;
 

@@ -1,4 +1,4 @@
-//! How many runs share a block.
+//! Numbers of runs in a block.
 
 use super::tests::load;
 

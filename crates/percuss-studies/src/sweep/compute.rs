@@ -1,4 +1,4 @@
-//! Computing many runs in blocks, in parallel, for callers that keep what comes of them in memory.
+//! Parallel computation of many runs in blocks, with all results in memory.
 
 use std::{
     ops::Range,

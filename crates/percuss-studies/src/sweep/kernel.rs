@@ -1,4 +1,4 @@
-//! What computes blocks of runs.
+//! Kernels: computation of blocks of runs.
 
 use std::{
     ops::ControlFlow,

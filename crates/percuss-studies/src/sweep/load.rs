@@ -1,4 +1,4 @@
-//! Reading a sweep file.
+//! Sweep files.
 
 use std::path::Path;
 

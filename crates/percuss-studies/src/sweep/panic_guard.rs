@@ -1,4 +1,4 @@
-//! Panics of a run, caught: they become its error, and print nothing between the lines of a progress bar.
+//! Panics of a run as its error, without output between the lines of a progress bar.
 
 use std::{
     any::Any,

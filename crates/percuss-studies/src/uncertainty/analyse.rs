@@ -1,4 +1,4 @@
-//! An analysis from its runs to what they say.
+//! Uncertainty analysis: runs, statistics, sensitivities.
 
 use std::sync::atomic::AtomicU64;
 

@@ -1,4 +1,4 @@
-//! What a study says over a range of impact velocitys.
+//! Percentile bands over a range of impact velocities.
 
 use super::{
     design::Rows,

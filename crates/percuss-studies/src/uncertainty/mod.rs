@@ -1,4 +1,4 @@
-//! What the uncertainty of a case's numbers does to its results: statistics, sensitivity, probabilities of perforation.
+//! Propagation of uncertain inputs: statistics, sensitivities, probability of perforation.
 //!
 //! A [`Study`] is a case with its table `uncertainty`; [`analyse`] computes it by a [`Kernel`](crate::sweep::Kernel). The spread
 //! that it finds is that of the inputs alone: the error of the model itself is not in it.

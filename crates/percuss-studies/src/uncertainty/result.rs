@@ -1,4 +1,4 @@
-//! What an analysis of uncertainty says. The names are stable.
+//! Result of an uncertainty analysis. The names are stable.
 
 use serde::Serialize;
 

@@ -39,7 +39,7 @@ pub struct Settings {
     pub quantities: Vec<&'static ResultNumber>,
     /// Whether to estimate Sobol' indices.
     pub indices: bool,
-    /// Impact velocitys of the bands [m/s], rising.
+    /// Impact velocities of the bands [m/s], rising.
     pub speeds: Vec<f64>,
 }
 

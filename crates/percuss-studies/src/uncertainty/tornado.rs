@@ -1,4 +1,4 @@
-//! One parameter at a time, low and high.
+//! One-at-a-time sensitivities (tornado).
 
 use super::{
     result::{Draw, TornadoBar},

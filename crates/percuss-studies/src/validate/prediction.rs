@@ -1,4 +1,4 @@
-//! What one model said of one test.
+//! Prediction of one test by one model.
 
 use std::{
     ops::ControlFlow,

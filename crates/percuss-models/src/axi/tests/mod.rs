@@ -1,4 +1,4 @@
-//! Exact checks of the model, a small file a problem. Bodies are filled by hand, so that shapes and initial motions are free.
+//! Exact checks of the model, one small file per problem. Bodies are filled by hand, so that shapes and initial motions are free.
 
 mod contact;
 mod failure;

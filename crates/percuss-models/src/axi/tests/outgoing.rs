@@ -1,4 +1,4 @@
-//! Waves that leave through non-reflecting faces: what comes back.
+//! Reflection of waves at non-reflecting faces.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! One step of the projectile, the crater floor and the far field, with its energy and momentum balance.
+//! Time step of the projectile, the crater floor and the far field, with its energy and momentum balance.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! Exact answers that the parts of the expanding cavity and their interaction must give.
+//! Exact checks of the parts of the expanding cavity and of their interaction.
 
 use std::{f64::consts::PI, sync::Arc};
 

@@ -1,4 +1,4 @@
-//! What histories and results keep of a grid.
+//! Snapshot of a grid for histories and results.
 
 use super::{BoundaryCondition, Grid, Law, View};
 use crate::history::{ElementState, Profile, Sample};
