@@ -5,7 +5,7 @@ use percuss::model::{self, MODELS, Model};
 /// The models of these names in the order of the list; the quick ones where there are no names.
 pub fn named(names: &[String]) -> Vec<&'static dyn Model> {
     if names.is_empty() {
-        return model::quick();
+        return model::fast_models();
     }
     let models = MODELS.iter().copied();
     let is_named = |model: &&dyn Model| names.iter().any(|name| name == model.name());

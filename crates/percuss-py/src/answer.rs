@@ -97,7 +97,7 @@ impl Answer {
         match &self.answer.found {
             Found::Uncertainty(found) => {
                 let draws = found.draws.iter();
-                draws.map(|draw| draw.outcome.in_words()).collect()
+                draws.map(|draw| draw.outcome.describe()).collect()
             }
             _ => Vec::new(),
         }

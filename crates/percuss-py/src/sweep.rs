@@ -8,7 +8,7 @@ use std::{
     },
 };
 
-use percuss::sweep::{BatchKernel, Row, Sweep as Loaded};
+use percuss::sweep::{BatchKernel, Sweep as Loaded, SweepRow};
 use percuss_cli::Failure;
 use percuss_report::sweep::{Block, SweepFolder as Folder};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyBytes};
@@ -34,7 +34,7 @@ impl Sweep {
     /// Number of shots.
     #[getter]
     fn shots(&self) -> u64 {
-        self.sweep.shots()
+        self.sweep.runs()
     }
 
     /// The files that it rests on: itself, its base case and the material files of that.
@@ -133,7 +133,7 @@ pub fn compute_sweep(
         .sum();
     watched(py, progress.as_ref(), |board| {
         let done = AtomicU64::new(0);
-        let hear = |rows: &[Row]| {
+        let hear = |rows: &[SweepRow]| {
             let done = done.fetch_add(rows.len() as u64, Ordering::Relaxed) + rows.len() as u64;
             // Whether to go on is asked of the board by the folder itself.
             let _ = board.hear(done as f64 / due as f64, &format!("{done} of {due} shots"));

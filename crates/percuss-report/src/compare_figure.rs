@@ -36,11 +36,11 @@ pub fn compare_chart(scenario: &Scenario, comparison: &Comparison) -> Option<Cha
 }
 
 fn axis(quantity: BandQuantity) -> Axis {
-    Axis::new(format!("{} [{}]", quantity.in_words(), quantity.unit()))
+    Axis::new(format!("{} [{}]", quantity.describe(), quantity.unit()))
 }
 
 fn title(quantity: BandQuantity) -> String {
-    let words = quantity.in_words();
+    let words = quantity.describe();
     let mut letters = words.chars();
     let first = letters
         .next()

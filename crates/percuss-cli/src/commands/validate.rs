@@ -3,9 +3,9 @@ use std::{ops::ControlFlow, path::PathBuf, sync::Mutex};
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     case,
+    experiments::{Experiment, Kind},
     material::Library,
     model::{self, MODELS, Model},
-    shots::{Kind, Shot},
     validate::{self, Group, Grouping, PredictionRecord, Standing, Validation},
 };
 use percuss_report::validation::{self, Origin};
@@ -172,7 +172,7 @@ impl Validate {
 
     fn models(&self) -> Result<Vec<&'static dyn Model>, Failure> {
         if self.model.is_empty() {
-            return Ok(model::quick());
+            return Ok(model::fast_models());
         }
         let chosen = self.model.iter().map(|name| model::model(name));
         let mut models = chosen.collect::<Result<Vec<_>, _>>()?;
@@ -186,7 +186,7 @@ impl Validate {
     }
 
     /// The shots and what they come from.
-    fn shots(&self, library: &Library) -> Result<(Vec<Shot>, Vec<String>), Failure> {
+    fn shots(&self, library: &Library) -> Result<(Vec<Experiment>, Vec<String>), Failure> {
         let built_in = [PathBuf::from(shot_data::BUILT_IN)];
         let data = if self.data.is_empty() {
             &built_in[..]
@@ -199,7 +199,7 @@ impl Validate {
     fn compute(
         &self,
         models: &[&'static dyn Model],
-        shots: &[Shot],
+        shots: &[Experiment],
         library: &Library,
         hear: Hear<'_>,
     ) -> Result<Validation, Failure> {
@@ -235,7 +235,7 @@ fn record(validation: &Validation, data: Vec<String>) -> Record {
         percuss_version: env!("CARGO_PKG_VERSION"),
         data,
         models: validation.models.clone(),
-        shots: validation.shots.len(),
+        shots: validation.tests.len(),
         statistics: validation.all_statistics(),
         coverage: validate::coverage(validation)
             .into_iter()

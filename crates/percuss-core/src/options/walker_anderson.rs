@@ -20,7 +20,7 @@ pub struct WalkerAndersonOptions {
     /// Flow stress of the target [Pa], not its resistance; that at a plastic strain of 0.1 when not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target_strength: Option<Pressure>,
-    /// Radius of the crater [m]; from the impact speed when not given.
+    /// Radius of the crater [m]; from the impact velocity when not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crater_radius: Option<Length>,
 }

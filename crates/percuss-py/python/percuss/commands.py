@@ -173,7 +173,7 @@ def limit(
     model : str or sequence of str, optional
         Models to search with; all that answer at once when not given.
     shots : path, optional
-        CSV file of shots with the columns ``velocity_m_s`` and ``perforated``.
+        CSV file of shots with the columns ``impact_velocity_m_s`` and ``perforated``.
     span : float or str, optional
         Widest span of the shots that V50 may be the mean of [m/s].
     out : path, optional
@@ -188,7 +188,7 @@ def limit(
     'found'
     """
     if isinstance(velocity, tuple):
-        velocity = "..".join(repr(float(end)) for end in velocity)
+        impact_velocity = "..".join(repr(float(end)) for end in velocity)
     found = native_answer(
         "limit",
         of=case,

@@ -141,7 +141,7 @@ def v50(limits: Limits, ax: Axes | None) -> Axes:
     if limits.v50 is None or limits.shots is None:
         raise ValueError("no shots that scatter were given: `shots` names a file of them")
     ax = new_axes(ax)
-    speeds = [shot.velocity_m_s for shot in limits.shots]
+    speeds = [shot.impact_velocity_m_s for shot in limits.shots]
     margin = 0.15 * (max(speeds) - min(speeds))
     at = numpy.linspace(min(speeds) - margin, max(speeds) + margin, 200)
     for estimate in limits.v50.estimates:
@@ -153,7 +153,7 @@ def v50(limits: Limits, ax: Axes | None) -> Axes:
         if estimate.low_m_s is not None and estimate.high_m_s is not None:
             ax.hlines(0.5, estimate.low_m_s, estimate.high_m_s, color=line.get_color(), alpha=0.4, linewidth=5)
     for perforated, colour, words in ((True, "C3", "went through"), (False, "C2", "stopped")):
-        chosen = [shot.velocity_m_s for shot in limits.shots if shot.perforated is perforated]
+        chosen = [shot.impact_velocity_m_s for shot in limits.shots if shot.perforated is perforated]
         ax.plot(chosen, [float(perforated)] * len(chosen), "o", color=colour, mfc="none", label=words)
     level = f"{100 * limits.v50.confidence:g} %"
     ax.set(xlabel="impact velocity [m/s]", ylabel="chance of going through", title=f"V50 of {len(speeds)} shots, {level} intervals")

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 class Sample(_Columns):
     """A row a shot, or a row a state of the posterior. Columns are read-only arrays that are not copied.
 
-    ``sample["projectile.velocity_m_s"]`` gives a column whose name is no word of Python; :meth:`names` lists all. What a shot does not
+    ``sample["projectile.impact_velocity_m_s"]`` gives a column whose name is no word of Python; :meth:`names` lists all. What a shot does not
     have is not a number.
 
     Attributes

@@ -44,7 +44,7 @@ class Uncertainty(Result):
     no_indices : str or None
         Why there are no Sobol' indices.
     bands : list of Record
-        The same statistics at each impact speed ``velocity_m_s`` [m/s] that was asked for.
+        The same statistics at each impact speed ``impact_velocity_m_s`` [m/s] that was asked for.
     warnings : list of str
         What to know before relying on the numbers.
     """
@@ -54,7 +54,7 @@ class Uncertainty(Result):
     model: str
     samples: int
     seed: int
-    shots: int
+    runs: int
     inputs: list[Record]
     correlated: bool
     nominal: Record

@@ -1,8 +1,8 @@
-//! Error maps, one a contender, and depth over speed, one a pair of materials and length.
+//! Error maps, one a candidate, and depth over speed, one a pair of materials and length.
 
 use percuss::{
     model_error::{
-        Verdict, contenders,
+        ErrorRecord, candidates,
         design::{LENGTHS, SPEEDS},
     },
     statistics::{quantile, sorted},
@@ -21,7 +21,7 @@ const MAP_HEIGHT: f64 = 330.0;
 
 /// All figures.
 pub(super) struct Drawn {
-    /// Error maps with the contenders' names.
+    /// Error maps with the candidates' names.
     pub(super) maps: Vec<Figure>,
     /// Depths over speed, those for Markdown first.
     pub(super) depths: Vec<Figure>,
@@ -30,7 +30,7 @@ pub(super) struct Drawn {
 
 impl Drawn {
     /// Draws all figures for which there are verdicts.
-    pub(super) fn of(verdicts: &[Verdict]) -> Self {
+    pub(super) fn of(verdicts: &[ErrorRecord]) -> Self {
         let of_length = |wanted: &dyn Fn(f64) -> bool| {
             let mut drawn = Vec::new();
             for (projectile, target) in PAIRS {
@@ -41,9 +41,9 @@ impl Drawn {
             drawn
         };
         Self {
-            maps: contenders()
+            maps: candidates()
                 .iter()
-                .filter_map(|contender| map(verdicts, contender.name))
+                .filter_map(|candidate| map(verdicts, candidate.name))
                 .collect(),
             depths: of_length(&|length| length == SHOWN),
             more_depths: of_length(&|length| length != SHOWN),
@@ -62,14 +62,14 @@ fn stem(name: &str) -> String {
     words.join("-")
 }
 
-fn map(verdicts: &[Verdict], contender: &str) -> Option<Figure> {
+fn map(verdicts: &[ErrorRecord], candidate: &str) -> Option<Figure> {
     let median = |length: f64, speed: f64| {
         let here = verdicts.iter().filter(|v| {
-            v.contender == contender
+            v.candidate == candidate
                 && v.length_to_diameter == length
                 && v.impact_velocity_m_s == speed
         });
-        let errors = sorted(here.map(Verdict::error));
+        let errors = sorted(here.map(ErrorRecord::error));
         match errors.is_empty() {
             true => f64::NAN,
             false => quantile(&errors, 0.5),
@@ -99,8 +99,8 @@ fn map(verdicts: &[Verdict], contender: &str) -> Option<Figure> {
         .collect();
     let map = HeatMap::new(
         [
-            &format!("error-{}", stem(contender)),
-            &format!("Median error of {contender} against the axisymmetric reference"),
+            &format!("error-{}", stem(candidate)),
+            &format!("Median error of {candidate} against the axisymmetric reference"),
         ],
         [axis("impact speed [m/s]", SPEEDS), axis("L/D", LENGTHS)],
         [range(SPEEDS), range(LENGTHS)],
@@ -116,14 +116,14 @@ fn map(verdicts: &[Verdict], contender: &str) -> Option<Figure> {
     )
 }
 
-fn depths(verdicts: &[Verdict], projectile: &str, target: &str, length: f64) -> Option<Figure> {
-    let own: Vec<&Verdict> = verdicts
+fn depths(verdicts: &[ErrorRecord], projectile: &str, target: &str, length: f64) -> Option<Figure> {
+    let own: Vec<&ErrorRecord> = verdicts
         .iter()
         .filter(|v| {
             v.projectile == projectile && v.target == target && v.length_to_diameter == length
         })
         .collect();
-    let reference: Vec<&Verdict> = SPEEDS
+    let reference: Vec<&ErrorRecord> = SPEEDS
         .iter()
         .filter_map(|&speed| own.iter().find(|v| v.impact_velocity_m_s == speed).copied())
         .collect();
@@ -140,19 +140,19 @@ fn depths(verdicts: &[Verdict], projectile: &str, target: &str, length: f64) -> 
         Axis::new("depth of penetration [mm]").log(),
     )
     .caption("bars: what the reference's cells leave uncertain");
-    let chart = contenders()
+    let chart = candidates()
         .iter()
         .enumerate()
-        .fold(chart, |chart, (i, contender)| {
+        .fold(chart, |chart, (i, candidate)| {
             let points = own
                 .iter()
-                .filter(|v| v.contender == contender.name)
+                .filter(|v| v.candidate == candidate.name)
                 .map(|v| (v.impact_velocity_m_s, v.depth_of_penetration_mm));
             let points: Vec<(f64, f64)> = points.collect();
             match points.is_empty() {
                 true => chart,
                 false => chart.series(
-                    Series::new(contender.name, points)
+                    Series::new(candidate.name, points)
                         .style(Style::LineAndMarkers)
                         .symbol(i),
                 ),

@@ -7,7 +7,7 @@ pub mod tables;
 
 use std::path::{Path, PathBuf};
 
-use percuss::{Error, model_error::Verdict};
+use percuss::{Error, model_error::ErrorRecord};
 use percuss_report::{ReportError, page};
 
 use crate::{
@@ -23,8 +23,8 @@ use crate::{
 pub struct Benchmark {
     /// The reference of every shot on its meshes, checked.
     pub references: Vec<CheckedReference>,
-    /// Every contender on every shot whose reference passes the check.
-    pub verdicts: Vec<Verdict>,
+    /// Every candidate on every shot whose reference passes the check.
+    pub verdicts: Vec<ErrorRecord>,
     /// The paper's case by the reference.
     pub study: Vec<Study>,
     /// The paper's case by one-dimensional variants.
@@ -41,7 +41,7 @@ pub struct Origin {
 }
 
 impl Benchmark {
-    /// Judges all contenders on shots by their references.
+    /// Judges all candidates on shots by their references.
     ///
     /// # Errors
     /// [`Error::Input`] when a shot's materials are not in the library.
@@ -59,9 +59,9 @@ impl Benchmark {
 ///
 /// - `judgement.html`: the whole report in one file;
 /// - `judgement.md` with one PNG a figure: the same without the single shots and some of the figures;
-/// - `verdicts.csv`, `verdicts.parquet`: a row a contender and shot; the first is the file that the library stores;
+/// - `verdicts.csv`, `verdicts.parquet`: a row a candidate and shot; the first is the file that the library stores;
 /// - `references.csv`, `references.parquet`: a row per shot, with the depth by the reference or why it does not count;
-/// - `statistics.csv`, `statistics.parquet`: a row a contender and group;
+/// - `statistics.csv`, `statistics.parquet`: a row a candidate and group;
 /// - `ablation.csv`, `ablation.parquet`: the paper's case by one-dimensional variants.
 ///
 /// # Errors

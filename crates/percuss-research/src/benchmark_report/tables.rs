@@ -1,7 +1,7 @@
 //! Tables of the benchmark report.
 
 use percuss::{
-    model_error::{Verdict, contenders},
+    model_error::{ErrorRecord, candidates},
     units::significant,
 };
 use percuss_report::table::{Rows, Table, number};
@@ -34,8 +34,8 @@ fn errors<R>(rows: Rows<'_, R>, of: impl Fn(&R) -> &Errors) -> Rows<'_, R> {
         })
 }
 
-/// One row a contender and group; the groups together, for the contenders to be compared.
-pub(super) fn groups(verdicts: &[Verdict], grouping: Grouping) -> Table {
+/// One row a candidate and group; the groups together, for the candidates to be compared.
+pub(super) fn groups(verdicts: &[ErrorRecord], grouping: Grouping) -> Table {
     let groups = benchmark::statistics(verdicts, grouping);
     let mut rows: Vec<(String, &Group)> = Vec::new();
     for value in grouping.values() {
@@ -46,9 +46,9 @@ pub(super) fn groups(verdicts: &[Verdict], grouping: Grouping) -> Table {
     }
     let rows = Table::of(&rows)
         .when(grouping != Grouping::All, |rows| {
-            rows.words(grouping.in_words(), |(name, _)| name.clone())
+            rows.words(grouping.describe(), |(name, _)| name.clone())
         })
-        .words("contender", |(_, group)| group.contender);
+        .words("candidate", |(_, group)| group.candidate);
     errors(rows, |(_, group)| &group.errors).table()
 }
 
@@ -110,7 +110,7 @@ pub(super) fn study(rows: &[Study]) -> Table {
         .table()
 }
 
-/// Every shot: its reference on all meshes, extrapolated, and the depth of every contender with its error.
+/// Every shot: its reference on all meshes, extrapolated, and the depth of every candidate with its error.
 pub(super) fn every_shot(compared: &Benchmark) -> Table {
     let entries: Vec<&CheckedReference> = compared.references.iter().collect();
     shots(&entries)
@@ -120,15 +120,16 @@ pub(super) fn every_shot(compared: &Benchmark) -> Table {
                 significant(estimate.depth_mm, 4),
                 significant(estimate.uncertainty_mm, 2)
             ),
-            Err(refusal) => format!("refused: {}", refusal.in_words()),
+            Err(refusal) => format!("refused: {}", refusal.describe()),
         })
-        .each(contenders(), |rows, contender| {
+        .each(candidates(), |rows, candidate| {
             let of = |shot: &Shot| {
-                let is_own =
-                    |verdict: &&Verdict| verdict.contender == contender.name && shot.is_of(verdict);
+                let is_own = |verdict: &&ErrorRecord| {
+                    verdict.candidate == candidate.name && shot.is_of(verdict)
+                };
                 compared.verdicts.iter().find(is_own)
             };
-            rows.numbers(format!("{} [mm] (%)", contender.name), "", |entry| {
+            rows.numbers(format!("{} [mm] (%)", candidate.name), "", |entry| {
                 of(&entry.shot).map_or_else(
                     || number(None, 0),
                     |verdict| {
@@ -165,7 +166,7 @@ pub(super) fn refused(references: &[CheckedReference]) -> Table {
         .collect();
     shots(&refused)
         .words("refused because", |entry| match &entry.estimate {
-            Err(refusal) => refusal.in_words(),
+            Err(refusal) => refusal.describe(),
             Ok(_) => String::new(),
         })
         .table()

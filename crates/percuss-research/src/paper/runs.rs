@@ -34,9 +34,9 @@ pub(super) const PAPER_MESH: (u32, u32) = (40, 80);
 
 /// Table 1 as a case file, with the paper's closure of the target.
 const TABLE_1: &str = r#"
-projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
 target = { material = "aluminium-2024-t351", thickness = "25 mm" }
-chain.target_closure = "column"
+chain.target_resistance = "column"
 "#;
 
 /// A scheme with its reading.

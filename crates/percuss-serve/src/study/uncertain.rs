@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::{
     Job, Study, csv_files,
-    shots::{Bounded, followed},
+    runs::{Bounded, followed},
 };
 use crate::{problem::Problem, stream::pretty};
 
@@ -55,7 +55,7 @@ pub(super) fn uncertain(job: &Job<'_>) -> Result<Study, Problem> {
         "uncertainty": found,
         "quantities": quantities,
         "labels": labels,
-        "nominal": found.nominal.outcome.in_words(),
+        "nominal": found.nominal.outcome.describe(),
         "caution": found.caution(),
     });
     Ok(Study::new(record, &charts, files))

@@ -31,9 +31,9 @@ export function uncertainty(page: Page): Kind {
 function spread(done: Spread): HTMLElement[] {
   const found = done.uncertainty;
   const chance = found.perforation;
-  const failed = found.failures.shots;
+  const failed = found.failures.runs;
   const said = [
-    `Model ${found.model}, ${found.samples} shots, seed ${found.seed}; ${found.shots} shots in all. With all at their medians: ${done.nominal}.`,
+    `Model ${found.model}, ${found.samples} shots, seed ${found.seed}; ${found.runs} runs in all. With all at their medians: ${done.nominal}.`,
     chance ? `Chance of perforation: ${percent(chance.probability)} % (${percent(chance.low)} … ${percent(chance.high)} %), ${chance.perforated} of ${chance.perforated + chance.stopped} shots.` : "",
     failed ? `${failed} of ${found.samples} shots have no result.` : "",
   ];
@@ -61,7 +61,7 @@ function statistics(done: Spread): HTMLElement {
     ["5 % lie below", (q) => number(at(q, 5))],
     ["50 %", (q) => number(at(q, 50))],
     ["95 %", (q) => number(at(q, 95))],
-    ["shots", (q) => String(q.statistics.shots)],
+    ["runs", (q) => String(q.statistics.runs)],
   ];
   const head = ["", ...done.quantities.map((q) => `${q.words} [${q.unit}]`)];
   return table(head, rows.map(([name, read]) => [name, ...found.map(read)]));

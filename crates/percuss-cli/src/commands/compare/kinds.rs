@@ -41,7 +41,7 @@ pub fn kinds<'a>(texts: impl Iterator<Item = (usize, &'a str)>, count: usize) ->
 
 impl Kind<'_> {
     /// The text as it is at its first speed, which is named where the numbers are those of that speed alone.
-    pub fn in_words(&self, speeds: &[f64]) -> String {
+    pub fn describe(&self, speeds: &[f64]) -> String {
         let speed = speed_range(&speeds[self.first..=self.first]);
         match self.varies && !self.text.contains(&speed) {
             true => format!("{} (at {speed})", self.text),
@@ -102,7 +102,7 @@ mod tests {
         let kinds = kinds(texts.into_iter().enumerate(), 4);
         let said: Vec<(String, String)> = kinds
             .iter()
-            .map(|kind| (kind.place(&speeds), kind.in_words(&speeds)))
+            .map(|kind| (kind.place(&speeds), kind.describe(&speeds)))
             .collect();
         let pair = |a: &str, b: &str| (a.to_owned(), b.to_owned());
         assert_eq!(
@@ -122,6 +122,6 @@ mod tests {
         let kinds = kinds([(0, "a 1"), (1, "a 1")].into_iter(), 2);
         assert_eq!(kinds.len(), 1);
         assert_eq!(kinds[0].place(&[1.0, 2.0]), "");
-        assert_eq!(kinds[0].in_words(&[1.0, 2.0]), "a 1");
+        assert_eq!(kinds[0].describe(&[1.0, 2.0]), "a 1");
     }
 }

@@ -13,8 +13,8 @@ use std::path::PathBuf;
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario, case,
-    compare::{self, Comparison, Watch},
-    model::{self, MODELS},
+    compare::{self, Comparison, Observer},
+    model::{self, CostClass, MODELS},
 };
 
 use crate::{
@@ -138,7 +138,7 @@ impl Compare {
             let words = format!("{} of {} runs", now.finished, now.total);
             hear(now.fraction, &words)
         };
-        let mut watch = Watch {
+        let mut watch = Observer {
             progress: Some(&mut report),
         };
         Ok(compare::compare(&models, scenario, speeds, &mut watch)?)
@@ -153,7 +153,9 @@ impl Compare {
 
     /// Names the models that would apply and are too slow to run unasked.
     fn left_out(&self, scenario: &Scenario) -> String {
-        let slow = MODELS.iter().filter(|model| model.is_slow());
+        let slow = MODELS
+            .iter()
+            .filter(|model| model.cost() == CostClass::Minutes);
         let applying = slow.filter(|model| model::applicability(**model, scenario).is_ok());
         let names: Vec<&str> = applying.map(|model| model.name()).collect();
         if !self.model.is_empty() || names.is_empty() {

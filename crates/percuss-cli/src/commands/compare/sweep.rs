@@ -91,10 +91,10 @@ fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) 
                 number(values[i], 4)
             })
         });
-    let mut text = heading(&format!("{} [{}]", quantity.in_words(), quantity.unit()));
+    let mut text = heading(&format!("{} [{}]", quantity.describe(), quantity.unit()));
     text += &blocks(&table.table());
     if !compared.is_empty() && !models.is_empty() {
-        text += &heading(&format!("{}, off experiment by [%]", quantity.in_words()));
+        text += &heading(&format!("{}, off experiment by [%]", quantity.describe()));
         let off =
             Table::of(&compared)
                 .numbers("speed", "m/s", speed)

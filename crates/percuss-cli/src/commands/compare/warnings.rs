@@ -30,7 +30,7 @@ fn lines(comparison: &Comparison) -> Vec<String> {
             .filter(|(speed, record)| is_shown(comparison, *speed, record))
             .flat_map(|(speed, record)| record.warnings.iter().map(move |w| (speed, w.as_str())));
         for kind in kinds(said, speeds.len()) {
-            let words = kind.in_words(&speeds);
+            let words = kind.describe(&speeds);
             entries.push((
                 model,
                 match kind.place(&speeds).trim_start() {

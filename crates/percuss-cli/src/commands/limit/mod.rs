@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario, case,
-    limit::{self, LimitOutcome, Limits, Range, Search, Tolerance, Watch},
+    limit::{self, LimitOutcome, Limits, Observer, Range, Search, Tolerance},
     model::MODELS,
-    v50::{self, Shot, V50},
+    v50::{self, Test, V50},
 };
 use serde::Serialize;
 
@@ -44,7 +44,7 @@ With --shots FILE.csv the speed V50 at which half of all shots go through is
 estimated from shots that scatter: by maximum likelihood (probit and logit) with
 the 95 % interval of the likelihood ratio, and as the mean of equal numbers of
 the fastest stopped shots and the slowest that went through (extremes). The file
-has a row a shot and the columns velocity_m_s and perforated (yes or no); the
+has a row a shot and the columns impact_velocity_m_s and perforated (yes or no); the
 case may then be left out.
 
 With --out DIR a copy of the case (case-as-run.toml), limit.json, the tables
@@ -109,13 +109,13 @@ struct Record<'a> {
     #[serde(flatten)]
     limits: Option<&'a Limits>,
     v50: Option<&'a V50>,
-    shots: Option<&'a [Shot]>,
+    shots: Option<&'a [Test]>,
 }
 
 /// What the command found out.
 struct Found {
     case: Option<(Scenario, Limits)>,
-    shots: Option<(Vec<Shot>, V50)>,
+    shots: Option<(Vec<Test>, V50)>,
     files: Vec<PathBuf>,
 }
 
@@ -189,7 +189,7 @@ impl Limit {
             let words = format!("{} runs", now.finished);
             hear(now.fraction, &words)
         };
-        let mut watch = Watch {
+        let mut watch = Observer {
             progress: Some(&mut report),
         };
         Ok(limit::limits(&models, scenario, &search, &mut watch)?)

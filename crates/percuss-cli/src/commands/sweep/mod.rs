@@ -10,7 +10,7 @@ use std::{
 use clap::{Args, Subcommand};
 use percuss::{
     outcome::Outcome,
-    sweep::{self, BatchKernel, Row},
+    sweep::{self, BatchKernel, SweepRow},
 };
 use percuss_report::sweep::{Manifest, Status, SweepFolder, merge, status};
 use serde::Serialize;
@@ -151,7 +151,7 @@ impl Sweep {
             done: 0,
         });
         let start = Instant::now();
-        let hear = |rows: &[Row]| {
+        let hear = |rows: &[SweepRow]| {
             let mut board = board.lock().unwrap_or_else(PoisonError::into_inner);
             board.hear(rows);
             let rate = board.done as f64 / start.elapsed().as_secs_f64();
@@ -185,7 +185,7 @@ impl Sweep {
                 sweep.model.name(),
                 sweep.design().name()
             )),
-            terminal::counted(sweep.shots() as usize, "shot"),
+            terminal::counted(sweep.runs() as usize, "shot"),
             out.display(),
         );
         if parts > 1 {
@@ -235,11 +235,11 @@ struct Board {
 }
 
 impl Board {
-    fn hear(&mut self, rows: &[Row]) {
+    fn hear(&mut self, rows: &[SweepRow]) {
         self.done += rows.len() as u64;
         for row in rows {
             let outcome = row.record.as_ref().map_or(Outcome::Failed, |r| r.outcome);
-            *self.outcomes.entry(outcome.in_words()).or_default() += 1;
+            *self.outcomes.entry(outcome.describe()).or_default() += 1;
         }
     }
 }

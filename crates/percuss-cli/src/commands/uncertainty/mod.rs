@@ -15,7 +15,9 @@ use percuss::{
     model::{self, MODELS, Model},
     summary::ResultNumber,
     sweep::BatchKernel,
-    uncertainty::{self, MAX_SAMPLES, MIN_SAMPLES, Settings, Study, Uncertainty as Found, Watch},
+    uncertainty::{
+        self, MAX_SAMPLES, MIN_SAMPLES, Observer, Settings, Study, Uncertainty as Found,
+    },
 };
 
 use crate::{
@@ -34,7 +36,7 @@ Say what the uncertainty of a case's numbers does to its results. The case names
 them with their distributions in its table `uncertainty`:
 
   [[uncertainty.parameter]]
-  key = \"projectile.velocity\"
+  key = \"projectile.impact_velocity\"
   normal = { mean = \"230 m/s\", standard_deviation = \"3 m/s\" }
 
 Scrambled Sobol' points are drawn from the distributions, and of each result come
@@ -200,7 +202,7 @@ impl Uncertainty {
     fn compute(&self, task: &Task, stop: &AtomicBool, hear: Hear<'_>) -> Result<Found, Failure> {
         let pool = workers::pool(self.threads)?;
         let hear = Mutex::new(hear);
-        let watch = Watch {
+        let watch = Observer {
             stop,
             progress: &|done, total| {
                 let mut hear = hear.lock().unwrap_or_else(PoisonError::into_inner);

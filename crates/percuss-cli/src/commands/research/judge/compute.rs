@@ -42,7 +42,7 @@ pub(super) fn complete(
     let due = reference.map(|file| Due::of(file, shots, options.cells));
     let due = due.transpose()?;
     let work = due.as_ref().map_or(Some(0.0), |due| due.work);
-    let watch = Watch {
+    let watch = Observer {
         state: Mutex::new(State {
             hear,
             done: 0.0,
@@ -111,7 +111,7 @@ impl Due {
 }
 
 /// Progress of shots that take long, by the work that they are expected to be.
-struct Watch<'a> {
+struct Observer<'a> {
     state: Mutex<State<'a>>,
     /// All the work that was left at the start [s]; 0 when nobody knows.
     total: f64,
@@ -124,7 +124,7 @@ struct State<'a> {
     failures: Vec<String>,
 }
 
-impl Watch<'_> {
+impl Observer<'_> {
     fn hear(&self, done: usize, of: usize, work: f64, failure: Option<String>) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         state.failures.extend(failure);

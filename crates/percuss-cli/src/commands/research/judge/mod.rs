@@ -4,7 +4,7 @@ mod table;
 use std::{path::PathBuf, sync::atomic::AtomicBool};
 
 use clap::{Args, ValueEnum};
-use percuss::model_error::Verdict;
+use percuss::model_error::ErrorRecord;
 use percuss_research::{
     benchmark::{self, CheckedReference, Group, Grouping, Reference, RefusedReference, reference},
     benchmark_report::{self, Benchmark, Origin},
@@ -119,7 +119,7 @@ struct Record<'a> {
     findings: Vec<String>,
     statistics: Vec<Group>,
     ablation: &'a [Line],
-    verdicts: &'a [Verdict],
+    verdicts: &'a [ErrorRecord],
 }
 
 /// What the command found out and wrote.

@@ -53,7 +53,7 @@ pub fn text(compared: &Benchmark, origin: &Origin, by: &[Grouping]) -> String {
     }
     if by.is_empty() {
         for grouping in [Grouping::Speed, Grouping::Length, Grouping::Regime] {
-            let title = format!("median error in % by {}", grouping.in_words());
+            let title = format!("median error in % by {}", grouping.describe());
             let groups = benchmark::statistics(verdicts, grouping);
             add(&title, &medians(&groups, grouping));
         }
@@ -74,7 +74,7 @@ pub fn text(compared: &Benchmark, origin: &Origin, by: &[Grouping]) -> String {
 /// Errors in columns that fit 80 characters.
 fn errors(groups: &[Group]) -> Table {
     Table::of(groups)
-        .words("model", |group| group.contender)
+        .words("model", |group| group.candidate)
         .numbers("n", "", |group| group.errors.count.to_string())
         .numbers("median", "", |group| signed(group.errors.median))
         .numbers("eight of ten", "", |group| {
@@ -90,17 +90,17 @@ fn errors(groups: &[Group]) -> Table {
         .table()
 }
 
-/// A row a contender, a column a group.
+/// A row a candidate, a column a group.
 fn medians(groups: &[Group], grouping: Grouping) -> Table {
-    let mut contenders: Vec<&str> = groups.iter().map(|group| group.contender).collect();
-    contenders.dedup();
+    let mut candidates: Vec<&str> = groups.iter().map(|group| group.candidate).collect();
+    candidates.dedup();
     let values = grouping.values().into_iter();
     let values = values.filter(|value| groups.iter().any(|group| group.value == *value));
-    Table::of(&contenders)
-        .words("model", |contender| *contender)
+    Table::of(&candidates)
+        .words("model", |candidate| *candidate)
         .each(values, |rows, value| {
-            rows.numbers(value.clone(), "", |contender| {
-                let is_own = |group: &&Group| group.contender == *contender && group.value == value;
+            rows.numbers(value.clone(), "", |candidate| {
+                let is_own = |group: &&Group| group.candidate == *candidate && group.value == value;
                 let group = groups.iter().find(is_own);
                 group.map_or_else(|| number(None, 0), |group| signed(group.errors.median))
             })
@@ -108,13 +108,13 @@ fn medians(groups: &[Group], grouping: Grouping) -> Table {
         .table()
 }
 
-/// A contender in one line for scripts.
+/// A candidate in one line for scripts.
 pub fn one_line(group: &Group) -> String {
     let errors = &group.errors;
     format!(
-        "contender={} count={} median={} low={} high={} median_absolute={} within_25_percent={}\n",
+        "candidate={} count={} median={} low={} high={} median_absolute={} within_25_percent={}\n",
         group
-            .contender
+            .candidate
             .replace(": ", ":")
             .replace(", ", ",")
             .replace(' ', "-"),
