@@ -2,12 +2,16 @@
 
 use std::{ffi::OsString, sync::atomic::AtomicBool};
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{
+    CommandFactory, Parser, Subcommand,
+    builder::StyledStr,
+    error::{ContextKind, ContextValue},
+};
 
 use crate::{
     answer::{Answer, AtHand, Hear},
     commands::{
-        Calibrate, Compare, Completions, Converge, Judge, Limit, Man, Materials, Models, New,
+        Benchmark, Calibrate, Compare, Completions, Converge, Limit, Man, Materials, Models, New,
         Reproduce, Run, Schema, Serve, Sweep, Uncertainty, Validate,
     },
     failure::Failure,
@@ -70,6 +74,29 @@ pub struct Cli {
     pub command: Command,
 }
 
+/// Former names of commands, with the names of today.
+const RENAMED: [(&str, &str); 1] = [("judge", "benchmark")];
+
+impl Cli {
+    /// Reads a command line, whose first word is the name of the program. The error for a former name has the name of today.
+    ///
+    /// # Errors
+    /// Those of the parser.
+    pub fn parse_line(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
+        Self::try_parse_from(words).map_err(|mut error| {
+            let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else {
+                return error;
+            };
+            if let Some((former, name)) = RENAMED.into_iter().find(|(former, _)| former == word) {
+                let tip = StyledStr::from(format!("the command `{former}` is now `{name}`"));
+                error.remove(ContextKind::SuggestedSubcommand);
+                error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
+            }
+            error
+        })
+    }
+}
+
 /// All commands. Adding one is one file in `commands/` and one line in each of the lists here.
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -81,7 +108,7 @@ pub enum Command {
     Uncertainty(Uncertainty),
     Converge(Converge),
     Validate(Validate),
-    Judge(Judge),
+    Benchmark(Benchmark),
     Serve(Serve),
     New(New),
     Models(Models),
@@ -103,7 +130,7 @@ impl Command {
             Self::Uncertainty(command) => command.run(),
             Self::Converge(command) => command.run(),
             Self::Validate(command) => command.run(),
-            Self::Judge(command) => command.run(),
+            Self::Benchmark(command) => command.run(),
             Self::Serve(command) => command.run(),
             Self::New(command) => command.run(),
             Self::Models(command) => command.run(),
@@ -127,7 +154,7 @@ pub fn answer(
     stop: &AtomicBool,
     hear: Hear<'_>,
 ) -> Result<Answer, Failure> {
-    let cli = Cli::try_parse_from(words).map_err(Failure::CommandLine)?;
+    let cli = Cli::parse_line(words).map_err(Failure::CommandLine)?;
     match cli.command {
         Command::Run(command) => command.answer(at_hand, stop, hear),
         Command::Compare(command) => command.answer(at_hand, hear),
@@ -137,7 +164,7 @@ pub fn answer(
         Command::Uncertainty(command) => command.answer(at_hand, stop, hear),
         Command::Converge(command) => command.answer(at_hand, hear),
         Command::Validate(command) => command.answer(hear),
-        Command::Judge(command) => command.answer(stop, hear),
+        Command::Benchmark(command) => command.answer(stop, hear),
         Command::New(command) => command.answer(),
         Command::Models(command) => command.answer(),
         Command::Materials(command) => command.answer(at_hand),

@@ -23,7 +23,7 @@ mod written;
 
 use std::{ffi::OsString, process::ExitCode};
 
-use clap::{CommandFactory, Parser};
+use clap::CommandFactory;
 
 pub use answer::{Answer, AtHand, Found, Hear};
 pub use cli::answer;
@@ -37,7 +37,7 @@ pub fn command() -> clap::Command {
 
 /// Runs a command line, whose first word is the name of the program; returns the exit code.
 pub fn main(words: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let cli = match cli::Cli::try_parse_from(words) {
+    let cli = match cli::Cli::parse_line(words) {
         Ok(cli) => cli,
         Err(error) => {
             // There is nowhere left to say that this failed.

@@ -2,13 +2,13 @@
 
 mod axi;
 mod bad_input;
+mod benchmark;
 mod calibrate;
 mod checkpoints;
 mod compare;
 mod docs;
 mod figures;
 mod help;
-mod judge;
 mod layout;
 mod limit;
 mod materials;

@@ -52,7 +52,7 @@ def records(tmp_path_factory: pytest.TempPathFactory) -> dict[type[Record], list
             percuss.calibrate(fit={**coefficient, f"{law}.exponent": (0.02, 0.4)}, **copper, ensembles=2, walkers=6, steps=20),
             percuss.calibrate(fit=coefficient, **copper, least_squares=True),
         ],
-        percuss.Judgement: [percuss.judge(reference=reference)],
+        percuss.Benchmark: [percuss.benchmark(reference=reference)],
         percuss.Reproduction: [percuss.reproduce("paper")],
         percuss.Material: [percuss.material("copper"), *percuss.materials()],
         percuss.Model: list(percuss.models()),
@@ -121,13 +121,13 @@ def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], 
     (limits,) = records[percuss.Limits]
     assert isinstance(limits, percuss.Limits)
     drawn.append(limits.plot_v50())
-    (judgement,) = records[percuss.Judgement]
-    assert isinstance(judgement, percuss.Judgement)
+    (benchmark,) = records[percuss.Benchmark]
+    assert isinstance(benchmark, percuss.Benchmark)
     for by in ("speed", "length", "regime", "materials", "uncertainty"):
-        assert {error.contender for error in judgement.errors(by)} == {error.contender for error in judgement.errors()}
-        save(judgement.plot(by), tmp_path / f"{by}.png")
+        assert {error.contender for error in benchmark.errors(by)} == {error.contender for error in benchmark.errors()}
+        save(benchmark.plot(by), tmp_path / f"{by}.png")
     with pytest.raises(percuss.UsageError, match="groups: speed, length"):
-        judgement.plot("moon")
+        benchmark.plot("moon")
     (found, _) = records[percuss.Calibration]
     assert isinstance(found, percuss.Calibration)
     drawn += [found.plot_posterior("coefficient"), found.plot_posterior("scatter"), found.plot_pair("coefficient", "exponent")]

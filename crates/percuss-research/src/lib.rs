@@ -1,4 +1,4 @@
-//! The project's own research: what `percuss judge` and `percuss reproduce` compute. Nothing else needs it.
+//! The project's own research: what `percuss benchmark` and `percuss reproduce` compute. Nothing else needs it.
 //!
 //! [`benchmark`] compares every depth model with the axisymmetric model, [`benchmark_report`] writes the comparison; [`paper_case`] is the
 //! seed paper's case by the axisymmetric model and by one-dimensional variants; [`paper`] checks the seed paper item by item, and [`damping`]

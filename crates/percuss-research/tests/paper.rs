@@ -1,4 +1,4 @@
-//! The page in `docs/paper/` is what `percuss reproduce paper` writes today.
+//! The page in `docs/reference/paper/` is what `percuss reproduce paper` writes today.
 
 use std::{fs, ops::ControlFlow, path::Path};
 
@@ -20,7 +20,7 @@ fn assert_same(old: &str, new: &str) {
         };
         assert!(
             same,
-            "docs/paper/paper.md has `{a}` where `{b}` comes out: run `percuss reproduce paper --out docs/paper`"
+            "docs/reference/paper/paper.md has `{a}` where `{b}` comes out: run `percuss reproduce paper --out docs/reference/paper`"
         );
     }
     assert_eq!(old.len(), new.len());
@@ -29,7 +29,7 @@ fn assert_same(old: &str, new: &str) {
 #[test]
 fn the_page_in_the_docs_is_up_to_date() {
     let reproduction = reproduce(&mut |_| ControlFlow::Continue(())).unwrap();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/paper/paper.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference/paper/paper.md");
     assert_same(&fs::read_to_string(path).unwrap(), &reproduction.page());
 
     let verdict = |place: &str, start: &str| {

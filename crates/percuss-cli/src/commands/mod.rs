@@ -34,7 +34,7 @@ pub use man::Man;
 pub use materials::Materials;
 pub use models::Models;
 pub use new::New;
-pub use research::{Judge, Reproduce};
+pub use research::{Benchmark, Reproduce};
 pub use run::Run;
 pub use schema::Schema;
 #[cfg(feature = "serve")]

@@ -1,4 +1,4 @@
-"""Figures of judgements and reproductions on axes of matplotlib."""
+"""Figures of benchmarks and reproductions on axes of matplotlib."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from .plots import new_axes
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from .judgement import Judgement
+    from .benchmarks import Benchmark
     from .reproduction import Reproduction
 
 #: Errors beyond this are drawn at the edge [%].
 _EDGE = 200.0
 
 
-def errors(judgement: Judgement, by: str | None, ax: Axes | None) -> Axes:
-    best_first = [e.contender for e in sorted(judgement.errors(), key=lambda e: float(e.median_absolute))]
+def errors(benchmark: Benchmark, by: str | None, ax: Axes | None) -> Axes:
+    best_first = [e.contender for e in sorted(benchmark.errors(), key=lambda e: float(e.median_absolute))]
     ax = new_axes(ax, (8.0, 5.0 if by is None else 6.0))
     if by is not None:
-        return _magnitudes(judgement, by, best_first, ax)
-    of = {e.contender: e for e in judgement.errors()}
+        return _magnitudes(benchmark, by, best_first, ax)
+    of = {e.contender: e for e in benchmark.errors()}
     for place, name in enumerate(best_first):
         error = of[name]
         ax.plot([100 * error.low, min(100 * error.high, _EDGE)], [place, place], color="C0", alpha=0.4, linewidth=5, solid_capstyle="butt")
@@ -40,8 +40,8 @@ def errors(judgement: Judgement, by: str | None, ax: Axes | None) -> Axes:
     return ax
 
 
-def _magnitudes(judgement: Judgement, by: str, contenders: list[str], ax: Axes) -> Axes:
-    groups = judgement.errors(by)
+def _magnitudes(benchmark: Benchmark, by: str, contenders: list[str], ax: Axes) -> Axes:
+    groups = benchmark.errors(by)
     values = list(dict.fromkeys(group.value for group in groups))
     grid = numpy.full((len(contenders), len(values)), numpy.nan)
     for group in groups:

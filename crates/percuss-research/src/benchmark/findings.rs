@@ -24,7 +24,7 @@ const NOT_BLIND: &str = "chain: expanding-cavity";
 /// closure has a median error of at most [`CLOSE`], either way.
 pub fn findings(verdicts: &[Verdict]) -> Vec<String> {
     if verdicts.is_empty() {
-        return vec!["There is no reference to judge by.".to_owned()];
+        return vec!["There is no reference depth to compare with.".to_owned()];
     }
     let shots = count_shots(verdicts);
     let sharp = count_shots(verdicts.iter().filter(|verdict| is_sharp(verdict)));

@@ -2,14 +2,14 @@
 
 use percuss_report::page::Block;
 
-use super::{Benchmark, Origin, figures::Drawn, tables};
+use super::{BenchmarkResults, Origin, figures::Drawn, tables};
 use crate::{
     benchmark::{self, Estimate, Grouping},
     paper_case,
 };
 
 pub(super) fn page<'a>(
-    compared: &Benchmark,
+    compared: &BenchmarkResults,
     origin: &Origin,
     figures: &'a Drawn,
 ) -> Vec<Block<'a>> {
@@ -73,7 +73,7 @@ pub(super) fn page<'a>(
     page
 }
 
-fn paper_case<'a>(compared: &Benchmark) -> Vec<Block<'a>> {
+fn paper_case<'a>(compared: &BenchmarkResults) -> Vec<Block<'a>> {
     let mut blocks = vec![
         Block::Heading("The paper's case, one thing at a time".to_owned()),
         Block::Text(

@@ -1,4 +1,4 @@
-//! The report of a compared: every depth model against the axisymmetric reference, as HTML, Markdown, CSV and Parquet.
+//! Report of the benchmark: every depth model against the axisymmetric reference, as HTML, Markdown, CSV and Parquet.
 
 mod content;
 mod figures;
@@ -18,9 +18,9 @@ use crate::{
     },
 };
 
-/// All that a report says.
+/// Results of the benchmark.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Benchmark {
+pub struct BenchmarkResults {
     /// The reference of every shot on its meshes, checked.
     pub references: Vec<CheckedReference>,
     /// Every contender on every shot whose reference passes the check.
@@ -31,7 +31,7 @@ pub struct Benchmark {
     pub ablation: Vec<Line>,
 }
 
-/// What a report says of itself.
+/// Origin of a report.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Origin {
     /// Where the reference comes from.
@@ -40,8 +40,8 @@ pub struct Origin {
     pub command: String,
 }
 
-impl Benchmark {
-    /// Judges all contenders on shots by their references.
+impl BenchmarkResults {
+    /// Compares all contenders with the references of the shots.
     ///
     /// # Errors
     /// [`Error::Input`] when a shot's materials are not in the library.
@@ -57,22 +57,22 @@ impl Benchmark {
 
 /// Writes the report to a folder, which is made if it does not exist. Files of these names are replaced:
 ///
-/// - `judgement.html`: the whole report in one file;
-/// - `judgement.md` with one PNG a figure: the same without the single shots and some of the figures;
-/// - `verdicts.csv`, `verdicts.parquet`: a row a contender and shot; the first is the file that the library stores;
+/// - `benchmark.html`: the whole report in one file;
+/// - `benchmark.md` with one PNG a figure: the same without the single shots and some of the figures;
+/// - `verdicts.csv`, `verdicts.parquet`: one row per contender and shot; the first is the file that the library stores;
 /// - `references.csv`, `references.parquet`: a row per shot, with the depth by the reference or why it does not count;
-/// - `statistics.csv`, `statistics.parquet`: a row a contender and group;
+/// - `statistics.csv`, `statistics.parquet`: one row per contender and group;
 /// - `ablation.csv`, `ablation.parquet`: the paper's case by one-dimensional variants.
 ///
 /// # Errors
 /// [`ReportError::Write`]; [`ReportError::Figure`]; [`ReportError::Table`].
 pub fn write(
     folder: &Path,
-    compared: &Benchmark,
+    compared: &BenchmarkResults,
     origin: &Origin,
 ) -> Result<Vec<PathBuf>, ReportError> {
     let figures = figures::Drawn::of(&compared.verdicts);
     let page = content::page(compared, origin, &figures);
     let files = numbers::files(compared)?;
-    page::write(folder, "judgement", &page, figures.in_markdown(), files)
+    page::write(folder, "benchmark", &page, figures.in_markdown(), files)
 }

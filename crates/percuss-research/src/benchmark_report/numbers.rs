@@ -6,14 +6,16 @@ use percuss_report::{
     column::{self, Column},
 };
 
-use super::Benchmark;
+use super::BenchmarkResults;
 use crate::{
     benchmark::{self, CheckedReference, Group, Grouping},
     paper_case::ablation::Line,
 };
 
 /// Names and contents of the files.
-pub(super) fn files(compared: &Benchmark) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
+pub(super) fn files(
+    compared: &BenchmarkResults,
+) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
     let verdicts = benchmark::to_csv(&compared.verdicts).map_err(|source| ReportError::Table {
         table: "verdicts.csv".to_owned(),
         source: source.into(),

@@ -6,7 +6,7 @@ use percuss::{
 };
 use percuss_report::table::{Rows, Table, number};
 
-use super::Benchmark;
+use super::BenchmarkResults;
 use crate::{
     benchmark::{self, CheckedReference, Errors, Group, Grouping, Shot, pair_name},
     paper_case::{self, Study, ablation::Line},
@@ -111,7 +111,7 @@ pub(super) fn study(rows: &[Study]) -> Table {
 }
 
 /// Every shot: its reference on all meshes, extrapolated, and the depth of every contender with its error.
-pub(super) fn every_shot(compared: &Benchmark) -> Table {
+pub(super) fn every_shot(compared: &BenchmarkResults) -> Table {
     let entries: Vec<&CheckedReference> = compared.references.iter().collect();
     shots(&entries)
         .numbers("reference", "mm", |entry| match &entry.estimate {

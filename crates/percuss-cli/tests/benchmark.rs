@@ -1,4 +1,4 @@
-//! `percuss judge` on a small reference of its own.
+//! `percuss benchmark` on a small reference of its own.
 
 use std::{fs, path::Path};
 
@@ -34,13 +34,13 @@ fn folder() -> TempDir {
 fn ok(folder: &Path, arguments: &[&str]) -> String {
     let said = percuss(
         folder,
-        [&["judge", "--reference", "own.csv"], arguments].concat(),
+        [&["benchmark", "--reference", "own.csv"], arguments].concat(),
     );
     said.ok()
 }
 
 #[test]
-fn models_are_judged_by_a_reference() {
+fn models_are_compared_with_a_reference() {
     let folder = folder();
     let text = ok(folder.path(), &[]);
     for part in [
@@ -122,11 +122,11 @@ fn the_report_is_written_whole() {
         "2 ± 0.05",
         "refused: fewer than three meshes",
         "2 shots left out: their reference fails its check",
-        "percuss judge --reference own.csv --out report",
+        "percuss benchmark --reference own.csv --out report",
     ];
     let tables = ["verdicts.parquet", "statistics.parquet", "ablation.parquet"];
     let report = folder.path().join("report");
-    let [_, markdown] = whole_report(&report, "judgement", &parts, &tables);
+    let [_, markdown] = whole_report(&report, "benchmark", &parts, &tables);
     assert!(markdown.contains("error-chain-column.png"), "{markdown}");
     let header = read("verdicts.csv").lines().next().unwrap().to_owned();
     assert!(
@@ -149,7 +149,7 @@ fn refused(arguments: &[&str], code: i32) -> String {
     fs::write(folder.path().join("coarse.csv"), coarse.join("\n") + "\n").unwrap();
     let wrong = REFERENCE.replace("600.0,8,1.9", "600.0,8,deep");
     fs::write(folder.path().join("wrong.csv"), wrong).unwrap();
-    let said = percuss(folder.path(), [&["judge"], arguments].concat());
+    let said = percuss(folder.path(), [&["benchmark"], arguments].concat());
     assert_eq!(
         (said.code, said.stdout.as_str()),
         (code, ""),
@@ -163,7 +163,7 @@ fn refused(arguments: &[&str], code: i32) -> String {
 fn wrong_arguments_and_files_are_refused() {
     let empty = refused(&["--reference", "empty.csv"], 2);
     assert!(
-        empty.contains("no reference to judge by in empty.csv") && empty.contains("--compute"),
+        empty.contains("no reference depth in empty.csv") && empty.contains("--compute"),
         "{empty}"
     );
     let coarse = refused(&["--reference", "coarse.csv"], 2);
@@ -187,4 +187,20 @@ fn wrong_arguments_and_files_are_refused() {
     assert!(nowhere.contains("--reference FILE"), "{nowhere}");
     refused(&["--cells", "8"], 2);
     refused(&["--by", "moon"], 2);
+}
+
+#[test]
+fn the_former_name_of_the_command_is_refused_with_the_name_of_today() {
+    let folder = folder();
+    let said = percuss(folder.path(), ["judge", "--reference", "own.csv"]);
+    assert_eq!((said.code, said.stdout.as_str()), (2, ""));
+    let stderr = said.stderr;
+    assert!(
+        stderr.contains("the command `judge` is now `benchmark`"),
+        "{stderr}"
+    );
+    // Other words get no such tip.
+    let other = percuss(folder.path(), ["jugde"]);
+    assert_eq!(other.code, 2);
+    assert!(!other.stderr.contains("is now"), "{}", other.stderr);
 }

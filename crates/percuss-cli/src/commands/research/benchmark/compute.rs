@@ -17,12 +17,12 @@ use percuss_research::{
     paper_case,
 };
 
-use super::Judge;
+use super::Benchmark;
 use crate::{answer::Hear, failure::Failure, terminal};
 
 /// Computes what the files lack; returns why shots failed. `say` is told beforehand how long it may take.
 pub(super) fn complete(
-    options: &Judge,
+    options: &Benchmark,
     shots: &[Shot],
     stop: &AtomicBool,
     hear: Hear<'_>,

@@ -4,7 +4,7 @@ use percuss_report::table::{Table, number};
 use percuss_research::{
     benchmark::{self, Group, Grouping},
     benchmark_report::{
-        Benchmark, Origin,
+        BenchmarkResults, Origin,
         tables::{self, signed},
     },
 };
@@ -18,7 +18,7 @@ use crate::{
 const SPACES: u16 = 2;
 
 /// What the command prints: sentences, all errors together, their medians by what may decide them, and the groups asked for.
-pub fn text(compared: &Benchmark, origin: &Origin, by: &[Grouping]) -> String {
+pub fn text(compared: &BenchmarkResults, origin: &Origin, by: &[Grouping]) -> String {
     let verdicts = &compared.verdicts;
     let mut text = format!(
         "{}\n{}\n",

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use percuss::model_error::Verdict;
 use percuss_research::{
     benchmark::{self, CheckedReference, Group, Grouping, Reference, RefusedReference, reference},
-    benchmark_report::{self, Benchmark, Origin},
+    benchmark_report::{self, BenchmarkResults, Origin},
     paper_case::{self, ablation::Line},
 };
 use serde::Serialize;
@@ -48,19 +48,19 @@ same command goes on where it was. Run it with --cells 4, 8 and 12.";
 
 const AFTER_HELP: &str = "\
 Examples:
-  percuss judge
-  percuss judge --by regime --by speed
-  percuss judge --out judgement
-  percuss judge --json > judgement.json
-  percuss judge --compute --reference my-reference.csv --cells 4
+  percuss benchmark
+  percuss benchmark --by regime --by speed
+  percuss benchmark --out benchmark
+  percuss benchmark --json > benchmark.json
+  percuss benchmark --compute --reference my-reference.csv --cells 4
 
 Exit codes: 0 ok, 2 bad input or no reference, 4 a file could not be read or
 written";
 
-/// Judge all depth models by the axisymmetric reference
+/// Compare all depth models with the axisymmetric reference
 #[derive(Debug, Args)]
 #[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
-pub struct Judge {
+pub struct Benchmark {
     /// CSV file of reference depths in place of the program's own
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
@@ -124,14 +124,14 @@ struct Record<'a> {
 
 /// What the command found out and wrote.
 struct Found {
-    compared: Benchmark,
+    compared: BenchmarkResults,
     origin: Origin,
     /// Shots whose reference was to be computed and failed, and why.
     failures: Vec<String>,
     files: Vec<PathBuf>,
 }
 
-impl Judge {
+impl Benchmark {
     pub fn run(&self) -> Result<(), Failure> {
         let say = |words: &str| {
             if !self.quiet {
@@ -194,7 +194,7 @@ impl Judge {
             .any(|row| shots.iter().any(|shot| row.is_of(shot)))
         {
             return Err(Failure::Usage {
-                message: format!("there is no reference to judge by in {reference}"),
+                message: format!("there is no reference depth in {reference}"),
                 help: "give a file that has one: --reference FILE; --compute computes it"
                     .to_owned(),
             });
@@ -204,7 +204,7 @@ impl Judge {
             return Err(refused_all(&reference, &checked));
         }
         let _ = hear(COMPUTED, "running all models on all shots");
-        let compared = Benchmark::new(&shots, &references, study)?;
+        let compared = BenchmarkResults::new(&shots, &references, study)?;
         let origin = Origin {
             reference,
             command: self.command(),
@@ -246,7 +246,7 @@ impl Judge {
 
     /// The command as a user would type it.
     fn command(&self) -> String {
-        let mut words = vec!["percuss judge".to_owned()];
+        let mut words = vec!["percuss benchmark".to_owned()];
         let path = |name: &str, path: &PathBuf| format!("{name} {}", path.display());
         words.extend(self.reference.iter().map(|file| path("--reference", file)));
         words.extend(self.study.iter().map(|file| path("--study", file)));

@@ -1,4 +1,4 @@
-"""Judgement: every model that gives depths against the axisymmetric reference."""
+"""Benchmark of every model that gives depths against the axisymmetric reference."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 _GROUPINGS = {"speed": "speed", "length": "length", "regime": "regime", "materials": "pair", "uncertainty": "reference"}
 
 
-class Judgement(Result):
-    """Models against the axisymmetric reference: the values of ``percuss judge --json``. A row a model and shot.
+class Benchmark(Result):
+    """Models against the axisymmetric reference: the values of ``percuss benchmark --json``. One row per model and case.
 
     Errors are relative: depth over reference depth, less one.
 
@@ -78,7 +78,7 @@ class Judgement(Result):
         return table_html(head, rows, f"reference: {self.reference}") + table_html([""], [[words] for words in self.findings])
 
 
-def judge(
+def benchmark(
     *,
     reference: Path | None = None,
     study: Path | None = None,
@@ -86,31 +86,31 @@ def judge(
     cells: int | None = None,
     out: Path | None = None,
     progress: Progress | bool | None = None,
-) -> Judgement:
-    """Judges every model that gives depths by the axisymmetric reference, model ``axi``.
+) -> Benchmark:
+    """Compares every model that gives depths with the axisymmetric reference, model ``axi``.
 
     Flat rods on thick targets, at speeds from 150 to 1500 m/s and L/D 1 to 10, of seven pairs of materials. The reference is stored in the
-    program; the models are run anew, which takes seconds.
+    program; the models are run again, which takes seconds.
 
     Parameters
     ----------
     reference : path, optional
-        CSV file of reference depths in place of the program's own.
+        CSV file of reference depths instead of the program's own.
     study : path, optional
-        CSV file of the seed paper's case by the reference in place of the program's own.
+        CSV file of the seed paper's case by the reference instead of the program's own.
     compute : bool
         Whether to compute first what these two files lack, and append it: hours. Ctrl-C keeps what is done, and the same call goes on.
     cells : int, optional
         Cells along the projectile's radius, for ``compute`` with ``reference``; 8 when not given.
     out : path, optional
-        Folder for the report with its figures, and the numbers, as ``percuss judge --out`` writes them; made if it does not exist.
+        Folder for the report with its figures, and the numbers, as ``percuss benchmark --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
         As of :func:`percuss.run`.
 
     Returns
     -------
-    Judgement
-        The same numbers, to the last bit, as ``percuss judge --json`` prints. :meth:`Judgement.errors` stands for its option ``--by``.
+    Benchmark
+        The same numbers, to the last bit, as ``percuss benchmark --json`` prints. :meth:`Benchmark.errors` stands for its option ``--by``.
 
     Raises
     ------
@@ -121,7 +121,7 @@ def judge(
 
     Examples
     --------
-    >>> percuss.judge().findings[0]  # doctest: +SKIP
+    >>> percuss.benchmark().findings[0]  # doctest: +SKIP
     '71 shots have a reference that passes its convergence check on three meshes: 65 are known within 10 %.'
     """
-    return Judgement(native_answer("judge", reference=reference, study=study, compute=compute, cells=cells, out=out, progress=progress))
+    return Benchmark(native_answer("benchmark", reference=reference, study=study, compute=compute, cells=cells, out=out, progress=progress))
