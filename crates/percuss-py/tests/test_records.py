@@ -149,7 +149,7 @@ def test_what_was_not_asked_for_is_not_drawn(tmp_path: Path) -> None:
     assert limits.to_pandas().empty and limits.plot_v50().lines
     with pytest.raises(ValueError, match="no case was searched"):
         limits.plot()
-    with pytest.raises(ValueError, match="no shots that scatter"):
+    with pytest.raises(ValueError, match="no test results were given"):
         percuss.limit("cases/weldox-460e-12mm-blunt/scenario.toml", model="plugging", points=0).plot_v50()
 
 
@@ -161,7 +161,7 @@ def test_damping_is_drawn_by_way_of_damping() -> None:
             shot = {"damping": "none", "impact_velocity_m_s": 230.0, "projectile_elements": 40, "depth_of_penetration_mm": 0.2}
             way = {**shot, "damping": "ratio 0.1", "depth_of_penetration_mm": 0.1}
             reference = [{"impact_velocity_m_s": 230.0, "depth_of_penetration_mm": 0.25}]
-            return json.dumps({"work": "damping", "findings": ["less"], "shots": [shot, way], "reference": reference})
+            return json.dumps({"work": "damping", "findings": ["less"], "runs": [shot, way], "reference": reference})
 
         def files(self) -> list[str]:
             return []

@@ -1,7 +1,7 @@
-"""First-order impact and penetration mechanics: what strikes what, how fast, how deep it goes, and how far to trust that.
+"""First-order impact and penetration mechanics: estimates of penetration depth, residual velocity and ballistic limit.
 
-The runs, comparisons and studies of the program ``percuss``, with the same names and the same numbers. Cases are data: the tables of a case file,
-from a file or as keyword arguments. Numbers in code are in SI units; the names of results end with their unit.
+The package has the runs, comparisons and studies of the program ``percuss``, with the same names and numbers. A case is a file, or the tables of a
+case file as keyword arguments. Numbers in code are in SI units; the names of results end with their unit.
 
 Examples
 --------

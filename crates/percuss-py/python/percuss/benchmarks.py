@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from . import report_plots
-from .ask import Path, native_answer
+from .command_line import Path, execute
 from .errors import UsageError
 from .progress import Progress
 from .record import Record, Records, Result, table_html
@@ -20,26 +20,26 @@ _GROUPINGS = {"speed": "speed", "length": "length", "regime": "regime", "materia
 class Benchmark(Result):
     """Models against the axisymmetric reference: the values of ``percuss benchmark --json``. One row per model and case.
 
-    Errors are relative: depth over reference depth, less one.
+    Relative error = depth / reference depth - 1.
 
     Attributes
     ----------
     reference : str
-        What the reference comes from.
+        Source of the reference.
     failures : list of str
-        Shots whose reference was to be computed and failed, and why.
+        Cases whose reference could not be computed, with the reason.
     refused : list of Record
-        Shots left out of all numbers because their reference fails its convergence check: materials, ``length_to_diameter``,
+        Cases left out of all numbers because their reference fails its convergence check: materials, ``length_to_diameter``,
         ``impact_velocity_m_s`` and ``reason``.
     findings : list of str
-        What it comes to, in words.
+        Findings as sentences.
     statistics : list of Record
         Errors by group: ``contender`` (a model, with its closure where it has several), ``grouping``, ``value``, ``count``, ``median``,
-        ``low`` and ``high``, between which eight of ten errors lie, ``median_absolute`` and ``within_25_percent``.
-    ablation : list of Record
-        The seed paper's case with one thing changed at a time: ``variant``, ``change``, ``depth_of_penetration_mm``, ``error``.
+        ``low`` and ``high`` (10th and 90th percentile), ``median_absolute`` and ``within_25_percent``.
+    variants : list of Record
+        Case of the seed paper with one change at a time: ``variant``, ``change``, ``depth_of_penetration_mm``, ``error``.
     verdicts : list of Record
-        Every depth beside the reference: ``depth_of_penetration_mm``, ``reference_depth_mm`` and ``reference_uncertainty_mm``.
+        Every depth with its reference: ``depth_of_penetration_mm``, ``reference_depth_mm`` and ``reference_uncertainty_mm``.
     """
 
     percuss_version: str
@@ -48,7 +48,7 @@ class Benchmark(Result):
     refused: list[Record]
     findings: list[str]
     statistics: list[Record]
-    ablation: list[Record]
+    variants: list[Record]
     verdicts: list[Record]
 
     def _rows(self) -> list[dict[str, Any]]:
@@ -63,7 +63,7 @@ class Benchmark(Result):
         return Records((group for group in self.statistics if group.grouping == grouping), *names)
 
     def plot(self, by: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draws the errors of every model: median and the range of eight of ten, or median magnitudes by what ``errors`` takes."""
+        """Draws the errors of every model: median and 10th-90th percentile, or median absolute errors by a property of ``errors``."""
         return report_plots.errors(self, by, ax)
 
     def _repr_html_(self) -> str:
@@ -74,14 +74,14 @@ class Benchmark(Result):
             [e.contender, str(e.count), percent(e.median), f"{percent(e.low)} to {percent(e.high)}", f"{100 * e.within_25_percent:.0f} %"]
             for e in self.errors()
         ]
-        head = ["model", "shots", "median error", "eight of ten", "within 25 %"]
+        head = ["model", "cases", "median error", "10th-90th percentile", "within 25 %"]
         return table_html(head, rows, f"reference: {self.reference}") + table_html([""], [[words] for words in self.findings])
 
 
 def benchmark(
     *,
     reference: Path | None = None,
-    study: Path | None = None,
+    paper_case: Path | None = None,
     compute: bool = False,
     cells: int | None = None,
     out: Path | None = None,
@@ -95,22 +95,22 @@ def benchmark(
     Parameters
     ----------
     reference : path, optional
-        CSV file of reference depths instead of the program's own.
-    study : path, optional
-        CSV file of the seed paper's case by the reference instead of the program's own.
+        CSV file of reference depths, instead of those of the program.
+    paper_case : path, optional
+        CSV file of reference results for the case of the seed paper, instead of those of the program.
     compute : bool
-        Whether to compute first what these two files lack, and append it: hours. Ctrl-C keeps what is done, and the same call goes on.
+        Whether to compute the cases that these two files lack, which takes hours. Ctrl-C keeps completed cases, and the same call continues.
     cells : int, optional
         Cells along the projectile's radius, for ``compute`` with ``reference``; 8 when not given.
     out : path, optional
         Folder for the report with its figures, and the numbers, as ``percuss benchmark --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
-        As of :func:`percuss.run`.
+        As in :func:`percuss.run`.
 
     Returns
     -------
     Benchmark
-        The same numbers, to the last bit, as ``percuss benchmark --json`` prints. :meth:`Benchmark.errors` stands for its option ``--by``.
+        The same numbers, to the last bit, as ``percuss benchmark --json`` prints. :meth:`Benchmark.errors` replaces its option ``--by``.
 
     Raises
     ------
@@ -124,4 +124,4 @@ def benchmark(
     >>> percuss.benchmark().findings[0]  # doctest: +SKIP
     '71 shots have a reference that passes its convergence check on three meshes: 65 are known within 10 %.'
     """
-    return Benchmark(native_answer("benchmark", reference=reference, study=study, compute=compute, cells=cells, out=out, progress=progress))
+    return Benchmark(execute("benchmark", reference=reference, paper_case=paper_case, compute=compute, cells=cells, out=out, progress=progress))

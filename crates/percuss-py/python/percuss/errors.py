@@ -1,4 +1,4 @@
-"""What can go wrong: every message is the one that the program ``percuss`` prints, with its place and its remedy."""
+"""Exceptions, with the messages of the program ``percuss``."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class NumericalError(PercussError, ArithmeticError):
 
 
 class NotApplicableError(PercussError, ValueError):
-    """The model is not made for the case.
+    """The model does not apply to the case.
 
     Attributes
     ----------
@@ -95,4 +95,4 @@ class WriteError(_FileError):
 
 
 class ClusterError(PercussError, RuntimeError):
-    """A cluster was lost before a sweep was done; what was done is kept."""
+    """A cluster was lost during a sweep; computed rows are kept."""

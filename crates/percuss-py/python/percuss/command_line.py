@@ -1,4 +1,4 @@
-"""Command lines that are answered as data: what the functions of the package pass their options on to."""
+"""Command lines whose results are data, for all functions of the package."""
 
 from __future__ import annotations
 
@@ -15,27 +15,27 @@ from .progress import Progress, watching
 Path: TypeAlias = str | os.PathLike[str]
 #: A case, or the path of a case file.
 CaseLike: TypeAlias = Case | Path
-#: A speed in m/s, or a text with its unit.
+#: Velocity in m/s, or a text with its unit.
 Speed: TypeAlias = float | str
 
 
-def native_answer(
+def execute(
     command: str,
     *names: Path,
     of: CaseLike | Sequence[CaseLike] | None = None,
     texts: Mapping[str, str] | None = None,
     progress: Progress | bool | None = None,
     **options: Any,
-) -> _percuss.Answer:
-    """What a command finds out. Options have the names that they have there; ``None`` stands for the default.
+) -> _percuss.Response:
+    """Executes a command. Options have the names of the command line; ``None`` selects the default.
 
-    ``of`` are cases that follow ``names`` on the command line; ``texts`` stand in the place of files that options name.
+    ``of`` are cases that follow ``names`` on the command line; ``texts`` replace files that options name.
     """
     cases: dict[str, _percuss.Case] = {}
 
     def word(value: Any) -> str:
         if isinstance(value, Case):
-            # No file has this name: what is at hand stands in its place.
+            # No file has this name: the text replaces it.
             name = f"\0case-{len(cases) + 1}"
             cases[name] = value._native
             return name
@@ -50,13 +50,13 @@ def native_answer(
             elif item is not None and item is not False:
                 line.append(f"{flag}={word(item)}")
     line += ["--", *map(word, [*names, *several(of)])]
-    with watching(progress) as hear:
-        return _percuss.answer(line, cases, dict(texts or {}), hear)
+    with watching(progress) as on_progress:
+        return _percuss.execute(line, cases, dict(texts or {}), on_progress)
 
 
 def answer(command: str, *names: Path, **options: Any) -> Any:
-    """What a command prints with --json; the arguments are those of :func:`native_answer`."""
-    return json.loads(native_answer(command, *names, **options).json())
+    """Output of a command with --json; the arguments are those of :func:`execute`."""
+    return json.loads(execute(command, *names, **options).json())
 
 
 def several(names: Any) -> list[Any]:
@@ -67,7 +67,7 @@ def several(names: Any) -> list[Any]:
 
 
 def speeds(speeds: Speed | Sequence[float] | None) -> str | None:
-    """Speeds as the command line has them: with as many digits as it takes to read them back unchanged."""
+    """Velocities as text of the command line, with all digits."""
     if speeds is None or isinstance(speeds, str):
         return speeds
     if isinstance(speeds, (int, float)):
@@ -76,5 +76,5 @@ def speeds(speeds: Speed | Sequence[float] | None) -> str | None:
 
 
 def with_unit(speed: Speed | None) -> str | None:
-    """A speed as the command line has it."""
+    """Velocity as text of the command line."""
     return speed if speed is None or isinstance(speed, str) else f"{float(speed)!r} m/s"
