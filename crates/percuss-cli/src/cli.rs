@@ -1,4 +1,4 @@
-//! The commands and what they have in common.
+//! Command line: the list of commands and their common help.
 
 use std::{ffi::OsString, sync::atomic::AtomicBool};
 
@@ -9,40 +9,41 @@ use clap::{
 };
 
 use crate::{
-    answer::{Answer, AtHand, Hear},
     commands::{
         Benchmark, Calibrate, Compare, Completions, Converge, Limit, Man, Materials, Models, New,
         Reproduce, Run, Schema, Serve, Sweep, Uncertainty, Validate,
     },
     failure::Failure,
+    response::{ProgressCallback, Response, VirtualFiles},
 };
 
 const ABOUT: &str = "First-order impact and penetration mechanics";
 
 const LONG_ABOUT: &str = "\
-First-order impact and penetration mechanics: what strikes what, how fast, how
-deep it goes, and how far to trust that.
+First-order impact and penetration mechanics: estimates of the depth of
+penetration, residual velocity and ballistic limit, with an estimated model
+error.
 
 A case is a TOML file in which every dimensional number carries its unit. A run
-gives the depth of penetration and the rest of the shot, balances the books of
-energy and momentum, and says what its numbers rest on.";
+reports the depth of penetration and all other results, its energy and momentum
+balance, and the assumptions behind the numbers.";
 
 const AFTER_HELP: &str = "\
 Examples:
-  percuss new my-shot                      write my-shot/scenario.toml
-  percuss run my-shot/scenario.toml        run it
-  percuss compare my-shot/scenario.toml    see what every model says of it
-  percuss limit my-shot/scenario.toml      find the speed that perforates it
-  percuss sweep my-sweep.toml --out rows   vary a case and keep a row a shot
-  percuss converge my-shot/scenario.toml   see whether its mesh is fine enough
-  percuss serve                            answer in a browser while you drag
-  percuss materials show copper            show what is known of a material
+  percuss new my-case                      write my-case/scenario.toml
+  percuss run my-case/scenario.toml        run it
+  percuss compare my-case/scenario.toml    compare the results of all models
+  percuss limit my-case/scenario.toml      find its ballistic limit
+  percuss sweep my-sweep.toml --out rows   vary a case; one row per run
+  percuss converge my-case/scenario.toml   check its mesh convergence
+  percuss serve                            interactive page in a browser
+  percuss materials show copper            show the record of a material
   percuss run --help                       explain one command
 
 Exit codes: 0 ok, 2 bad input, 3 numerical failure, 4 a file could not be read
 or written";
 
-/// Without the lines on commands that this build leaves out.
+/// Examples, without the commands that this build leaves out.
 fn after_help() -> String {
     let left_out = [
         ("  percuss serve ", cfg!(feature = "serve")),
@@ -56,7 +57,7 @@ fn after_help() -> String {
     lines.join("\n")
 }
 
-/// What the command line holds.
+/// Parsed command line.
 #[derive(Debug, Parser)]
 #[command(
     name = "percuss",
@@ -143,33 +144,35 @@ impl Command {
     }
 }
 
-/// What a command line with `--json` finds out; with `--out` it writes what the command writes. It ends when `stop` becomes true, or
-/// when `hear` says so.
+/// Executes a command line with `--json`; with `--out` it writes the files of the command. It ends when `stop` becomes true, or when
+/// `on_progress` returns [`ControlFlow::Break`](std::ops::ControlFlow::Break).
 ///
 /// # Errors
 /// Those of the command, and [`Failure::CommandLine`].
-pub fn answer(
+pub fn execute(
     words: impl IntoIterator<Item = OsString>,
-    at_hand: &AtHand,
+    virtual_files: &VirtualFiles,
     stop: &AtomicBool,
-    hear: Hear<'_>,
-) -> Result<Answer, Failure> {
+    on_progress: ProgressCallback<'_>,
+) -> Result<Response, Failure> {
     let cli = Cli::parse_line(words).map_err(Failure::CommandLine)?;
     match cli.command {
-        Command::Run(command) => command.answer(at_hand, stop, hear),
-        Command::Compare(command) => command.answer(at_hand, hear),
-        Command::Limit(command) => command.answer(at_hand, hear),
-        Command::Sweep(command) => command.answer(),
-        Command::Calibrate(command) => command.answer(at_hand, hear),
-        Command::Uncertainty(command) => command.answer(at_hand, stop, hear),
-        Command::Converge(command) => command.answer(at_hand, hear),
-        Command::Validate(command) => command.answer(hear),
-        Command::Benchmark(command) => command.answer(stop, hear),
-        Command::New(command) => command.answer(),
-        Command::Models(command) => command.answer(),
-        Command::Materials(command) => command.answer(at_hand),
-        Command::Schema(command) => command.answer(),
-        Command::Reproduce(command) => command.answer(hear),
-        Command::Serve(_) | Command::Completions(_) | Command::Man(_) => Err(Failure::no_answer()),
+        Command::Run(command) => command.execute(virtual_files, stop, on_progress),
+        Command::Compare(command) => command.execute(virtual_files, on_progress),
+        Command::Limit(command) => command.execute(virtual_files, on_progress),
+        Command::Sweep(command) => command.execute(),
+        Command::Calibrate(command) => command.execute(virtual_files, on_progress),
+        Command::Uncertainty(command) => command.execute(virtual_files, stop, on_progress),
+        Command::Converge(command) => command.execute(virtual_files, on_progress),
+        Command::Validate(command) => command.execute(on_progress),
+        Command::Benchmark(command) => command.execute(stop, on_progress),
+        Command::New(command) => command.execute(),
+        Command::Models(command) => command.execute(),
+        Command::Materials(command) => command.execute(virtual_files),
+        Command::Schema(command) => command.execute(),
+        Command::Reproduce(command) => command.execute(on_progress),
+        Command::Serve(_) | Command::Completions(_) | Command::Man(_) => {
+            Err(Failure::no_response())
+        }
     }
 }

@@ -45,12 +45,12 @@ fn models_are_compared_with_a_reference() {
     let text = ok(folder.path(), &[]);
     for part in [
         "reference: own.csv (12 rows)\n",
-        "- 2 shots have a reference that passes its convergence check on three meshes",
-        "- 2 more shots are left out of all numbers",
-        "all shots, errors in %\n",
+        "- 2 cases have a reference that passes its convergence check on three meshes",
+        "- 2 more cases are left out of all numbers",
+        "all cases, errors in %\n",
         "chain: diverging-penetrable",
         "median error in % by L/D\n",
-        "the paper's case one thing at a time",
+        "case of the seed paper, one change at a time",
     ] {
         assert!(text.contains(part), "{part:?} is not in:\n{text}");
     }
@@ -108,7 +108,7 @@ fn json_holds_statistics_and_verdicts_of_the_extrapolated_reference() {
     );
     assert_eq!(json["failures"], serde_json::json!([]));
     assert!(json["findings"].as_array().unwrap().len() > 3);
-    assert!(json["ablation"].as_array().unwrap().len() >= 14);
+    assert!(json["variants"].as_array().unwrap().len() >= 14);
 }
 
 #[test]
@@ -117,14 +117,14 @@ fn the_report_is_written_whole() {
     ok(folder.path(), &["--out", "report"]);
     let read = |name: &str| fs::read_to_string(folder.path().join("report").join(name)).unwrap();
     let parts = [
-        "<h2>In plain words</h2>",
+        "<h2>Findings</h2>",
         "4: 1.8, 8: 1.9, 16: 1.95",
         "2 ± 0.05",
         "refused: fewer than three meshes",
-        "2 shots left out: their reference fails its check",
+        "2 cases left out: their reference fails its check",
         "percuss benchmark --reference own.csv --out report",
     ];
-    let tables = ["verdicts.parquet", "statistics.parquet", "ablation.parquet"];
+    let tables = ["verdicts.parquet", "statistics.parquet", "variants.parquet"];
     let report = folder.path().join("report");
     let [_, markdown] = whole_report(&report, "benchmark", &parts, &tables);
     assert!(markdown.contains("error-chain-column.png"), "{markdown}");

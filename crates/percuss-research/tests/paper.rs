@@ -2,7 +2,7 @@
 
 use std::{fs, ops::ControlFlow, path::Path};
 
-use percuss_research::paper::{Verdict, reproduce};
+use percuss_research::paper::{Assessment, reproduce};
 
 /// Words are compared as words, numbers as numbers: the last digits may differ between C libraries.
 fn assert_same(old: &str, new: &str) {
@@ -39,21 +39,27 @@ fn the_page_in_the_docs_is_up_to_date() {
             .find(|item| item.place == place && item.statement.starts_with(start));
         found
             .unwrap_or_else(|| panic!("no item {place}: {start}"))
-            .verdict
+            .assessment
     };
-    assert_eq!(verdict("Table 1", "penetrator mass"), Verdict::Reproduced);
-    assert_eq!(verdict("Table 1", "time step 4.85e-9"), Verdict::Reproduced);
+    assert_eq!(
+        verdict("Table 1", "penetrator mass"),
+        Assessment::Reproduced
+    );
+    assert_eq!(
+        verdict("Table 1", "time step 4.85e-9"),
+        Assessment::Reproduced
+    );
     assert_eq!(
         verdict("Table 1", "95 time steps"),
-        Verdict::ReadingDependent
+        Assessment::ReadingDependent
     );
     assert_eq!(
         verdict("Fig. 8", "40–80 elements are converged (published, chain)"),
-        Verdict::Contradicted
+        Assessment::Contradicted
     );
     assert_eq!(
         verdict("Fig. 11", "agrees with Woodward's shots"),
-        Verdict::CannotBeKnown
+        Assessment::CannotBeKnown
     );
 }
 

@@ -1,4 +1,4 @@
-//! One file a command: its arguments, its help and what it does.
+//! Commands, one file per command: arguments, help and execution.
 
 mod calibrate;
 mod compare;

@@ -1,4 +1,4 @@
-//! Depths by all models beside those by the reference.
+//! Depths by all models compared with the reference.
 
 use percuss::{
     Error, Scenario,
@@ -8,29 +8,29 @@ use percuss::{
 };
 use rayon::prelude::*;
 
-use super::{check_references, reference::Reference, shot::Shot};
+use super::{case::BenchmarkCase, check_references, reference::Reference};
 
-/// Runs every contender on every shot whose reference passes its check. A contender that fails on a shot is left out there.
+/// Runs every contender on every case whose reference passes its check. Failed runs are left out.
 ///
 /// # Errors
-/// [`Error::Input`] when a shot's materials are not in the library.
-pub fn compare(shots: &[Shot], references: &[Reference]) -> Result<Vec<Verdict>, Error> {
+/// [`Error::Input`] when a case's materials are not in the library.
+pub fn compare(cases: &[BenchmarkCase], references: &[Reference]) -> Result<Vec<Verdict>, Error> {
     let contenders = contenders();
-    let checked = check_references(shots, references);
+    let checked = check_references(cases, references);
     let compared: Result<Vec<Vec<Verdict>>, Error> = checked
         .par_iter()
-        .filter_map(|entry| Some((&entry.shot, entry.estimate.ok()?)))
-        .map(|(shot, reference)| {
-            let scenario = shot.scenario()?;
+        .filter_map(|entry| Some((&entry.case, entry.estimate.ok()?)))
+        .map(|(case, reference)| {
+            let scenario = case.scenario()?;
             let regime = Regime::of(&scenario).projectile;
             let depths = contenders.iter().filter_map(|contender| {
                 let depth = depth(contender, &scenario)?;
                 Some(Verdict {
                     contender: contender.name.to_owned(),
-                    projectile: shot.projectile.clone(),
-                    target: shot.target.clone(),
-                    length_to_diameter: shot.length_to_diameter,
-                    impact_velocity_m_s: shot.speed,
+                    projectile: case.projectile.clone(),
+                    target: case.target.clone(),
+                    length_to_diameter: case.length_to_diameter,
+                    impact_velocity_m_s: case.speed,
                     regime,
                     depth_of_penetration_mm: depth * 1e3,
                     reference_depth_mm: reference.depth_mm,
@@ -43,7 +43,7 @@ pub fn compare(shots: &[Shot], references: &[Reference]) -> Result<Vec<Verdict>,
     Ok(compared?.into_iter().flatten().collect())
 }
 
-/// The results as the CSV file that the library stores.
+/// Results as the CSV file that the library stores.
 ///
 /// # Errors
 /// Those of the CSV writer.

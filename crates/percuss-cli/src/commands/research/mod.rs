@@ -1,4 +1,4 @@
-//! Commands of the project's own research.
+//! Commands of the project's research: benchmark and reproduction.
 
 mod benchmark;
 mod reproduce;

@@ -1,3 +1,5 @@
+//! `percuss benchmark`: depth models compared with the axisymmetric reference.
+
 mod compute;
 mod table;
 
@@ -8,43 +10,44 @@ use percuss::model_error::Verdict;
 use percuss_research::{
     benchmark::{self, CheckedReference, Group, Grouping, Reference, RefusedReference, reference},
     benchmark_report::{self, BenchmarkResults, Origin},
-    paper_case::{self, ablation::Line},
+    paper_case::{self, variants::VariantResult},
 };
 use serde::Serialize;
 
 use crate::{
-    answer::{Answer, Hear},
     diagnostic,
     failure::Failure,
+    file_list::FileList,
     output,
     progress::Progress,
+    response::{ProgressCallback, Response},
     run_folder::make_folder,
-    written::Written,
 };
 
-/// Part of the work that is done when the reference is there, where it has to be computed: the rest takes seconds.
+/// Fraction of the work that is the computation of the reference, where it is computed.
 const COMPUTED: f64 = 0.98;
 
 const LONG_ABOUT: &str = "\
-Judge every model that gives depths by the axisymmetric reference, model `axi`:
-flat rods on thick targets, at speeds from 150 to 1500 m/s and L/D 1 to 10, of
-seven pairs of materials.
+Compare every model that gives depths with the axisymmetric reference, model
+`axi`: flat rods on thick targets, at impact velocities from 150 to 1500 m/s and
+L/D 1 to 10, of seven pairs of materials.
 
-The reference is stored in the program, since it takes long; the models are run
-anew, which takes seconds. The answer is the error of each model by speed,
-length, regime and materials, and a few sentences that say what it comes to.
+The reference depths are stored in the program because they take hours; the
+other models run again, which takes seconds. The output is the error of each
+model by velocity, length, regime and materials, and a summary.
 
 With --out DIR the report is written as one HTML page and as Markdown with its
 figures, and the numbers as CSV and Parquet.
 
-A reference needs three meshes. Where the depth is monotone with an observed
+A reference depth needs three meshes. Where it is monotone with an observed
 order of 0.5 to 2.2 it is extrapolated, by at most 25 %; otherwise the meshes
-must agree within 10 %. A rod that stops short of a shorter one is refused.
-Shots that fail are listed with the reason and left out of all numbers.
+must agree within 10 %. A depth below that of a shorter rod is refused. Cases
+whose reference fails are listed with the reason and left out of all numbers.
 
-With --compute the shots that the files of --reference and --study lack are
-computed first, and appended as each is done: break it off at any time, and the
-same command goes on where it was. Run it with --cells 4, 8 and 12.";
+With --compute the cases that the files of --reference and --paper-case lack
+are computed first. Each result is appended as soon as it is complete, so that
+the same command continues after an interruption. Run it with --cells 4, 8
+and 12.";
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -61,20 +64,20 @@ written";
 #[derive(Debug, Args)]
 #[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
 pub struct Benchmark {
-    /// CSV file of reference depths in place of the program's own
+    /// CSV file of reference depths, instead of those of the program
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
-    /// CSV file of the paper's case by the reference in place of the program's own
+    /// CSV file of reference results for the case of the seed paper, instead of those of the program
     #[arg(long, value_name = "FILE")]
-    study: Option<PathBuf>,
-    /// Compute what these two files lack, which may take hours
+    paper_case: Option<PathBuf>,
+    /// Compute the cases that these two files lack, which may take hours
     #[arg(long)]
     compute: bool,
     /// Cells along the projectile's radius, for --compute with --reference
     #[arg(long, value_name = "N", default_value_t = 8, requires = "compute")]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=64))]
     cells: u32,
-    /// Print all errors by this; may be given several times
+    /// Print the errors by this property; may be given several times
     #[arg(long, value_name = "WHAT")]
     by: Vec<By>,
     /// Write the report and its numbers to a folder
@@ -83,7 +86,7 @@ pub struct Benchmark {
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]
     json: bool,
-    /// No table and no progress: one line of NAME=VALUE pairs a model
+    /// No table and no progress: one line of NAME=VALUE pairs per model
     #[arg(long, short)]
     quiet: bool,
 }
@@ -109,24 +112,24 @@ impl From<By> for Grouping {
     }
 }
 
-/// What `--json` prints. The names are stable.
+/// Output of `--json`. The names are stable.
 #[derive(Serialize)]
-struct Record<'a> {
+struct BenchmarkRecord<'a> {
     percuss_version: &'static str,
     reference: &'a str,
     failures: &'a [String],
     refused: Vec<RefusedReference>,
     findings: Vec<String>,
     statistics: Vec<Group>,
-    ablation: &'a [Line],
+    variants: &'a [VariantResult],
     verdicts: &'a [Verdict],
 }
 
-/// What the command found out and wrote.
-struct Found {
+/// Result of the command and the files that it wrote.
+struct BenchmarkOutput {
     compared: BenchmarkResults,
     origin: Origin,
-    /// Shots whose reference was to be computed and failed, and why.
+    /// Cases whose reference could not be computed, with the reason.
     failures: Vec<String>,
     files: Vec<PathBuf>,
 }
@@ -138,15 +141,15 @@ impl Benchmark {
                 diagnostic::print(&format!("{words}\n"));
             }
         };
-        // What is done is kept row by row, so that Ctrl-C may just end the program.
+        // Every row is stored as soon as it is complete: Ctrl-C can end the program.
         let mut progress = Progress::new(!self.quiet);
-        let found = self.find(&AtomicBool::new(false), &mut progress.hear(), &say);
+        let found = self.find(&AtomicBool::new(false), &mut progress.callback(), &say);
         progress.finish();
         let found = found?;
         for failure in &found.failures {
             diagnostic::print(&format!("warning: no reference: {failure}\n"));
         }
-        let written = Written::new(&found.files);
+        let written = FileList::new(&found.files);
         if self.json {
             return written.print_json(&record(&found), self.quiet);
         }
@@ -161,60 +164,65 @@ impl Benchmark {
         written.print_under(table::text(&found.compared, &found.origin, &by))
     }
 
-    /// What the command prints with --json.
-    pub fn answer(&self, stop: &AtomicBool, hear: Hear<'_>) -> Result<Answer, Failure> {
-        let found = self.find(stop, hear, &|_| ())?;
-        Answer::json_of(&record(&found), found.files.clone())
+    /// Output of --json.
+    pub fn execute(
+        &self,
+        stop: &AtomicBool,
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<Response, Failure> {
+        let found = self.find(stop, on_progress, &|_| ())?;
+        Response::json_of(&record(&found), found.files.clone())
     }
 
     fn find(
         &self,
         stop: &AtomicBool,
-        hear: Hear<'_>,
+        on_progress: ProgressCallback<'_>,
         say: &dyn Fn(&str),
-    ) -> Result<Found, Failure> {
-        let shots = benchmark::shots();
+    ) -> Result<BenchmarkOutput, Failure> {
+        let cases = benchmark::cases();
         if let Some(out) = &self.out {
             make_folder(out)?;
         }
         let failures = match self.compute {
             true => {
-                let mut part = |part: f64, words: &str| hear(COMPUTED * part, words);
-                compute::complete(self, &shots, stop, &mut part, say)?
+                let mut part = |part: f64, words: &str| on_progress(COMPUTED * part, words);
+                compute::complete(self, &cases, stop, &mut part, say)?
             }
             false => Vec::new(),
         };
         let (references, reference) = self.references()?;
-        let study = match &self.study {
+        let paper_case = match &self.paper_case {
             Some(file) => paper_case::read_file(file)?,
             None => paper_case::built_in(),
         };
         if !references
             .iter()
-            .any(|row| shots.iter().any(|shot| row.is_of(shot)))
+            .any(|row| cases.iter().any(|case| row.is_of(case)))
         {
             return Err(Failure::Usage {
                 message: format!("there is no reference depth in {reference}"),
-                help: "give a file that has one: --reference FILE; --compute computes it"
-                    .to_owned(),
+                help:
+                    "give a file with reference depths: --reference FILE; --compute computes them"
+                        .to_owned(),
             });
         }
-        let checked = benchmark::check_references(&shots, &references);
+        let checked = benchmark::check_references(&cases, &references);
         if checked.iter().all(|entry| entry.estimate.is_err()) {
             return Err(refused_all(&reference, &checked));
         }
-        let _ = hear(COMPUTED, "running all models on all shots");
-        let compared = BenchmarkResults::new(&shots, &references, study)?;
+        let _ = on_progress(COMPUTED, "running all models on all cases");
+        let compared = BenchmarkResults::new(&cases, &references, paper_case)?;
         let origin = Origin {
             reference,
             command: self.command(),
         };
         let mut files = Vec::new();
         if let Some(out) = &self.out {
-            let _ = hear(1.0, "drawing figures");
+            let _ = on_progress(1.0, "drawing figures");
             files = benchmark_report::write(out, &compared, &origin)?;
         }
-        Ok(Found {
+        Ok(BenchmarkOutput {
             compared,
             origin,
             failures,
@@ -222,11 +230,11 @@ impl Benchmark {
         })
     }
 
-    /// The reference and what it comes from.
+    /// Reference depths with their source.
     fn references(&self) -> Result<(Vec<Reference>, String), Failure> {
         let (references, name) = match &self.reference {
             Some(file) => {
-                // A misspelt name should not look like an empty file.
+                // A misspelt name is an error, not an empty file.
                 let text = std::fs::File::open(file).map_err(|source| percuss::Error::Read {
                     path: file.clone(),
                     reason: match source.kind() {
@@ -238,24 +246,28 @@ impl Benchmark {
                 drop(text);
                 (reference::read_file(file)?, file.display().to_string())
             }
-            None => (reference::built_in(), "the program's own".to_owned()),
+            None => (reference::built_in(), "data of the program".to_owned()),
         };
         let name = format!("{name} ({} rows)", references.len());
         Ok((references, name))
     }
 
-    /// The command as a user would type it.
+    /// Command line that repeats this command.
     fn command(&self) -> String {
         let mut words = vec!["percuss benchmark".to_owned()];
         let path = |name: &str, path: &PathBuf| format!("{name} {}", path.display());
         words.extend(self.reference.iter().map(|file| path("--reference", file)));
-        words.extend(self.study.iter().map(|file| path("--study", file)));
+        words.extend(
+            self.paper_case
+                .iter()
+                .map(|file| path("--paper-case", file)),
+        );
         words.extend(self.out.iter().map(|out| path("--out", out)));
         words.join(" ")
     }
 }
 
-/// The error when no reference passes the check.
+/// Error when no reference passes its check.
 fn refused_all(reference: &str, checked: &[CheckedReference]) -> Failure {
     let reasons = checked.iter().filter_map(|entry| {
         let refused = entry.refused()?;
@@ -277,11 +289,11 @@ fn refused_all(reference: &str, checked: &[CheckedReference]) -> Failure {
     }
 }
 
-fn record(found: &Found) -> Record<'_> {
-    let Found {
+fn record(found: &BenchmarkOutput) -> BenchmarkRecord<'_> {
+    let BenchmarkOutput {
         compared, origin, ..
     } = found;
-    Record {
+    BenchmarkRecord {
         percuss_version: env!("CARGO_PKG_VERSION"),
         reference: &origin.reference,
         failures: &found.failures,
@@ -295,7 +307,7 @@ fn record(found: &Found) -> Record<'_> {
             .iter()
             .flat_map(|grouping| benchmark::statistics(&compared.verdicts, *grouping))
             .collect(),
-        ablation: &compared.ablation,
+        variants: &compared.variants,
         verdicts: &compared.verdicts,
     }
 }

@@ -1,4 +1,4 @@
-//! The benchmark in the terminal.
+//! Terminal output of the benchmark.
 
 use percuss_report::table::{Table, number};
 use percuss_research::{
@@ -17,7 +17,7 @@ use crate::{
 /// Spaces between columns.
 const SPACES: u16 = 2;
 
-/// What the command prints: sentences, all errors together, their medians by what may decide them, and the groups asked for.
+/// Findings, errors over all cases, medians by velocity, length and regime, and the requested groups.
 pub fn text(compared: &BenchmarkResults, origin: &Origin, by: &[Grouping]) -> String {
     let verdicts = &compared.verdicts;
     let mut text = format!(
@@ -32,7 +32,7 @@ pub fn text(compared: &BenchmarkResults, origin: &Origin, by: &[Grouping]) -> St
     let refused = refused.count();
     if refused > 0 {
         let sentence = format!(
-            "- {refused} more shots are left out of all numbers: their reference fails the check. `--out DIR` and `--json` list the reasons."
+            "- {refused} more cases are left out of all numbers: their reference fails the check. `--out DIR` and `--json` list the reasons."
         );
         text += &format!("{}\n", wrap(&sentence, width(), 2));
     }
@@ -40,7 +40,7 @@ pub fn text(compared: &BenchmarkResults, origin: &Origin, by: &[Grouping]) -> St
         text += &format!("\n{}\n{}", bold(title), plain(table, SPACES));
     };
     let all = benchmark::statistics(verdicts, Grouping::All);
-    add("all shots, errors in %", &errors(&all));
+    add("all cases, errors in %", &errors(&all));
     for &grouping in by {
         let groups = benchmark::statistics(verdicts, grouping);
         for value in grouping.values() {
@@ -57,15 +57,15 @@ pub fn text(compared: &BenchmarkResults, origin: &Origin, by: &[Grouping]) -> St
             let groups = benchmark::statistics(verdicts, grouping);
             add(&title, &medians(&groups, grouping));
         }
-        let mut ablation = tables::ablation(&compared.ablation);
-        ablation.columns.remove(1);
-        for column in &mut ablation.columns {
+        let mut variants = tables::variants(&compared.variants);
+        variants.columns.remove(1);
+        for column in &mut variants.columns {
             column.heading = column.heading.replace("depth at ", "");
         }
-        let title = "the paper's case one thing at a time: depths in mm, errors in %";
-        add(title, &ablation);
-        let hint = "`--by WHAT` prints all errors by speed, length, regime, materials or the reference's uncertainty; `--out DIR` writes \
-                    all of it with figures.";
+        let title = "case of the seed paper, one change at a time: depths in mm, errors in %";
+        add(title, &variants);
+        let hint = "`--by WHAT` prints the errors by speed, length, regime, materials or uncertainty of the reference; `--out DIR` writes \
+                    the whole report with figures.";
         text += &format!("\n{}\n", wrap(hint, width(), 0));
     }
     text
@@ -77,11 +77,11 @@ fn errors(groups: &[Group]) -> Table {
         .words("model", |group| group.contender)
         .numbers("n", "", |group| group.errors.count.to_string())
         .numbers("median", "", |group| signed(group.errors.median))
-        .numbers("eight of ten", "", |group| {
+        .numbers("10th-90th pct.", "", |group| {
             let errors = &group.errors;
             format!("{} … {}", signed(errors.low), signed(errors.high))
         })
-        .numbers("|median|", "", |group| {
+        .numbers("median |e|", "", |group| {
             format!("{:.0}", 100.0 * group.errors.median_absolute)
         })
         .numbers("within 25 %", "", |group| {
@@ -90,7 +90,7 @@ fn errors(groups: &[Group]) -> Table {
         .table()
 }
 
-/// A row a contender, a column a group.
+/// One row per contender, one column per group.
 fn medians(groups: &[Group], grouping: Grouping) -> Table {
     let mut contenders: Vec<&str> = groups.iter().map(|group| group.contender).collect();
     contenders.dedup();
@@ -108,7 +108,7 @@ fn medians(groups: &[Group], grouping: Grouping) -> Table {
         .table()
 }
 
-/// A contender in one line for scripts.
+/// Contender as one line of NAME=VALUE pairs.
 pub fn one_line(group: &Group) -> String {
     let errors = &group.errors;
     format!(

@@ -1,20 +1,20 @@
-//! A run of a case with its result.
+//! Case with the result of its run.
 
 use std::{slice, sync::Arc};
 
 use percuss::{Scenario, outcome::RunResult, summary::CaseResults};
 
-/// A case and what came of it.
+/// Case with the result of its run.
 #[derive(Debug)]
-pub struct Ran {
-    /// The case.
+pub struct RunOutput {
+    /// Case.
     pub scenario: Arc<Scenario>,
-    /// What came of it.
+    /// Result.
     pub result: Arc<RunResult>,
 }
 
-impl Ran {
-    /// What `percuss run --json` prints.
+impl RunOutput {
+    /// Output of `percuss run --json`.
     pub fn results(&self) -> CaseResults {
         CaseResults::new(&self.scenario, slice::from_ref(&self.result))
     }

@@ -1,4 +1,4 @@
-//! What the difference between paper and reference consists of: one-dimensional models that differ in one thing at a time.
+//! Case of the seed paper by one-dimensional models that differ in one change at a time, from its scheme to the expanding cavity.
 
 use percuss::{
     Error,
@@ -6,18 +6,18 @@ use percuss::{
 };
 use serde::Serialize;
 
-use super::{SPEEDS, Study, depth, scenario};
+use super::{PaperCaseRow, SPEEDS, depth, scenario};
 
 /// A variant of the one-dimensional model.
 struct Variant {
     name: &'static str,
-    /// In what it differs from the one before.
+    /// Difference from the previous variant.
     change: &'static str,
-    /// Its options.
+    /// Options of the case.
     options: &'static str,
 }
 
-/// From the paper's scheme to the expanding cavity.
+/// Variants from the scheme of the paper to the expanding cavity.
 const VARIANTS: &[Variant] = &[
     Variant {
         name: "published scheme",
@@ -26,7 +26,7 @@ const VARIANTS: &[Variant] = &[
     },
     Variant {
         name: "column, small strain",
-        change: "balanced books and plastic unloading; elements erode at a strain of 0.9, before they turn inside out",
+        change: "closed energy balance and plastic unloading; elements erode at a strain of 0.9, before they invert",
         options: "[chain]\ntarget_closure = \"column\"\nkinematics = \"small-strain\"\nerosion_strain = 0.9\n",
     },
     Variant {
@@ -41,7 +41,7 @@ const VARIANTS: &[Variant] = &[
     },
     Variant {
         name: "column, no border shear, factor 1",
-        change: "no constraint factor: the bare one-dimensional column",
+        change: "no constraint factor: one-dimensional column without any confinement",
         options: "[chain]\ntarget_closure = \"column\"\nborder_shear = 0.0\nconstraint_factor = 1.0\n",
     },
     Variant {
@@ -64,14 +64,14 @@ const VARIANTS: &[Variant] = &[
 /// Name of the reference in the table.
 pub const REFERENCE: &str = "axi";
 
-/// A line of the ablation table.
+/// Depth by one variant.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Line {
-    /// Impact speed [m/s].
+pub struct VariantResult {
+    /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
     /// Name of the variant.
     pub variant: &'static str,
-    /// In what it differs from the one before.
+    /// Difference from the previous variant.
     pub change: &'static str,
     /// Depth of penetration [mm].
     pub depth_of_penetration_mm: f64,
@@ -79,16 +79,16 @@ pub struct Line {
     pub error: Option<f64>,
 }
 
-/// The paper's case by every variant, and by the reference of a study at the end of each speed. A variant that fails is left out.
+/// Depths by every variant at every impact velocity, each followed by the reference. A variant that fails is left out.
 ///
 /// # Errors
 /// [`Error::Input`] when the library has no such materials.
-pub fn ablation(study: &[Study]) -> Result<Vec<Line>, Error> {
+pub fn compute(rows: &[PaperCaseRow]) -> Result<Vec<VariantResult>, Error> {
     let mut lines = Vec::new();
     for &speed in SPEEDS {
-        let reference = depth(study, speed).map(|estimate| estimate.depth_mm);
+        let reference = depth(rows, speed).map(|estimate| estimate.depth_mm);
         let mut add = |variant, change, depth: f64| {
-            lines.push(Line {
+            lines.push(VariantResult {
                 impact_velocity_m_s: speed,
                 variant,
                 change,
@@ -105,11 +105,7 @@ pub fn ablation(study: &[Study]) -> Result<Vec<Line>, Error> {
             }
         }
         if let Some(reference) = reference {
-            add(
-                REFERENCE,
-                "axisymmetric: not one-dimensional any more",
-                reference,
-            );
+            add(REFERENCE, "two-dimensional axisymmetric", reference);
         }
     }
     Ok(lines)

@@ -1,4 +1,4 @@
-//! Answers that take a while: lines of JSON, each with how far it is, the last one with what it came to. Who stops reading cancels.
+//! Streamed responses: lines of JSON with the progress, the last one with the result. A disconnected client cancels the run.
 
 use std::{
     convert::Infallible,
@@ -21,40 +21,40 @@ use tokio::{
 
 use crate::{
     http,
+    job::{Stop, Workers},
     problem::Problem,
-    worker::{Stop, Workers},
 };
 
-/// Lines that may wait to be sent; of more progress than a client reads, some is left out.
+/// Largest number of queued lines; further progress is left out.
 const WAITING: usize = 8;
 
-/// Tells a client how far a computation is.
-pub(crate) struct Tell(Sender<Bytes>);
+/// Sender of progress to a client.
+pub(crate) struct EventSender(Sender<Bytes>);
 
-impl Tell {
-    /// Part done, 0 to 1, and a few words.
+impl EventSender {
+    /// Sends the progress, 0 to 1, and a short text.
     pub(crate) fn progress(&self, fraction: f64, words: &str) {
         let line = json!({ "progress": { "fraction": fraction.clamp(0.0, 1.0), "words": words } });
         let _ = self.0.try_send(line_of(&line));
     }
 
-    /// Whether nobody listens any more.
-    pub(crate) fn is_alone(&self) -> bool {
+    /// Whether the client has disconnected.
+    pub(crate) fn is_disconnected(&self) -> bool {
         self.0.is_closed()
     }
 }
 
 fn line_of(value: &impl Serialize) -> Bytes {
-    // Every value that is answered has text keys and so can be written.
+    // Every response has text keys and can be serialised.
     let mut line = serde_json::to_vec(value).unwrap_or_default();
     line.push(b'\n');
     line.into()
 }
 
-/// Computes on a thread of its own and answers as it goes.
+/// Computes on a worker thread and streams the progress.
 pub(crate) async fn respond<T: Serialize>(
     workers: &Workers,
-    work: impl FnOnce(&Stop, &Tell) -> Result<T, Problem> + Send + 'static,
+    work: impl FnOnce(&Stop, &EventSender) -> Result<T, Problem> + Send + 'static,
 ) -> Response {
     let place = match workers.place().await {
         Ok(place) => place,
@@ -65,8 +65,8 @@ pub(crate) async fn respond<T: Serialize>(
     let last = sender.clone();
     let computed = task::spawn_blocking(move || {
         let _place = place;
-        let tell = Tell(sender);
-        work(&stop, &tell).map(|done| line_of(&json!({ "done": done })))
+        let events = EventSender(sender);
+        work(&stop, &events).map(|done| line_of(&json!({ "done": done })))
     });
     task::spawn(async move {
         let line = match computed.await {
@@ -74,7 +74,7 @@ pub(crate) async fn respond<T: Serialize>(
             Ok(Err(problem)) => line_of(&json!({ "problem": problem })),
             Err(_) => line_of(&json!({ "problem": Problem::fault() })),
         };
-        // A client that has gone needs no answer.
+        // A disconnected client needs no response.
         let _ = last.send(line).await;
     });
     http::respond(
@@ -84,7 +84,7 @@ pub(crate) async fn respond<T: Serialize>(
     )
 }
 
-/// The lines as the body of a response.
+/// Lines as the body of a response.
 struct Lines(Receiver<Bytes>);
 
 impl http_body::Body for Lines {

@@ -1,32 +1,35 @@
-//! What a model says at many speeds, put together where it differs in numbers only.
+//! Messages of a model at many velocities, merged where they differ only in numbers.
 
 use super::head::speed_range;
 
-/// A text that a model says at some of the speeds.
-pub struct Kind<'a> {
+/// Message of a model at some of the velocities.
+pub struct Message<'a> {
     masked: String,
     text: &'a str,
     first: usize,
-    /// Whether its numbers change with the speed.
+    /// Whether its numbers change with the velocity.
     varies: bool,
-    /// Where it is said, one flag a speed.
+    /// Velocities of the message, one flag per velocity.
     at: Vec<bool>,
 }
 
-/// The kinds of texts among these, each with the index of its speed, rising; `count` is the number of speeds.
-pub fn kinds<'a>(texts: impl Iterator<Item = (usize, &'a str)>, count: usize) -> Vec<Kind<'a>> {
-    let mut kinds: Vec<Kind<'a>> = Vec::new();
+/// Groups messages that differ only in numbers. Each comes with the index of its velocity, in rising order; `count` is the number of velocities.
+pub fn grouped<'a>(
+    texts: impl Iterator<Item = (usize, &'a str)>,
+    count: usize,
+) -> Vec<Message<'a>> {
+    let mut messages: Vec<Message<'a>> = Vec::new();
     for (speed, text) in texts {
         let masked = masked(text);
-        match kinds.iter_mut().find(|kind| kind.masked == masked) {
-            Some(kind) => {
-                kind.varies |= kind.text != text;
-                kind.at[speed] = true;
+        match messages.iter_mut().find(|message| message.masked == masked) {
+            Some(message) => {
+                message.varies |= message.text != text;
+                message.at[speed] = true;
             }
             None => {
                 let mut at = vec![false; count];
                 at[speed] = true;
-                kinds.push(Kind {
+                messages.push(Message {
                     masked,
                     text,
                     first: speed,
@@ -36,11 +39,11 @@ pub fn kinds<'a>(texts: impl Iterator<Item = (usize, &'a str)>, count: usize) ->
             }
         }
     }
-    kinds
+    messages
 }
 
-impl Kind<'_> {
-    /// The text as it is at its first speed, which is named where the numbers are those of that speed alone.
+impl Message<'_> {
+    /// The message at its first velocity, which is named where its numbers change.
     pub fn in_words(&self, speeds: &[f64]) -> String {
         let speed = speed_range(&speeds[self.first..=self.first]);
         match self.varies && !self.text.contains(&speed) {
@@ -49,7 +52,7 @@ impl Kind<'_> {
         }
     }
 
-    /// ` at 200 to 300 m/s and 450 m/s`; nothing where it holds at all speeds.
+    /// Velocities of the message, such as ` at 200 to 300 m/s and 450 m/s`; empty where it applies to all.
     pub fn place(&self, speeds: &[f64]) -> String {
         if self.at.iter().all(|said| *said) {
             return String::new();
@@ -66,7 +69,7 @@ impl Kind<'_> {
     }
 }
 
-/// A text without its numbers, and without the prefixes of pressures, which follow the numbers.
+/// A text without its numbers and the prefixes of pressure units.
 fn masked(text: &str) -> String {
     let mut masked = String::new();
     for c in text.chars() {
@@ -99,10 +102,10 @@ mod tests {
             "it is too fast: 3 elements",
             "the pressure is 2 GPa",
         ];
-        let kinds = kinds(texts.into_iter().enumerate(), 4);
-        let said: Vec<(String, String)> = kinds
+        let messages = grouped(texts.into_iter().enumerate(), 4);
+        let said: Vec<(String, String)> = messages
             .iter()
-            .map(|kind| (kind.place(&speeds), kind.in_words(&speeds)))
+            .map(|message| (message.place(&speeds), message.in_words(&speeds)))
             .collect();
         let pair = |a: &str, b: &str| (a.to_owned(), b.to_owned());
         assert_eq!(
@@ -119,9 +122,9 @@ mod tests {
 
     #[test]
     fn a_text_that_holds_everywhere_has_no_place() {
-        let kinds = kinds([(0, "a 1"), (1, "a 1")].into_iter(), 2);
-        assert_eq!(kinds.len(), 1);
-        assert_eq!(kinds[0].place(&[1.0, 2.0]), "");
-        assert_eq!(kinds[0].in_words(&[1.0, 2.0]), "a 1");
+        let messages = grouped([(0, "a 1"), (1, "a 1")].into_iter(), 2);
+        assert_eq!(messages.len(), 1);
+        assert_eq!(messages[0].place(&[1.0, 2.0]), "");
+        assert_eq!(messages[0].in_words(&[1.0, 2.0]), "a 1");
     }
 }

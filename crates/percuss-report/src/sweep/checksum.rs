@@ -62,7 +62,7 @@ mod tests {
     use super::{close, is_whole};
 
     #[test]
-    fn a_changed_bit_anywhere_breaks_the_seal() {
+    fn a_changed_bit_anywhere_fails_the_checksum() {
         let mut file = b"PAR1 some rows, crc32:11111111, and crc32:00000000 PAR1".to_vec();
         assert!(!is_whole(&file));
         close(&mut file);

@@ -1,4 +1,4 @@
-//! Runs on threads of their own: a few at a time, for a limited time, and no longer than somebody waits for them.
+//! Worker threads: a limited number of runs, each with a time limit and cancelled with its request.
 
 use std::{
     ops::ControlFlow,
@@ -14,16 +14,16 @@ use tokio::{
     task, time,
 };
 
-use crate::{Bounds, bounds::PATIENCE, problem::Problem};
+use crate::{RequestLimits, limits::QUEUE_TIME, problem::Problem};
 
-/// Places to compute in.
+/// Pool of workers.
 #[derive(Debug, Clone)]
 pub(crate) struct Workers {
     places: Arc<Semaphore>,
-    bounds: Bounds,
+    bounds: RequestLimits,
 }
 
-/// Says to a run when it is to end.
+/// Stop condition of a run: cancellation or deadline.
 #[derive(Debug, Clone)]
 pub(crate) struct Stop {
     cancelled: Arc<AtomicBool>,
@@ -40,7 +40,7 @@ impl Stop {
         }
     }
 
-    /// What a run is told when it asks whether to go on.
+    /// Whether the run continues.
     pub(crate) fn flow(&self) -> ControlFlow<()> {
         if self.cancelled.load(Ordering::Relaxed) || Instant::now() >= self.deadline {
             ControlFlow::Break(())
@@ -61,7 +61,7 @@ impl Stop {
         }
     }
 
-    /// The problem of a run that was told to end.
+    /// Problem of a stopped run.
     pub(crate) fn ended(&self) -> Problem {
         match self.cancelled.load(Ordering::Relaxed) {
             true => Problem::cancelled(),
@@ -70,7 +70,7 @@ impl Stop {
     }
 }
 
-/// Ends a run when whoever waits for it has gone.
+/// Cancels a run when its request is dropped.
 struct CancelOnDrop(Stop);
 
 impl Drop for CancelOnDrop {
@@ -80,27 +80,27 @@ impl Drop for CancelOnDrop {
 }
 
 impl Workers {
-    pub(crate) fn new(bounds: Bounds) -> Self {
+    pub(crate) fn new(bounds: RequestLimits) -> Self {
         Self {
             places: Arc::new(Semaphore::new(bounds.runs)),
             bounds,
         }
     }
 
-    pub(crate) fn bounds(&self) -> &Bounds {
+    pub(crate) fn bounds(&self) -> &RequestLimits {
         &self.bounds
     }
 
-    /// A place to compute in, as soon as there is one.
+    /// Waits for a free worker.
     pub(crate) async fn place(&self) -> Result<OwnedSemaphorePermit, Problem> {
         let places = Arc::clone(&self.places).acquire_owned();
-        match time::timeout(PATIENCE, places).await {
+        match time::timeout(QUEUE_TIME, places).await {
             Ok(Ok(place)) => Ok(place),
             _ => Err(Problem::busy(self.bounds.runs)),
         }
     }
 
-    /// Computes on a thread of its own. The work is told to stop when the caller is dropped.
+    /// Computes on a worker thread; the work is cancelled when the caller is dropped.
     pub(crate) async fn run<T: Send + 'static>(
         &self,
         work: impl FnOnce(&Stop) -> Result<T, Problem> + Send + 'static,

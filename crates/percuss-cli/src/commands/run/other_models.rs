@@ -1,4 +1,4 @@
-//! What the other models say of a case, beside the one that was run: a first look at how far apart they are.
+//! Main result of the other applicable models.
 
 use std::ops::ControlFlow;
 
@@ -13,7 +13,7 @@ use percuss_report::result_rows::{Row, number};
 
 use crate::{failure::Failure, progress::Progress};
 
-/// A row a quick model that has a result, but for one of this name, and under which heading they stand.
+/// One row per model with a result, except those that take minutes and the model `but`, with the heading.
 pub fn rows(
     scenario: &Scenario,
     but: &str,
@@ -39,7 +39,7 @@ fn shown(found: &Comparison) -> (String, Vec<Row>) {
         Some((record.model.to_owned(), words(record, quantity, value)))
     });
     let heading = format!(
-        "{} by other models (`percuss compare` says which to rely on)",
+        "{} by other models (`percuss compare` recommends one)",
         quantity.in_words()
     );
     (heading, given.collect())
@@ -49,7 +49,7 @@ fn words(record: &ResultRecord, quantity: BandQuantity, value: f64) -> String {
     let value = number(value, quantity.unit());
     match (&record.expected_error, quantity) {
         (Some(error), BandQuantity::DepthOfPenetration) => {
-            format!("{value}, expected error {}", error.in_words())
+            format!("{value}, estimated model error {}", error.in_words())
         }
         _ => value,
     }

@@ -1,17 +1,17 @@
-//! Models that give nothing, or nothing at some of the speeds, and why.
+//! Models without a result at some or all velocities, with the reasons.
 
 use percuss::{
     compare::Comparison,
     outcome::{BandQuantity, Outcome},
 };
 
-use super::kinds::kinds;
+use super::messages::grouped;
 use crate::{
     by_models::by_models,
     terminal::{bold, width, wrap},
 };
 
-/// The list below the tables; empty when every model says everything.
+/// List below the tables; empty when every model has all results.
 pub fn text(comparison: &Comparison) -> String {
     let mut lines = reasons(comparison);
     lines.extend(silent(comparison));
@@ -25,7 +25,7 @@ pub fn text(comparison: &Comparison) -> String {
     format!("{}\n{entries}\n", bold("without a result"))
 }
 
-/// One line a kind of absence: which models, where, and why.
+/// One line per reason: models, velocities and reason.
 pub fn reasons(comparison: &Comparison) -> Vec<String> {
     let mut entries = Vec::new();
     for model in comparison.models() {
@@ -36,7 +36,7 @@ pub fn reasons(comparison: &Comparison) -> Vec<String> {
     by_models(entries)
 }
 
-/// Where a model has an outcome that is no result, and the reasons; one that differs in its numbers only stands once.
+/// Velocities at which a model has no result, with the reasons; reasons that differ only in numbers are merged.
 fn why(comparison: &Comparison, model: &str, outcome: Outcome) -> Option<String> {
     let speeds = comparison.speeds();
     let absent = comparison
@@ -45,14 +45,14 @@ fn why(comparison: &Comparison, model: &str, outcome: Outcome) -> Option<String>
         .filter(|(_, record)| record.outcome == outcome)
         .map(|(speed, record)| {
             let reason = record.reason.as_deref();
-            (speed, reason.unwrap_or("it does not say why"))
+            (speed, reason.unwrap_or("no reason given"))
         });
-    let kinds = kinds(absent, speeds.len());
+    let messages = grouped(absent, speeds.len());
     let what = match outcome {
         Outcome::Failed => "failed",
         _ => "not applicable",
     };
-    match kinds.as_slice() {
+    match messages.as_slice() {
         [] => None,
         [one] => {
             let because = match outcome {
@@ -63,8 +63,8 @@ fn why(comparison: &Comparison, model: &str, outcome: Outcome) -> Option<String>
             Some(format!("{what}{place}{because} {reason}"))
         }
         several => {
-            let each = several.iter().map(|kind| {
-                let (place, reason) = (kind.place(&speeds), kind.in_words(&speeds));
+            let each = several.iter().map(|message| {
+                let (place, reason) = (message.place(&speeds), message.in_words(&speeds));
                 format!("{}: {reason}", place.trim_start())
             });
             Some(format!("{what} {}", each.collect::<Vec<_>>().join("; ")))
@@ -72,7 +72,7 @@ fn why(comparison: &Comparison, model: &str, outcome: Outcome) -> Option<String>
     }
 }
 
-/// Models with results that lack the leading quantity.
+/// Models whose results lack the main quantity.
 fn silent(comparison: &Comparison) -> Vec<String> {
     let Some(leading) = comparison.quantities.first() else {
         return Vec::new();
@@ -95,7 +95,7 @@ fn silent(comparison: &Comparison) -> Vec<String> {
         .collect()
 }
 
-/// What a model gives in place of the leading quantity.
+/// Quantities that a model gives instead of the main one.
 fn gives(comparison: &Comparison, model: &str) -> String {
     let given: Vec<&str> = BandQuantity::ALL
         .iter()

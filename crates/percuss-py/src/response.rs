@@ -7,70 +7,72 @@ use percuss::{
     case::Document,
     uncertainty::{self, Uncertainty},
 };
-use percuss_cli::{Answer as Answered, AtHand, Found};
+use percuss_cli::{Response as CommandResponse, ResponseData, VirtualFiles};
 use pyo3::prelude::*;
 
-use crate::{case::Case, errors::raise, history::Column, run::RunResult, watch::watched};
+use crate::{case::Case, errors::raise, history::Column, monitor::run_monitored, run::RunResult};
 
 /// Columns by name.
 pub type Numbers = Vec<(String, Vec<f64>)>;
 
 /// What a command found out.
 #[pyclass(frozen, module = "percuss._percuss")]
-pub struct Answer {
-    answer: Answered,
+pub struct Response {
+    response: CommandResponse,
     numbers: Arc<Numbers>,
 }
 
 /// What a command line finds out; `cases` and `texts` stand in the place of files, by the names that it gives them.
 #[pyfunction]
 #[pyo3(signature = (words, cases, texts, progress=None))]
-pub fn answer(
+pub fn execute(
     py: Python<'_>,
     words: Vec<OsString>,
     cases: HashMap<String, Py<Case>>,
     texts: HashMap<String, String>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Answer> {
-    let mut at_hand = AtHand::default();
+) -> PyResult<Response> {
+    let mut virtual_files = VirtualFiles::default();
     for (name, case) in cases {
-        at_hand.put(name, case.get().document.clone());
+        virtual_files.put(name, case.get().document.clone());
     }
     for (name, text) in texts {
         let document = Document::new(&name, text);
-        at_hand.put(name, document);
+        virtual_files.put(name, document);
     }
-    watched(py, progress.as_ref(), |board| {
-        let hear = &mut |fraction: f64, words: &str| board.hear(fraction, words);
-        let answer = percuss_cli::answer(words, &at_hand, board.stop(), hear)?;
-        let numbers = match &answer.found {
-            Found::Json(_) | Found::Run(_) => Numbers::new(),
-            Found::Uncertainty(found) => of_draws(found),
-            Found::Calibration(found) => of_sample(&found.calibration),
+    run_monitored(py, progress.as_ref(), |progress_state| {
+        let on_progress =
+            &mut |fraction: f64, words: &str| progress_state.on_progress(fraction, words);
+        let response =
+            percuss_cli::execute(words, &virtual_files, progress_state.stop(), on_progress)?;
+        let numbers = match &response.data {
+            ResponseData::Json(_) | ResponseData::Run(_) => Numbers::new(),
+            ResponseData::Uncertainty(found) => of_draws(found),
+            ResponseData::Calibration(found) => of_sample(&found.calibration),
         };
-        Ok(Answer {
-            answer,
+        Ok(Response {
+            response,
             numbers: Arc::new(numbers),
         })
     })
 }
 
 #[pymethods]
-impl Answer {
+impl Response {
     /// What the command prints with --json.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
-        self.answer.json().map_err(|failure| raise(py, failure))
+        self.response.json().map_err(|failure| raise(py, failure))
     }
 
     /// The files that the command wrote.
     fn files(&self) -> Vec<PathBuf> {
-        self.answer.files.clone()
+        self.response.files.clone()
     }
 
     /// What came of a run.
     fn run(&self) -> Option<RunResult> {
-        match &self.answer.found {
-            Found::Run(ran) => Some(RunResult::of(ran)),
+        match &self.response.data {
+            ResponseData::Run(run_output) => Some(RunResult::of(run_output)),
             _ => None,
         }
     }
@@ -94,8 +96,8 @@ impl Answer {
 
     /// How each shot of an analysis of uncertainty ended.
     fn outcomes(&self) -> Vec<&'static str> {
-        match &self.answer.found {
-            Found::Uncertainty(found) => {
+        match &self.response.data {
+            ResponseData::Uncertainty(found) => {
                 let draws = found.draws.iter();
                 draws.map(|draw| draw.outcome.in_words()).collect()
             }

@@ -1,4 +1,4 @@
-//! The server: its address, its routes and its connections.
+//! The server: address, routes and connections.
 
 use std::{net::SocketAddr, sync::Arc, time::Duration};
 
@@ -22,18 +22,19 @@ use tokio::{
 };
 
 use crate::{
-    Options, ServeError, answer, assets, bounds, cases, files,
-    gate::Gate,
+    Options, ServeError, assets, cases, files,
+    host_guard::HostGuard,
     index::Index,
+    job::{Stop, Workers},
+    limits,
     pages::{self, Validation},
-    request, study,
-    worker::{Stop, Workers},
+    request, response, study,
 };
 
-/// Time between two tries to take a connection when the system has none to give.
+/// Delay after a failed accept.
 const PAUSE: Duration = Duration::from_millis(50);
 
-/// A server that has its address and its first answer.
+/// Server with a bound address and a computed first case.
 #[derive(Debug)]
 pub struct Server {
     runtime: Runtime,
@@ -42,7 +43,7 @@ pub struct Server {
     routes: Router,
 }
 
-/// What requests share.
+/// State shared by all requests.
 #[derive(Clone)]
 struct Shared {
     workers: Workers,
@@ -69,7 +70,7 @@ impl FromRef<Shared> for Arc<Validation> {
 }
 
 impl Server {
-    /// Checks the options, computes the first answer and takes the address.
+    /// Checks the options, computes the first case and binds the address.
     ///
     /// # Errors
     /// [`ServeError`] when the options are not safe, the case is not valid or the address is taken.
@@ -95,7 +96,7 @@ impl Server {
             validation: Arc::default(),
         };
         Ok(Self {
-            routes: routes(shared, Gate::new(&options)),
+            routes: routes(shared, HostGuard::new(&options)),
             runtime,
             listener,
             address,
@@ -119,7 +120,7 @@ impl Server {
     }
 }
 
-/// The page with the answer to its first case.
+/// Page with the results of its first case.
 fn first_page(options: &Options) -> Result<Index, ServeError> {
     let case = options.case.clone().unwrap_or_else(cases::first);
     let scenario = percuss::case::load_str(&case.name, &case.text)?;
@@ -129,30 +130,33 @@ fn first_page(options: &Options) -> Result<Index, ServeError> {
         scenario,
     };
     let stop = Stop::after(options.bounds.time());
-    let answer = answer::answer(read, &model, None, &stop, None)?;
-    Ok(Index::new(&case, &answer, &options.bounds))
+    let first = response::compute(read, &model, None, &stop, None)?;
+    Ok(Index::new(&case, &first, &options.bounds))
 }
 
-fn routes(shared: Shared, gate: Gate) -> Router {
+fn routes(shared: Shared, guard: HostGuard) -> Router {
     Router::new()
         .route("/", get(Index::get))
         .route("/assets/{name}", get(assets::get))
         .route("/materials", get(pages::materials))
         .route("/materials/{name}", get(pages::material))
         .route("/validation", get(Validation::get))
-        .route("/api/answer", post(answer::post))
+        .route("/api/answer", post(response::post))
         .route("/api/file", post(files::post))
         .route("/api/study/{kind}", post(study::post))
         .route("/api/uncertainty-example", post(study::uncertainty_example))
         .route("/api/validation", post(Validation::post))
         .fallback(async || assets::missing().into_response())
-        .layer(middleware::from_fn_with_state(Arc::new(gate), Gate::watch))
+        .layer(middleware::from_fn_with_state(
+            Arc::new(guard),
+            HostGuard::watch,
+        ))
         .with_state(shared)
 }
 
-/// Takes connections for ever, a limited number at a time.
+/// Accepts connections, a limited number at a time.
 async fn accept(listener: TcpListener, routes: Router) -> ! {
-    let places = Arc::new(Semaphore::new(bounds::CONNECTIONS));
+    let places = Arc::new(Semaphore::new(limits::CONNECTIONS));
     loop {
         // The semaphore is never closed.
         let Ok(place) = Arc::clone(&places).acquire_owned().await else {
@@ -162,15 +166,15 @@ async fn accept(listener: TcpListener, routes: Router) -> ! {
             time::sleep(PAUSE).await;
             continue;
         };
-        // Without this small answers wait for each other.
+        // Without this option small responses are delayed.
         let _ = stream.set_nodelay(true);
         let service = TowerToHyperService::new(routes.clone());
         tokio::spawn(async move {
             let _place = place;
-            // A connection that breaks is the client's affair.
+            // A broken connection needs no action.
             let _ = http1::Builder::new()
                 .timer(TokioTimer::new())
-                .header_read_timeout(bounds::ARRIVAL)
+                .header_read_timeout(limits::ARRIVAL)
                 .serve_connection(TokioIo::new(stream), service)
                 .await;
         });

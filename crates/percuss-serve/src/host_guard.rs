@@ -1,4 +1,4 @@
-//! Who is let in: requests that name this server, come from its own page and know its token.
+//! Check of requests: host name, origin and token.
 
 use std::{net::IpAddr, sync::Arc};
 
@@ -14,16 +14,16 @@ use crate::{Options, http, problem::Problem};
 /// Name of the cookie that holds the token.
 const COOKIE: &str = "percuss_token";
 
-/// What the gate asks for.
+/// Allowed hosts and token.
 #[derive(Debug)]
-pub(crate) struct Gate {
+pub(crate) struct HostGuard {
     token: Option<String>,
     /// Whether other machines may reach the server, by any of its addresses.
     remote: bool,
     host_names: Vec<String>,
 }
 
-impl Gate {
+impl HostGuard {
     pub(crate) fn new(options: &Options) -> Self {
         Self {
             token: options.token.clone(),
@@ -36,15 +36,15 @@ impl Gate {
         }
     }
 
-    /// Lets a request pass or answers it.
+    /// Passes a request on, or refuses it.
     pub(crate) async fn watch(
-        State(gate): State<Arc<Self>>,
+        State(guard): State<Arc<Self>>,
         request: Request,
         next: Next,
     ) -> Response {
-        let mut response = match gate.check(request.method(), request.uri(), request.headers()) {
+        let mut response = match guard.check(request.method(), request.uri(), request.headers()) {
             Ok(()) => next.run(request).await,
-            Err(answer) => *answer,
+            Err(refusal) => *refusal,
         };
         http::protect(response.headers_mut());
         response
@@ -57,8 +57,7 @@ impl Gate {
         self.check_token(method, uri, headers)
     }
 
-    /// The name by which the client addresses the server. A name that is not the server's own is how a page of another site reaches
-    /// it, by DNS rebinding.
+    /// Host name of the request. A foreign name is a sign of DNS rebinding by a page of another site.
     fn host(&self, uri: &Uri, headers: &HeaderMap) -> Result<String, Problem> {
         let misdirected = || {
             Problem::with_status(
@@ -109,19 +108,19 @@ impl Gate {
             Problem::with_status(
                 StatusCode::UNAUTHORIZED,
                 "the token is missing or wrong",
-                "open the address with `?token=` and the token of this server behind it",
+                "open the address followed by `?token=` and the token of this server",
             )
             .into_response(),
         ))
     }
 }
 
-/// Refuses what a page of another site sends.
+/// Refuses requests of pages of other sites.
 fn check_origin(host: &str, uri: &Uri, headers: &HeaderMap) -> Result<(), Problem> {
     let foreign = || {
         Problem::with_status(
             StatusCode::FORBIDDEN,
-            "the request comes from a page of another site",
+            "the request is from a page of another site",
             "open the address that the terminal shows",
         )
     };
@@ -158,7 +157,7 @@ fn given_tokens(headers: &HeaderMap) -> impl Iterator<Item = &str> {
     cookies.chain(bearers)
 }
 
-/// Compares in a time that does not tell how much of the token is right.
+/// Compares in a time that does not events how much of the token is right.
 fn same(given: &str, token: &str) -> bool {
     let (given, token) = (given.as_bytes(), token.as_bytes());
     given.len() == token.len() && given.iter().zip(token).fold(0, |sum, (a, b)| sum | (a ^ b)) == 0

@@ -1,7 +1,7 @@
-//! Shots of the benchmark: flat-ended rods on semi-infinite targets.
+//! Cases of the benchmark: flat-ended rods on semi-infinite targets.
 
 use percuss::{
-    Error, Scenario, case,
+    Error, Scenario, case as case_file,
     model_error::{
         Verdict,
         design::{LENGTHS, SPEEDS},
@@ -19,24 +19,24 @@ pub const PAIRS: &[(&str, &str)] = &[
     ("armco-iron-johnson-cook", "ofhc-copper-johnson-cook"),
 ];
 
-/// Diameter of all projectiles [m]. Laws with a rate effect make the answer depend on it a little.
+/// Diameter of all projectiles [m]. Rate-dependent strength laws cause a small size effect.
 pub const DIAMETER: f64 = 5e-3;
 
-/// A shot of the design: a flat-ended rod on a semi-infinite target.
+/// Benchmark case: a flat-ended rod on a semi-infinite target.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shot {
+pub struct BenchmarkCase {
     /// Id of the projectile's material.
     pub projectile: String,
     /// Id of the target's material.
     pub target: String,
     /// Length of the projectile over its diameter.
     pub length_to_diameter: f64,
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub speed: f64,
 }
 
-impl Shot {
-    /// Whether a benchmark result is of this shot.
+impl BenchmarkCase {
+    /// Whether a benchmark result is of this case.
     pub fn is_of(&self, verdict: &Verdict) -> bool {
         verdict.projectile == self.projectile
             && verdict.target == self.target
@@ -44,7 +44,7 @@ impl Shot {
             && verdict.impact_velocity_m_s == self.speed
     }
 
-    /// The shot as a case.
+    /// Resolved case.
     ///
     /// # Errors
     /// [`Error::Input`] when the library has no such materials.
@@ -58,17 +58,17 @@ impl Shot {
             self.speed,
             self.target,
         );
-        case::load_str("shot of the design", &text)
+        case_file::load_str("benchmark case", &text)
     }
 }
 
-/// All shots, the cheapest first.
-pub fn shots() -> Vec<Shot> {
-    let mut shots = Vec::new();
+/// All cases, in order of rising cost.
+pub fn cases() -> Vec<BenchmarkCase> {
+    let mut cases = Vec::new();
     for &length_to_diameter in LENGTHS {
         for &speed in SPEEDS {
             for (projectile, target) in PAIRS {
-                shots.push(Shot {
+                cases.push(BenchmarkCase {
                     projectile: (*projectile).to_owned(),
                     target: (*target).to_owned(),
                     length_to_diameter,
@@ -77,5 +77,5 @@ pub fn shots() -> Vec<Shot> {
             }
         }
     }
-    shots
+    cases
 }

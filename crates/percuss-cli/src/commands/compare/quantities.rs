@@ -1,11 +1,11 @@
-//! Which quantities are printed, and which measurements are not.
+//! Selection of the printed quantities.
 
 use percuss::{compare::Comparison, outcome::BandQuantity};
 
 use crate::terminal::counted;
 
-/// Quantities to print: what leads, what a recommended model gives, what was measured at these speeds, and at one speed the
-/// depth beside the speeds of a plate.
+/// Printed quantities: the main ones, those of a recommended model, those measured at these velocities, and for one velocity the
+/// depth besides the residual velocity of a plate.
 pub fn quantities(comparison: &Comparison) -> Vec<BandQuantity> {
     let all = BandQuantity::ALL.iter().copied();
     all.filter(|quantity| is_shown(comparison, *quantity))
@@ -49,13 +49,13 @@ fn recommended_gives(comparison: &Comparison, quantity: BandQuantity) -> bool {
     })
 }
 
-/// A note that counts the experiments at none of the speeds; empty when there are none.
+/// Note with the number of experiments at other velocities; empty when there are none.
 pub fn elsewhere(comparison: &Comparison) -> String {
     match comparison.experiments_elsewhere() {
         0 => String::new(),
-        1 => "1 experiment at another speed: `--velocity experiments`\n\n".to_owned(),
+        1 => "1 experiment at another velocity: `--velocity experiments`\n\n".to_owned(),
         count => format!(
-            "{} at other speeds: `--velocity experiments`\n\n",
+            "{} at other velocities: `--velocity experiments`\n\n",
             counted(count, "experiment")
         ),
     }

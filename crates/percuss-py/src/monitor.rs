@@ -21,14 +21,14 @@ use crate::errors::raise;
 const INTERVAL: Duration = Duration::from_millis(50);
 
 /// What Python is asked now and then.
-pub struct Asker<'py> {
+pub struct PythonMonitor<'py> {
     progress: Option<&'py Py<PyAny>>,
     last: Instant,
     /// Why the computation was stopped, if it was.
     error: Option<PyErr>,
 }
 
-impl<'py> Asker<'py> {
+impl<'py> PythonMonitor<'py> {
     pub fn new(progress: Option<&'py Py<PyAny>>) -> Self {
         Self {
             progress,
@@ -38,7 +38,7 @@ impl<'py> Asker<'py> {
     }
 
     /// Tells Python how far it has come and hears whether to go on, unless it was asked just now.
-    pub fn ask(&mut self, fraction: f64, words: impl FnOnce() -> String) -> ControlFlow<()> {
+    pub fn report(&mut self, fraction: f64, words: impl FnOnce() -> String) -> ControlFlow<()> {
         if self.last.elapsed() < INTERVAL {
             return ControlFlow::Continue(());
         }
@@ -71,14 +71,14 @@ impl<'py> Asker<'py> {
 
 /// What another thread says of its work.
 #[derive(Default)]
-pub struct Board {
+pub struct SharedProgress {
     stop: AtomicBool,
     latest: Mutex<(f64, String)>,
 }
 
-impl Board {
+impl SharedProgress {
     /// Takes note of how far the work has come; says whether to go on.
-    pub fn hear(&self, fraction: f64, words: &str) -> ControlFlow<()> {
+    pub fn on_progress(&self, fraction: f64, words: &str) -> ControlFlow<()> {
         *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = (fraction, words.to_owned());
         match self.stop.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
@@ -93,28 +93,28 @@ impl Board {
 }
 
 /// Does work that uses many threads: signals arrive on this one, so it does nothing but listen.
-pub fn watched<T: Send>(
+pub fn run_monitored<T: Send>(
     py: Python<'_>,
     progress: Option<&Py<PyAny>>,
-    work: impl FnOnce(&Board) -> Result<T, Failure> + Send,
+    work: impl FnOnce(&SharedProgress) -> Result<T, Failure> + Send,
 ) -> PyResult<T> {
-    let board = Board::default();
-    let mut asker = Asker::new(progress);
+    let progress_state = SharedProgress::default();
+    let mut monitor = PythonMonitor::new(progress);
     let result = py.detach(|| {
         thread::scope(|scope| {
             let (done, ended) = mpsc::channel::<()>();
             let worker = scope.spawn(|| {
                 // Dropped when the work ends, in whatever way.
                 let _done = done;
-                work(&board)
+                work(&progress_state)
             });
             while let Err(RecvTimeoutError::Timeout) = ended.recv_timeout(INTERVAL) {
                 let (fraction, words) = {
-                    let latest = board.latest.lock();
+                    let latest = progress_state.latest.lock();
                     latest.unwrap_or_else(PoisonError::into_inner).clone()
                 };
-                if asker.ask(fraction, || words).is_break() {
-                    board.stop.store(true, Ordering::Relaxed);
+                if monitor.report(fraction, || words).is_break() {
+                    progress_state.stop.store(true, Ordering::Relaxed);
                     break;
                 }
             }
@@ -122,7 +122,7 @@ pub fn watched<T: Send>(
         })
     });
     match result {
-        Ok(result) => asker.finish(py, result),
+        Ok(result) => monitor.finish(py, result),
         Err(payload) => panic::resume_unwind(payload),
     }
 }

@@ -6,7 +6,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use percuss_serve::{Bounds, Options};
+use percuss_serve::{Options, RequestLimits};
 use serde_json::{Value, json};
 
 use crate::{
@@ -25,9 +25,9 @@ fn outcome(served: &Served, study: &str, body: &Value) -> Value {
 
 fn few_elements() -> Served {
     Served::new(Options {
-        bounds: Bounds {
+        bounds: RequestLimits {
             elements: 200,
-            ..Bounds::default()
+            ..RequestLimits::default()
         },
         ..Options::default()
     })
@@ -57,9 +57,9 @@ fn a_mesh_has_a_size() {
 #[test]
 fn a_run_has_a_time() {
     let served = Served::new(Options {
-        bounds: Bounds {
+        bounds: RequestLimits {
             seconds: 3,
-            ..Bounds::default()
+            ..RequestLimits::default()
         },
         ..Options::default()
     });
@@ -67,7 +67,10 @@ fn a_run_has_a_time() {
     let answer = served.post("/api/answer", &axi);
     assert_eq!(answer.status, 400, "{}", answer.text());
     let last = outcome(&served, "run", &axi);
-    assert_eq!(last["problem"]["message"], "the run was ended after 3 s");
+    assert_eq!(
+        last["problem"]["message"],
+        "the run was stopped at the time limit of 3 s"
+    );
     // Of an analysis no shot needs to come to its end.
     let fine = PAPER.replace("= 40", "= 500").replace("= 80", "= 1400");
     let uncertain = format!(
@@ -75,7 +78,10 @@ fn a_run_has_a_time() {
     );
     let asked = json!({ "case": uncertain, "uncertainty": { "samples": 16_384 } });
     let last = outcome(&served, "uncertainty", &asked);
-    assert_eq!(last["problem"]["message"], "the run was ended after 3 s");
+    assert_eq!(
+        last["problem"]["message"],
+        "the run was stopped at the time limit of 3 s"
+    );
 }
 
 #[test]
@@ -98,7 +104,7 @@ fn an_analysis_of_uncertainty_has_its_bounds() {
     for samples in [0, 1, 1_000_000] {
         let asked = json!({ "case": PAPER, "uncertainty": { "samples": samples } });
         let last = outcome(&served, "uncertainty", &asked);
-        let said = format!("{samples} shots are out of range");
+        let said = format!("{samples} samples are out of range");
         assert_eq!(last["problem"]["message"], said);
     }
     // A number of elements can be uncertain: shots of too large a mesh are none.
@@ -139,9 +145,9 @@ fn is_free_without(waiting: TcpStream, served: &Served) {
 #[test]
 fn runs_have_places_and_free_them_when_nobody_waits() {
     let served = Served::new(Options {
-        bounds: Bounds {
+        bounds: RequestLimits {
             runs: 1,
-            ..Bounds::default()
+            ..RequestLimits::default()
         },
         ..Options::default()
     });
@@ -159,14 +165,14 @@ fn runs_have_places_and_free_them_when_nobody_waits() {
     }
     let busy = served.post_bytes("/api/answer", &body(), "");
     assert_eq!(busy.status, 503);
-    assert_eq!(busy.problem(), "1 runs are under way, the most at a time");
+    assert_eq!(busy.problem(), "1 runs are in progress, which is the limit");
     is_free_without(waiting, &served);
 }
 
 #[test]
 fn an_answer_that_nobody_waits_for_is_not_computed_to_its_end() {
     let served = Served::new(Options {
-        bounds: Bounds {
+        bounds: RequestLimits {
             runs: 1,
             elements: 20_000,
             seconds: 600,

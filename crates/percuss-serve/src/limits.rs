@@ -1,4 +1,4 @@
-//! What a request may ask for, so that no page can keep the machine busy for ever or fill its memory.
+//! Limits of a request: size, time and mesh.
 
 use std::time::Duration;
 
@@ -6,33 +6,33 @@ use percuss::{Scenario, model::Model, scenario::TargetBody};
 
 use crate::problem::Problem;
 
-/// Bytes that the body of a request may have.
+/// Largest body of a request [bytes].
 pub(crate) const BODY: usize = 256 << 10;
-/// Bytes of a larger body that are read before it is refused: a client that is still sending hears no answer.
-pub(crate) const PATIENT_BODY: usize = 4 << 20;
-/// Time that a client may take to send a request.
+/// Largest body that is read before it is refused [bytes]: a client reads no response while it is sending.
+pub(crate) const LARGEST_READ_BODY: usize = 4 << 20;
+/// Largest time to receive a request.
 pub(crate) const ARRIVAL: Duration = Duration::from_secs(10);
-/// Time that a request waits for a place to compute.
-pub(crate) const PATIENCE: Duration = Duration::from_secs(3);
-/// Connections at a time.
+/// Largest time that a request waits for a worker.
+pub(crate) const QUEUE_TIME: Duration = Duration::from_secs(3);
+/// Largest number of connections.
 pub(crate) const CONNECTIONS: usize = 256;
-/// Layers that a target may have.
+/// Largest number of layers.
 const LAYERS: usize = 40;
-/// Cells along the radius of a projectile in two dimensions.
+/// Largest number of cells along the radius of a projectile.
 const CELLS_PER_RADIUS: u32 = 16;
 
-/// Bounds of what a request may ask for.
+/// RequestLimits of what a request may ask for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Bounds {
-    /// Elements of projectile and target together, on the finest mesh of a study.
+pub struct RequestLimits {
+    /// Largest number of elements of projectile and target together, on the finest mesh of a study.
     pub elements: usize,
-    /// Seconds that a run or a study may take.
+    /// Largest time of a run or a study [s].
     pub seconds: u64,
-    /// Runs and studies at a time.
+    /// Largest number of simultaneous runs and studies.
     pub runs: usize,
 }
 
-impl Default for Bounds {
+impl Default for RequestLimits {
     fn default() -> Self {
         let cores = std::thread::available_parallelism().map_or(2, usize::from);
         Self {
@@ -43,19 +43,19 @@ impl Default for Bounds {
     }
 }
 
-impl Bounds {
+impl RequestLimits {
     pub(crate) fn time(&self) -> Duration {
         Duration::from_secs(self.seconds)
     }
 
-    /// Refuses a case whose mesh is larger than the page may ask for.
+    /// Refuses a case whose mesh exceeds the limits.
     pub(crate) fn check(&self, model: &dyn Model, scenario: &Scenario) -> Result<(), Problem> {
         if let TargetBody::Layers { layers, .. } = &scenario.target
             && layers.len() > LAYERS
         {
             return Err(Problem::too_large(
                 format!("the target has {} layers", layers.len()),
-                format!("the page takes up to {LAYERS}; `percuss run` takes more"),
+                format!("the page allows up to {LAYERS}; use `percuss run` for more"),
                 "target.layers",
             ));
         }
@@ -75,7 +75,7 @@ impl Bounds {
             return Err(Problem::too_large(
                 format!("the mesh has {elements} elements"),
                 format!(
-                    "this page takes up to {}: give a coarser mesh, start it with a larger `--max-elements`, or use `percuss run`",
+                    "this page allows up to {}: use a coarser mesh, restart it with a larger `--max-elements`, or use `percuss run`",
                     self.elements
                 ),
                 match model.name() {
@@ -89,7 +89,7 @@ impl Bounds {
             return Err(Problem::too_large(
                 format!("the mesh has {cells} cells along the projectile's radius"),
                 format!(
-                    "the page takes up to {CELLS_PER_RADIUS}; `percuss run --model axi` takes more"
+                    "the page allows up to {CELLS_PER_RADIUS}; use `percuss run --model axi` for more"
                 ),
                 "axi.cells_per_radius",
             ));

@@ -1,4 +1,4 @@
-//! The files that a command has written, named at the end of what it prints.
+//! List of the files that a command has written, at the end of its output.
 
 use std::path::PathBuf;
 
@@ -6,16 +6,16 @@ use serde::Serialize;
 
 use crate::{diagnostic, failure::Failure, output, terminal};
 
-/// A list of files, a line each; empty where nothing was written.
-pub struct Written(String);
+/// List of files, one line per file; empty where nothing was written.
+pub struct FileList(String);
 
-impl Written {
+impl FileList {
     pub fn new(files: &[PathBuf]) -> Self {
         let line = |file: &PathBuf| format!("  {}\n", file.display());
         Self(files.iter().map(line).collect())
     }
 
-    /// Adds why something is not among the files, if there are any.
+    /// Adds a note about a missing file, if the list is not empty.
     pub fn with_note(mut self, note: &str) -> Self {
         if !self.0.is_empty() {
             self.0 += &format!("  {note}\n");
@@ -23,7 +23,7 @@ impl Written {
         self
     }
 
-    /// Prints JSON; the files go to standard error, unless it shall be quiet.
+    /// Prints JSON; the list goes to standard error unless `quiet` is true.
     pub fn print_json(&self, value: &impl Serialize, quiet: bool) -> Result<(), Failure> {
         output::print_json(value)?;
         if !self.0.is_empty() && !quiet {
@@ -32,7 +32,7 @@ impl Written {
         Ok(())
     }
 
-    /// Prints a text and the files under it, after a blank line.
+    /// Prints a text and the list, separated by a blank line.
     pub fn print_under(&self, mut text: String) -> Result<(), Failure> {
         if !self.0.is_empty() {
             if !text.is_empty() && !text.ends_with("\n\n") {

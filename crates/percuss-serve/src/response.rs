@@ -1,4 +1,4 @@
-//! The answer to a case: its numbers, its charts and the text that they belong to.
+//! Response to a case: its results, charts and text.
 
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
 
@@ -18,42 +18,42 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::{
-    Bounds,
+    RequestLimits,
     constants::{self, Constant},
+    events::EventSender,
     form, http,
+    job::{Stop, Workers},
     problem::Problem,
     request::{self, CaseRequest, ReadCase},
-    stream::Tell,
-    worker::{Stop, Workers},
 };
 
 /// Cells of the x–t diagram of a page along the axis and along time.
 const CELLS: [usize; 2] = [160, 120];
 /// Name of the x–t diagram.
 const STRESS: &str = "stress-xt";
-/// Points of a curve that follows a slider, at most.
+/// Largest number of points of a curve that follows a slider.
 const DRAFT_POINTS: usize = 400;
 
-/// What the page shows of a case.
+/// Results of a case for the page.
 #[derive(Debug, Serialize)]
-pub(crate) struct Answer {
-    /// The text with what the form changed.
+pub(crate) struct CaseResponse {
+    /// Text with the edits of the form.
     case: String,
-    /// Its values by dotted key.
+    /// Values by dotted key.
     values: BTreeMap<String, Value>,
-    /// Constants of its materials; a draft has none.
+    /// Constants of its materials; empty in a draft.
     constants: Vec<Constant>,
     model: &'static str,
-    /// What `percuss run --json` prints.
+    /// Output of `percuss run --json`.
     results: CaseResults,
-    /// The same for people: outcome, what the model alone has, books.
+    /// Rows of the tables: outcome, model-specific numbers, balances.
     pub(crate) rows: [Vec<result_rows::Row>; 3],
     charts: Vec<ChartData>,
-    /// Time that the run and its charts took [ms].
+    /// Time of the run and its charts [ms].
     elapsed_ms: f64,
 }
 
-/// What the page shows of a case that is not valid: the form and the text stay in step.
+/// Response to a case that is not valid, with text and values of the form.
 #[derive(Serialize)]
 struct Refusal {
     problem: Problem,
@@ -61,17 +61,17 @@ struct Refusal {
     values: BTreeMap<String, Value>,
 }
 
-/// Computes a case; `tell` hears how far it is.
+/// Computes a case; `events` gets the progress.
 pub(crate) fn run(
     scenario: &Scenario,
     chosen: &ChosenModel,
     stop: &Stop,
-    tell: Option<&Tell>,
+    events: Option<&EventSender>,
 ) -> Result<RunResult, Problem> {
     let mut report = |now: model::Progress| {
-        if let Some(tell) = tell {
-            tell.progress(now.fraction, &format!("{:.1} µs", now.time * 1e6));
-            if tell.is_alone() {
+        if let Some(events) = events {
+            events.progress(now.fraction, &format!("{:.1} µs", now.time * 1e6));
+            if events.is_disconnected() {
                 return ControlFlow::Break(());
             }
         }
@@ -99,7 +99,7 @@ pub(crate) fn charts(
     }
 }
 
-/// Charts that are to be seen while a slider moves, with as many points as a moving eye takes in.
+/// Visible charts while a slider moves, with fewer points.
 fn draft(
     scenario: &Scenario,
     result: &mut RunResult,
@@ -121,20 +121,20 @@ fn draft(
     Ok(charts)
 }
 
-/// The answer of a model to a case that was read; a draft of it where only some charts are in view.
-pub(crate) fn answer(
+/// Response of a model to a case; a draft where `in_view` names the visible charts.
+pub(crate) fn compute(
     read: ReadCase,
     chosen: &ChosenModel,
     in_view: Option<&[String]>,
     stop: &Stop,
-    tell: Option<&Tell>,
-) -> Result<Answer, Problem> {
+    events: Option<&EventSender>,
+) -> Result<CaseResponse, Problem> {
     let start = Instant::now();
     let ReadCase { text, scenario } = read;
-    let mut result = run(&scenario, chosen, stop, tell)?;
+    let mut result = run(&scenario, chosen, stop, events)?;
     let results = CaseResults::new(&scenario, std::slice::from_ref(&result));
-    let books = result.numerics.as_ref().map_or_else(Vec::new, |numerics| {
-        result_rows::book_rows(numerics, result.end_time.unwrap_or(0.0))
+    let balances = result.numerics.as_ref().map_or_else(Vec::new, |numerics| {
+        result_rows::balance_rows(numerics, result.end_time.unwrap_or(0.0))
     });
     let outcome = result_rows::outcome_rows(&scenario, &result, &results.results[0]);
     let choice = chosen
@@ -148,14 +148,14 @@ pub(crate) fn answer(
     let rows = [
         choice.chain(resistance).chain(outcome).collect(),
         result_rows::detail_rows(&result),
-        books,
+        balances,
     ];
     let charts = match in_view {
         Some(in_view) => draft(&scenario, &mut result, in_view)?,
         None => charts(&scenario, &result, Some(CELLS))?,
     };
     let values = form::values(&text);
-    Ok(Answer {
+    Ok(CaseResponse {
         constants: match in_view {
             Some(_) => Vec::new(),
             None => constants::all(&values, &scenario),
@@ -171,21 +171,21 @@ pub(crate) fn answer(
 }
 
 /// Reads the case of a request and computes it.
-pub(crate) fn answer_to(
+pub(crate) fn compute_request(
     asked: &CaseRequest,
     text: String,
-    bounds: &Bounds,
+    bounds: &RequestLimits,
     stop: &Stop,
-) -> Result<Answer, Problem> {
+) -> Result<CaseResponse, Problem> {
     let read = asked.read(text)?;
     let chosen = asked.model(&read.scenario, bounds)?;
     if chosen.model.is_slow() {
         return Err(Problem::bad_request(format!(
-            "model `{}` takes too long to answer at once",
+            "model `{}` takes too long for an immediate response",
             chosen.model.name()
         )));
     }
-    answer(read, &chosen, asked.in_view.as_deref(), stop, None)
+    compute(read, &chosen, asked.in_view.as_deref(), stop, None)
 }
 
 /// `POST /api/answer`.
@@ -200,9 +200,9 @@ pub(crate) async fn post(State(workers): State<Workers>, request: Request) -> Re
     };
     let case = text.clone();
     let bounds = *workers.bounds();
-    // The answer is written on the thread that computed it: a large one takes as long as a small run.
+    // The response is serialised on the worker thread: a large one takes as long as a small run.
     let answered = workers.run(move |stop| {
-        let answer = answer_to(&asked, text, &bounds, stop)?;
+        let answer = compute_request(&asked, text, &bounds, stop)?;
         Ok(http::json(StatusCode::OK, &answer))
     });
     match answered.await {
