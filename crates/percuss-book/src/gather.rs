@@ -8,7 +8,7 @@ use crate::formulae::with_mathml;
 const BESIDE: [&str; 8] = [
     "benches/peers",
     "cases",
-    "crates/percuss/data",
+    "crates/percuss-studies/data",
     "examples",
     "README.md",
     "ARCHITECTURE.md",

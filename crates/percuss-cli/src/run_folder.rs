@@ -6,7 +6,11 @@ use std::{
 };
 
 use percuss::{
-    Scenario, case::Document, compare::Comparison, outcome::RunResult, summary::CaseResults,
+    Scenario,
+    case::{self, Document},
+    compare::Comparison,
+    outcome::RunResult,
+    summary::CaseResults,
 };
 
 use crate::{failure::Failure, output};
@@ -57,7 +61,7 @@ impl RunFolder {
             written: Vec::new(),
         };
         if let Some(case) = case {
-            folder.put(CASE_COPY, case.self_contained()?.as_bytes())?;
+            folder.put(CASE_COPY, case::self_contained(case)?.as_bytes())?;
         }
         Ok(folder)
     }

@@ -22,7 +22,7 @@ fn pages() -> Vec<(String, String)> {
     for folder in [
         "docs",
         "cases",
-        "crates/percuss/data",
+        "crates/percuss-studies/data",
         "examples",
         "benches/peers",
     ] {

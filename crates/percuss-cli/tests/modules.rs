@@ -7,59 +7,46 @@ use std::{
 };
 
 use tempfile::TempDir;
+use toml::Table;
 
 use crate::support::{
     module_graph::{ModuleGraph, ROOT},
     names_in,
 };
 
-/// The layers of the library from the lowest up: a module uses modules of its own layer and of lower ones.
+/// The crates of the workspace from the lowest layer up, each with those that it may depend on. Tests may use any.
 const LAYERS: &[(&str, &[&str])] = &[
+    ("percuss-core", &[]),
+    ("percuss-models", &["percuss-core"]),
+    ("percuss-input", &["percuss-core", "percuss-models"]),
     (
-        "core",
+        "percuss-studies",
+        &["percuss-core", "percuss-input", "percuss-models"],
+    ),
+    (
+        "percuss",
         &[
-            "check",
-            "document",
-            "error",
-            "fragments",
-            "guard",
-            "history",
-            "lanes",
-            "ledger",
-            "material",
-            "options",
-            "outcome",
-            "power",
-            "problem",
-            "refusal",
-            "regime",
-            "resistance",
-            "richardson",
-            "scenario",
-            "shapes",
-            "solver",
-            "statistics",
-            "units",
+            "percuss-core",
+            "percuss-input",
+            "percuss-models",
+            "percuss-studies",
         ],
     ),
-    ("models", &["analytic", "axi", "chain", "fdm", "model"]),
-    ("input", &["case", "inputs"]),
+    ("percuss-report", &["percuss"]),
+    ("percuss-research", &["percuss", "percuss-report"]),
+    ("percuss-serve", &["percuss", "percuss-report"]),
     (
-        "studies",
+        "percuss-cli",
         &[
-            "calibrate",
-            "compare",
-            "converge",
-            "limit",
-            "model_error",
-            "shots",
-            "summary",
-            "sweep",
-            "uncertainty",
-            "v50",
-            "validate",
+            "percuss",
+            "percuss-report",
+            "percuss-research",
+            "percuss-serve",
         ],
     ),
+    ("percuss-py", &["percuss", "percuss-cli", "percuss-report"]),
+    // A workspace of its own.
+    ("percuss-book", &[]),
 ];
 
 /// The crates of the workspace by name, each with its `lib.rs`.
@@ -88,60 +75,65 @@ fn no_two_modules_of_a_crate_use_each_other() {
     assert!(text.is_empty(), "{text}");
 }
 
+/// The crates of the project that a crate depends on, outside its tests.
+fn dependencies(name: &str) -> Vec<String> {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../{name}/Cargo.toml"));
+    let manifest: Table = fs::read_to_string(manifest).unwrap().parse().unwrap();
+    let listed = manifest["dependencies"].as_table().unwrap().keys();
+    listed
+        .filter(|name| name.starts_with("percuss"))
+        .cloned()
+        .collect()
+}
+
 #[test]
-fn no_module_of_the_library_uses_a_higher_layer() {
-    let graph = ModuleGraph::read(&crates()["percuss"]);
-    let layer = |module: &str| {
-        LAYERS
-            .iter()
-            .position(|(_, modules)| modules.contains(&module))
-    };
-    let listed: usize = LAYERS.iter().map(|(_, modules)| modules.len()).sum();
-    for module in graph.modules.iter().filter(|module| *module != ROOT) {
-        assert!(layer(module).is_some(), "module `{module}` has no layer");
+fn a_crate_depends_on_lower_layers_only() {
+    let known: Vec<&str> = LAYERS.iter().map(|(name, _)| *name).collect();
+    let mut found: Vec<String> = crates().into_keys().collect();
+    found.retain(|name| !known.contains(&name.as_str()));
+    assert!(found.is_empty(), "no layer: {found:?}");
+    for (layer, (name, allowed)) in LAYERS.iter().enumerate() {
+        let lower = &known[..layer];
+        assert!(allowed.iter().all(|below| lower.contains(below)), "{name}");
+        let mut used = dependencies(name);
+        used.sort();
+        assert_eq!(used, *allowed, "dependencies of {name}");
     }
-    assert_eq!(
-        listed,
-        graph.modules.len() - 1,
-        "a layer lists a module that does not exist"
-    );
-    let text = graph.describe(|from, to| layer(from) < layer(to));
-    assert!(
-        text.is_empty(),
-        "these edges lead to a higher layer:\n{text}"
-    );
 }
 
 /// The estimate of the model error is added to the record of a result: what runs a case is independent of benchmarks and published tests.
 #[test]
 fn no_run_consults_a_benchmark() {
-    let graph = ModuleGraph::read(&crates()["percuss"]);
-    let tables = ["model_error", "shots", "validate"];
-    assert!(tables.iter().all(|table| graph.modules.contains(*table)));
-    let runs = |module: &str| LAYERS[..3].iter().any(|(_, names)| names.contains(&module));
-    let text = graph.describe(|from, to| (runs(from) || from == ROOT) && tables.contains(&to));
-    assert!(text.is_empty(), "{text}");
-    let consults = graph.describe(|from, to| from == "summary" && to == "model_error");
+    let studies = ModuleGraph::read(&crates()["percuss-studies"]);
+    for table in ["model_error", "shots", "validate"] {
+        assert!(studies.modules.contains(table), "{table}");
+    }
+    let consults = studies.describe(|from, to| from == "summary" && to == "model_error");
     assert!(!consults.is_empty(), "who adds the estimate?");
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../percuss/data");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let with_data = names_in(&folder)
+        .into_iter()
+        .filter(|name| folder.join(name).join("data").is_dir());
     assert_eq!(
-        names_in(&data),
-        ["lanz-odermatt.csv", "model-error", "shots"]
+        with_data.collect::<Vec<_>>(),
+        ["percuss-models", "percuss-research", "percuss-studies"]
+    );
+    // A table of worked numbers for the tests of a formula.
+    assert_eq!(
+        names_in(&folder.join("percuss-models/data")),
+        ["lanz-odermatt.csv"]
     );
 }
 
-/// The program alone uses the crate of the project's own research.
+/// The project's own research stands in a crate that the program alone uses.
 #[test]
-fn no_product_crate_needs_the_research() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let users = names_in(&folder).into_iter().filter(|name| {
-        let manifest = fs::read_to_string(folder.join(name).join("Cargo.toml"));
-        manifest.is_ok_and(|text| text.contains("\npercuss-research"))
-    });
-    assert_eq!(users.collect::<Vec<_>>(), ["percuss-cli"]);
-    for module in ["damping", "judge", "judgement", "paper", "study"] {
-        for name in ["percuss", "percuss-report"] {
-            let graph = ModuleGraph::read(&crates()[name]);
+fn research_is_apart() {
+    for module in ["benchmark", "damping", "paper"] {
+        for (name, root) in crates()
+            .iter()
+            .filter(|(name, _)| *name != "percuss-research" && *name != "percuss-cli")
+        {
+            let graph = ModuleGraph::read(root);
             assert!(!graph.modules.contains(module), "{name}: {module}");
         }
     }
@@ -150,7 +142,7 @@ fn no_product_crate_needs_the_research() {
 /// The solvers check each other, so they share nothing but what lies below all of them.
 #[test]
 fn no_kind_of_model_uses_another() {
-    let graph = ModuleGraph::read(&crates()["percuss"]);
+    let graph = ModuleGraph::read(&crates()["percuss-models"]);
     let kinds = ["analytic", "axi", "chain", "fdm"];
     assert!(kinds.iter().all(|kind| graph.modules.contains(*kind)));
     let text = graph.describe(|from, to| kinds.contains(&from) && kinds.contains(&to));
@@ -228,7 +220,7 @@ struct T;
         ("a/own.rs", ""),
         (
             "b.rs",
-            "pub mod deep; use crate::{Own, Sea};\nmacro_rules! m { () => { $crate::d::make!() } }\n",
+            "pub mod deep; use crate::{Own, Sea};\nmacro_rules! m { () => { $crate::d::make!() } }\n#[macro_export]\nmacro_rules! made { () => {} }\n",
         ),
         (
             "b/deep.rs",
@@ -241,7 +233,7 @@ struct T;
         ),
         (
             "e.rs",
-            "fn f() { for x in crate::c::list() { g::no::path(x) } }\n",
+            "fn f() { for x in crate::c::list() { g::no::path(x) } }\nfn h() { crate::made!() }\n",
         ),
         ("f.rs", ""),
         ("g.rs", "use crate::*;\n"),
@@ -256,7 +248,7 @@ struct T;
     );
     assert_eq!(edges(&graph, "c"), ["lib.rs:1"]);
     assert_eq!(edges(&graph, "d"), ["b:1,2"]);
-    assert_eq!(edges(&graph, "e"), ["c:1"]);
+    assert_eq!(edges(&graph, "e"), ["b:2", "c:1"]);
     assert_eq!(edges(&graph, "f"), [""; 0]);
     assert_eq!(
         edges(&graph, "g"),

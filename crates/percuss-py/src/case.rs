@@ -94,7 +94,7 @@ impl Case {
 
 impl Case {
     fn new(class: &Bound<'_, PyType>, document: Document, path: Option<PathBuf>) -> PyResult<Self> {
-        let scenario = document.scenario();
+        let scenario = percuss::case::scenario(&document);
         Ok(Self {
             scenario: Arc::new(scenario.map_err(|error| raise(class.py(), error))?),
             document,

@@ -31,7 +31,7 @@ def test_the_tables_of_a_case_make_the_same_case(case: str) -> None:
 def test_material_files_are_found_from_where_the_case_stands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = tmp_path / "shot"
     folder.mkdir()
-    (folder / "mine.toml").write_text(Path("crates/percuss/materials/woodward1982.toml").read_text().replace("[copper-woodward]", "[mine]"))
+    (folder / "mine.toml").write_text(Path("crates/percuss-core/materials/woodward1982.toml").read_text().replace("[copper-woodward]", "[mine]"))
     tables: dict[str, Any] = {"material_files": ["mine.toml"], "projectile": {**COPPER, "material": "mine"}, "target": PLATE}
     monkeypatch.chdir(folder)
     built = percuss.Case("shot", **tables)

@@ -21,53 +21,23 @@
 //! implements [`model::Model`], [`material::StrengthLaw`], [`material::FailureLaw`] or [`resistance::ResistanceLaw`]; the options of
 //! such a model stand in the case under `extensions`. The folder `examples/own-model` of the repository has one of each of the first three.
 
-pub mod analytic;
-pub mod axi;
-pub mod calibrate;
-pub mod case;
-pub mod chain;
-pub mod check;
-pub mod compare;
-pub mod converge;
-pub mod document;
-mod error;
-pub mod fdm;
-pub mod fragments;
-pub mod guard;
-pub mod history;
-pub mod inputs;
-mod lanes;
-pub mod ledger;
-pub mod limit;
-#[cfg(test)]
-mod made_up;
-pub mod material;
-pub mod model;
-pub mod model_error;
-pub mod options;
-pub mod outcome;
-pub mod power;
-pub mod problem;
-mod refusal;
-pub mod regime;
-pub mod resistance;
-pub mod richardson;
-pub mod scenario;
-pub mod shapes;
-pub mod shots;
-pub mod solver;
-pub mod statistics;
-pub mod summary;
-pub mod sweep;
-pub mod uncertainty;
-pub mod units;
-pub mod v50;
-pub mod validate;
-
-pub use error::{Error, InputError, NumericalError, Subject};
-pub use refusal::Refusal;
-pub use scenario::Scenario;
-pub use solver::{checkpoint, frames};
+#[doc(inline)]
+pub use percuss_core::{
+    Error, InputError, NumericalError, Refusal, Scenario, Subject, check, document, fragments,
+    guard, history, ledger, material, options, outcome, power, problem, regime, resistance,
+    richardson, scenario, shapes, solver,
+    solver::{checkpoint, frames},
+    statistics, units,
+};
+#[doc(inline)]
+pub use percuss_input::{case, inputs};
+#[doc(inline)]
+pub use percuss_models::{analytic, axi, chain, fdm, model};
+#[doc(inline)]
+pub use percuss_studies::{
+    calibrate, compare, converge, limit, model_error, shots, summary, sweep, uncertainty, v50,
+    validate,
+};
 
 /// The README's library example, run from the folder that it stands in.
 #[cfg(doctest)]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
-    Scenario,
+    Scenario, case,
     converge::{self, Study, Verdict},
     model::{self, Control, MODELS, Model},
     units::significant,
@@ -126,7 +126,7 @@ impl Converge {
         virtual_files: &VirtualFiles,
         on_progress: ProgressCallback<'_>,
     ) -> Result<ConvergenceOutput, Failure> {
-        let scenario = virtual_files.read(&self.case)?.scenario()?;
+        let scenario = case::scenario(&virtual_files.read(&self.case)?)?;
         let model = model::model(&self.model)?;
         let mut folder = RunFolder::wanted(self.out.as_deref(), None)?;
         let study = self.compute(model, &scenario, on_progress)?;

@@ -151,14 +151,16 @@ impl Walk {
             source.skip_item();
             return;
         }
-        if let Some(name) = names
-            .first()
-            .filter(|name| *name == "path" || *name == "macro_export")
+        assert!(
+            names.first().is_none_or(|name| name != "path"),
+            "{}:{line}: the module graph does not follow `path`",
+            source.file.display()
+        );
+        // An exported macro is a name of the root: `macro_rules`, `!`, name.
+        if names.first().is_some_and(|name| name == "macro_export")
+            && let (Some(name), Some(module)) = (source.name(2), source.module.first())
         {
-            panic!(
-                "{}:{line}: the module graph does not follow `{name}`",
-                source.file.display()
-            );
+            self.exported.insert(name.to_owned(), module.clone());
         }
         let end = source.at;
         source.at = start;

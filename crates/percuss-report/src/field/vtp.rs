@@ -335,11 +335,14 @@ mod tests {
 
     #[test]
     fn a_file_gives_back_what_went_in() {
-        let mut particle = Particle::default();
-        particle.position = [2e-3, 5e-3];
-        particle.velocity = [3.0, 4.0];
-        (particle.mass, particle.volume) = (2e-6, 1e-9);
-        particle.plastic_strain = 0.375;
+        let particle = Particle {
+            position: [2e-3, 5e-3],
+            velocity: [3.0, 4.0],
+            mass: 2e-6,
+            volume: 1e-9,
+            plastic_strain: 0.375,
+            ..Particle::default()
+        };
         let gone = Particle::default();
         let bodies = [[particle, gone], [particle, particle]];
         let frame = Frame {

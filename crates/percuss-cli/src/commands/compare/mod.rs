@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
-    Scenario,
+    Scenario, case,
     compare::{self, Comparison, Watch},
     model::{self, MODELS},
 };
@@ -122,7 +122,7 @@ impl Compare {
         on_progress: ProgressCallback<'_>,
     ) -> Result<ComparisonOutput, Failure> {
         let document = virtual_files.read(&self.case)?;
-        let scenario = document.scenario()?;
+        let scenario = case::scenario(&document)?;
         let speeds = self.speeds(&scenario)?;
         let folder = RunFolder::wanted(self.out.as_deref(), Some(&document))?;
         let comparison = self.compute(&scenario, &speeds, on_progress)?;

@@ -8,8 +8,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
-    Scenario,
-    case::Document,
+    Scenario, case,
     limit::{self, LimitOutcome, Limits, Range, Search, Tolerance, Watch},
     model::MODELS,
     v50::{self, Shot, V50},
@@ -164,7 +163,7 @@ impl Limit {
     ) -> Result<LimitOutput, Failure> {
         let document = self.case.as_ref().map(|path| virtual_files.read(path));
         let document = document.transpose()?;
-        let scenario = document.as_ref().map(Document::scenario).transpose()?;
+        let scenario = document.as_ref().map(case::scenario).transpose()?;
         let shots = self.shots.as_ref().map(v50::read).transpose()?;
         let folder = RunFolder::wanted(self.out.as_deref(), document.as_ref())?;
         let shots = shots.map(|shots| {

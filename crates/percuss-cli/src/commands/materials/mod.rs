@@ -102,7 +102,7 @@ impl Materials {
 
     fn library(&self, virtual_files: &VirtualFiles) -> Result<Library, Failure> {
         if let Some(case) = &self.case {
-            return Ok(virtual_files.read(case)?.library()?);
+            return Ok(case::library(&virtual_files.read(case)?)?);
         }
         let mut library = Library::built_in().clone();
         if let Some(file) = &self.file {

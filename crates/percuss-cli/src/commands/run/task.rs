@@ -8,7 +8,7 @@ use std::{
 };
 
 use percuss::{
-    Error, Scenario,
+    Error, Scenario, case,
     checkpoint::Header,
     frames::Frame,
     model::{self, ChosenModel, Control, Model},
@@ -62,7 +62,7 @@ impl<'a> Task<'a> {
         say: &dyn Fn(&str),
     ) -> Result<Self, Failure> {
         let document = virtual_files.read(&options.case)?;
-        let scenario = document.scenario()?;
+        let scenario = case::scenario(&document)?;
         let chosen = model::choose(options.model.as_deref(), &scenario)?;
         let model = chosen.model;
         check_use(options, model)?;

@@ -1,0 +1,290 @@
+//! Range checks that remember which key they looked at.
+
+use crate::{
+    error::Subject,
+    units::{Dimension, Quantity, display, significant},
+};
+
+/// Smallest and largest value allowed, in SI units, both included.
+#[derive(Debug, Clone, Copy)]
+pub struct Limits {
+    /// Smallest value allowed.
+    pub min: f64,
+    /// Largest value allowed.
+    pub max: f64,
+}
+
+/// A finding of a check, before it is tied to a place in a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// What it is about.
+    pub subject: Subject,
+    /// Key in dotted form.
+    pub key: String,
+    /// What is wrong.
+    pub message: String,
+    /// What is allowed and what to do.
+    pub help: String,
+}
+
+impl Finding {
+    /// What is wrong in a file as a whole.
+    pub fn whole(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::at("", message, help)
+    }
+
+    /// What is wrong at a key.
+    pub fn at(key: &str, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self {
+            subject: Subject::Case,
+            key: key.to_owned(),
+            message: message.into(),
+            help: help.into(),
+        }
+    }
+
+    /// The same of a material.
+    pub fn of_material(self) -> Self {
+        Self {
+            subject: Subject::Material,
+            ..self
+        }
+    }
+}
+
+/// Collects findings; keys are relative to the table it stands in.
+#[derive(Debug)]
+pub struct Check<'a> {
+    subject: Subject,
+    prefix: String,
+    findings: &'a mut Vec<Finding>,
+}
+
+impl<'a> Check<'a> {
+    /// A check at the root of a file.
+    pub fn new(findings: &'a mut Vec<Finding>) -> Self {
+        Self {
+            subject: Subject::Case,
+            prefix: String::new(),
+            findings,
+        }
+    }
+
+    /// A check one table further in.
+    pub fn within(&mut self, table: &str) -> Check<'_> {
+        Check {
+            subject: self.subject,
+            prefix: self.key(table),
+            findings: self.findings,
+        }
+    }
+
+    /// The same check, of a material.
+    pub fn of_material(&mut self) -> Check<'_> {
+        Check {
+            subject: Subject::Material,
+            prefix: self.prefix.clone(),
+            findings: self.findings,
+        }
+    }
+
+    fn key(&self, key: &str) -> String {
+        match (self.prefix.is_empty(), key.is_empty()) {
+            (true, _) => key.to_owned(),
+            (false, true) => self.prefix.clone(),
+            (false, false) => format!("{}.{key}", self.prefix),
+        }
+    }
+
+    /// Reports a finding at a key; an empty key is the table itself.
+    pub fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+        let finding = Finding::at(&self.key(key), message, help);
+        self.findings.push(Finding {
+            subject: self.subject,
+            ..finding
+        });
+    }
+
+    /// Reports a quantity outside its limits.
+    pub fn quantity<D: Dimension>(&mut self, key: &str, value: Quantity<D>, limits: Limits) {
+        // Written so that NaN is reported too.
+        if !(limits.min..=limits.max).contains(&value.si()) {
+            self.fail(
+                key,
+                format!("{value} is out of range"),
+                format!(
+                    "allowed: {} to {}{}",
+                    display::<D>(limits.min),
+                    display::<D>(limits.max),
+                    slip(value.si(), limits)
+                ),
+            );
+        }
+    }
+
+    /// Reports a plain number outside its limits.
+    pub fn number(&mut self, key: &str, value: f64, limits: Limits) {
+        if !(limits.min..=limits.max).contains(&value) {
+            self.fail(
+                key,
+                format!("{} is out of range", significant(value, 6)),
+                format!(
+                    "allowed: {} to {}",
+                    significant(limits.min, 6),
+                    significant(limits.max, 6)
+                ),
+            );
+        }
+    }
+}
+
+/// Says that a value would fit with another prefix of its unit, if it would.
+fn slip(value: f64, limits: Limits) -> &'static str {
+    let fits = |value: f64| value > 0.0 && (limits.min..=limits.max).contains(&value);
+    if fits(value * 1000.0) || fits(value / 1000.0) {
+        "; is it off by a factor of 1000?"
+    } else {
+        ""
+    }
+}
+
+/// Limits of what a case or a material may hold: wide enough for any real one, narrow enough to catch a slip of units.
+pub mod limits {
+    use super::Limits;
+
+    /// Most elements that one body may have: beyond it a run takes hours and its histories gigabytes.
+    pub const MAX_ELEMENTS: u32 = 100_000;
+
+    const fn limits(min: f64, max: f64) -> Limits {
+        Limits { min, max }
+    }
+
+    /// Length of a projectile or a layer [m].
+    pub const LENGTH: Limits = limits(1e-5, 100.0);
+    /// Distance between two layers [m].
+    pub const GAP: Limits = limits(0.0, 100.0);
+    /// Position of a gauge [m].
+    pub const GAUGE_POSITION: Limits = limits(-100.0, 400.0);
+    /// Diameter [m].
+    pub const DIAMETER: Limits = limits(1e-5, 10.0);
+    /// Mass [kg].
+    pub const MASS: Limits = limits(1e-9, 1e5);
+    /// Impact speed [m/s].
+    pub const IMPACT_SPEED: Limits = limits(0.0, 10_000.0);
+    /// Angle of an impact to the normal [rad]: up to 85 degrees.
+    pub const OBLIQUITY: Limits = limits(0.0, 85.0 * std::f64::consts::PI / 180.0);
+    /// Density [kg/m3]; the lightest structural foams weigh about 15.
+    pub const DENSITY: Limits = limits(15.0, 25_000.0);
+    /// Young's modulus [Pa].
+    pub const YOUNGS_MODULUS: Limits = limits(1e6, 1.5e12);
+    /// Poisson's ratio.
+    pub const POISSONS_RATIO: Limits = limits(0.0, 0.499);
+    /// Flow stress [Pa].
+    pub const FLOW_STRESS: Limits = limits(1e3, 2e10);
+    /// Hardening coefficient of a Johnson–Cook law [Pa].
+    pub const HARDENING_COEFFICIENT: Limits = limits(0.0, 1e11);
+    /// Ratio B/A of a Johnson–Cook law that hardens.
+    pub const HARDENING_TO_YIELD: Limits = limits(0.015, 300.0);
+    /// Exponent of a power law; at 1 it would not meet the elastic line.
+    pub const HARDENING_EXPONENT: Limits = limits(0.0, 0.95);
+    /// Hardening exponent of a Johnson–Cook or Steinberg law.
+    pub const JOHNSON_COOK_EXPONENT: Limits = limits(0.0, 2.0);
+    /// Rate coefficient C.
+    pub const RATE_COEFFICIENT: Limits = limits(0.0, 1.0);
+    /// Thermal softening exponent m.
+    pub const THERMAL_EXPONENT: Limits = limits(0.05, 10.0);
+    /// Strain rate [1/s].
+    pub const STRAIN_RATE: Limits = limits(1e-8, 1e9);
+    /// Steinberg's β.
+    pub const STEINBERG_BETA: Limits = limits(0.0, 1e6);
+    /// Plastic strain.
+    pub const PLASTIC_STRAIN: Limits = limits(0.0, 100.0);
+    /// Pressure coefficient of the shear modulus [1/Pa], where it is not zero.
+    pub const PRESSURE_COEFFICIENT: Limits = limits(1e-12, 1e-9);
+    /// Temperature coefficient of the shear modulus [1/K], where it is not zero.
+    pub const TEMPERATURE_COEFFICIENT: Limits = limits(1e-6, 1e-2);
+    /// Specific heat [J/(kg K)].
+    pub const SPECIFIC_HEAT: Limits = limits(50.0, 10_000.0);
+    /// Temperature [K].
+    pub const TEMPERATURE: Limits = limits(1.0, 6000.0);
+    /// Ratio of yield stress to Young's modulus; a stronger solid than E/10 does not exist.
+    pub const YIELD_TO_MODULUS: Limits = limits(5e-5, 0.1);
+    /// Speed of a wave in a thin bar [m/s].
+    pub const BAR_WAVE_SPEED: Limits = limits(250.0, 20_000.0);
+    /// Factor on the flow stress of a target.
+    pub const CONSTRAINT_FACTOR: Limits = limits(0.1, 20.0);
+    /// Border-shear coefficient C.
+    pub const BORDER_SHEAR: Limits = limits(0.0, 10.0);
+    /// Width of a shear band [m].
+    pub const BAND_WIDTH: Limits = limits(1e-6, 0.1);
+    /// Plastic shear strain at which a band fails.
+    pub const BAND_STRAIN: Limits = limits(0.01, 1000.0);
+    /// Courant number.
+    pub const COURANT: Limits = limits(1e-4, 1.0);
+    /// Exponent of a cumulative failure law.
+    pub const FAILURE_EXPONENT: Limits = limits(0.1, 20.0);
+    /// Time to failure under a constant tension [s].
+    pub const FAILURE_TIME: Limits = limits(1e-12, 1.0);
+    /// Energy that opens a crack, per area [J/m2]; 0 parts at once.
+    pub const FRACTURE_ENERGY: Limits = limits(0.0, 1e7);
+    /// Fraction of the unbalanced force; at 1 nothing would move.
+    pub const LOCAL_DAMPING: Limits = limits(0.0, 0.95);
+    /// Failure strains D₁ and D₂ of a Johnson–Cook damage law; D₁ alone may be negative.
+    pub const DAMAGE_STRAIN: Limits = limits(-10.0, 100.0);
+    /// Its exponent D₃ of the stress triaxiality; tension is positive, and makes the material fail earlier.
+    pub const TRIAXIALITY_EXPONENT: Limits = limits(-20.0, 0.0);
+    /// Its rate coefficient D₄.
+    pub const DAMAGE_RATE_COEFFICIENT: Limits = limits(-1.0, 1.0);
+    /// Its thermal coefficient D₅.
+    pub const DAMAGE_THERMAL_COEFFICIENT: Limits = limits(-1.0, 20.0);
+    /// Plastic strain at which a solid fails in shear.
+    pub const FAILURE_STRAIN: Limits = limits(0.001, 100.0);
+    /// Strain at which an element erodes.
+    pub const EROSION_STRAIN: Limits = limits(0.05, 20.0);
+    /// Coefficient of artificial viscosity.
+    pub const VISCOSITY: Limits = limits(0.0, 10.0);
+    /// Fraction of critical damping.
+    pub const DAMPING: Limits = limits(0.0, 2.0);
+    /// Fraction of plastic work that becomes heat.
+    pub const HEAT_FRACTION: Limits = limits(0.0, 1.0);
+    /// End of a run [s].
+    pub const TIME: Limits = limits(1e-9, 10.0);
+    /// Nose length in units of the body's diameter, cone.
+    pub const CONE_RATIO: Limits = limits(0.1, 20.0);
+    /// Caliber-radius-head of an ogive.
+    pub const CALIBER_RADIUS_HEAD: Limits = limits(0.5, 50.0);
+    /// Unconfined compressive strength of concrete [Pa].
+    pub const CONCRETE_STRENGTH: Limits = limits(1e6, 3e8);
+    /// Bulk sound speed [m/s].
+    pub const SOUND_SPEED: Limits = limits(100.0, 15_000.0);
+    /// Slope of shock speed against particle speed.
+    pub const HUGONIOT_SLOPE: Limits = limits(0.5, 4.0);
+    /// Grüneisen's parameter.
+    pub const GRUNEISEN: Limits = limits(0.0, 5.0);
+    /// Brinell hardness [kgf/mm2].
+    pub const BRINELL_HARDNESS: Limits = limits(10.0, 900.0);
+    /// Strength coefficient A of a cavity expansion.
+    pub const CAVITY_STRENGTH: Limits = limits(0.5, 20.0);
+    /// Inertia coefficient B of a cavity expansion.
+    pub const CAVITY_INERTIA: Limits = limits(0.0, 5.0);
+    /// Coefficient of friction.
+    pub const FRICTION: Limits = limits(0.0, 1.0);
+    /// Coefficient of a drag `C ρ V²`.
+    pub const DRAG: Limits = limits(0.0, 5.0);
+    /// Factor S on the compressive strength of concrete.
+    pub const CONCRETE_FACTOR: Limits = limits(1.0, 100.0);
+    /// Depth of a crater in projectile diameters.
+    pub const CRATER_DEPTH: Limits = limits(0.0, 10.0);
+    /// Diameter of a crater in projectile diameters.
+    pub const CRATER_DIAMETER: Limits = limits(1.0, 20.0);
+    /// Distance of a plastic front from a wall over the length of the rod.
+    pub const FRONT: Limits = limits(0.0, 0.9);
+    /// Contact pressure of a constant-pressure target [Pa].
+    pub const CONTACT_PRESSURE: Limits = limits(1e3, 1e11);
+    /// Coefficient B of the inertial pressure of a cavity.
+    pub const INERTIA_COEFFICIENT: Limits = limits(0.0, 10.0);
+    /// Factor a of a residual velocity.
+    pub const RESIDUAL_FACTOR: Limits = limits(0.01, 1.0);
+    /// Exponent p of a residual velocity.
+    pub const RESIDUAL_EXPONENT: Limits = limits(1.0, 20.0);
+}

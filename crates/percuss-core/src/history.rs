@@ -1,0 +1,266 @@
+//! Time histories of a run, thinned as it grows so that memory stays flat.
+
+mod columns;
+
+use serde::{Deserialize, Serialize};
+
+pub use columns::{ELEMENT_COLUMNS, HistoryColumn, Read, SAMPLE_COLUMNS};
+
+use crate::ledger::{EnergyLedger, MomentumLedger};
+
+/// One moment of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Sample {
+    /// Time [s].
+    pub time: f64,
+    /// Time step number.
+    pub step: u64,
+    /// Speed of the projectile's front end [m/s].
+    pub tip_velocity: f64,
+    /// Speed of the projectile's rear end [m/s].
+    pub tail_velocity: f64,
+    /// Speed of the target's struck face, the crater floor [m/s].
+    pub interface_velocity: f64,
+    /// Speed of the target's back face [m/s]; no number where there is none.
+    pub back_velocity: f64,
+    /// Mean speed of the projectile [m/s].
+    pub mean_velocity: f64,
+    /// Position of the projectile's front end below the original face [m].
+    pub tip_position: f64,
+    /// Position of the crater floor below the original face [m].
+    pub depth: f64,
+    /// Current length of the projectile [m].
+    pub projectile_length: f64,
+    /// Force between projectile and target [N].
+    pub contact_force: f64,
+    /// Force on the back face [N].
+    pub back_force: f64,
+    /// Energy balance.
+    pub energy: EnergyLedger,
+    /// Momentum balance.
+    pub momentum: MomentumLedger,
+}
+
+/// State of one element at one moment.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ElementState {
+    /// Part: 0 is the projectile, 1 the first layer of the target.
+    pub part: usize,
+    /// Initial position of its middle, struck face at 0, depth positive [m].
+    pub initial_position: f64,
+    /// Current position of its middle [m].
+    pub position: f64,
+    /// Current length [m].
+    pub length: f64,
+    /// Axial stress, compression positive [Pa].
+    pub stress: f64,
+    /// Axial strain, compression positive.
+    pub strain: f64,
+    /// Equivalent plastic strain.
+    pub plastic_strain: f64,
+    /// Current diameter [m].
+    pub diameter: f64,
+    /// Temperature [K].
+    pub temperature: f64,
+    /// Axial velocity, into the target positive [m/s].
+    pub velocity: f64,
+}
+
+impl ElementState {
+    /// A state of a part without numbers: of a place that has eroded.
+    pub fn gone(part: usize, initial_position: f64) -> Self {
+        let none = f64::NAN;
+        Self {
+            part,
+            initial_position,
+            position: none,
+            length: none,
+            stress: none,
+            strain: none,
+            plastic_strain: none,
+            diameter: none,
+            temperature: none,
+            velocity: none,
+        }
+    }
+
+    /// The state between two others of one part, at a fraction of the way from this one.
+    pub fn between(&self, ahead: &Self, fraction: f64) -> Self {
+        let mixed = |of: fn(&Self) -> f64| of(self) + fraction * (of(ahead) - of(self));
+        Self {
+            part: self.part,
+            initial_position: mixed(|e| e.initial_position),
+            position: mixed(|e| e.position),
+            length: mixed(|e| e.length),
+            stress: mixed(|e| e.stress),
+            strain: mixed(|e| e.strain),
+            plastic_strain: mixed(|e| e.plastic_strain),
+            diameter: mixed(|e| e.diameter),
+            temperature: mixed(|e| e.temperature),
+            velocity: mixed(|e| e.velocity),
+        }
+    }
+}
+
+/// State along the axis at one moment.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Profile {
+    /// Time [s].
+    pub time: f64,
+    /// Elements from the projectile's tail to the target's back face; eroded ones are left out.
+    pub elements: Vec<ElementState>,
+}
+
+/// Histories of a run.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct History {
+    /// Scalars against time.
+    pub samples: Vec<Sample>,
+    /// State along the axis against time.
+    pub profiles: Vec<Profile>,
+    /// State at each gauge of the case at the times of the samples.
+    pub gauges: Vec<GaugeHistory>,
+}
+
+/// A point of the material on the axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GaugePlace {
+    /// Name in results.
+    pub name: String,
+    /// Position before the impact, below the struck face [m]; negative in the projectile.
+    pub position: f64,
+}
+
+/// History of the material at a gauge.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct GaugeHistory {
+    /// Name of the gauge.
+    pub name: String,
+    /// Times [s]: those of the samples.
+    pub times: Vec<f64>,
+    /// State of the material; not a number once it has eroded.
+    pub states: Vec<ElementState>,
+}
+
+/// Samples kept lie between this number and half of it.
+const MOST_SAMPLES: usize = 1600;
+/// Profiles kept lie between this number and half of it.
+const MOST_PROFILES: usize = 400;
+
+/// Collects histories of a run of unknown length: when it is full, it drops every other entry and doubles its stride.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Recorder {
+    history: History,
+    sample_stride: u64,
+    profile_stride: u64,
+}
+
+impl Recorder {
+    /// An empty history with gauges.
+    pub fn new(gauges: &[GaugePlace]) -> Self {
+        let gauge = |place: &GaugePlace| GaugeHistory {
+            name: place.name.clone(),
+            ..GaugeHistory::default()
+        };
+        Self {
+            history: History {
+                gauges: gauges.iter().map(gauge).collect(),
+                ..History::default()
+            },
+            sample_stride: 1,
+            profile_stride: 1,
+        }
+    }
+
+    /// Whether a step is one of those with a sample.
+    pub fn wants_sample(&self, step: u64) -> bool {
+        step.is_multiple_of(self.sample_stride)
+    }
+
+    /// Whether a step is one of those with a profile.
+    pub fn wants_profile(&self, step: u64) -> bool {
+        step.is_multiple_of(self.profile_stride)
+    }
+
+    /// Adds a sample, with the states at all gauges.
+    pub fn sample(&mut self, sample: Sample, gauges: Vec<ElementState>) {
+        for (history, state) in self.history.gauges.iter_mut().zip(gauges) {
+            history.times.push(sample.time);
+            history.states.push(state);
+        }
+        self.history.samples.push(sample);
+        if self.history.samples.len() > MOST_SAMPLES {
+            thin(&mut self.history.samples);
+            for history in &mut self.history.gauges {
+                thin(&mut history.times);
+                thin(&mut history.states);
+            }
+            self.sample_stride *= 2;
+        }
+    }
+
+    /// Adds a profile.
+    pub fn profile(&mut self, profile: Profile) {
+        self.history.profiles.push(profile);
+        if self.history.profiles.len() > MOST_PROFILES {
+            thin(&mut self.history.profiles);
+            self.profile_stride *= 2;
+        }
+    }
+
+    /// The history with its last moment, which the stride may have passed over.
+    pub fn finish(
+        mut self,
+        sample: Sample,
+        gauges: Vec<ElementState>,
+        profile: Profile,
+    ) -> History {
+        if self.history.samples.last().map(|last| last.step) != Some(sample.step) {
+            // What is complete is not thinned out any more.
+            for (history, state) in self.history.gauges.iter_mut().zip(gauges) {
+                history.times.push(sample.time);
+                history.states.push(state);
+            }
+            self.history.samples.push(sample);
+        }
+        if self.history.profiles.last().map(|last| last.time) != Some(profile.time) {
+            self.history.profiles.push(profile);
+        }
+        self.history
+    }
+}
+
+fn thin<T>(entries: &mut Vec<T>) {
+    let mut index = 0;
+    entries.retain(|_| {
+        index += 1;
+        index % 2 == 1
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_run_keeps_few_entries_evenly_spread() {
+        let mut recorder = Recorder::new(&[]);
+        for step in 0..100_000 {
+            if recorder.wants_profile(step) {
+                recorder.profile(Profile {
+                    time: step as f64,
+                    elements: Vec::new(),
+                });
+            }
+        }
+        let history = recorder.history;
+        assert!((MOST_PROFILES / 2..=MOST_PROFILES).contains(&history.profiles.len()));
+        let gaps: Vec<f64> = history
+            .profiles
+            .windows(2)
+            .map(|pair| pair[1].time - pair[0].time)
+            .collect();
+        assert!(gaps.iter().all(|gap| *gap == gaps[0]));
+    }
+}

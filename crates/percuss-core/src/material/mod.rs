@@ -1,0 +1,239 @@
+//! Materials: elastic constants, a strength law and where every number comes from.
+
+mod calibrated;
+mod cavity;
+mod damage;
+mod equation_of_state;
+mod failure;
+mod library;
+mod references;
+mod sanity;
+mod search;
+mod state_equation;
+mod strength;
+mod tensile;
+#[cfg(test)]
+mod tests;
+mod yield_point;
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::units::{Density, Pressure, SpecificHeat, StrainRate, Temperature};
+
+pub use calibrated::Calibrated;
+pub use cavity::{cavity_expansion_pressure, cylindrical_cavity_pressure};
+pub use damage::{Damage, DamageState, PreparedDamage};
+pub use equation_of_state::EquationOfState;
+pub use failure::*;
+pub use library::{Library, MaterialEntry};
+pub use references::{Reference, references};
+pub use state_equation::{StateEquation, impedance_match};
+pub use strength::strength_factor;
+pub use strength::*;
+pub use tensile::tensile_strength;
+pub use yield_point::{Trial, YieldPoint, first_return};
+
+/// One parameter set of a material, as a file holds it.
+///
+/// Rival sets for the same material stay separate records of one `family`; one of them is recommended.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Plain name, for example `OFHC copper`.
+    pub name: String,
+    /// Group of rival records that describe the same material; its recommended record answers to this name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub family: Option<String>,
+    /// Temper, heat treatment or condition.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<String>,
+    /// Whether this record answers to the name of its family.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub recommended: bool,
+    /// How far the numbers can be trusted.
+    #[serde(default)]
+    pub trust: Trust,
+    /// Bibliography keys of the works that the numbers come from.
+    #[serde(default)]
+    pub sources: Vec<String>,
+    /// What a user should know before relying on the record.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub note: String,
+    /// What its constants were calibrated on, where `percuss calibrate` made the record.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub calibrated: Option<Calibrated>,
+    /// Density at rest [kg/m3].
+    pub density: Density,
+    /// Young's modulus [Pa].
+    pub youngs_modulus: Pressure,
+    /// Poisson's ratio.
+    pub poissons_ratio: f64,
+    /// Static yield stress [Pa], for information; the strength law decides.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yield_stress: Option<Pressure>,
+    /// Ultimate tensile strength [Pa].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ultimate_strength: Option<Pressure>,
+    /// Brinell hardness number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub brinell_hardness: Option<f64>,
+    /// Tensile stress at which the material spalls [Pa].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spall_strength: Option<Pressure>,
+    /// Cumulative failure in tension by the law of Tuler and Butcher.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tuler_butcher: Option<TulerButcher>,
+    /// Specific heat [J/(kg K)]; needed for adiabatic heating.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub specific_heat: Option<SpecificHeat>,
+    /// Melting temperature [K].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub melting_temperature: Option<Temperature>,
+    /// Temperature at which the parameters were measured [K].
+    #[serde(default = "room_temperature")]
+    pub room_temperature: Temperature,
+    /// Where the strength law was fitted.
+    #[serde(default, skip_serializing_if = "Validity::is_empty")]
+    pub validity: Validity,
+    /// Shock equation of state; models of planar shocks need it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub equation_of_state: Option<EquationOfState>,
+    /// Damage by plastic strain; models use it where they are asked to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damage: Option<Damage>,
+    /// The strength law.
+    pub strength: Strength,
+}
+
+fn room_temperature() -> Temperature {
+    Temperature::new(293.0)
+}
+
+impl Material {
+    /// What the material is, as far as models tell the difference.
+    pub fn class(&self) -> MaterialClass {
+        match self.strength {
+            Strength::Concrete(_) => MaterialClass::Concrete,
+            _ => MaterialClass::Metal,
+        }
+    }
+
+    /// Speed of a longitudinal wave in a thin elastic bar [m/s].
+    pub fn bar_wave_speed(&self) -> f64 {
+        (self.youngs_modulus.si() / self.density.si()).sqrt()
+    }
+
+    /// Acoustic impedance of a thin elastic bar per area [kg/(m2 s)].
+    pub fn bar_impedance(&self) -> f64 {
+        (self.youngs_modulus.si() * self.density.si()).sqrt()
+    }
+
+    /// Flow stress at a plastic strain, slow and at room temperature [Pa]; `None` for a law that never flows.
+    pub fn flow_stress(&self, plastic_strain: f64) -> Option<f64> {
+        self.strength.law().initial_yield_stress(self)?;
+        let state = FlowState {
+            plastic_strain,
+            strain_rate: 0.0,
+            temperature: self.room_temperature.si(),
+            pressure: 0.0,
+        };
+        let prepared = self.strength.law().prepare(self, 1.0);
+        Some(prepared.flow_stress(&state).stress)
+    }
+
+    /// Shear modulus [Pa].
+    pub fn shear_modulus(&self) -> f64 {
+        self.youngs_modulus.si() / (2.0 * (1.0 + self.poissons_ratio))
+    }
+
+    /// Bulk modulus [Pa].
+    pub fn bulk_modulus(&self) -> f64 {
+        self.youngs_modulus.si() / (3.0 * (1.0 - 2.0 * self.poissons_ratio))
+    }
+}
+
+/// Class of a material, as far as models tell the difference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MaterialClass {
+    /// A solid that flows at a stress which pressure does not raise: metals, and what behaves like them.
+    Metal,
+    /// Concrete.
+    Concrete,
+}
+
+impl MaterialClass {
+    /// The class in words.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Metal => "metal",
+            Self::Concrete => "concrete",
+        }
+    }
+}
+
+/// How far the numbers of a record can be trusted.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize, JsonSchema,
+)]
+pub enum Trust {
+    /// Read in two independent readable places.
+    A,
+    /// One secondary source that names its primary source.
+    B,
+    /// Secondary source without a named primary one, or values put together from several.
+    C,
+    /// Supplied by the user; not judged.
+    #[default]
+    #[serde(rename = "user")]
+    User,
+}
+
+impl Trust {
+    /// The letter as files have it.
+    pub fn letter(self) -> &'static str {
+        match self {
+            Self::A => "A",
+            Self::B => "B",
+            Self::C => "C",
+            Self::User => "user",
+        }
+    }
+
+    /// What the letter means, in words.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::A => "read in two independent places",
+            Self::B => "one secondary source that names its primary source",
+            Self::C => "indicative: primary source not named, or put together from several",
+            Self::User => "supplied by the user; not judged",
+        }
+    }
+}
+
+/// Range in which a strength law was fitted; outside it a run warns.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Validity {
+    /// Largest plastic strain.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plastic_strain_max: Option<f64>,
+    /// Largest strain rate [1/s].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub strain_rate_max: Option<StrainRate>,
+    /// Largest temperature [K].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature_max: Option<Temperature>,
+}
+
+impl Validity {
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// A file of materials: one table a record, the table's name being the material's id.
+pub type MaterialTable = BTreeMap<String, Material>;

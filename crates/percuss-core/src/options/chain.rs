@@ -1,0 +1,271 @@
+//! Options of the 1-D discrete element model.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    chain_words::{ArtificialViscosity, ErosionClosure, Kinematics, Scheme, TargetClosure},
+    number_or_word::{ConstraintFactor, ErosionStrain, NumberOrWord},
+    published_options::PublishedOptions,
+    shear_band::{BorderShearLaw, ShearBandOptions},
+};
+use crate::{
+    check::{
+        Check,
+        limits::{self, MAX_ELEMENTS},
+    },
+    material::Failure,
+    problem::Target,
+    units::{EnergyPerArea, Time},
+};
+
+/// Options of the model `chain`; the schema has the defaults.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[schemars(transform = super::chain_defaults::chain_in_schema)]
+pub struct ChainOptions {
+    /// Numerical scheme.
+    pub scheme: Scheme,
+    /// Elements along the projectile.
+    pub projectile_elements: Option<u32>,
+    /// Elements through the target, shared among its layers by thickness.
+    pub target_elements: Option<u32>,
+    /// Target resistance model; scheme `conservative` only.
+    pub target_closure: Option<TargetClosure>,
+    /// Factor on the target's flow stress for the lateral constraint \[woodward1982\].
+    pub constraint_factor: Option<ConstraintFactor>,
+    /// Border-shear coefficient C in `Fy = C π d h σ_f` \[paper, eq. 24\].
+    pub border_shear: Option<f64>,
+    /// What holds the column of target to the plate around it; scheme `conservative` only.
+    pub border_shear_law: Option<BorderShearLaw>,
+    /// The shear band, with `border_shear_law = "shear-band"`.
+    pub shear_band: Option<ShearBandOptions>,
+    /// Whether the plate around the column dishes, with a shear band and `target.plate_diameter`.
+    pub dishing: Option<bool>,
+    /// Strain measure and area change; scheme `conservative` only.
+    pub kinematics: Option<Kinematics>,
+    /// Courant number on the current smallest transit time; scheme `conservative` only.
+    pub courant: Option<f64>,
+    /// Magnitude of strain at which an element erodes, or `"never"`; scheme `conservative` only.
+    pub erosion_strain: Option<ErosionStrain>,
+    /// How what erodes leaves the tip; scheme `conservative` only.
+    pub erosion_closure: Option<ErosionClosure>,
+    /// Artificial viscosity in compression; scheme `conservative` only.
+    pub artificial_viscosity: Option<ArtificialViscosity>,
+    /// Viscous damping of every spring as a fraction of critical; scheme `conservative` only.
+    pub damping_ratio: Option<f64>,
+    /// Local damping: part of the unbalanced force on every node that acts against its motion; scheme `conservative`
+    /// only.
+    pub local_damping: Option<f64>,
+    /// When material in tension parts; never when not given; scheme `conservative` only.
+    pub failure: Option<Failure>,
+    /// Energy that a crack takes to open, per area [J/m2]; none when not given.
+    pub fracture_energy: Option<EnergyPerArea>,
+    /// Whether strength laws see the strain rate; scheme `conservative` only.
+    pub rate_effects: Option<bool>,
+    /// Whether plastic work heats the material; scheme `conservative` only.
+    pub adiabatic_heating: Option<bool>,
+    /// Fraction of plastic work that becomes heat; scheme `conservative` only.
+    pub heat_fraction: Option<f64>,
+    /// Time at which a run is ended [s]; long enough for the case to end by itself when not given.
+    pub end_time: Option<Time>,
+    /// Time steps after which a run is ended.
+    pub max_steps: Option<u64>,
+    /// Readings of the paper; scheme `published` only.
+    pub published: Option<PublishedOptions>,
+}
+
+impl ChainOptions {
+    /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
+    pub fn check(&self, check: &mut Check<'_>, target: &Target) {
+        let target_is_solid = target.is_solid();
+        self.check_target(check, target_is_solid);
+        self.check_closure(check, target);
+        self.check_border_shear(check, target);
+        for (key, elements) in [
+            ("projectile_elements", self.projectile_elements),
+            ("target_elements", self.target_elements),
+        ] {
+            if let Some(elements) = elements.filter(|n| !(1..=MAX_ELEMENTS).contains(n)) {
+                let size = if elements > MAX_ELEMENTS {
+                    format!(
+                        "; this mesh would take about {:.0} MB and the time grows with the square of the number; \
+                         `percuss converge` shows how many are enough",
+                        f64::from(elements) * 200.0 / 1e6
+                    )
+                } else {
+                    String::new()
+                };
+                check.fail(
+                    key,
+                    format!("{elements} elements is out of range"),
+                    format!("allowed: 1 to {MAX_ELEMENTS}{size}"),
+                );
+            }
+        }
+        let numbers = [
+            ("border_shear", self.border_shear, limits::BORDER_SHEAR),
+            ("courant", self.courant, limits::COURANT),
+            ("damping_ratio", self.damping_ratio, limits::DAMPING),
+            ("local_damping", self.local_damping, limits::LOCAL_DAMPING),
+            ("heat_fraction", self.heat_fraction, limits::HEAT_FRACTION),
+            (
+                "constraint_factor",
+                self.constraint_factor.and_then(|factor| factor.number()),
+                limits::CONSTRAINT_FACTOR,
+            ),
+            (
+                "erosion_strain",
+                self.erosion_strain.and_then(|strain| strain.number()),
+                limits::EROSION_STRAIN,
+            ),
+        ];
+        for (key, number, limits) in numbers {
+            if let Some(number) = number {
+                check.number(key, number, limits);
+            }
+        }
+        if let Some(viscosity) = self.artificial_viscosity {
+            let mut check = check.within("artificial_viscosity");
+            check.number("linear", viscosity.linear, limits::VISCOSITY);
+            check.number("quadratic", viscosity.quadratic, limits::VISCOSITY);
+        }
+        if let Some(time) = self.end_time {
+            check.quantity("end_time", time, limits::TIME);
+        }
+        if self.max_steps == Some(0) {
+            check.fail("max_steps", "0 steps is out of range", "allowed: 1 or more");
+        }
+        if let Some(mass) = self.published().target_mass {
+            check.quantity("published.target_mass", mass, limits::MASS);
+        }
+        self.check_failure(check);
+        self.check_layers(check, target);
+        self.check_scheme(check);
+    }
+
+    /// Reports keys that would have no effect.
+    fn check_target(&self, check: &mut Check<'_>, target_is_solid: bool) {
+        let column_only = [
+            ("target_elements", self.target_elements.is_some()),
+            ("target_closure", self.target_closure.is_some()),
+            ("constraint_factor", self.constraint_factor.is_some()),
+            ("border_shear", self.border_shear.is_some()),
+            ("erosion_closure", self.erosion_closure.is_some()),
+        ];
+        for (key, _) in column_only
+            .iter()
+            .filter(|(_, given)| *given && !target_is_solid)
+        {
+            check.fail(
+                key,
+                format!("a rigid wall or a constant pressure has no `{key}`"),
+                "remove the key",
+            );
+        }
+        if self.erosion_closure() == ErosionClosure::Tate {
+            for (key, given) in [
+                ("kinematics", self.kinematics.is_some()),
+                ("erosion_strain", self.erosion_strain.is_some()),
+                ("border_shear", self.border_shear.is_some()),
+            ] {
+                if given {
+                    check.fail(
+                        key,
+                        format!("`{key}` has no effect with the erosion closure `tate`"),
+                        "remove one of the two keys",
+                    );
+                }
+            }
+        }
+        if self.heat_fraction.is_some() && self.adiabatic_heating == Some(false) {
+            check.fail(
+                "heat_fraction",
+                "`heat_fraction` has no effect without `adiabatic_heating`",
+                "remove one of the two keys",
+            );
+        }
+    }
+
+    /// Reports keys that a cone has no use for.
+    fn check_closure(&self, check: &mut Check<'_>, target: &Target) {
+        let closure = self.target_closure();
+        if closure == TargetClosure::Column {
+            return;
+        }
+        let lacks: Vec<_> = match closure {
+            TargetClosure::ExpandingCavity => self.cavity_lacks().collect(),
+            _ => self.column_keys().to_vec(),
+        };
+        for (key, _) in lacks.iter().filter(|(_, differs)| *differs) {
+            check.fail(
+                key,
+                format!(
+                    "`{key}` belongs to a column: the target closure `{}` has none",
+                    closure.name()
+                ),
+                "remove the key, or use target_closure = \"column\"",
+            );
+        }
+        if target.column_diameter.is_some() {
+            check.fail(
+                "target_closure",
+                format!(
+                    "the target closure `{}` starts with the projectile's area: `target.column_diameter` has no effect",
+                    closure.name()
+                ),
+                "remove `target.column_diameter`, or use target_closure = \"column\"",
+            );
+        }
+        let one_material = [
+            TargetClosure::DivergingPenetrable,
+            TargetClosure::ExpandingCavity,
+        ];
+        if one_material.contains(&closure) && target.layers.len() > 1 {
+            check.fail(
+                "target_closure",
+                format!(
+                    "the target closure `{}` has one resistance: it takes a target of one material",
+                    closure.name()
+                ),
+                "use target_closure = \"diverging\" or \"column\"",
+            );
+        }
+    }
+
+    /// Reports keys that the selected scheme would ignore.
+    fn check_scheme(&self, check: &mut Check<'_>) {
+        let conservative_only = [
+            ("kinematics", self.kinematics.is_some()),
+            ("courant", self.courant.is_some()),
+            ("erosion_strain", self.erosion_strain.is_some()),
+            ("erosion_closure", self.erosion_closure.is_some()),
+            ("target_closure", self.target_closure.is_some()),
+            ("artificial_viscosity", self.artificial_viscosity.is_some()),
+            ("damping_ratio", self.damping_ratio.is_some()),
+            ("local_damping", self.local_damping.is_some()),
+            ("failure", self.failure.is_some()),
+            ("fracture_energy", self.fracture_energy.is_some()),
+            ("rate_effects", self.rate_effects.is_some()),
+            ("adiabatic_heating", self.adiabatic_heating.is_some()),
+            ("heat_fraction", self.heat_fraction.is_some()),
+        ];
+        match self.scheme {
+            Scheme::Published => {
+                for (key, _) in conservative_only.iter().filter(|(_, given)| *given) {
+                    check.fail(
+                        key,
+                        format!("scheme `published` has no `{key}`"),
+                        "remove the key, or use scheme = \"conservative\"",
+                    );
+                }
+            }
+            Scheme::Conservative if self.published.is_some() => check.fail(
+                "published",
+                "scheme `conservative` does not use the readings of the paper",
+                "remove the table, or use scheme = \"published\"",
+            ),
+            Scheme::Conservative => {}
+        }
+    }
+}

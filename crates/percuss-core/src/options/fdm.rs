@@ -1,0 +1,192 @@
+//! Options of the finite-difference model.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    ArtificialViscosity, ChainOptions, ConstraintFactor,
+    defaults::{MAX_STEPS, defaults},
+    number_or_word::NumberOrWord,
+};
+use crate::{
+    check::{
+        Check,
+        limits::{self, MAX_ELEMENTS},
+    },
+    problem::Target,
+    units::{Pressure, Time},
+};
+
+/// Options of the model `fdm`. In geometry `rod` the keys of mesh, target resistance and end have the values of `[chain]` when not given.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[schemars(transform = fdm_in_schema)]
+pub struct FdmOptions {
+    /// Geometry of the impact.
+    pub geometry: Geometry,
+    /// Cells along the projectile.
+    pub projectile_elements: Option<u32>,
+    /// Cells through the target, shared among its layers by thickness.
+    pub target_elements: Option<u32>,
+    /// Factor on the target's flow stress for the lateral constraint; geometry `rod` only.
+    pub constraint_factor: Option<ConstraintFactor>,
+    /// Border-shear coefficient C in `Fy = C π d h σ_f`; geometry `rod` only.
+    pub border_shear: Option<f64>,
+    /// Courant number on the current smallest transit time. At the default a run in geometry `rod` is repeated with half of it,
+    /// down to 0.04375, until its energy balance closes, and warns; geometry `planar` conserves energy to rounding at any.
+    pub courant: Option<f64>,
+    /// Artificial viscosity in compression.
+    pub artificial_viscosity: Option<ArtificialViscosity>,
+    /// Tensile stress at which material spalls, in place of that of the materials' records; geometry `planar` only [Pa].
+    pub spall_strength: Option<Pressure>,
+    /// Time at which a run is ended [s]; when not given, that of `[chain]` in a rod, and three passages of a wave through
+    /// both bodies in a planar impact.
+    pub end_time: Option<Time>,
+    /// Time steps after which a run is ended.
+    pub max_steps: Option<u64>,
+}
+
+/// Geometry of the finite-difference model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Geometry {
+    /// Uniaxial stress: a rod and the column of target in line with it, with a cross-section that changes.
+    #[default]
+    Rod,
+    /// Uniaxial strain: a flyer plate, as thick as the projectile is long, strikes the layers of the target.
+    Planar,
+}
+
+impl Geometry {
+    /// Name as the file has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rod => "rod",
+            Self::Planar => "planar",
+        }
+    }
+}
+
+/// A default that differs between the geometries.
+fn by_geometry(planar: &str) -> String {
+    format!("that of `[chain]` in geometry `rod`, {planar} in geometry `planar`")
+}
+
+fn planar_viscosity() -> String {
+    let ArtificialViscosity { linear, quadratic } = FdmOptions::PLANAR_VISCOSITY;
+    by_geometry(&format!("linear {linear} and quadratic {quadratic}"))
+}
+
+defaults! { FdmOptions, fdm_in_schema {
+    /// Courant number.
+    courant: f64 = 0.7;
+    depending projectile_elements: by_geometry(&FdmOptions::PLANAR_ELEMENTS.to_string());
+    depending target_elements: by_geometry("cells as long as the projectile's");
+    depending constraint_factor: "that of `[chain]`";
+    depending border_shear: "that of `[chain]`";
+    depending artificial_viscosity: planar_viscosity();
+    depending max_steps: by_geometry(&MAX_STEPS.to_string());
+} }
+
+impl FdmOptions {
+    /// Cells along the projectile in geometry `planar`.
+    pub const PLANAR_ELEMENTS: u32 = 200;
+    /// Artificial viscosity in geometry `planar`.
+    pub const PLANAR_VISCOSITY: ArtificialViscosity = ArtificialViscosity {
+        linear: 0.1,
+        quadratic: 2.0,
+    };
+}
+
+/// Limits of a spall strength given by itself [Pa].
+const SPALL_STRENGTH: crate::check::Limits = limits::FLOW_STRESS;
+
+impl FdmOptions {
+    /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
+    pub fn check(&self, check: &mut Check<'_>, target: &Target) {
+        let target_is_solid = target.is_solid();
+        for (key, elements) in [
+            ("projectile_elements", self.projectile_elements),
+            ("target_elements", self.target_elements),
+        ] {
+            if let Some(elements) = elements.filter(|n| !(1..=MAX_ELEMENTS).contains(n)) {
+                check.fail(
+                    key,
+                    format!("{elements} cells is out of range"),
+                    format!("allowed: 1 to {MAX_ELEMENTS}"),
+                );
+            }
+        }
+        let factor = self.constraint_factor.and_then(|factor| factor.number());
+        for (key, number, limits) in [
+            ("constraint_factor", factor, limits::CONSTRAINT_FACTOR),
+            ("border_shear", self.border_shear, limits::BORDER_SHEAR),
+            ("courant", self.courant, limits::COURANT),
+        ] {
+            if let Some(number) = number {
+                check.number(key, number, limits);
+            }
+        }
+        if let Some(viscosity) = self.artificial_viscosity {
+            let mut check = check.within("artificial_viscosity");
+            check.number("linear", viscosity.linear, limits::VISCOSITY);
+            check.number("quadratic", viscosity.quadratic, limits::VISCOSITY);
+        }
+        if let Some(strength) = self.spall_strength {
+            check.quantity("spall_strength", strength, SPALL_STRENGTH);
+        }
+        if let Some(time) = self.end_time {
+            check.quantity("end_time", time, limits::TIME);
+        }
+        if self.max_steps == Some(0) {
+            check.fail("max_steps", "0 steps is out of range", "allowed: 1 or more");
+        }
+        self.check_effect(check, target_is_solid);
+    }
+
+    /// Reports keys that would have no effect.
+    fn check_effect(&self, check: &mut Check<'_>, target_is_solid: bool) {
+        let column = [
+            ("constraint_factor", self.constraint_factor.is_some()),
+            ("border_shear", self.border_shear.is_some()),
+        ];
+        let spall = [("spall_strength", self.spall_strength.is_some())];
+        let (ignored, geometry) = match self.geometry {
+            Geometry::Rod => (&spall[..], Geometry::Rod),
+            Geometry::Planar => (&column[..], Geometry::Planar),
+        };
+        for (key, _) in ignored.iter().filter(|(_, given)| *given) {
+            check.fail(
+                key,
+                format!("geometry `{}` has no `{key}`", geometry.name()),
+                "remove the key, or change `geometry`",
+            );
+        }
+        let of_target = [("target_elements", self.target_elements.is_some())];
+        for (key, _) in of_target
+            .iter()
+            .chain(&column)
+            .filter(|(_, given)| *given && !target_is_solid)
+        {
+            check.fail(
+                key,
+                format!("a rigid wall or a constant pressure has no `{key}`"),
+                "remove the key",
+            );
+        }
+    }
+
+    /// The same options, those of a rod filled in from the chain's.
+    pub fn with_defaults_of(&self, chain: &ChainOptions) -> Self {
+        Self {
+            projectile_elements: self.projectile_elements.or(chain.projectile_elements),
+            target_elements: self.target_elements.or(chain.target_elements),
+            constraint_factor: self.constraint_factor.or(chain.constraint_factor),
+            border_shear: self.border_shear.or(chain.border_shear),
+            artificial_viscosity: self.artificial_viscosity.or(chain.artificial_viscosity),
+            end_time: self.end_time.or(chain.end_time),
+            max_steps: self.max_steps.or(chain.max_steps),
+            ..self.clone()
+        }
+    }
+}

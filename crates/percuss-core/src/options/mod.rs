@@ -1,0 +1,106 @@
+//! Options of the models: one file per model, with defaults and range checks, and the list of all.
+
+mod awerbuch_bodner;
+mod axi;
+mod chain;
+mod chain_defaults;
+mod chain_words;
+mod constraint_factor;
+mod crater_energy;
+mod defaults;
+mod failure_options;
+mod fdm;
+mod forrestal;
+mod forrestal_concrete;
+mod lambert_jonas;
+mod lanz_odermatt;
+mod number_or_word;
+mod plate_cavity;
+mod plugging;
+mod poncelet;
+mod published_options;
+mod recht_ipson;
+mod shear_band;
+mod tate;
+mod taylor;
+mod walker_anderson;
+mod wilkins_guinan;
+
+pub use awerbuch_bodner::AwerbuchBodnerOptions;
+pub use axi::{AxiOptions, ContactKind, Edge, Eos};
+pub use chain::ChainOptions;
+pub use chain_words::{ArtificialViscosity, ErosionClosure, Kinematics, Scheme, TargetClosure};
+pub use constraint_factor::constraint_factor;
+pub use crater_energy::CraterEnergyOptions;
+pub use defaults::MAX_STEPS;
+pub use fdm::{FdmOptions, Geometry};
+pub use forrestal::{Cavity, Entry, ForrestalOptions};
+pub use forrestal_concrete::ForrestalConcreteOptions;
+pub use lambert_jonas::LambertJonasOptions;
+pub use lanz_odermatt::LanzOdermattOptions;
+pub use number_or_word::{ConstraintFactor, ErosionStrain};
+pub use plate_cavity::{CavityShape, PlateCavityOptions};
+pub use plugging::PluggingOptions;
+pub use poncelet::PonceletOptions;
+pub use published_options::{
+    ContactSpring, Interface, PublishedBorderShear, PublishedOptions, PublishedTimeStep,
+    SmallStrainStiffness,
+};
+pub use recht_ipson::RechtIpsonOptions;
+pub use shear_band::{BandFailure, BorderShearLaw, ShearBandOptions};
+pub use tate::TateOptions;
+pub use taylor::TaylorOptions;
+pub use walker_anderson::WalkerAndersonOptions;
+pub use wilkins_guinan::WilkinsGuinanOptions;
+
+/// Hands the list of models that have options, each with their type, to a macro. A model that has options is one line here.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! with_model_options {
+    ($then:ident) => {
+        $then! {
+            chain: $crate::options::ChainOptions,
+            fdm: $crate::options::FdmOptions,
+            axi: $crate::options::AxiOptions,
+            tate: $crate::options::TateOptions,
+            walker_anderson: $crate::options::WalkerAndersonOptions,
+            lanz_odermatt: $crate::options::LanzOdermattOptions,
+            forrestal: $crate::options::ForrestalOptions,
+            forrestal_concrete: $crate::options::ForrestalConcreteOptions,
+            poncelet: $crate::options::PonceletOptions,
+            crater_energy: $crate::options::CraterEnergyOptions,
+            taylor: $crate::options::TaylorOptions,
+            wilkins_guinan: $crate::options::WilkinsGuinanOptions,
+            plate_cavity: $crate::options::PlateCavityOptions,
+            plugging: $crate::options::PluggingOptions,
+            recht_ipson: $crate::options::RechtIpsonOptions,
+            lambert_jonas: $crate::options::LambertJonasOptions,
+            awerbuch_bodner: $crate::options::AwerbuchBodnerOptions,
+        }
+    };
+}
+
+macro_rules! model_options {
+    ($($name:ident: $options:ty),* $(,)?) => {
+        /// Options of all models that have any.
+        #[derive(Debug, Clone, PartialEq, Default)]
+        pub struct ModelOptions {
+            $(
+                #[doc = concat!("Options of the model `", stringify!($name), "`.")]
+                pub $name: $options,
+            )*
+        }
+
+        impl ModelOptions {
+            /// Whether a model has its default options, as one without any always has.
+            pub fn are_default(&self, model: &str) -> bool {
+                match model {
+                    $(stringify!($name) => self.$name == Default::default(),)*
+                    _ => true,
+                }
+            }
+        }
+    };
+}
+
+with_model_options!(model_options);

@@ -1,0 +1,27 @@
+//! Options of the model `recht_ipson`.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    check::{Check, limits},
+    problem::Target,
+    units::Velocity,
+};
+
+/// Options of the model `recht_ipson`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RechtIpsonOptions {
+    /// Ballistic limit [m/s]; that of `plugging` (flat noses) or `plate_cavity` (sharp ones) when not given.
+    pub ballistic_limit: Option<Velocity>,
+}
+
+impl RechtIpsonOptions {
+    /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
+    pub fn check(&self, check: &mut Check<'_>, _: &Target) {
+        if let Some(limit) = self.ballistic_limit {
+            check.quantity("ballistic_limit", limit, limits::IMPACT_SPEED);
+        }
+    }
+}

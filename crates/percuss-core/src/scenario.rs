@@ -1,0 +1,195 @@
+//! A case with its materials looked up and its quantities in SI units: what models run on.
+
+use std::{f64::consts::PI, sync::Arc};
+
+use crate::{
+    history::GaugePlace,
+    material::Material,
+    options::{ModelOptions, TargetClosure},
+    outcome::BandQuantity,
+    problem::{BackFace, Extensions, LayerInterface, Nose, Support},
+    resistance::OwnResistance,
+};
+
+/// What strikes what, how fast, and by which options.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scenario {
+    /// Name of the case.
+    pub name: String,
+    /// One line that says what it is.
+    pub title: String,
+    /// Bibliography keys.
+    pub sources: Vec<String>,
+    /// What strikes.
+    pub projectile: Rod,
+    /// Impact speed [m/s].
+    pub impact_velocity: f64,
+    /// Angle between the path and the normal of the struck face [rad].
+    pub obliquity: f64,
+    /// What is struck.
+    pub target: TargetBody,
+    /// What the target opposes to penetration, where the caller brings a law along; no file can name one.
+    pub resistance: Option<OwnResistance>,
+    /// Why the default target resistance model of the chain is not the expanding cavity; `None` where it is, and where the case names
+    /// one.
+    pub resistance_reason: Option<String>,
+    /// Options of the models.
+    pub options: ModelOptions,
+    /// Points of the material at which a numerical run keeps a time history.
+    pub gauges: Vec<GaugePlace>,
+    /// Tables of models that are not part of percuss.
+    pub extensions: Extensions,
+    /// What was measured, for comparison; no model sees it.
+    pub experiments: Vec<Measurement>,
+    /// Which values that have a default the case gives.
+    pub given: Given,
+}
+
+/// Which values that have a default a case gives: a study with other defaults leaves them as they are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Given {
+    /// `target.back_face`.
+    pub rear_face: bool,
+    /// `chain.target_closure`.
+    pub target_closure: bool,
+}
+
+/// A measured value of one quantity, in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// What was measured.
+    pub quantity: BandQuantity,
+    /// Impact speed [m/s]; `None` for a ballistic limit without one.
+    pub impact_velocity: Option<f64>,
+    /// The value [m or m/s].
+    pub value: f64,
+    /// How far it may be off, either way [m or m/s].
+    pub uncertainty: Option<f64>,
+    /// Bibliography keys.
+    pub sources: Vec<String>,
+    /// What a user should know of it.
+    pub note: String,
+}
+
+/// A projectile.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rod {
+    /// Its material.
+    pub material: Arc<Material>,
+    /// Id of its material.
+    pub material_id: String,
+    /// Length over all [m].
+    pub length: f64,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Diameter of the shank [m].
+    pub diameter: f64,
+    /// Shape of the nose.
+    pub nose: Nose,
+    /// Temperature before the impact [K], where it is not the one that its material was measured at.
+    pub temperature: Option<f64>,
+}
+
+impl Rod {
+    /// Cross-sectional area of the shank [m2].
+    pub fn area(&self) -> f64 {
+        PI * self.diameter * self.diameter / 4.0
+    }
+}
+
+/// What is struck.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TargetBody {
+    /// One or more layers.
+    Layers {
+        /// From the struck face to the back.
+        layers: Vec<Plate>,
+        /// What holds the back face.
+        back_face: BackFace,
+        /// Diameter of the column that is modelled [m], where a layer has none of its own.
+        column_diameter: f64,
+        /// Whether a layer has a gap, an interface or a diameter of its own.
+        separate_layers: bool,
+        /// Where the plate ends; `None` where the case does not say.
+        edge: Option<PlateEdge>,
+    },
+    /// A rigid, frictionless wall.
+    RigidWall,
+    /// A constant pressure on the projectile's face [Pa].
+    ConstantPressure(f64),
+}
+
+/// Edge of a plate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlateEdge {
+    /// Diameter inside the support [m].
+    pub diameter: f64,
+    /// How it is held there.
+    pub support: Support,
+}
+
+/// A layer of a target.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plate {
+    /// Its material.
+    pub material: Arc<Material>,
+    /// Id of its material.
+    pub material_id: String,
+    /// Thickness [m]; `None` for a semi-infinite layer.
+    pub thickness: Option<f64>,
+    /// Distance to the layer before it [m].
+    pub gap: f64,
+    /// How it is joined to the layer before it.
+    pub interface: LayerInterface,
+    /// Diameter of the column that is modelled [m]; that of the target where `None`.
+    pub column_diameter: Option<f64>,
+}
+
+impl Scenario {
+    /// The same case at another impact speed [m/s].
+    pub fn at_speed(&self, impact_velocity: f64) -> Self {
+        Self {
+            impact_velocity,
+            ..self.clone()
+        }
+    }
+
+    /// Makes a column the target resistance model, unless the case gives one: a study varies a key that only a column has.
+    pub fn choose_column(&mut self, key: &str) {
+        if !self.given.target_closure {
+            self.options.chain.target_closure = Some(TargetClosure::Column);
+            self.resistance_reason = Some(format!("`{key}` is varied, and only a column has it"));
+        }
+    }
+
+    /// Whether the constants of one of its materials were calibrated on shots of a source.
+    pub fn is_calibrated_on(&self, source: &str) -> bool {
+        let layers: &[Plate] = match &self.target {
+            TargetBody::Layers { layers, .. } => layers,
+            _ => &[],
+        };
+        std::iter::once(&self.projectile.material)
+            .chain(layers.iter().map(|layer| &layer.material))
+            .filter_map(|material| material.calibrated.as_ref())
+            .any(|calibrated| calibrated.sources.iter().any(|key| key == source))
+    }
+
+    /// Thickness of all layers together [m]; `None` for a semi-infinite target, a wall or a constant pressure.
+    pub fn target_thickness(&self) -> Option<f64> {
+        match &self.target {
+            TargetBody::Layers { layers, .. } => layers.iter().map(|layer| layer.thickness).sum(),
+            _ => None,
+        }
+    }
+}
+
+/// Thickness that stands for a semi-infinite layer, in lengths of the projectile: deeper than any projectile of
+/// comparable density goes.
+const SEMI_INFINITE_LENGTHS: f64 = 4.0;
+
+/// Thickness of a layer as it is modelled [m].
+pub fn modelled_thickness(plate: &Plate, scenario: &Scenario) -> f64 {
+    plate
+        .thickness
+        .unwrap_or(SEMI_INFINITE_LENGTHS * scenario.projectile.length)
+}

@@ -1,0 +1,118 @@
+//! Fields of a run at even intervals of time, for a caller that draws or writes them.
+
+use serde::{Deserialize, Serialize};
+
+use super::Particle;
+use crate::{Scenario, history::ElementState};
+
+/// Fields at one time.
+#[derive(Debug, Clone)]
+pub struct Frame<'a> {
+    /// Number of the frame: its time in whole intervals. The last frame may repeat the number of the one before, at the same time.
+    pub number: u64,
+    /// Whether this is the end of the run.
+    pub last: bool,
+    /// Time step.
+    pub step: u64,
+    /// Time [s].
+    pub time: f64,
+    /// Depth of the crater floor on the axis [m].
+    pub depth: f64,
+    /// The fields.
+    pub fields: Fields<'a>,
+}
+
+/// Where a model has its fields.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub enum Fields<'a> {
+    /// At material points in the plane of the radius and the depth.
+    Particles {
+        /// Side of a cell of the grid [m].
+        cell: f64,
+        /// Particles of each body: the projectile, then the layers of the target.
+        bodies: Vec<&'a [Particle]>,
+    },
+    /// In elements along the axis, from the projectile's tail to the rear face of the target.
+    Elements(Vec<ElementState>),
+}
+
+impl<'a> Fields<'a> {
+    /// Particles that have not left, each with the index of its body; none of a model that has elements.
+    pub fn particles(&self) -> impl Iterator<Item = (usize, &'a Particle)> {
+        let bodies: &[&'a [Particle]] = match self {
+            Self::Particles { bodies, .. } => bodies,
+            Self::Elements(_) => &[],
+        };
+        bodies.iter().enumerate().flat_map(|(index, particles)| {
+            let present = particles.iter().filter(|particle| particle.mass > 0.0);
+            present.map(move |particle| (index, particle))
+        })
+    }
+}
+
+/// Frames in the shorter of the times that the projectile takes for its own length and that waves take to go along it six times.
+const FRAMES: f64 = 100.0;
+
+/// Says when the next frame is due.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct FrameClock {
+    interval: f64,
+    next: u64,
+    /// Time of the frame that was due last [s].
+    shown: f64,
+}
+
+impl FrameClock {
+    /// A clock for a case: nobody knows the length of a run beforehand, so the interval is that of a short one.
+    pub fn new(scenario: &Scenario) -> Self {
+        let rod = &scenario.projectile;
+        let waves = 6.0 * rod.length / rod.material.bar_wave_speed();
+        let passage = rod.length / scenario.impact_velocity.max(1.0);
+        Self {
+            interval: waves.min(passage) / FRAMES,
+            next: 0,
+            shown: f64::NAN,
+        }
+    }
+
+    /// The number of the frame that is due at a time [s], if one is.
+    pub fn tick(&mut self, time: f64) -> Option<u64> {
+        let number = (time / self.interval).floor() as u64;
+        if number < self.next {
+            return None;
+        }
+        self.next = number + 1;
+        self.shown = time;
+        Some(number)
+    }
+
+    /// The number of the last frame, at the end of the run [s].
+    pub fn last(&self, time: f64) -> u64 {
+        if self.shown == time {
+            self.next - 1
+        } else {
+            self.next
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_due_once_in_an_interval() {
+        let mut clock = FrameClock {
+            interval: 1.0,
+            next: 0,
+            shown: f64::NAN,
+        };
+        let due: Vec<_> = [0.0, 0.4, 1.1, 1.9, 4.2, 4.9, 5.0]
+            .map(|time| clock.tick(time))
+            .to_vec();
+        assert_eq!(due, [Some(0), None, Some(1), None, Some(4), None, Some(5)]);
+        assert_eq!(clock.last(5.5), 6);
+        assert_eq!(clock.last(5.0), 5);
+    }
+}

@@ -1,0 +1,175 @@
+//! Model interface: what every model offers, how a run of one is started, watched, interrupted and resumed.
+
+pub mod archive;
+pub mod checkpoint;
+mod control;
+mod courant_retry;
+pub mod driver;
+pub mod frames;
+pub mod gauge;
+mod input_limit;
+pub mod interface;
+pub mod limits;
+pub mod monitor;
+mod particle;
+
+use crate::{
+    Error, Refusal, Scenario,
+    guard::{Guard, Verdict},
+    outcome::RunResult,
+    regime::Regime,
+};
+
+pub(crate) use control::go_on;
+pub use control::{Checkpoints, Control, OnFrame, Progress};
+pub use courant_retry::AttemptError;
+pub use input_limit::InputLimit;
+pub use particle::Particle;
+pub use particle::{equivalent, kinetic_energy};
+
+/// A way to compute what becomes of a shot.
+pub trait Model: Sync {
+    /// Name on the command line and in results.
+    fn name(&self) -> &'static str;
+
+    /// One line that says what it is.
+    fn summary(&self) -> &'static str;
+
+    /// The regime that it is made for.
+    fn guard(&self) -> &'static Guard;
+
+    /// Whether a run takes minutes: comparisons and validations then run it only when it is asked for by name.
+    fn is_slow(&self) -> bool {
+        false
+    }
+
+    /// Whether it steps through time: then [`Control::frames`] gets its fields, and a run continues from a checkpoint.
+    fn has_fields(&self) -> bool {
+        false
+    }
+
+    /// Whether its fields are two-dimensional.
+    fn is_two_dimensional(&self) -> bool {
+        false
+    }
+
+    /// Why the model does not apply to a case that its guard lets pass, if it does not: an option or a number is missing.
+    fn not_applicable(&self, _: &Scenario) -> Option<Refusal> {
+        None
+    }
+
+    /// Ballistic limit that a model of residual velocity starts from, where the case has one; `None` for a model that needs none.
+    fn input_limit(&self, _: &Scenario) -> Option<InputLimit> {
+        None
+    }
+
+    /// The same case on a mesh that is `factor` times finer; `None` from a model without a mesh.
+    fn refined(&self, _scenario: &Scenario, _factor: u32) -> Option<Scenario> {
+        None
+    }
+
+    /// Computes a case to which the model applies.
+    ///
+    /// # Errors
+    /// [`Error::Numerical`] when the solution fails or its balances do not close; [`Error::Cancelled`].
+    fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error>;
+
+    /// Adds to a result what its own choices are worth, for people; a model without choices has nothing to add.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    fn explain(
+        &self,
+        _scenario: &Scenario,
+        _result: &mut RunResult,
+        _control: &mut Control<'_>,
+    ) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// Computes a case by a model.
+///
+/// # Errors
+/// [`Error::NotApplicable`] when the model does not apply; otherwise those of [`Model::run`].
+pub fn run(
+    model: &dyn Model,
+    scenario: &Scenario,
+    control: &mut Control<'_>,
+) -> Result<RunResult, Error> {
+    run_in(model, scenario, &Regime::of(scenario), control)
+}
+
+/// Computes a case by a model, with what its own choices are worth: which target resistance model is in force if it is not the usual one,
+/// and the range of the result over its numerical constants. It may take a few runs of a quick model.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_explained(
+    model: &dyn Model,
+    scenario: &Scenario,
+    control: &mut Control<'_>,
+) -> Result<RunResult, Error> {
+    let mut result = run(model, scenario, control)?;
+    model.explain(scenario, &mut result, control)?;
+    Ok(result)
+}
+
+/// Computes a case whose regime is known already.
+pub fn run_in(
+    model: &dyn Model,
+    scenario: &Scenario,
+    regime: &Regime,
+    control: &mut Control<'_>,
+) -> Result<RunResult, Error> {
+    let warnings =
+        applicability_in(model, scenario, regime).map_err(|refusal| refused(model, refusal))?;
+    let result = model.run(scenario, control)?;
+    complete(model, scenario, warnings, result)
+}
+
+fn refused(model: &dyn Model, refusal: impl Into<Refusal>) -> Error {
+    Error::not_applicable(model.name(), refusal)
+}
+
+/// What [`run_in`] makes of the model's own result, for a case to which the model applies with some warnings.
+pub fn complete(
+    model: &dyn Model,
+    scenario: &Scenario,
+    warnings: Vec<String>,
+    mut result: RunResult,
+) -> Result<RunResult, Error> {
+    if let Some(depth) = result.depth_of_penetration
+        && let Some(reason) = model.guard().depth_at_back_face(scenario, depth)
+    {
+        return Err(refused(model, reason));
+    }
+    result.warnings.splice(0..0, warnings);
+    Ok(result)
+}
+
+/// Whether a model applies to a case: the warnings of its guard, or the reason why not.
+///
+/// # Errors
+/// Why it does not.
+pub fn applicability(model: &dyn Model, scenario: &Scenario) -> Result<Vec<String>, Refusal> {
+    applicability_in(model, scenario, &Regime::of(scenario))
+}
+
+/// As [`applicability`], for a case whose regime is known.
+///
+/// # Errors
+/// Why it does not.
+pub fn applicability_in(
+    model: &dyn Model,
+    scenario: &Scenario,
+    regime: &Regime,
+) -> Result<Vec<String>, Refusal> {
+    match model.guard().verdict(scenario, regime) {
+        Verdict::Outside(refusal) => Err(refusal),
+        Verdict::Inside(warnings) => match model.not_applicable(scenario) {
+            Some(refusal) => Err(refusal),
+            None => Ok(warnings),
+        },
+    }
+}

@@ -1,0 +1,180 @@
+//! Reading a case file and turning it into a scenario, with errors that name the place.
+
+use std::path::Path;
+
+use super::{Case, load_materials, resolve::resolve};
+use crate::{
+    check::{Check, Finding},
+    document::Document,
+    error::Error,
+    material::Library,
+    problem::Gauge,
+    scenario::Scenario,
+};
+
+/// Reads a case file and everything that it names.
+///
+/// # Errors
+/// [`Error::Read`] when a file cannot be read, [`Error::Input`] when its content is not valid.
+pub fn load(path: impl AsRef<Path>) -> Result<Scenario, Error> {
+    scenario(&Document::read(path)?)
+}
+
+/// Reads a case from a text; `name` stands for the file in messages.
+///
+/// # Errors
+/// [`Error::Input`] when the text is not a valid case. A text cannot name material files.
+pub fn load_str(name: &str, text: &str) -> Result<Scenario, Error> {
+    scenario(&Document::new(name, text))
+}
+
+/// The materials that a case can name: the built-in ones, its own and those of its material files.
+///
+/// # Errors
+/// Those of [`load`], but what the case describes beside its materials need not fit together.
+pub fn library(document: &Document) -> Result<Library, Error> {
+    let case: Case = document.parse()?;
+    let mut findings = Vec::new();
+    case.check_materials(&mut Check::new(&mut findings));
+    document.report(findings)?;
+    library_of(&case, document)
+}
+
+/// The case that it describes, with everything that it names.
+///
+/// # Errors
+/// [`Error::Input`] when it is not valid, or a file that it names.
+pub fn scenario(document: &Document) -> Result<Scenario, Error> {
+    let case: Case = document.parse()?;
+    let mut findings = Vec::new();
+    case.check(&mut Check::new(&mut findings));
+    document.report(findings)?;
+
+    let library = library_of(&case, document)?;
+    let mut findings = Vec::new();
+    let scenario = resolve(
+        &document.name,
+        case,
+        &library,
+        &mut Check::new(&mut findings),
+    );
+    document.report(findings)?;
+    scenario.ok_or_else(|| {
+        let finding = Finding::whole("the case could not be resolved", "");
+        document.place(finding).into()
+    })
+}
+
+/// The built-in materials with those of a case.
+pub(super) fn library_of(case: &Case, document: &Document) -> Result<Library, Error> {
+    let mut library = Library::built_in().clone();
+    library.add(&case.materials, &format!("{} (this case)", document.name));
+    for (i, relative) in case.material_files.iter().enumerate() {
+        let refuse = |message: &str, help: &str| {
+            let finding = Finding::at(&format!("material_files.{i}"), message, help);
+            document.place(finding.of_material())
+        };
+        let Some(folder) = &document.folder else {
+            let message = "a case that comes from no file cannot name material files";
+            let help = "put the materials into its `materials` table";
+            return Err(refuse(message, help).into());
+        };
+        let table = match load_materials(folder.join(relative)) {
+            // The case names the file, so the place in the case is what a user has to look at.
+            Err(Error::Read { path, reason, .. }) => {
+                let message = format!("cannot read `{}`: {reason}", path.display());
+                let help = "paths in `material_files` are relative to the case file";
+                return Err(refuse(&message, help).into());
+            }
+            other => other?,
+        };
+        // One of the two would be ignored.
+        if let Some(id) = table.keys().find(|id| case.materials.contains_key(*id)) {
+            let message = format!(
+                "the material `{id}` is given by the case and by the file `{}`",
+                relative.display()
+            );
+            let help = "rename or remove one of the two";
+            let finding = Finding::at(&format!("materials.{id}"), message, help);
+            return Err(document.place(finding.of_material()).into());
+        }
+        library.add(&table, &relative.display().to_string());
+    }
+    Ok(library)
+}
+
+impl Case {
+    /// The scenario of a case that is built in code; `name` stands for it in results and errors.
+    ///
+    /// ```
+    /// use percuss::{
+    ///     case::{Case, Projectile, Target},
+    ///     model::{self, Control},
+    ///     units::{Length, Velocity},
+    /// };
+    ///
+    /// let mm = |value: f64| Length::new(1e-3 * value);
+    /// let rod = Projectile::rod("copper", mm(12.74), mm(4.8), Velocity::new(230.0));
+    /// let mut case = Case::new(rod, Target::plate("aluminium-2024-t351", mm(25.0)));
+    /// case.chain.projectile_elements = Some(80);
+    /// let scenario = case.scenario("copper-on-aluminium")?;
+    /// let result = model::run(model::model("chain")?, &scenario, &mut Control::default())?;
+    /// assert!(result.depth_of_penetration.is_some());
+    /// # Ok::<(), percuss::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`] with the key of what is wrong.
+    pub fn scenario(self, name: &str) -> Result<Scenario, Error> {
+        let document = Document::new(name, "");
+        if !self.material_files.is_empty() {
+            let message = "a case that comes from no file cannot name material files";
+            let help = "put the materials into its `materials` table";
+            let finding = Finding::at("material_files", message, help).of_material();
+            return Err(document.place(finding).into());
+        }
+        self.into_scenario(name, Library::built_in())
+            .map_err(|findings| {
+                let unknown = || Finding::whole("the case could not be resolved", "");
+                let first = findings.into_iter().next().unwrap_or_else(unknown);
+                document.place(first).into()
+            })
+    }
+
+    /// The scenario of a case that comes from no text, its own materials included; otherwise what is wrong with it.
+    pub fn into_scenario(self, name: &str, library: &Library) -> Result<Scenario, Vec<Finding>> {
+        let mut findings = Vec::new();
+        self.check(&mut Check::new(&mut findings));
+        if !findings.is_empty() {
+            return Err(findings);
+        }
+        let mut own = None;
+        if !self.materials.is_empty() {
+            own.insert(library.clone()).add(&self.materials, name);
+        }
+        let library = own.as_ref().unwrap_or(library);
+        let scenario = resolve(name, self, library, &mut Check::new(&mut findings));
+        scenario.filter(|_| findings.is_empty()).ok_or(findings)
+    }
+
+    fn check(&self, check: &mut Check<'_>) {
+        self.projectile.check(&mut check.within("projectile"));
+        self.target.check(&mut check.within("target"));
+        self.check_model_options(check);
+        Gauge::check_all(&self.gauges, check);
+        for (i, experiment) in self.experiments.iter().enumerate() {
+            let mut check = check.within(&format!("experiments.{i}"));
+            experiment.check(&mut check, &self.target);
+        }
+        if let Some(uncertainty) = &self.uncertainty {
+            uncertainty.check(&mut check.within("uncertainty"));
+        }
+        self.check_materials(check);
+    }
+
+    fn check_materials(&self, check: &mut Check<'_>) {
+        for (id, material) in &self.materials {
+            material.check(&mut check.within("materials").within(id));
+        }
+    }
+}

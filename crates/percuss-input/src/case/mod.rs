@@ -1,0 +1,37 @@
+//! Case files: what strikes what, how fast, and by which model options.
+
+#[cfg(test)]
+mod experiment_tests;
+#[cfg(test)]
+mod fdm_options_tests;
+mod file;
+mod load;
+mod material_file;
+mod resolve;
+mod schema;
+mod self_contained;
+mod template;
+#[cfg(test)]
+mod tests;
+
+pub use file::Case;
+pub use load::{library, load, load_str, scenario};
+pub use material_file::load_materials;
+pub use schema::schema;
+pub use self_contained::self_contained;
+pub use template::Template;
+
+pub use crate::{
+    check::limits::MAX_ELEMENTS,
+    document::{Document, MAX_FILE_BYTES},
+    options::{
+        ArtificialViscosity, BandFailure, BorderShearLaw, ChainOptions, ConstraintFactor,
+        ContactSpring, ErosionClosure, ErosionStrain, Interface, Kinematics, ModelOptions,
+        PublishedBorderShear, PublishedOptions, PublishedTimeStep, Scheme, ShearBandOptions,
+        SmallStrainStiffness, TargetClosure,
+    },
+    problem::{
+        BackFace, Experiment, Extensions, Gauge, Layer, LayerInterface, Nose, Projectile,
+        SourceKeys, Support, Target, Thickness, Uncertainty,
+    },
+};

@@ -1,0 +1,197 @@
+//! A case whose numbers can be changed before it becomes a scenario.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use toml::{Table, Value};
+
+use super::{Case, ChainOptions, Document, load};
+use crate::{
+    check::Finding,
+    document::reword,
+    error::Error,
+    material::{Library, Material},
+    scenario::Scenario,
+};
+
+/// A case as a table of values, with the materials that it can name.
+#[derive(Debug, Clone)]
+pub struct Template {
+    name: String,
+    table: Table,
+    library: Library,
+    /// What the case and the files that it names say, without comments and in one order of keys.
+    pub content: String,
+}
+
+impl Template {
+    /// Reads a case, which has to be valid as it stands.
+    pub fn of(document: &Document) -> Result<Self, Error> {
+        super::scenario(document)?;
+        let mut table: Table = document.parse()?;
+        // No shot depends on what is uncertain.
+        table.remove("uncertainty");
+        let mut case: Case = document.parse()?;
+        // Its own materials are among the numbers that can be changed: only those of other files are looked up beforehand.
+        case.materials.clear();
+        let library = load::library_of(&case, document)?;
+        let mut content = table.to_string();
+        for file in &case.material_files {
+            let file = Document::read(document.folder().unwrap_or(Path::new("")).join(file))?;
+            content += &file.parse::<Table>()?.to_string();
+        }
+        Ok(Self {
+            name: document.name.clone(),
+            table,
+            library,
+            content,
+        })
+    }
+
+    /// A case that comes from no file.
+    pub fn of_case(name: &str, case: &Case, library: &Library) -> Result<Self, Error> {
+        // There is nothing in a case that TOML could not hold.
+        let table = Table::try_from(case).map_err(|error| Error::Read {
+            path: name.into(),
+            reason: error.to_string(),
+            source: None,
+        })?;
+        Ok(Self {
+            name: name.to_owned(),
+            content: table.to_string(),
+            table,
+            library: library.clone(),
+        })
+    }
+
+    /// Name of the case.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The scenario with other values under some dotted keys.
+    pub fn scenario(&self, changes: &[(&str, Value)]) -> Result<Scenario, Vec<Finding>> {
+        let table = self.changed(changes)?;
+        let case = Case::deserialize(table).map_err(|error| {
+            let source = changes
+                .last()
+                .map_or_else(String::new, |(_, v)| v.to_string());
+            let said = reword(error.message(), &source);
+            vec![Finding::whole(said.message, said.help)]
+        })?;
+        let mut scenario = case.into_scenario(&self.name, &self.library)?;
+        // All cases of a sweep have one target resistance model, also where a varied number happens to be its default.
+        let mut keys = changes.iter().map(|(key, _)| *key);
+        if let Some(key) = keys.find(|key| ChainOptions::is_of_a_column(key)) {
+            scenario.choose_column(key);
+        }
+        Ok(scenario)
+    }
+
+    /// A material of the case with other values under some dotted keys; `None` if there is no such material.
+    pub fn material(
+        &self,
+        id: &str,
+        changes: &[(&str, Value)],
+    ) -> Result<Option<Material>, Vec<Finding>> {
+        let table = self.changed(changes)?;
+        let own = table.get("materials").and_then(|own| own.get(id));
+        let read = |own: &Value| Material::deserialize(own.clone()).ok();
+        Ok(own.and_then(read).or_else(|| {
+            let entry = self.library.find(id)?;
+            Some((*entry.material).clone())
+        }))
+    }
+
+    fn changed(&self, changes: &[(&str, Value)]) -> Result<Table, Vec<Finding>> {
+        let mut table = self.table.clone();
+        for (key, value) in changes {
+            self.adopt(&mut table, key)
+                .map_err(|finding| vec![finding])?;
+            put(&mut table, key, value.clone()).map_err(|message| {
+                let help = "name a number of the case by the tables that it stands in, such as projectile.velocity";
+                vec![Finding::at(key, message, help)]
+            })?;
+        }
+        Ok(table)
+    }
+
+    /// Puts the library's record of a material into the case that a key changes a number of, unless the case has its own.
+    fn adopt(&self, table: &mut Table, key: &str) -> Result<(), Finding> {
+        let Some((id, _)) = key
+            .strip_prefix("materials.")
+            .and_then(|rest| rest.split_once('.'))
+        else {
+            return Ok(());
+        };
+        let own = table
+            .entry("materials")
+            .or_insert_with(|| Value::Table(Table::new()));
+        let Some(own) = own.as_table_mut().filter(|own| !own.contains_key(id)) else {
+            return Ok(());
+        };
+        let fail = |message: String, help: String| {
+            Finding::at(&format!("materials.{id}"), message, help).of_material()
+        };
+        let entry = self.library.find(id).ok_or_else(|| {
+            let near = self.library.suggestion(id);
+            fail(
+                format!("no material is named `{id}`"),
+                format!("{near}`percuss materials` lists all"),
+            )
+        })?;
+        let record = Value::try_from(&*entry.material)
+            .map_err(|error| fail(error.to_string(), String::new()))?;
+        own.insert(id.to_owned(), record);
+        Ok(())
+    }
+}
+
+/// Puts a value under a dotted key; tables on the way are made where a default stands in for them.
+fn put(table: &mut Table, key: &str, value: Value) -> Result<(), String> {
+    let parts: Vec<&str> = key.split('.').collect();
+    let Some((last, way)) = parts.split_last() else {
+        return Err("the key is empty".to_owned());
+    };
+    let mut at: Option<&mut Value> = None;
+    for (depth, part) in way.iter().enumerate() {
+        let here = parts[..=depth].join(".");
+        let inner = parts[depth + 1];
+        let next = match at {
+            None => table
+                .entry(*part)
+                .or_insert_with(|| Value::Table(Table::new())),
+            Some(Value::Table(inner)) => inner
+                .entry(*part)
+                .or_insert_with(|| Value::Table(Table::new())),
+            Some(Value::Array(items)) => {
+                let count = items.len();
+                let item = part.parse::<usize>().ok().and_then(|i| items.get_mut(i));
+                item.ok_or_else(|| {
+                    format!(
+                        "the case has no `{here}`: the list has {count} entries, counted from 0"
+                    )
+                })?
+            }
+            Some(_) => return Err(format!("the case has no table above `{here}`")),
+        };
+        // Digits are an index, unless a table has them for a key: ids of materials may be nothing but digits.
+        let is_key = next
+            .as_table()
+            .is_some_and(|table| table.contains_key(inner));
+        if inner.parse::<usize>().is_ok() && !next.is_array() && !is_key {
+            return Err(format!("the case has no list `{here}`"));
+        }
+        at = Some(next);
+    }
+    match at {
+        None => {
+            table.insert((*last).to_owned(), value);
+        }
+        Some(Value::Table(inner)) => {
+            inner.insert((*last).to_owned(), value);
+        }
+        Some(_) => return Err(format!("the case has no table that `{key}` could stand in")),
+    }
+    Ok(())
+}

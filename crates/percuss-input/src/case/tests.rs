@@ -1,0 +1,109 @@
+use super::*;
+use crate::error::{Error, Subject};
+
+const SHORT: &str = r#"
+projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+target = { material = "aluminium-2024-t351", thickness = "25 mm" }
+"#;
+
+#[test]
+fn a_short_case_resolves() {
+    let scenario = load_str("short", SHORT).unwrap();
+    assert_eq!(scenario.projectile.material_id, "copper-woodward");
+    assert!((scenario.projectile.mass / 1.96e-3 - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn an_error_knows_whether_it_is_of_a_material() {
+    const MINE: &str = "[materials.mine]\nname = 'mine'\ndensity = '8 g/cm3'\nyoungs_modulus = '100 GPa'\npoissons_ratio = 0.3\n\
+                        strength.perfectly_plastic = { flow_stress = '300 MPa' }\n";
+    let of = |text: &str| match load_str("short", text) {
+        Err(Error::Input(error)) => error.subject,
+        other => panic!("{other:?}"),
+    };
+    let with_mine = format!("{SHORT}{MINE}");
+    for (right, wrong, subject) in [
+        ("\"copper\"", "\"coper\"", Subject::Material),
+        ("\"aluminium-2024-t351\"", "\"tin\"", Subject::Material),
+        ("'8 g/cm3'", "'8 kg/m3'", Subject::Material),
+        ("'300 MPa'", "'300 mm'", Subject::Material),
+        ("strength.", "strenght.", Subject::Material),
+        // The name of a material is text; what is not belongs to the case.
+        ("\"copper\"", "5", Subject::Case),
+        ("\"12.74 mm\"", "\"12.74 kg\"", Subject::Case),
+        ("\"25 mm\"", "\"-1 mm\"", Subject::Case),
+        ("target =", "targte =", Subject::Case),
+    ] {
+        assert_ne!(with_mine.replace(right, wrong), with_mine, "{right}");
+        assert_eq!(of(&with_mine.replace(right, wrong)), subject, "{wrong}");
+    }
+    let files = format!("material_files = ['mine.toml']\n{SHORT}");
+    assert_eq!(of(&files), Subject::Material);
+    let folder = std::env::temp_dir().join(format!("percuss-subject-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("mine.toml"), "[mine]\nname = 5\n").unwrap();
+    let read = super::scenario(&Document::new("short", files).in_folder(&folder));
+    std::fs::remove_dir_all(&folder).unwrap();
+    let Err(Error::Input(error)) = read else {
+        panic!("a file of materials with an error");
+    };
+    assert_eq!(error.subject, Subject::Material);
+    assert!(error.file.ends_with("mine.toml"), "{}", error.file);
+}
+
+#[test]
+fn digits_are_an_index_in_a_list_and_a_key_in_a_table() {
+    const LAYERS: &str = "[target]\nlayers = [{ material = '7075', thickness = '10 mm' }, { material = 'copper', thickness = '5 mm' }]\n";
+    let with = |text: &str| {
+        let text = format!(
+            "[projectile]\nmaterial = '4340'\nlength = '20 mm'\ndiameter = '5 mm'\nvelocity = '300 m/s'\n{LAYERS}{text}"
+        );
+        Template::of(&Document::new("digits", text))
+    };
+    let material = |id: &str, density: &str| {
+        format!(
+            "[materials.{id}]\nname = '{id}'\ndensity = '{density}'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\n\
+             strength.perfectly_plastic = {{ flow_stress = '1 GPa' }}\n"
+        )
+    };
+    let own = format!(
+        "{}{}",
+        material("4340", "7.85 g/cm3"),
+        material("7075", "2.8 g/cm3")
+    );
+    let template = with(&own).unwrap();
+    let change = |key: &str, value: &str| template.scenario(&[(key, value.into())]);
+    let denser = change("materials.4340.density", "8 g/cm3").unwrap();
+    assert_eq!(denser.projectile.material.density.si(), 8000.0);
+    let constant = "materials.7075.strength.perfectly_plastic.flow_stress";
+    let harder = change(constant, "2 GPa").unwrap();
+    let before = template.scenario(&[]).unwrap();
+    assert_ne!(
+        format!("{:?}", harder.target),
+        format!("{:?}", before.target)
+    );
+    let thicker = change("target.layers.1.thickness", "6 mm").unwrap();
+    assert!((thicker.target_thickness().unwrap() - 16e-3).abs() < 1e-12);
+    let said = |key: &str| {
+        let findings = change(key, "1 mm").unwrap_err();
+        findings[0].message.clone()
+    };
+    for (key, message) in [
+        (
+            "target.layers.2.thickness",
+            "the case has no `target.layers.2`: the list has 2 entries, counted from 0",
+        ),
+        ("projectile.0.length", "the case has no list `projectile`"),
+        (
+            "target.plates.0.thickness",
+            "the case has no list `target.plates`",
+        ),
+        (
+            "projectile.length.0",
+            "the case has no list `projectile.length`",
+        ),
+        ("materials.4130.density", "no material is named `4130`"),
+    ] {
+        assert_eq!(said(key), message, "{key}");
+    }
+}

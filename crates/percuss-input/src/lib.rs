@@ -1,0 +1,10 @@
+//! Case files of [percuss](https://docs.rs/percuss), and the numbers of a case that studies vary.
+//!
+//! Depend on `percuss`, which re-exports what users need.
+
+pub mod case;
+pub mod inputs;
+
+// What the input uses of the layers below.
+use percuss_core::{check, document, error, history, material, options, problem, scenario, units};
+use percuss_models::chain;

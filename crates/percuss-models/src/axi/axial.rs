@@ -1,0 +1,150 @@
+//! Histories: what happens along the axis, as in one dimension.
+
+use super::{
+    body::Body,
+    crater::{axis_velocity, ends},
+    field::VOLUME,
+    solver::Grid,
+};
+use crate::history::{ElementState, Profile, Sample};
+
+/// State at this time, with the depth of the crater floor [m].
+pub(super) fn sample(solver: &Grid, depth: f64) -> Sample {
+    let cell = solver.cell;
+    let rod = &solver.bodies[0];
+    let (tail, tip) = ends(rod, cell).unwrap_or((0.0, 0.0));
+    let sums = &solver.sums[0];
+    let target = solver.bodies.get(1);
+    let mut sample = Sample::default();
+    sample.time = solver.time;
+    sample.step = solver.step;
+    sample.tip_velocity = axis_velocity(rod, tip, cell);
+    sample.tail_velocity = axis_velocity(rod, tail, cell);
+    sample.interface_velocity = target.map_or(0.0, |body| axis_velocity(body, depth, cell));
+    sample.back_velocity = back_velocity(solver);
+    sample.mean_velocity = if sums.mass > 0.0 {
+        sums.momentum / sums.mass
+    } else {
+        0.0
+    };
+    sample.tip_position = tip;
+    sample.depth = depth;
+    sample.projectile_length = tip - tail;
+    sample.contact_force = solver.deferred.contact_force;
+    sample.back_force = solver.deferred.support_impulse / solver.time_step;
+    sample.energy = solver.energy();
+    sample.momentum = solver.momentum();
+    sample
+}
+
+/// Speed on the axis at the back of the last layer [m/s]; 0 without a target.
+fn back_velocity(solver: &Grid) -> f64 {
+    let layer = solver.bodies[1..].last();
+    let back = layer.and_then(|layer| Some((layer, ends(layer, solver.cell)?.1)));
+    back.map_or(0.0, |(layer, back)| axis_velocity(layer, back, solver.cell))
+}
+
+/// Means over the particles within a cell of the axis, a row of cells at a time; the diameter is that of a circle with the area of
+/// the body's cross-section.
+pub(super) fn profile(solver: &Grid) -> Profile {
+    let elements = solver.bodies.iter().enumerate();
+    Profile {
+        time: solver.time,
+        elements: elements
+            .flat_map(|(part, body)| along_axis(part, body, solver.cell))
+            .collect(),
+    }
+}
+
+fn along_axis(part: usize, body: &Body, cell: f64) -> Vec<ElementState> {
+    let Some((tail, tip)) = ends(body, cell) else {
+        return Vec::new();
+    };
+    let (first, last) = ((tail / cell).floor() as isize, (tip / cell).ceil() as isize);
+    let rows = (last - first).max(0) as usize;
+    let mut sums = vec![[0.0_f64; 7]; rows];
+    for particle in body
+        .particles
+        .iter()
+        .filter(|p| p.mass > 0.0 && p.position[0] < cell)
+    {
+        let row = (particle.position[1] / cell).floor() as isize - first;
+        let Some(sum) = usize::try_from(row).ok().and_then(|row| sums.get_mut(row)) else {
+            continue;
+        };
+        let mass = particle.mass;
+        let stress = particle.pressure + particle.viscous_pressure - particle.deviator[1];
+        let strain = -(particle.volume * body.law.density / mass).ln();
+        let values = [
+            1.0,
+            particle.position[1],
+            stress,
+            particle.plastic_strain,
+            strain,
+            particle.temperature,
+            particle.velocity[1],
+        ];
+        for (entry, value) in sum.iter_mut().zip(values) {
+            *entry += mass * value;
+        }
+    }
+    let section = |row: isize| -> f64 {
+        let columns = 1..body.field.columns;
+        columns
+            .map(|column| body.field.node(row, column)[VOLUME])
+            .sum::<f64>()
+            / cell
+    };
+    let means = sums.iter().enumerate().filter(|(_, sum)| sum[0] > 0.0);
+    means
+        .map(|(row, sum)| {
+            let at = first + row as isize;
+            let area = 0.5 * (section(at) + section(at + 1));
+            let [
+                _,
+                position,
+                stress,
+                plastic_strain,
+                strain,
+                temperature,
+                velocity,
+            ] = sum.map(|value| value / sum[0]);
+            ElementState {
+                part,
+                initial_position: position,
+                position,
+                length: cell,
+                stress,
+                strain,
+                plastic_strain,
+                diameter: 2.0 * (area / std::f64::consts::PI).sqrt(),
+                temperature,
+                velocity,
+            }
+        })
+        .collect()
+}
+
+/// State at a gauge that is at a position now [m] and was at another one before the impact [m]: between the two rows of cells around it.
+pub(super) fn at_gauge(
+    rows: &[ElementState],
+    body: usize,
+    position: f64,
+    initial: f64,
+) -> ElementState {
+    let own = || rows.iter().filter(|row| row.part == body);
+    let behind = own().rfind(|row| row.position <= position);
+    let ahead = own().find(|row| row.position > position);
+    let state = match (behind, ahead) {
+        (Some(a), Some(b)) => a.between(b, (position - a.position) / (b.position - a.position)),
+        (Some(end), None) | (None, Some(end)) if (end.position - position).abs() < end.length => {
+            *end
+        }
+        _ => ElementState::gone(body, initial),
+    };
+    ElementState {
+        initial_position: initial,
+        position,
+        ..state
+    }
+}

@@ -1,0 +1,122 @@
+//! What a body is made of, and what its particles can bear.
+
+use super::block::Block;
+use crate::{
+    lanes::{Lanes, lanes},
+    material::{DamageState, PreparedDamage, PreparedStrength, StateEquation, YieldPoint},
+    options::ArtificialViscosity,
+    solver::Particle,
+};
+
+/// Pressure against volume and energy.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Pressure {
+    /// `p = K (ρ/ρ₀ − 1)`.
+    Linear,
+    /// Mie–Grüneisen about the linear Hugoniot.
+    MieGruneisen(StateEquation),
+}
+
+/// The constants of a body.
+#[derive(Debug)]
+pub(super) struct Law {
+    pub(super) density: f64,
+    pub(super) shear_modulus: f64,
+    pub(super) bulk_modulus: f64,
+    pub(super) pressure: Pressure,
+    pub(super) strength: Box<dyn PreparedStrength>,
+    pub(super) rate_effects: bool,
+    /// Temperature rise per plastic work per mass [K kg/J]; 0 without heating.
+    pub(super) heating: f64,
+    pub(super) viscosity: ArtificialViscosity,
+    /// Tension beyond which a particle spalls [Pa].
+    pub(super) spall_strength: Option<f64>,
+    /// How plastic strain uses a particle up.
+    pub(super) damage: Option<PreparedDamage>,
+    /// Equivalent plastic strain at which a particle fails.
+    pub(super) failure_strain: Option<f64>,
+    /// Whether a particle that fails leaves the body.
+    pub(super) erode_failed: bool,
+    /// Equivalent plastic strain at which a particle leaves the body.
+    pub(super) erosion_strain: Option<f64>,
+    /// Off only in plane strain, which some exact checks need.
+    pub(super) axisymmetric: bool,
+}
+
+impl Law {
+    /// Where a particle stands that does not flow.
+    pub(super) fn slow_yield_point(&self, particle: &Particle) -> YieldPoint {
+        YieldPoint::slow(&*self.strength, &particle.flow_state())
+    }
+
+    /// Squares of the speeds of longitudinal waves [m2/s2].
+    #[inline(always)]
+    pub(super) fn wave_speed_squared(&self, block: &Block) -> Lanes {
+        let shear = 4.0 / 3.0 * self.shear_modulus;
+        let (mass, volume, pressure) = (block.mass, block.volume, block.pressure);
+        let specific = lanes(|l| volume[l] * (1.0 / mass[l]));
+        match &self.pressure {
+            // dp/dρ is K/ρ₀ at any density.
+            Pressure::Linear => lanes(|l| self.bulk_modulus / self.density + shear * specific[l]),
+            Pressure::MieGruneisen(state) => {
+                lanes(|l| state.sound_speed_squared(specific[l], pressure[l]) + shear * specific[l])
+            }
+        }
+    }
+
+    /// Whether there is anything that a particle can fail by.
+    pub(super) fn can_fail(&self) -> bool {
+        self.damage.is_some() || self.failure_strain.is_some() || self.spall_strength.is_some()
+    }
+
+    /// Failure in shear and in tension: what a particle that fails gives up counts as failure work [J].
+    pub(super) fn fail(&self, particle: &mut Particle, increment: f64, time_step: f64) -> f64 {
+        if particle.has_failed() {
+            return 0.0;
+        }
+        if let Some(law) = self.damage.filter(|_| increment > 0.0) {
+            let strain_rate = if self.rate_effects {
+                increment / time_step
+            } else {
+                0.0
+            };
+            let state = DamageState {
+                triaxiality: -particle.pressure / particle.equivalent_stress(),
+                strain_rate,
+                temperature: particle.temperature,
+            };
+            particle.damage = law.grow(particle.damage, &state, increment);
+        }
+        let sheared = self
+            .failure_strain
+            .is_some_and(|most| particle.plastic_strain >= most);
+        let torn = self
+            .spall_strength
+            .is_some_and(|most| particle.pressure < 0.0 && particle.largest_tension() > most);
+        if !(sheared || torn || particle.has_failed()) {
+            return 0.0;
+        }
+        let whole = self.elastic_energy(particle);
+        particle.damage = 1.0;
+        particle.deviator = [0.0; 3];
+        particle.pressure = particle.pressure.max(0.0);
+        whole - self.elastic_energy(particle)
+    }
+
+    /// Elastic energy of a particle, for small strains [J].
+    pub(super) fn elastic_energy(&self, particle: &Particle) -> f64 {
+        let shear = particle.equivalent_stress();
+        let per_volume = shear * shear / (6.0 * self.shear_modulus)
+            + particle.pressure * particle.pressure / (2.0 * self.bulk_modulus);
+        per_volume * particle.volume
+    }
+
+    /// Whether a particle is to leave its body.
+    #[inline(always)]
+    pub(super) fn erodes(&self, particle: &Particle) -> bool {
+        (self.erode_failed && particle.has_failed())
+            || self
+                .erosion_strain
+                .is_some_and(|most| particle.plastic_strain >= most)
+    }
+}

@@ -1,0 +1,348 @@
+//! State of the chain: nodes joined by elements, in segments that touch, part or meet again.
+//!
+//! Position is measured from the struck face, positive into the target; force and stress are positive in compression.
+//! Every segment has one node more than it has elements, so element `e` joins the nodes `e + shift` and `e + shift + 1`, where the
+//! shift of the first segment is 0 and grows by one at every place where ends meet.
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    dishing::Dishing,
+    drift::YieldingElement,
+    interface::Interface,
+    part::{Part, Role},
+    penetration::Penetration,
+    plug::PlugConstraint,
+    shear_band::Bands,
+    tate::Tip,
+};
+use crate::{
+    Error,
+    ledger::{EnergyLedger, MomentumLedger},
+    material::YieldPoint,
+    solver::archive::Archive,
+};
+
+/// What holds the last node of the chain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum End {
+    Free,
+    Fixed,
+    /// Boundary that takes up a wave without reflecting it: a dashpot \[lysmer1969\], and behind a cone a spring beside it
+    /// \[wolf1994\].
+    Open {
+        /// [N s/m].
+        impedance: f64,
+        /// Stiffness of the endless cone beyond the last node [N/m]; 0 behind a column.
+        stiffness: f64,
+    },
+}
+
+/// A run of nodes joined by elements of one part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Segment {
+    pub(super) part: usize,
+    pub(super) first_node: usize,
+    pub(super) last_node: usize,
+    /// Number of its first node less that of its first element.
+    pub(super) shift: usize,
+}
+
+impl Segment {
+    pub(super) fn elements(self) -> std::ops::Range<usize> {
+        self.first_node - self.shift..self.last_node - self.shift
+    }
+}
+
+/// A point mass.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub(super) struct Node {
+    pub(super) position: f64,
+    pub(super) velocity: f64,
+    /// Velocity at the start of the current kick.
+    pub(super) velocity_before: f64,
+    pub(super) mass: f64,
+    /// Force of the elements, viscosity included [N].
+    pub(super) force: f64,
+    /// Force of the elements without viscosity [N].
+    pub(super) spring_force: f64,
+    /// Force of local damping in this step, part of `force` [N].
+    pub(super) damping: f64,
+    /// Largest friction force [N].
+    pub(super) friction: f64,
+}
+
+/// A normal spring with its constitutive state.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub(super) struct Element {
+    pub(super) rest_length: f64,
+    /// Area at rest [m2].
+    pub(super) rest_area: f64,
+    /// [m3]; plastic flow does not change it.
+    pub(super) volume: f64,
+    /// Length without stress [m].
+    pub(super) unloaded_length: f64,
+    /// What it gives to the masses of its two nodes [kg].
+    pub(super) end_masses: [f64; 2],
+    pub(super) length: f64,
+    pub(super) strain: f64,
+    pub(super) stress: f64,
+    pub(super) stress_before: f64,
+    pub(super) axial_force: f64,
+    pub(super) viscous_force: f64,
+    /// Axial plastic strain, compression positive.
+    pub(super) plastic_axial: f64,
+    /// Accumulated plastic strain.
+    pub(super) plastic_strain: f64,
+    /// Axial plastic strain of the last step.
+    pub(super) plastic_step: f64,
+    /// Largest plastic strain rate so far [1/s].
+    pub(super) largest_rate: f64,
+    pub(super) temperature: f64,
+    pub(super) yield_point: YieldPoint,
+    /// Initial position of its middle.
+    pub(super) initial_position: f64,
+    pub(super) eroded: bool,
+    /// Damage by the failure law; 1 is failed.
+    pub(super) damage: f64,
+    /// Whether its failure has parted it from a neighbour.
+    pub(super) parted: bool,
+    /// Length of target that the tip has gone through [m], and its part in the last step.
+    pub(super) advance: f64,
+    pub(super) advance_step: f64,
+}
+
+/// A place where a body or a bonded interface has parted.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct Parting {
+    /// Initial position, struck face at 0 [m].
+    pub(super) position: f64,
+    /// [s].
+    pub(super) time: f64,
+}
+
+/// Work and impulse that have gone where the state itself does not show them.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub(super) struct Accumulators {
+    pub(super) initial_energy: f64,
+    pub(super) initial_momentum: f64,
+    pub(super) plastic: [f64; 2],
+    pub(super) friction_work: f64,
+    pub(super) viscous_work: f64,
+    pub(super) contact_loss: f64,
+    pub(super) boundary_work: f64,
+    pub(super) eroded_energy: f64,
+    pub(super) fracture_work: f64,
+    pub(super) support_impulse: f64,
+    pub(super) friction_impulse: f64,
+    pub(super) eroded_momentum: f64,
+    pub(super) damping_impulse: f64,
+}
+
+/// Nodes, elements and accumulated work at one time. Node velocities stand half a step behind the positions.
+#[derive(Debug)]
+pub(super) struct State {
+    pub(super) parts: Vec<Part>,
+    /// From the projectile's tail to the target's back.
+    pub(super) segments: Vec<Segment>,
+    /// `interfaces[s]`: what is between segments `s` and `s + 1`.
+    pub(super) interfaces: Vec<Interface>,
+    pub(super) end: End,
+    /// Force of a constant-pressure target on the projectile's tip [N]; 0 with any other target.
+    pub(super) tip_friction: f64,
+    /// What moves with the tip under the erosion closure of Tate.
+    pub(super) tip: Option<Tip>,
+    /// What the tip has to overcome to penetrate a cone.
+    pub(super) penetration: Option<Penetration>,
+    /// What holds a plug, in the place of friction.
+    pub(super) hold: Option<PlugConstraint>,
+    /// Force of the target that is turned aside on the tip [N].
+    pub(super) drag: f64,
+    /// Initial position of the last node [m].
+    pub(super) back_position: f64,
+
+    pub(super) nodes: Vec<Node>,
+    /// All elements, eroded ones too.
+    pub(super) elements: Vec<Element>,
+
+    /// Elements that flow in a step or flowed in the one before: kept for its memory.
+    pub(super) working: Vec<YieldingElement>,
+
+    pub(super) time: f64,
+    pub(super) step: u64,
+    pub(super) time_step: f64,
+    /// Largest stable time step of the current state.
+    pub(super) stable_step: f64,
+    /// Places where bodies and bonded interfaces have parted, in the order of time.
+    pub(super) partings: Vec<Parting>,
+    /// How often two ends have met.
+    pub(super) meetings: u64,
+    pub(super) contact_force: f64,
+    pub(super) back_force: f64,
+    pub(super) accumulated: Accumulators,
+}
+
+impl State {
+    /// Everything that a step changes; the parts and the end are those of the case.
+    pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.segments)?;
+        archive.item(&mut self.interfaces)?;
+        archive.item(&mut self.tip_friction)?;
+        archive.item(&mut self.tip)?;
+        archive.item(&mut self.penetration)?;
+        if let Some(hold) = &mut self.hold {
+            hold.archive(archive)?;
+        }
+        archive.item(&mut self.drag)?;
+        archive.item(&mut self.nodes)?;
+        archive.item(&mut self.elements)?;
+        archive.item(&mut self.time)?;
+        archive.item(&mut self.step)?;
+        archive.item(&mut self.time_step)?;
+        archive.item(&mut self.stable_step)?;
+        archive.item(&mut self.partings)?;
+        archive.item(&mut self.meetings)?;
+        archive.item(&mut self.contact_force)?;
+        archive.item(&mut self.back_force)?;
+        archive.item(&mut self.accumulated)
+    }
+
+    /// Part and node range of the projectile's frontmost segment; `None` when all of it has eroded.
+    pub(super) fn tip_segment(&self) -> Option<usize> {
+        self.segments
+            .iter()
+            .rposition(|segment| self.parts[segment.part].role == Role::Projectile)
+    }
+
+    /// The target's first segment that still has material.
+    pub(super) fn face_segment(&self) -> Option<usize> {
+        self.segments.iter().position(|segment| {
+            self.parts[segment.part].role == Role::Target && !segment.elements().is_empty()
+        })
+    }
+
+    /// Mass and momentum of the projectile.
+    pub(super) fn projectile_motion(&self) -> (f64, f64) {
+        let mut sums = (0.0, 0.0);
+        for segment in &self.segments {
+            if self.parts[segment.part].role == Role::Projectile {
+                for i in segment.first_node..=segment.last_node {
+                    let mass = self.nodes[i].mass - self.tip_mass_on(i);
+                    sums.0 += mass;
+                    sums.1 += mass * self.nodes[i].velocity;
+                }
+            }
+        }
+        sums
+    }
+
+    /// Depth of the crater floor below the original face [m]; of the projectile's tip where there is no target to crater.
+    ///
+    /// A non-reflecting end has no static stiffness: the column that it holds drifts as a whole, and that drift is no crater.
+    pub(super) fn depth(&self) -> f64 {
+        match (self.face_segment(), self.tip_segment(), self.end) {
+            (Some(face), _, End::Open { stiffness: 0.0, .. }) => {
+                let back = self.nodes[self.nodes.len() - 1].position - self.back_position;
+                self.nodes[self.segments[face].first_node].position - back
+            }
+            (Some(face), ..) => self.nodes[self.segments[face].first_node].position,
+            (None, Some(tip), _) if self.tip_friction > 0.0 => {
+                self.nodes[self.segments[tip].last_node].position
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Mean velocity of a segment [m/s]; 0 for a wall.
+    pub(super) fn mean_velocity(&self, segment: Segment) -> f64 {
+        let (mut mass, mut momentum) = (0.0, 0.0);
+        for node in &self.nodes[segment.first_node..=segment.last_node] {
+            mass += node.mass;
+            momentum += node.mass * node.velocity;
+        }
+        if mass > 0.0 { momentum / mass } else { 0.0 }
+    }
+
+    /// Elastic energy of an element between two steps: the form that central differences conserve.
+    pub(super) fn elastic_energy(&self, element: usize, part: &Part) -> f64 {
+        let element = &self.elements[element];
+        element.volume * element.stress_before * element.stress / (2.0 * part.modulus)
+    }
+
+    pub(super) fn energy(&self) -> EnergyLedger {
+        let mut kinetic = [0.0; 2];
+        let mut elastic = [0.0; 2];
+        for segment in &self.segments {
+            let part = &self.parts[segment.part];
+            let role = part.role as usize;
+            for i in segment.first_node..=segment.last_node {
+                kinetic[role] +=
+                    0.5 * self.nodes[i].mass * self.nodes[i].velocity * self.nodes[i].velocity;
+            }
+            for e in segment.elements() {
+                elastic[role] += self.elastic_energy(e, part);
+            }
+        }
+        self.energy_ledger(kinetic, elastic)
+    }
+
+    /// The energy balance of a state with these energies of projectile and target.
+    pub(super) fn energy_ledger(&self, kinetic: [f64; 2], elastic: [f64; 2]) -> EnergyLedger {
+        let accumulated = &self.accumulated;
+        let bands = self.hold.as_ref().map(|hold| &hold.bands);
+        let plate = self.hold.as_ref().and_then(|hold| hold.plate.as_ref());
+        let mut energy = EnergyLedger::default();
+        energy.initial = accumulated.initial_energy;
+        energy.kinetic_projectile = kinetic[0];
+        energy.kinetic_target = kinetic[1];
+        energy.elastic_projectile = elastic[0];
+        energy.elastic_target = elastic[1] + bands.map_or(0.0, Bands::elastic_energy);
+        energy.plastic_projectile = accumulated.plastic[0];
+        energy.plastic_target = accumulated.plastic[1];
+        energy.border_shear =
+            accumulated.friction_work + bands.map_or(0.0, |bands| bands.accumulated.work);
+        energy.viscous = accumulated.viscous_work;
+        energy.contact = accumulated.contact_loss;
+        energy.boundary = accumulated.boundary_work;
+        energy.eroded = accumulated.eroded_energy;
+        energy.fracture = accumulated.fracture_work;
+        energy.transfer = 0.0;
+        energy.kinetic_plate = plate.map_or(0.0, Dishing::kinetic_energy);
+        energy.elastic_plate = plate.map_or(0.0, Dishing::elastic_energy);
+        energy.plastic_plate = plate.map_or(0.0, |plate| plate.plastic_work);
+        energy
+    }
+
+    pub(super) fn momentum(&self) -> MomentumLedger {
+        let mut momentum = [0.0; 2];
+        for segment in &self.segments {
+            let role = self.parts[segment.part].role as usize;
+            for i in segment.first_node..=segment.last_node {
+                momentum[role] += self.nodes[i].mass * self.nodes[i].velocity;
+            }
+        }
+        self.momentum_ledger(momentum)
+    }
+
+    /// The momentum balance of a state with these momenta of projectile and target.
+    pub(super) fn momentum_ledger(&self, momentum: [f64; 2]) -> MomentumLedger {
+        let accumulated = &self.accumulated;
+        let plate = self.hold.as_ref().and_then(|hold| hold.plate.as_ref());
+        // A plate that does not move hands the impulse of the bands on; one that does keeps what its support does not take.
+        let held_still = match (&self.hold, plate) {
+            (Some(hold), None) => hold.bands.accumulated.impulse,
+            _ => 0.0,
+        };
+        let mut new_momentum = MomentumLedger::default();
+        new_momentum.initial = accumulated.initial_momentum;
+        new_momentum.projectile = momentum[0];
+        new_momentum.target = momentum[1];
+        new_momentum.support =
+            accumulated.support_impulse + plate.map_or(0.0, |plate| plate.support_impulse);
+        new_momentum.border_shear = accumulated.friction_impulse + held_still;
+        new_momentum.eroded = accumulated.eroded_momentum;
+        new_momentum.plate = plate.map_or(0.0, Dishing::momentum);
+        new_momentum.damping = accumulated.damping_impulse;
+        new_momentum
+    }
+}

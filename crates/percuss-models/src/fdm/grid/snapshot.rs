@@ -1,0 +1,111 @@
+//! What histories and results keep of a grid.
+
+use super::{End, Grid, Law, View};
+use crate::history::{ElementState, Profile, Sample};
+
+/// Most cells in a profile: a finer mesh than a picture can show is thinned out.
+const MOST_CELLS: usize = 400;
+
+impl<L: Law> Grid<L> {
+    /// The last segment of the projectile.
+    pub(in crate::fdm) fn tip_segment(&self) -> usize {
+        let last = self.segments.iter().rposition(|segment| segment.body == 0);
+        last.unwrap_or(0)
+    }
+
+    /// Whether the projectile touches the target, a wall, or what presses on its face.
+    pub(in crate::fdm) fn touches(&self) -> bool {
+        self.tip_pressure > 0.0 || self.closed.get(self.tip_segment()) == Some(&true)
+    }
+
+    /// Node of the crater floor; `None` where there is no target.
+    pub(in crate::fdm) fn floor(&self) -> Option<usize> {
+        let tip = self.tip_segment();
+        self.segments.get(tip + 1).map(|_| self.span(tip + 1).0)
+    }
+
+    /// Depth of the crater floor below the original face [m]; of the projectile's tip where there is no target to crater.
+    ///
+    /// A non-reflecting end has no static stiffness: the column that it holds drifts as a whole, and that drift is no crater.
+    pub(in crate::fdm) fn depth(&self) -> f64 {
+        match (self.floor(), self.ends[1]) {
+            (Some(floor), End::Dashpot(_)) => {
+                let drift = self.nodes[self.nodes.len() - 1].position - self.back_position;
+                self.nodes[floor].position - drift
+            }
+            (Some(floor), _) => self.nodes[floor].position,
+            (None, _) => self.nodes[self.span(self.tip_segment()).1].position,
+        }
+    }
+
+    pub(in crate::fdm) fn sample(&self) -> Sample {
+        let tip_segment = self.tip_segment();
+        let tip = self.nodes[self.span(tip_segment).1];
+        let tail = self.nodes[0];
+        let length: f64 = (0..=tip_segment)
+            .map(|s| {
+                let (first, last) = self.span(s);
+                self.nodes[last].position - self.nodes[first].position
+            })
+            .sum();
+        let (mass, momentum) = self.motion(0);
+        let mut sample = Sample::default();
+        sample.time = self.time;
+        sample.step = self.step;
+        sample.tip_velocity = tip.velocity;
+        sample.tail_velocity = tail.velocity;
+        sample.interface_velocity = self
+            .floor()
+            .map_or(f64::NAN, |floor| self.nodes[floor].velocity);
+        sample.back_velocity = self
+            .floor()
+            .map_or(f64::NAN, |_| self.nodes[self.nodes.len() - 1].velocity);
+        sample.mean_velocity = momentum / mass;
+        sample.tip_position = tip.position;
+        sample.depth = self.depth();
+        sample.projectile_length = length;
+        sample.contact_force = self.contact_force;
+        sample.back_force = self.back_force;
+        sample.energy = self.energy();
+        sample.momentum = self.momentum();
+        sample
+    }
+
+    pub(in crate::fdm) fn profile(&self) -> Profile {
+        let stride = self.cells.len().div_ceil(MOST_CELLS).max(1);
+        let mut elements = Vec::with_capacity(self.cells.len() / stride + 1);
+        for (s, segment) in self.segments.iter().enumerate() {
+            for c in segment.cells.clone().step_by(stride) {
+                let view = self.bodies[segment.body].view(&self.cells[c]);
+                let (back, front) = (self.nodes[c + s].position, self.nodes[c + s + 1].position);
+                elements.push(ElementState {
+                    part: segment.body,
+                    initial_position: view.initial_position,
+                    position: 0.5 * (back + front),
+                    length: front - back,
+                    stress: view.stress,
+                    strain: view.strain,
+                    plastic_strain: view.plastic_strain,
+                    diameter: view.diameter,
+                    temperature: view.temperature,
+                    velocity: 0.5 * (self.nodes[c + s].velocity + self.nodes[c + s + 1].velocity),
+                });
+            }
+        }
+        Profile {
+            time: self.time,
+            elements,
+        }
+    }
+
+    /// Views of the cells of one body.
+    pub(in crate::fdm) fn views(&self, body: usize) -> impl Iterator<Item = View> + '_ {
+        let own = self.segments.iter().filter(move |s| s.body == body);
+        own.flat_map(move |segment| {
+            let law = &self.bodies[body];
+            self.cells[segment.cells.clone()]
+                .iter()
+                .map(|cell| law.view(cell))
+        })
+    }
+}

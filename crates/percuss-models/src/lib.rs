@@ -1,0 +1,17 @@
+//! Models of [percuss](https://docs.rs/percuss), and their list.
+//!
+//! Depend on `percuss`, which re-exports what users need.
+
+pub mod analytic;
+pub mod axi;
+pub mod chain;
+pub mod fdm;
+pub mod model;
+
+// What the models use of the core.
+#[cfg(test)]
+use percuss::{case, compare, summary};
+use percuss_core::{
+    Error, Refusal, Scenario, error, fragments, guard, history, lanes, ledger, material, options,
+    outcome, power, problem, regime, resistance, scenario, shapes, solver, units,
+};

@@ -1,0 +1,74 @@
+//! Models: the list of all, the default for a case, and which of several results to rely on.
+
+mod choice;
+mod recommend;
+
+use crate::{
+    Error,
+    analytic::{
+        AwerbuchBodner, CraterEnergy, Forrestal, ForrestalConcrete, Hydrodynamic, LambertJonas,
+        LanzOdermatt, PlateCavity, Plugging, Poncelet, QuasiStatic, RechtIpson, Tate, Taylor,
+        WalkerAnderson, WilkinsGuinan,
+    },
+    axi::Axi,
+    chain::Chain,
+    error::nearest,
+    fdm::Fdm,
+};
+
+pub use choice::{ChosenModel, DEFAULT_MODEL, choose, default_model};
+pub use recommend::recommend;
+pub use recommend::{Choice, Recommendation};
+
+pub use crate::solver::{
+    Checkpoints, Control, Model, OnFrame, Progress, applicability, run, run_explained,
+};
+pub use crate::solver::{applicability_in, complete, run_in};
+
+/// All models. Adding one is one file and one line here.
+pub static MODELS: &[&dyn Model] = &[
+    &Chain,
+    &Fdm,
+    &Axi,
+    &Tate,
+    &WalkerAnderson,
+    &LanzOdermatt,
+    &Hydrodynamic,
+    &Forrestal,
+    &ForrestalConcrete,
+    &QuasiStatic,
+    &Poncelet,
+    &CraterEnergy,
+    &Taylor,
+    &WilkinsGuinan,
+    &PlateCavity,
+    &Plugging,
+    &RechtIpson,
+    &LambertJonas,
+    &AwerbuchBodner,
+];
+
+/// The models that answer at once: what comparisons and validations run unless models are named.
+pub fn quick() -> Vec<&'static dyn Model> {
+    MODELS
+        .iter()
+        .copied()
+        .filter(|model| !model.is_slow())
+        .collect()
+}
+
+/// The model with this name.
+///
+/// # Errors
+/// [`Error::UnknownModel`].
+pub fn model(name: &str) -> Result<&'static dyn Model, Error> {
+    MODELS
+        .iter()
+        .find(|model| model.name() == name)
+        .copied()
+        .ok_or_else(|| Error::UnknownModel {
+            name: name.to_owned(),
+            suggestion: nearest(name, MODELS.iter().map(|model| model.name())),
+            known: MODELS.iter().map(|model| model.name()).collect(),
+        })
+}

@@ -1,0 +1,219 @@
+//! Default model of a run: the chain where it applies, otherwise the model that a comparison recommends.
+
+use super::{Control, Model, applicability_in, model, quick, recommend, run_in};
+use crate::{Error, Scenario, outcome::RunResult, regime::Regime};
+
+/// Name of the model of a run that names none.
+pub const DEFAULT_MODEL: &str = "chain";
+
+/// Model of a run.
+#[derive(Clone)]
+pub struct ChosenModel {
+    /// The model.
+    pub model: &'static dyn Model,
+    /// Why it is not [`DEFAULT_MODEL`] although the run names none; `None` otherwise.
+    pub note: Option<String>,
+}
+
+impl ChosenModel {
+    /// Computes a case by it; the result holds why it is this model.
+    ///
+    /// # Errors
+    /// Those of [`super::run_explained`].
+    pub fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
+        let result = super::run_explained(self.model, scenario, control)?;
+        Ok({
+            let mut result = result;
+            result.model_choice = self.note.clone();
+            result
+        })
+    }
+}
+
+impl std::fmt::Debug for ChosenModel {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ChosenModel")
+            .field("model", &self.model.name())
+            .field("note", &self.note)
+            .finish()
+    }
+}
+
+/// The model with this name, or the default one for a case where none is named.
+///
+/// # Errors
+/// [`Error::UnknownModel`]; [`Error::NoModelApplies`].
+pub fn choose(name: Option<&str>, scenario: &Scenario) -> Result<ChosenModel, Error> {
+    match name {
+        Some(name) => Ok(ChosenModel {
+            model: model(name)?,
+            note: None,
+        }),
+        None => default_model(scenario),
+    }
+}
+
+/// The model of a run that names none: [`DEFAULT_MODEL`] where it applies, otherwise the one that a comparison recommends, otherwise
+/// the first quick one that gives a result.
+///
+/// # Errors
+/// [`Error::NoModelApplies`] with the reason of every quick model.
+pub fn default_model(scenario: &Scenario) -> Result<ChosenModel, Error> {
+    let chain = model(DEFAULT_MODEL)?;
+    let regime = Regime::of(scenario);
+    let Err(refused) = applicability_in(chain, scenario, &regime) else {
+        return Ok(ChosenModel {
+            model: chain,
+            note: None,
+        });
+    };
+    let models = quick();
+    let results: Vec<Result<(), String>> = models
+        .iter()
+        .map(|model| gives_result(*model, scenario, &regime))
+        .collect();
+    let given: Vec<_> = results
+        .iter()
+        .map(|result| match result {
+            Ok(()) => Ok(()),
+            Err(reason) => Err(reason.as_str()),
+        })
+        .collect();
+    let names: Vec<&dyn Model> = models.iter().map(|model| *model as &dyn Model).collect();
+    let recommended = recommend(&names, scenario, &regime, &given);
+    let (chosen, why) = match recommended.models.first() {
+        Some(choice) => (
+            Some(choice.model),
+            match &recommended.note {
+                Some(note) => format!("a comparison recommends it: {}; {note}", choice.because),
+                None => format!("a comparison recommends it: {}", choice.because),
+            },
+        ),
+        None => (
+            models
+                .iter()
+                .zip(&given)
+                .find(|(_, given)| given.is_ok())
+                .map(|(model, _)| model.name()),
+            "no model is the first choice here, and it is the first that gives a result".to_owned(),
+        ),
+    };
+    match chosen {
+        Some(name) => Ok(ChosenModel {
+            model: model(name)?,
+            note: Some(format!(
+                "model `{name}` instead of the default `{DEFAULT_MODEL}`, which does not apply: {refused}. {}",
+                capitalised(&why)
+            )),
+        }),
+        None => Err(Error::NoModelApplies {
+            reasons: models
+                .iter()
+                .zip(results)
+                .filter_map(|(model, result)| Some((model.name(), result.err()?)))
+                .collect(),
+        }),
+    }
+}
+
+/// Whether a model gives a result; one that takes a plate for semi-infinite is run to see whether its depth stands.
+fn gives_result(
+    model: &'static dyn Model,
+    scenario: &Scenario,
+    regime: &Regime,
+) -> Result<(), String> {
+    applicability_in(model, scenario, regime).map_err(|refusal| refusal.to_string())?;
+    if model.guard().sees_back_face || scenario.target_thickness().is_none() {
+        return Ok(());
+    }
+    match run_in(model, scenario, regime, &mut Control::default()) {
+        Ok(_) => Ok(()),
+        Err(Error::NotApplicable { refusal, .. }) => Err(refusal.to_string()),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+fn capitalised(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        case,
+        compare::{Watch, compare},
+    };
+
+    fn scenario(projectile: &str, target: &str) -> Scenario {
+        let text = format!(
+            "projectile = {{ material = '4340', length = '40 mm', diameter = '8 mm', velocity = '400 m/s'{projectile} }}\n\
+             target = {{ {target} }}"
+        );
+        case::load_str("case", &text).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    const OGIVE: &str = ", nose = { ogive = { crh = 3.0 } }";
+    const THICK: &str = "material = 'aluminium-2024-t351', thickness = '200 mm'";
+
+    #[test]
+    fn the_chain_is_the_default_where_it_applies() {
+        for target in [THICK, "rigid_wall = true"] {
+            let chosen = default_model(&scenario("", target)).unwrap();
+            assert_eq!((chosen.model.name(), chosen.note), (DEFAULT_MODEL, None));
+        }
+    }
+
+    /// Elsewhere it is what a comparison of all models recommends.
+    #[test]
+    fn it_is_what_a_comparison_recommends_elsewhere() {
+        let concrete = "material = 'concrete-35-forrestal', thickness = 'semi-infinite'";
+        let plate = "material = 'aluminium-2024-t351', thickness = '26 mm'";
+        let semi_infinite = "material = 'aluminium-2024-t351', thickness = 'semi-infinite'";
+        let mut recommended = Vec::new();
+        for (projectile, target) in [
+            (OGIVE, THICK),
+            (OGIVE, plate),
+            (OGIVE, semi_infinite),
+            (OGIVE, concrete),
+            (", nose = 'hemisphere'", THICK),
+        ] {
+            let case = scenario(projectile, target);
+            let chosen = default_model(&case).unwrap_or_else(|error| panic!("{target}: {error}"));
+            let compared = compare(
+                &quick(),
+                &case,
+                &[case.impact_velocity],
+                &mut Watch::default(),
+            );
+            let compared = compared.unwrap();
+            let results = compared.results.iter().find(|result| result.is_result());
+            let first = compared.recommended[0].models.first();
+            recommended.extend(first.map(|_| (projectile, target)));
+            let expected = first.map_or(results.unwrap().model, |choice| choice.model);
+            assert_eq!(chosen.model.name(), expected, "{projectile} on {target}");
+            let note = chosen.note.unwrap();
+            assert!(note.contains(&format!(
+                "model `{expected}` instead of the default `chain`"
+            )));
+        }
+        // The other four have results and no recommendation.
+        assert_eq!(recommended, [(OGIVE, concrete)]);
+    }
+
+    #[test]
+    fn where_no_model_applies_every_reason_is_given() {
+        let error = default_model(&scenario(OGIVE, "rigid_wall = true")).unwrap_err();
+        let Error::NoModelApplies { reasons } = &error else {
+            panic!("{error}");
+        };
+        assert_eq!(reasons.len(), quick().len());
+        assert!(
+            error.to_string().contains("chain: it takes flat noses"),
+            "{error}"
+        );
+    }
+}

@@ -1,0 +1,143 @@
+//! Which of the models that gave a result to rely on.
+
+use serde::Serialize;
+
+use crate::{
+    Scenario,
+    regime::{ProjectileRegime, Regime},
+    solver::Model,
+};
+
+/// What to rely on at a speed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Recommendation {
+    /// Impact speed [m/s].
+    pub impact_velocity_m_s: f64,
+    /// The models that are the first choice for this kind of case and gave a result; may be empty.
+    pub models: Vec<Choice>,
+    /// What to know of the choice, if there is something.
+    pub note: Option<String>,
+}
+
+/// A model and why it is recommended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Choice {
+    /// Its name.
+    pub model: &'static str,
+    /// Why.
+    pub because: &'static str,
+}
+
+impl Choice {
+    /// The choice of a model for a case of a regime, if it is a first choice there.
+    pub fn of(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> Option<Self> {
+        let mut choices = model.guard().first_choice.iter();
+        let fitting = choices.find(|choice| choice.fits(scenario, regime))?;
+        Some(Self {
+            model: model.name(),
+            because: fitting.because,
+        })
+    }
+}
+
+/// Whether a model gives a result, and why if it does not.
+pub(super) type Given<'a> = Result<(), &'a str>;
+
+/// First choices for a regime: those that gave a result, and the others with the reason why not.
+struct FirstChoices<'a> {
+    given: Vec<Choice>,
+    missed: Vec<(&'static str, &'a str)>,
+}
+
+impl<'a> FirstChoices<'a> {
+    fn of(
+        models: &[&dyn Model],
+        scenario: &Scenario,
+        regime: &Regime,
+        results: &[Given<'a>],
+    ) -> Self {
+        let mut choices = Self {
+            given: Vec::new(),
+            missed: Vec::new(),
+        };
+        for (model, result) in models.iter().zip(results) {
+            match (Choice::of(*model, scenario, regime), result) {
+                (Some(choice), Ok(())) => choices.given.push(choice),
+                (Some(choice), Err(reason)) => choices.missed.push((choice.model, reason)),
+                (None, _) => {}
+            }
+        }
+        choices
+    }
+}
+
+/// What to rely on for a case in its regime, given what every model said.
+pub fn recommend(
+    models: &[&dyn Model],
+    scenario: &Scenario,
+    regime: &Regime,
+    results: &[Given<'_>],
+) -> Recommendation {
+    let own = FirstChoices::of(models, scenario, regime, results);
+    let neighbour: Option<(ProjectileRegime, Vec<Choice>)> = regime.neighbour.map(|neighbour| {
+        let regime = Regime {
+            projectile: neighbour,
+            ..regime.clone()
+        };
+        let mut choices = FirstChoices::of(models, scenario, &regime, results).given;
+        choices.retain(|choice| own.given.iter().all(|own| own.model != choice.model));
+        (neighbour, choices)
+    });
+    let neighbour = neighbour.filter(|(_, choices)| !choices.is_empty());
+    let mut notes: Vec<String> = own
+        .missed
+        .iter()
+        .map(|(model, reason)| format!("`{model}` would be a first choice, but {reason}"))
+        .collect();
+    let models = match (own.given.is_empty(), neighbour) {
+        (false, None) => own.given,
+        (false, Some((kind, choices))) => {
+            notes.push(format!(
+                "the projectile may be {} as well, for which {} is the first choice: compare both",
+                kind.in_words(),
+                names(&choices)
+            ));
+            own.given
+        }
+        (true, Some((kind, choices))) => {
+            notes.push(format!(
+                "no first choice for {} projectiles gives a result here; the projectile may be {} as well",
+                regime.projectile.in_words(),
+                kind.in_words()
+            ));
+            choices
+        }
+        (true, None) => {
+            notes.push(
+                match results.iter().filter(|result| result.is_ok()).count() {
+                    0 => "no model gives a result",
+                    1 => "no model is the first choice for this kind of case; one gives a result",
+                    _ => {
+                        "no model is the first choice for this kind of case: take the spread of those that give a result for \
+                          the uncertainty"
+                    }
+                }
+                .to_owned(),
+            );
+            Vec::new()
+        }
+    };
+    Recommendation {
+        impact_velocity_m_s: scenario.impact_velocity,
+        models,
+        note: (!notes.is_empty()).then(|| notes.join("; ")),
+    }
+}
+
+fn names(choices: &[Choice]) -> String {
+    let names: Vec<String> = choices
+        .iter()
+        .map(|choice| format!("`{}`", choice.model))
+        .collect();
+    names.join(" or ")
+}

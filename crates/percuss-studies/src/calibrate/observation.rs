@@ -1,0 +1,238 @@
+//! What was measured: entries `[[experiments]]` of case files, and published shots.
+
+use serde::Serialize;
+
+use super::{Fitted, problem::refuse};
+use crate::{
+    Error, Scenario,
+    case::{self, Document, Template},
+    check::Finding,
+    material::{Library, MaterialEntry},
+    outcome::BandQuantity,
+    shots::{Shot, Struck},
+};
+
+/// A measured value and the case that has to give it.
+#[derive(Debug, Clone)]
+pub struct Observation {
+    /// Id of the shot, or name of the case with the number of its entry.
+    pub id: String,
+    /// Bibliography keys, or whatever words the data give.
+    pub sources: Vec<String>,
+    /// What was measured.
+    pub quantity: BandQuantity,
+    /// Impact speed [m/s].
+    pub impact_velocity: f64,
+    /// The measured value [m or m/s].
+    pub measured: f64,
+    /// Its standard deviation, where it is stated [m or m/s].
+    pub uncertainty: Option<f64>,
+    /// Whether it is kept out of the fit, to test it.
+    pub held_out: bool,
+    pub(super) template: Template,
+}
+
+/// A measured value that is not used.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// Id of the shot, or name of the case with the number of its entry.
+    pub id: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// Measured values with those that cannot be used.
+#[derive(Debug, Clone, Default)]
+pub struct Observations {
+    /// The values.
+    pub used: Vec<Observation>,
+    /// Those that are not.
+    pub left_out: Vec<LeftOut>,
+}
+
+impl Observations {
+    /// Adds what was measured on a case: its `[[experiments]]`.
+    ///
+    /// # Errors
+    /// [`Error::Input`] when the case is not valid, or nothing was measured on it.
+    pub fn add_case(&mut self, document: &Document) -> Result<(), Error> {
+        let template = Template::of(document)?;
+        let scenario = case::scenario(document)?;
+        if scenario.experiments.is_empty() {
+            let help = "add [[experiments]] with velocity, a measured quantity and source";
+            let finding = Finding::whole("the case has no measured value", help);
+            return Err(document.place(finding).into());
+        }
+        for (i, experiment) in scenario.experiments.iter().enumerate() {
+            self.used.push(Observation {
+                id: format!("{} {}", scenario.name, i + 1),
+                sources: experiment.sources.clone(),
+                quantity: experiment.quantity,
+                impact_velocity: experiment
+                    .impact_velocity
+                    .unwrap_or(scenario.impact_velocity),
+                measured: experiment.value,
+                uncertainty: experiment.uncertainty,
+                held_out: false,
+                template: template.clone(),
+            });
+        }
+        Ok(())
+    }
+
+    /// Adds published shots. Where constants of materials are fitted, only shots whose projectile or target is one of them are
+    /// taken, and that record stands for the projectile. Suspect and repeated rows are left out.
+    ///
+    /// # Errors
+    /// [`Error::Input`] when a material does not exist.
+    pub fn add_shots(
+        &mut self,
+        shots: &[Shot],
+        library: &Library,
+        fitted: &[Fitted],
+    ) -> Result<(), Error> {
+        let mut fitted_materials: Vec<&MaterialEntry> = Vec::new();
+        for parameter in fitted {
+            if let Some((id, _)) = parameter.material() {
+                let entry = library.find(id).ok_or_else(|| {
+                    let near = library.suggestion(id);
+                    let help = format!("{near}`percuss materials` lists all");
+                    parameter.no_material(&format!("no material is named `{id}`"), &help)
+                })?;
+                fitted_materials.push(entry);
+            }
+        }
+        for shot in shots {
+            let Some(record) = record_for(shot, library, &fitted_materials) else {
+                continue;
+            };
+            let reason = match (&shot.flag, &shot.duplicate_of) {
+                (Some(flag), _) => Some(format!("suspect: {flag}")),
+                (_, Some(first)) => Some(format!("repeats {first}")),
+                _ => shot.no_case(),
+            };
+            if let Some(reason) = reason {
+                self.left_out.push(LeftOut {
+                    id: shot.id.clone(),
+                    reason,
+                });
+                continue;
+            }
+            self.used.push(Observation {
+                id: shot.id.clone(),
+                sources: vec![shot.source.clone()],
+                quantity: shot.kind.quantity(),
+                impact_velocity: shot.impact_velocity,
+                measured: shot.measured,
+                uncertainty: shot.uncertainty,
+                held_out: false,
+                template: Template::of_case(&shot.id, &shot.case(&record, library), library)?,
+            });
+        }
+        Ok(())
+    }
+
+    /// Keeps what comes from these sources out of the fit.
+    ///
+    /// # Errors
+    /// [`Error::Calibration`] when nothing comes from a source.
+    pub fn hold_out(&mut self, sources: &[String]) -> Result<(), Error> {
+        for source in sources {
+            let mut found = false;
+            for observation in &mut self.used {
+                if observation.sources.contains(source) {
+                    observation.held_out = true;
+                    found = true;
+                }
+            }
+            if !found {
+                return Err(self.no_source(source));
+            }
+        }
+        Ok(())
+    }
+
+    /// The error of a source that nothing comes from.
+    pub fn no_source(&self, key: &str) -> Error {
+        let known = self.sources().join(", ");
+        refuse(
+            format!("no measured value comes from `{key}`"),
+            match known.as_str() {
+                "" => "there is no measured value at all".to_owned(),
+                known => format!("sources: {known}"),
+            },
+        )
+    }
+
+    /// Sources of all values, each once.
+    pub fn sources(&self) -> Vec<&str> {
+        let mut sources: Vec<&str> = Vec::new();
+        for source in self
+            .used
+            .iter()
+            .flat_map(|observation| &observation.sources)
+        {
+            if !sources.contains(&source.as_str()) {
+                sources.push(source);
+            }
+        }
+        sources
+    }
+}
+
+impl Observation {
+    /// The case with its impact speed and with values for what is fitted; otherwise why there is none.
+    pub(super) fn scenario(&self, fitted: &[Fitted], values: &[f64]) -> Result<Scenario, String> {
+        let changes: Vec<(&str, toml::Value)> = fitted
+            .iter()
+            .zip(values)
+            .map(|(parameter, value)| parameter.change(*value))
+            .collect();
+        let scenario = self.template.scenario(&changes).map_err(|findings| {
+            let words = findings.into_iter().map(|finding| finding.message);
+            words.collect::<Vec<_>>().join("; ")
+        })?;
+        Ok(scenario.at_speed(self.impact_velocity))
+    }
+
+    /// What a relative scatter is a part of: the measured value, or the impact speed for a speed behind the target, which may be 0.
+    pub(super) fn scale(&self) -> f64 {
+        match self.quantity {
+            BandQuantity::ResidualVelocity => self.impact_velocity,
+            _ => self.measured,
+        }
+    }
+}
+
+/// The record that stands for a shot's projectile, if the shot has to do with the materials that are fitted.
+fn record_for(shot: &Shot, library: &Library, fitted: &[&MaterialEntry]) -> Option<String> {
+    let main = shot.projectile_materials.first();
+    if fitted.is_empty() {
+        return main.cloned();
+    }
+    let entry = |name: &str| library.find(name);
+    for wanted in fitted {
+        let named = shot
+            .projectile_materials
+            .iter()
+            .filter_map(|name| entry(name))
+            .any(|listed| listed.id == wanted.id);
+        let family = main.and_then(|name| entry(name)).is_some_and(|listed| {
+            listed.material.family.is_some() && listed.material.family == wanted.material.family
+        });
+        if named || family {
+            return Some(wanted.id.clone());
+        }
+    }
+    let Struck::Body {
+        material,
+        properties: None,
+        ..
+    } = &shot.target
+    else {
+        return None;
+    };
+    let struck = entry(material)?;
+    let is_fitted = fitted.iter().any(|wanted| wanted.id == struck.id);
+    is_fitted.then(|| main.cloned().unwrap_or_default())
+}

@@ -1,0 +1,347 @@
+//! Comparisons of models made up for the purpose.
+
+use std::{ops::ControlFlow, sync::Mutex};
+
+use super::{Watch, compare};
+use crate::{
+    Error, NumericalError, Scenario, case,
+    guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
+    made_up::MadeUp,
+    material::MaterialClass,
+    model::{self, Control, Model},
+    outcome::{BandQuantity, Outcome, RunResult, Termination},
+    regime::{ProjectileRegime, TargetKind},
+};
+
+fn result(outcome: Outcome, depth: f64, residual: f64) -> RunResult {
+    let mut result = RunResult::new("", "", outcome, Termination::ClosedForm);
+    result.depth_of_penetration = Some(depth);
+    result.residual_velocity = Some(residual);
+    result
+}
+
+fn deep(scenario: &Scenario) -> Result<RunResult, Error> {
+    Ok(result(
+        Outcome::AtRest,
+        1e-6 * scenario.impact_velocity,
+        0.0,
+    ))
+}
+
+fn through(scenario: &Scenario) -> Result<RunResult, Error> {
+    Ok(result(
+        Outcome::Perforated,
+        1e-2,
+        0.5 * scenario.impact_velocity,
+    ))
+}
+
+fn fails(_: &Scenario) -> Result<RunResult, Error> {
+    Err(NumericalError {
+        what: "the depth is not finite".to_owned(),
+        step: 7,
+        time_us: 1.0,
+        element: None,
+        remedy: "none".to_owned(),
+    }
+    .into())
+}
+
+const fn first_choice(projectile: ProjectileRegime) -> FirstChoice {
+    FirstChoice {
+        projectile,
+        targets: TargetKind::ALL,
+        noses: NoseKind::ALL,
+        target_material: MaterialClass::Metal,
+        because: "it is made up for it",
+    }
+}
+
+const SLOW: Guard = Guard {
+    ranges: &[Range {
+        measure: Measure::ImpactSpeed,
+        min: 0.0,
+        max: 300.0,
+        outside: Outside::NotApplicable,
+        because: "it is slow",
+    }],
+    ..Guard::OPEN
+};
+
+const OPEN: MadeUp = MadeUp {
+    name: "open",
+    guard: Guard::OPEN,
+    result: deep,
+};
+
+/// A copper rod of 5 mm on a target: deforming below some 300 m/s, eroding above.
+fn scenario(target: &str, more: &str) -> Scenario {
+    case::load_str(
+        "shot",
+        &format!(
+            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', velocity = '200 m/s' }}\n\
+             target = {{ {target} }}\n{more}"
+        ),
+    )
+    .unwrap()
+}
+
+const SEMI_INFINITE: &str = "material = 'aluminium-2024-t351', thickness = 'semi-infinite'";
+
+#[test]
+fn entries_stand_in_order_and_a_failure_stops_nothing() {
+    let failing = MadeUp {
+        name: "failing",
+        result: fails,
+        ..OPEN
+    };
+    let slow = MadeUp {
+        name: "slow",
+        guard: SLOW,
+        ..OPEN
+    };
+    let models: [&dyn Model; 3] = [&failing, &slow, &OPEN];
+    let speeds: Vec<f64> = (1..=40).map(|i| 20.0 * f64::from(i)).collect();
+    let comparison = compare(
+        &models,
+        &scenario(SEMI_INFINITE, ""),
+        &speeds,
+        &mut Watch::default(),
+    )
+    .unwrap();
+    assert_eq!(comparison.speeds(), speeds);
+    assert_eq!(comparison.models(), ["failing", "slow", "open"]);
+    for (i, &speed) in speeds.iter().enumerate() {
+        let [failing, slow, open] = comparison.at_speed(i) else {
+            panic!("{} entries", comparison.at_speed(i).len());
+        };
+        assert_eq!(failing.outcome, Outcome::Failed);
+        assert!(
+            failing
+                .reason
+                .as_ref()
+                .unwrap()
+                .contains("not finite at step 7")
+        );
+        assert_eq!(slow.is_result(), speed <= 300.0);
+        assert_eq!(slow.reason.is_some(), speed > 300.0);
+        assert_eq!(open.impact_velocity_m_s, speed);
+        assert!((open.depth_of_penetration_mm.unwrap() - 1e-3 * speed).abs() < 1e-12);
+        assert_eq!(comparison.recommended[i].impact_velocity_m_s, speed);
+    }
+    assert_eq!(comparison.quantities, [BandQuantity::DepthOfPenetration]);
+    assert!(comparison.has_results());
+    let none = compare(
+        &models[..1],
+        &scenario(SEMI_INFINITE, ""),
+        &[100.0],
+        &mut Watch::default(),
+    );
+    assert!(!none.unwrap().has_results());
+}
+
+#[test]
+fn a_comparison_is_the_same_every_time() {
+    let speeds = [100.0, 200.0, 400.0];
+    let scenario = scenario(SEMI_INFINITE, "");
+    let one = compare(&model::quick(), &scenario, &speeds, &mut Watch::default()).unwrap();
+    let two = compare(&model::quick(), &scenario, &speeds, &mut Watch::default()).unwrap();
+    assert_eq!(one, two);
+    let alone = model::run(
+        model::model("chain").unwrap(),
+        &scenario,
+        &mut Control::default(),
+    );
+    let depth = alone.unwrap().depth_of_penetration.unwrap() * 1e3;
+    let compared = one.of_model("chain").nth(1).unwrap();
+    assert_eq!(compared.depth_of_penetration_mm, Some(depth));
+}
+
+#[test]
+fn the_leading_quantity_follows_from_the_target() {
+    let wide = MadeUp {
+        name: "through",
+        result: through,
+        ..OPEN
+    };
+    let leading = |model: &MadeUp, target: &str| {
+        compare(
+            &[model],
+            &scenario(target, ""),
+            &[200.0],
+            &mut Watch::default(),
+        )
+        .unwrap()
+        .quantities
+    };
+    let plate = "material = 'copper', thickness = '10 mm'";
+    let thin = "material = 'copper', thickness = '4 mm'";
+    assert_eq!(leading(&OPEN, plate), [BandQuantity::DepthOfPenetration]);
+    assert_eq!(leading(&wide, plate), [BandQuantity::ResidualVelocity]);
+    assert_eq!(leading(&OPEN, thin), [BandQuantity::ResidualVelocity]);
+    // What nothing gives cannot lead.
+    assert_eq!(
+        leading(&OPEN, "rigid_wall = true"),
+        [BandQuantity::DepthOfPenetration]
+    );
+    let chain = model::model("chain").unwrap();
+    let wall = compare(
+        &[chain],
+        &scenario("rigid_wall = true", ""),
+        &[90.0],
+        &mut Watch::default(),
+    );
+    assert_eq!(
+        wall.unwrap().quantities,
+        [BandQuantity::ProjectileFinalLength]
+    );
+}
+
+#[test]
+fn a_first_choice_is_recommended_if_it_gives_a_result() {
+    const DEFORMING: &[FirstChoice] = &[first_choice(ProjectileRegime::Deforming)];
+    const ERODING: &[FirstChoice] = &[first_choice(ProjectileRegime::Eroding)];
+    let guard = |first_choice| Guard {
+        first_choice,
+        ..Guard::OPEN
+    };
+    let deforming = MadeUp {
+        name: "deforming",
+        guard: guard(DEFORMING),
+        ..OPEN
+    };
+    let eroding = MadeUp {
+        name: "eroding",
+        guard: guard(ERODING),
+        ..OPEN
+    };
+    let failing = MadeUp {
+        name: "failing",
+        guard: guard(ERODING),
+        result: fails,
+    };
+    let at = |models: &[&dyn Model], speed: f64| {
+        let scenario = scenario(SEMI_INFINITE, "");
+        let comparison = compare(models, &scenario, &[speed], &mut Watch::default()).unwrap();
+        let recommendation = comparison.recommended[0].clone();
+        let names: Vec<&str> = recommendation
+            .models
+            .iter()
+            .map(|choice| choice.model)
+            .collect();
+        (
+            names.join(" "),
+            recommendation.note.unwrap_or_default(),
+            comparison.regime[0].regime.clone(),
+        )
+    };
+    let (names, note, regime) = at(&[&OPEN, &deforming, &eroding], 1500.0);
+    assert_eq!(
+        (names.as_str(), note.as_str()),
+        ("eroding", ""),
+        "{regime:?}"
+    );
+    let (names, note, _) = at(&[&OPEN, &deforming, &failing], 1500.0);
+    assert_eq!(names, "");
+    assert!(
+        note.starts_with("`failing` would be a first choice, but"),
+        "{note}"
+    );
+    assert!(note.contains("take the spread"), "{note}");
+    let (names, note, _) = at(&[&OPEN], 1500.0);
+    assert_eq!(names, "");
+    assert!(note.contains("one gives a result"), "{note}");
+}
+
+#[test]
+fn a_neighbouring_regime_is_named() {
+    const RIGID: &[FirstChoice] = &[first_choice(ProjectileRegime::Rigid)];
+    const DEFORMING: &[FirstChoice] = &[first_choice(ProjectileRegime::Deforming)];
+    let rigid = MadeUp {
+        name: "rigid",
+        guard: Guard {
+            first_choice: RIGID,
+            ..Guard::OPEN
+        },
+        ..OPEN
+    };
+    let soft = MadeUp {
+        name: "soft",
+        guard: Guard {
+            first_choice: DEFORMING,
+            ..Guard::OPEN
+        },
+        ..OPEN
+    };
+    // A perfectly plastic rod of 400 MPa against 500 MPa: it deforms, and 500 is within 1.5 × 400.
+    let text = "projectile = { material = 'm', length = '20 mm', diameter = '5 mm', velocity = '100 m/s' }\n\
+                target = { constant_pressure = '500 MPa' }\n\
+                [materials.m]\nname = 'm'\ndensity = '8000 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\n\
+                strength.perfectly_plastic.flow_stress = '400 MPa'";
+    let scenario = case::load_str("edge", text).unwrap();
+    let recommend = |models: &[&dyn Model]| {
+        let comparison = compare(models, &scenario, &[100.0], &mut Watch::default()).unwrap();
+        let recommendation = comparison.recommended[0].clone();
+        (recommendation.models[0].model, recommendation.note.unwrap())
+    };
+    let (model, note) = recommend(&[&rigid, &soft]);
+    assert_eq!(model, "soft");
+    assert_eq!(
+        note,
+        "the projectile may be rigid as well, for which `rigid` is the first choice: compare both"
+    );
+    let (model, note) = recommend(&[&rigid]);
+    assert_eq!(model, "rigid");
+    assert!(
+        note.starts_with("no first choice for deforming projectiles"),
+        "{note}"
+    );
+}
+
+#[test]
+fn measured_values_are_found_by_their_speed() {
+    let more = "[[experiments]]\nvelocity = '200 m/s'\ndepth_of_penetration = '4 mm'\nsource = 'a'\n\
+                [[experiments]]\nvelocity = '200.1 m/s'\ndepth_of_penetration = '5 mm'\nuncertainty = '1 mm'\nsource = 'a'\n";
+    let scenario = scenario(SEMI_INFINITE, more);
+    let comparison = compare(&[&OPEN], &scenario, &[200.0, 300.0], &mut Watch::default()).unwrap();
+    let depth = BandQuantity::DepthOfPenetration;
+    assert_eq!(comparison.measured(depth, 200.0), Some((4.5, 2)));
+    assert_eq!(comparison.measured(depth, 300.0), None);
+    assert_eq!(
+        comparison.measured(BandQuantity::ResidualVelocity, 200.0),
+        None
+    );
+    assert_eq!(comparison.experiments[1].uncertainty, Some(1.0));
+}
+
+#[test]
+fn progress_grows_to_the_end_and_can_stop_everything() {
+    let seen = Mutex::new(Vec::new());
+    let mut note = |now: super::Progress| {
+        seen.lock().unwrap().push(now);
+        ControlFlow::Continue(())
+    };
+    let mut watch = Watch {
+        progress: Some(&mut note),
+    };
+    let scenario = scenario(SEMI_INFINITE, "");
+    compare(&[&OPEN, &OPEN], &scenario, &[100.0, 200.0], &mut watch).unwrap();
+    let seen = seen.into_inner().unwrap();
+    assert!(
+        seen.windows(2)
+            .all(|pair| pair[0].fraction <= pair[1].fraction),
+        "{seen:?}"
+    );
+    let last = seen.last().unwrap();
+    assert_eq!((last.finished, last.total, last.fraction), (4, 4, 1.0));
+
+    let mut stop = |now: super::Progress| match now.finished {
+        0 => ControlFlow::Continue(()),
+        _ => ControlFlow::Break(()),
+    };
+    let mut watch = Watch {
+        progress: Some(&mut stop),
+    };
+    let stopped = compare(&[&OPEN, &OPEN], &scenario, &[100.0, 200.0], &mut watch);
+    assert!(matches!(stopped, Err(Error::Cancelled { .. })));
+}

@@ -1,0 +1,27 @@
+//! Studies of [percuss](https://docs.rs/percuss): many runs of a case, and runs against measurements.
+//!
+//! Depend on `percuss`, which re-exports what users need.
+
+pub mod calibrate;
+pub mod compare;
+pub mod converge;
+pub mod limit;
+#[cfg(test)]
+mod made_up;
+pub mod model_error;
+pub mod shots;
+pub mod summary;
+pub mod sweep;
+pub mod uncertainty;
+pub mod v50;
+pub mod validate;
+
+// What the studies use of the layers below.
+use percuss_core::{
+    Error, Scenario, check, document, error, fragments, guard, material, options, outcome, problem,
+    regime, richardson, scenario, statistics, units,
+};
+#[cfg(test)]
+use percuss_core::{NumericalError, solver};
+use percuss_input::{case, inputs};
+use percuss_models::{analytic, chain, model};

@@ -1,0 +1,301 @@
+//! The ballistic limit of a case by every model that says whether the target is perforated, and speeds behind the target.
+//!
+//! ```
+//! use percuss::{case, limit::{limits, LimitOutcome, Search, Watch}, model::quick};
+//!
+//! let scenario = case::load_str("plate", r#"
+//!     projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "300 m/s" }
+//!     target = { material = "weldox-460-e", thickness = "12 mm" }
+//! "#)?;
+//! let limits = limits(&quick(), &scenario, &Search::default(), &mut Watch::default())?;
+//! let plugging = limits.results.iter().find(|limit| limit.model == "plugging").unwrap();
+//! assert_eq!(plugging.outcome, LimitOutcome::Found);
+//! assert!((plugging.ballistic_limit_m_s.unwrap() - 131.43).abs() < 0.01);
+//! # Ok::<(), percuss::Error>(())
+//! ```
+
+mod expected;
+mod findings;
+mod fit;
+mod jobs;
+mod rear_face;
+mod recommended;
+mod search;
+#[cfg(test)]
+mod study_tests;
+#[cfg(test)]
+mod tests;
+mod warnings;
+
+use serde::Serialize;
+
+use crate::{
+    Error, Scenario,
+    analytic::InputLimit,
+    compare::{Choice, ExperimentRecord},
+    model::Model,
+    outcome::BandQuantity,
+};
+
+pub use crate::compare::{Progress, Watch};
+pub use expected::ExpectedLimitError;
+pub use fit::{LambertJonasFit, fit_lambert_jonas};
+pub use rear_face::{RearFace, with_free_rear_face};
+
+/// Range of impact speeds [m/s], ends included.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// Lowest.
+    pub from: f64,
+    /// Highest.
+    pub to: f64,
+}
+
+impl Range {
+    /// The speed at a part of the way, 0 to 1; both ends are met exactly.
+    fn at(self, part: f64) -> f64 {
+        self.from * (1.0 - part) + self.to * part
+    }
+}
+
+/// How narrow a bracket is to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tolerance {
+    /// This wide [m/s].
+    Absolute(f64),
+    /// As wide as this part of the speed.
+    Relative(f64),
+}
+
+impl Tolerance {
+    /// Width at a speed [m/s].
+    fn at(self, speed: f64) -> f64 {
+        match self {
+            Self::Absolute(width) => width,
+            Self::Relative(part) => part * speed,
+        }
+    }
+}
+
+/// Where and how closely to search, and how many residual velocities to compute.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Search {
+    /// Range of impact speeds.
+    pub range: Range,
+    /// How narrow the bracket is to be.
+    pub tolerance: Tolerance,
+    /// Residual velocities to compute above the limit; none for 0.
+    pub points: usize,
+}
+
+impl Default for Search {
+    fn default() -> Self {
+        Self {
+            range: Range {
+                from: 0.0,
+                to: 2000.0,
+            },
+            tolerance: Tolerance::Absolute(0.1),
+            points: 12,
+        }
+    }
+}
+
+/// What a search came to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LimitOutcome {
+    /// A bracket was found.
+    Found,
+    /// The model starts from a given limit and predicts none.
+    Input,
+    /// Nothing in the range perforates.
+    NeverPerforates,
+    /// Everything in the range perforates.
+    AlwaysPerforates,
+    /// The shots do not say.
+    Undecided,
+    /// The model does not apply.
+    NotApplicable,
+    /// The model failed at every speed.
+    Failed,
+}
+
+impl LimitOutcome {
+    /// The outcome in words.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Found => "found",
+            Self::Input => "limit is an input",
+            Self::NeverPerforates => "never perforates",
+            Self::AlwaysPerforates => "always perforates",
+            Self::Undecided => "undecided",
+            Self::NotApplicable => "not applicable",
+            Self::Failed => "failed",
+        }
+    }
+}
+
+/// The two shots that enclose a limit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Bracket {
+    /// Highest impact speed below the limit that was stopped [m/s].
+    pub stopped_m_s: f64,
+    /// Lowest impact speed above it that perforated [m/s].
+    pub perforated_m_s: f64,
+}
+
+/// A speed behind the target.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CurvePoint {
+    /// Impact speed [m/s].
+    pub impact_velocity_m_s: f64,
+    /// Residual velocity [m/s].
+    pub residual_velocity_m_s: f64,
+}
+
+/// What one model says. The names are stable.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModelLimit {
+    /// Name of the model.
+    pub model: &'static str,
+    /// Scheme of the model.
+    pub scheme: &'static str,
+    /// What the search came to.
+    pub outcome: LimitOutcome,
+    /// Why there is no limit, if there is none.
+    pub reason: Option<String>,
+    /// Ballistic limit [m/s]: what the model states where the bracket holds it, otherwise the middle of the bracket.
+    pub ballistic_limit_m_s: Option<f64>,
+    /// Ballistic limit that the model states of itself [m/s].
+    pub stated_limit_m_s: Option<f64>,
+    /// Ballistic limit that the model starts from; it is no prediction.
+    pub input_limit: Option<InputLimit>,
+    /// Expected error of the limit, from published limits of the same kind.
+    pub expected_error: Option<ExpectedLimitError>,
+    /// The bracket.
+    pub bracket: Option<Bracket>,
+    /// Shots that were computed, those of the curve included.
+    pub runs: usize,
+    /// Residual velocities above the limit.
+    pub curve: Vec<CurvePoint>,
+    /// The curve of Lambert and Jonas through them.
+    pub fit: Option<LambertJonasFit>,
+    /// What a user should know before relying on the numbers.
+    pub warnings: Vec<String>,
+}
+
+/// What every model says of the ballistic limit of a case. The names are stable.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Limits {
+    /// Name of the case.
+    pub case: String,
+    /// Version of the program.
+    pub percuss_version: &'static str,
+    /// Lowest and highest impact speed of the search [m/s].
+    pub searched_m_s: (f64, f64),
+    /// Rear face of the target; null where it has none.
+    pub rear_face: Option<RearFace>,
+    /// The models that are the first choice at their own limit and predict limits; may be empty.
+    pub recommended: Vec<Choice>,
+    /// What to know of that choice, if there is something.
+    pub note: Option<String>,
+    /// Range of the limits that models predict; null where none does.
+    pub range: Option<LimitRange>,
+    /// What was measured.
+    pub experiments: Vec<ExperimentRecord>,
+    /// One entry per model, in their order.
+    pub results: Vec<ModelLimit>,
+}
+
+/// Lowest and highest of the limits that models predict. The names are stable.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LimitRange {
+    /// Lowest [m/s].
+    pub lowest_m_s: f64,
+    /// Highest [m/s].
+    pub highest_m_s: f64,
+    /// How many models predict one.
+    pub models: usize,
+}
+
+/// Searches for the ballistic limit of a case by these models, on all cores.
+///
+/// The rear face of a plate is free unless the case gives another one; behind a fixed one perforation is impossible. A model that
+/// does not apply, fails or finds none leaves the reason in its entry and never stops the others.
+///
+/// # Errors
+/// [`Error::Cancelled`] when `watch` says so.
+pub fn limits(
+    models: &[&dyn Model],
+    scenario: &Scenario,
+    search: &Search,
+    watch: &mut Watch<'_>,
+) -> Result<Limits, Error> {
+    let free = with_free_rear_face(scenario);
+    let scenario = free.as_ref().unwrap_or(scenario);
+    let mut results = jobs::run(models, scenario, search, watch)?;
+    for (model, entry) in models.iter().zip(&mut results) {
+        let limit = entry.ballistic_limit_m_s;
+        let expected = limit.map(|limit| expected::expected_error(*model, scenario, limit));
+        entry.expected_error = expected.flatten();
+    }
+    let (recommended, note) = recommended::recommended(models, scenario, &results);
+    Ok(Limits {
+        case: scenario.name.clone(),
+        percuss_version: env!("CARGO_PKG_VERSION"),
+        searched_m_s: (search.range.from, search.range.to),
+        rear_face: RearFace::of(scenario),
+        recommended,
+        note,
+        range: LimitRange::of(&results),
+        experiments: ExperimentRecord::all(scenario),
+        results,
+    })
+}
+
+impl LimitRange {
+    fn of(results: &[ModelLimit]) -> Option<Self> {
+        let found = || results.iter().filter_map(|entry| entry.ballistic_limit_m_s);
+        Some(Self {
+            lowest_m_s: found().reduce(f64::min)?,
+            highest_m_s: found().reduce(f64::max)?,
+            models: found().count(),
+        })
+    }
+}
+
+impl Limits {
+    /// Whether any model found a limit.
+    pub fn has_results(&self) -> bool {
+        self.results
+            .iter()
+            .any(|limit| limit.outcome == LimitOutcome::Found)
+    }
+
+    /// Whether a model is recommended.
+    pub fn is_recommended(&self, model: &str) -> bool {
+        self.recommended.iter().any(|choice| choice.model == model)
+    }
+
+    /// Models that predict a limit and have no expected error of it.
+    pub fn without_expected_error(&self) -> Vec<&'static str> {
+        let found = self.results.iter();
+        let found = found.filter(|entry| entry.outcome == LimitOutcome::Found);
+        found
+            .filter(|entry| entry.expected_error.is_none())
+            .map(|entry| entry.model)
+            .collect()
+    }
+
+    /// Mean of the measured ballistic limits [m/s], and of how many.
+    pub fn measured(&self) -> Option<(f64, usize)> {
+        let measured = self.experiments.iter();
+        let limits: Vec<f64> = measured
+            .filter(|measured| measured.quantity == BandQuantity::BallisticLimit)
+            .map(|measured| measured.value)
+            .collect();
+        let count = limits.len();
+        (count > 0).then(|| (limits.iter().sum::<f64>() / count as f64, count))
+    }
+}
