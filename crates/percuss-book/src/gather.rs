@@ -1,4 +1,4 @@
-//! Gathers what becomes the book: its pages refer to each other and to the cases by their places in the repository.
+//! Collection of the pages of the book; links between pages are their paths in the repository.
 
 use std::{fs, io, path::Path};
 

@@ -1,4 +1,4 @@
-//! The user guide as a book: the pages of `docs/` and of the cases.
+//! User guide as a book: pages of `docs/` and of the cases.
 //!
 //! `cargo run --manifest-path crates/percuss-book/Cargo.toml` builds it into `target/book`.
 

@@ -140,23 +140,18 @@ impl Failure {
                 message("no model applies to this case", "") + &lines(&reasons)
             }
             Self::Library(Error::Input(error)) => diagnostic::input_error(look, error),
-            Self::Library(Error::Read {
-                path,
-                reason,
-                source,
-            }) => {
+            Self::Library(error @ Error::Read { path, source, .. }) => {
                 let missing = source
                     .as_ref()
                     .is_some_and(|error| error.kind() == io::ErrorKind::NotFound);
-                let (reason, help) = match reason.split_once("; ") {
-                    Some(parts) => parts,
-                    None if missing && path.extension().is_some_and(|end| end == "csv") => {
-                        (&**reason, "give the path of a CSV file that exists")
+                let (what, remedy) = error.message_and_help();
+                let help = match remedy.as_str() {
+                    "" if missing && path.extension().is_some_and(|end| end == "csv") => {
+                        "give the path of a CSV file that exists"
                     }
-                    None if missing => (&**reason, "`percuss new NAME` writes a starter case"),
-                    None => (&**reason, ""),
+                    "" if missing => "`percuss new NAME` writes a starter case",
+                    remedy => remedy,
                 };
-                let what = format!("cannot read `{}`: {reason}", path.display());
                 message(&what, help)
             }
             Self::Library(error) => {

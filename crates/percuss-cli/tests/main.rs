@@ -28,3 +28,4 @@ mod sweep_faults;
 mod sweep_plot;
 mod uncertainty;
 mod validate;
+mod vocabulary;

@@ -1,4 +1,4 @@
-//! The native half of the Python package `percuss`: cases, runs and sweeps, and the answers of commands as JSON.
+//! The native half of the Python package `percuss`: cases, runs and sweeps, and the results of commands as JSON.
 //!
 //! It knows no option by name: cases, sweeps and command lines pass through it as data.
 

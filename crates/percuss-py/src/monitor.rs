@@ -1,4 +1,4 @@
-//! Long computations: progress goes to Python, Ctrl-C comes from it, and other Python threads run meanwhile.
+//! Progress and cancellation of long computations, while other Python threads run.
 
 use std::{
     ops::ControlFlow,
@@ -17,14 +17,14 @@ use pyo3::prelude::*;
 
 use crate::errors::raise;
 
-/// How often Python is asked: often enough for Ctrl-C to seem to work at once.
+/// Interval of progress reports and signal checks.
 const INTERVAL: Duration = Duration::from_millis(50);
 
-/// What Python is asked now and then.
+/// Progress reports to Python, with a check of signals.
 pub struct PythonMonitor<'py> {
     progress: Option<&'py Py<PyAny>>,
     last: Instant,
-    /// Why the computation was stopped, if it was.
+    /// Exception that stopped the computation.
     error: Option<PyErr>,
 }
 
@@ -37,7 +37,7 @@ impl<'py> PythonMonitor<'py> {
         }
     }
 
-    /// Tells Python how far it has come and hears whether to go on, unless it was asked just now.
+    /// Reports the progress to Python at intervals and returns whether to continue.
     pub fn report(&mut self, fraction: f64, words: impl FnOnce() -> String) -> ControlFlow<()> {
         if self.last.elapsed() < INTERVAL {
             return ControlFlow::Continue(());
@@ -59,7 +59,7 @@ impl<'py> PythonMonitor<'py> {
         }
     }
 
-    /// The result, or what Python raised when it was asked.
+    /// The result, or the exception of the progress callback.
     pub fn finish<T>(self, py: Python<'_>, result: Result<T, Failure>) -> PyResult<T> {
         match (self.error, result) {
             (Some(error), _) => Err(error),
@@ -69,7 +69,7 @@ impl<'py> PythonMonitor<'py> {
     }
 }
 
-/// What another thread says of its work.
+/// Progress shared with another thread.
 #[derive(Default)]
 pub struct SharedProgress {
     stop: AtomicBool,
@@ -77,7 +77,7 @@ pub struct SharedProgress {
 }
 
 impl SharedProgress {
-    /// Takes note of how far the work has come; says whether to go on.
+    /// Stores the progress and returns whether to continue.
     pub fn on_progress(&self, fraction: f64, words: &str) -> ControlFlow<()> {
         *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = (fraction, words.to_owned());
         match self.stop.load(Ordering::Relaxed) {
@@ -86,13 +86,13 @@ impl SharedProgress {
         }
     }
 
-    /// Becomes true when the work is to end.
+    /// Flag that ends the work.
     pub fn stop(&self) -> &AtomicBool {
         &self.stop
     }
 }
 
-/// Does work that uses many threads: signals arrive on this one, so it does nothing but listen.
+/// Runs multithreaded work on another thread; this thread handles signals and progress.
 pub fn run_monitored<T: Send>(
     py: Python<'_>,
     progress: Option<&Py<PyAny>>,

@@ -1,4 +1,4 @@
-//! What commands find out: JSON, and the samples that it rests on as columns of numbers.
+//! Results of commands: JSON, and samples as columns of numbers.
 
 use std::{collections::HashMap, ffi::OsString, path::PathBuf, sync::Arc};
 
@@ -15,14 +15,14 @@ use crate::{case::Case, errors::raise, history::Column, monitor::run_monitored, 
 /// Columns by name.
 pub type Numbers = Vec<(String, Vec<f64>)>;
 
-/// What a command found out.
+/// Result of a command.
 #[pyclass(frozen, module = "percuss._percuss")]
 pub struct Response {
     response: CommandResponse,
     numbers: Arc<Numbers>,
 }
 
-/// What a command line finds out; `cases` and `texts` stand in the place of files, by the names that it gives them.
+/// Executes a command line; `cases` and `texts` replace files of these names.
 #[pyfunction]
 #[pyo3(signature = (words, cases, texts, progress=None))]
 pub fn execute(
@@ -59,17 +59,17 @@ pub fn execute(
 
 #[pymethods]
 impl Response {
-    /// What the command prints with --json.
+    /// Output of --json.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
         self.response.json().map_err(|failure| raise(py, failure))
     }
 
-    /// The files that the command wrote.
+    /// Files that the command wrote.
     fn files(&self) -> Vec<PathBuf> {
         self.response.files.clone()
     }
 
-    /// What came of a run.
+    /// Result of a run.
     fn run(&self) -> Option<RunResult> {
         match &self.response.data {
             ResponseData::Run(run_output) => Some(RunResult::of(run_output)),
@@ -94,7 +94,7 @@ impl Response {
         Some(Column::of_numbers(&self.numbers, values))
     }
 
-    /// How each shot of an analysis of uncertainty ended.
+    /// Outcome of each run of an uncertainty analysis.
     fn outcomes(&self) -> Vec<&'static str> {
         match &self.response.data {
             ResponseData::Uncertainty(found) => {
@@ -106,7 +106,7 @@ impl Response {
     }
 }
 
-/// A row a shot: what was drawn, and what came of it; not a number where there is none.
+/// One row per run: inputs and results, NaN where a result is missing.
 fn of_draws(found: &Uncertainty) -> Numbers {
     let draws = &found.draws;
     let inputs = found.inputs.iter().enumerate();
@@ -126,7 +126,7 @@ fn of_draws(found: &Uncertainty) -> Numbers {
     numbers
 }
 
-/// A row a state, ensemble by ensemble, step by step, walker by walker.
+/// One row per state, ensemble by ensemble, step by step, walker by walker.
 fn of_sample(calibration: &Calibration) -> Numbers {
     let Some(sample) = &calibration.sample else {
         return Numbers::new();

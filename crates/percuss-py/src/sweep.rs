@@ -1,4 +1,4 @@
-//! Sweeps: computed here, or block by block anywhere and put into a folder here.
+//! Sweeps, computed in this process or block by block on a cluster.
 
 use std::{
     path::{Path, PathBuf},

@@ -1,4 +1,4 @@
-//! Figures against time.
+//! Figures versus time.
 
 use percuss::{
     history::{ElementState, History, Sample},
@@ -7,7 +7,7 @@ use percuss::{
 
 use crate::{AreaChart, Axis, LineChart, Mark, Series, Style, caption::significant};
 
-/// Colours of the lines of the energy book, in its order: dark for the projectile, light for the target.
+/// Colours of the terms of the energy balance, in its order: dark for the projectile, light for the target.
 const ENERGY_COLORS: [&str; 15] = [
     "#0072b2", "#56b4e9", // kinetic
     "#00664b", "#66d1b0", // elastic
@@ -20,7 +20,7 @@ const ENERGY_COLORS: [&str; 15] = [
     "#d7301f", // fracture
     "#9ecae9", "#b8e0c8", "#d98c5f", // plate around a plug: kinetic, elastic, plastic
 ];
-/// Lines of the energy book that never exceed this part of the initial energy are added up.
+/// Terms of the energy balance that never exceed this fraction of the initial energy are added up.
 const MINOR_ENERGY: f64 = 0.005;
 /// Width of lines that ring [px].
 const RINGING: f64 = 1.0;

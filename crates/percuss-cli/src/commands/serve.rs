@@ -118,6 +118,7 @@ fn read(path: &Path) -> Result<String, Failure> {
         Failure::Library(percuss::Error::Read {
             path: path.to_path_buf(),
             reason: error.to_string(),
+            remedy: String::new(),
             source: Some(error),
         })
     })

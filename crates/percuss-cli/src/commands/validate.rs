@@ -45,7 +45,7 @@ Examples:
   percuss validate
   percuss validate --model chain --kind taylor
   percuss validate --out validation
-  percuss validate --data my-shots.csv --data builtin
+  percuss validate --data tests.csv --data builtin
   percuss validate --json > validation.json
 
 Exit codes: 0 ok, 2 bad input, 4 a file could not be read or written";

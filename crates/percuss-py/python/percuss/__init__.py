@@ -101,7 +101,7 @@ __all__ = [
 ]
 
 #: Former names, with the names of today.
-_RENAMED = {"judge": "benchmark", "Judgement": "Benchmark"}
+_RENAMED = {"judge": "benchmark"}
 
 
 def __getattr__(name: str) -> NoReturn:

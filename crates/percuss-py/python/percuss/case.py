@@ -105,7 +105,7 @@ class Case:
 
     @property
     def impact_velocity_m_s(self) -> float:
-        """Impact speed [m/s]."""
+        """Impact velocity [m/s]."""
         return self._native.impact_velocity_m_s
 
     @property

@@ -80,6 +80,7 @@ class UsageError(PercussError, ValueError):
 
 class _FileError(PercussError, OSError):
     message: str = ""
+    help: str = ""
 
     def __str__(self) -> str:
         # An OSError with the name of a file would write its own text.
@@ -87,11 +88,11 @@ class _FileError(PercussError, OSError):
 
 
 class ReadError(_FileError):
-    """A file could not be read; ``filename`` names it, ``message`` says why."""
+    """A file could not be read; ``filename`` is its path, ``message`` the reason and ``help`` the remedy."""
 
 
 class WriteError(_FileError):
-    """A file or folder could not be written; ``filename`` names it, ``message`` says why."""
+    """A file or folder could not be written; ``filename`` is its path, ``message`` the reason and ``help`` the remedy."""
 
 
 class ClusterError(PercussError, RuntimeError):

@@ -183,9 +183,9 @@ def new(name: Path, *, force: bool = False) -> FilePath:
     Examples
     --------
     >>> import tempfile
-    >>> file = percuss.new(tempfile.mkdtemp() + "/my-shot")
+    >>> file = percuss.new(tempfile.mkdtemp() + "/my-case")
     >>> percuss.load(file).name
-    'my-shot'
+    'my-case'
     """
     (file,) = execute("new", name, force=force).files()
     return FilePath(file)

@@ -146,7 +146,7 @@ def uncertainty(
         Shots that the statistics rest on, a power of two at best; 1024 when not given. The indices of d parameters take
         ``samples * (d + 1)`` more.
     seed : int, optional
-        Decides over everything drawn at random; 0 when not given.
+        Seed of the random numbers; 0 when not given.
     quantity : str or sequence of str, optional
         Results to look at, such as ``peak_force_kn``; the main ones that vary when not given.
     velocity : float, sequence of float or str, optional

@@ -1,6 +1,6 @@
-//! The seal of a block's file: its checksum and what it is a block of, so that damage and mix-ups show.
+//! Checksum and identity of the file of a block, which reveal damaged and foreign files.
 //!
-//! Both stand in the key–value metadata of the Parquet file, which readers pass over.
+//! Both are in the key-value metadata of the Parquet file, which readers ignore.
 
 use flate2::Crc;
 
@@ -10,7 +10,7 @@ use super::manifest::Manifest;
 const CHECKSUM: &str = "percuss.checksum";
 /// Key of the name of the block.
 pub(super) const BLOCK: &str = "percuss.block";
-/// What stands before the checksum, and in its place while it is computed.
+/// Prefix of the checksum, and its placeholder during the computation.
 const MARK: &[u8] = b"crc32:";
 const OPEN: &[u8] = b"00000000";
 
@@ -31,7 +31,7 @@ pub(super) fn close(file: &mut [u8]) {
     }
 }
 
-/// Whether a file holds its own checksum.
+/// Whether the checksum of a file is correct.
 pub(super) fn is_whole(file: &[u8]) -> bool {
     place(file)
         .is_some_and(|place| file[place..place + OPEN.len()] == *checksum(file, place).as_bytes())

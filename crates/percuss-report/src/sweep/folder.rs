@@ -1,4 +1,4 @@
-//! Computing what a folder lacks.
+//! Folder of a sweep: its state, and the computation of missing blocks.
 
 use std::{
     fs::{self, File, TryLockError},
@@ -33,18 +33,18 @@ pub struct SweepFolder {
 /// How far a folder has come.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Status {
-    /// What it holds the results of.
+    /// Manifest of the sweep.
     pub manifest: Manifest,
-    /// Blocks that are there.
+    /// Completed blocks.
     pub done: Vec<u64>,
-    /// Blocks whose file is damaged; they are computed anew.
+    /// Blocks whose file is damaged; they are computed again.
     pub damaged: Vec<u64>,
     /// Whether a process is computing it.
     pub running: bool,
 }
 
 impl Status {
-    /// Shots that are there.
+    /// Completed runs.
     pub fn shots_done(&self) -> u64 {
         self.done
             .iter()

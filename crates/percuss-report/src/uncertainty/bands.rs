@@ -112,7 +112,7 @@ fn of_name(quantity: BandQuantity) -> &'static str {
     }
 }
 
-/// Chance of perforation against speed; `None` where no shot perforates, or nothing decides.
+/// Probability of perforation versus impact velocity; `None` where no run perforates.
 pub(super) fn perforation(scenario: &Scenario, found: &Uncertainty) -> Option<LineChart> {
     let decided: Vec<_> = found
         .bands

@@ -152,6 +152,7 @@ fn unreadable(file: &Path, error: &dyn std::fmt::Display) -> Error {
     Error::Read {
         path: file.to_path_buf(),
         reason: error.to_string(),
+        remedy: String::new(),
         source: None,
     }
 }

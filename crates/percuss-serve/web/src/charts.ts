@@ -72,7 +72,7 @@ export class ChartView {
     else this.draw();
   }
 
-  // Draws everything anew, as after a change of the theme.
+  // Redraws everything, as after a change of the theme.
   draw(): void {
     const chart = this.chart;
     if (!chart) return;

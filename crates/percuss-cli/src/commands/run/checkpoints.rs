@@ -38,6 +38,7 @@ pub fn load(folder: &Path) -> Result<Option<Vec<u8>>, Failure> {
         Err(error) => Err(Failure::Library(percuss::Error::Read {
             path,
             reason: error.to_string(),
+            remedy: String::new(),
             source: Some(error),
         })),
     }

@@ -241,6 +241,7 @@ impl Benchmark {
                         std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
                         _ => source.to_string(),
                     },
+                    remedy: String::new(),
                     source: Some(source),
                 })?;
                 drop(text);
