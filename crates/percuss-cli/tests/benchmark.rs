@@ -47,7 +47,7 @@ fn models_are_compared_with_a_reference() {
         "reference: own.csv (12 rows)\n",
         "- 2 cases have a reference that passes its convergence check on three meshes",
         "- 2 more cases are left out of all numbers",
-        "all cases, errors in %\n",
+        "all cases, errors in % (P10-P90: 10th-90th percentile)\n",
         "chain: diverging-penetrable",
         "median error in % by L/D\n",
         "case of the seed paper, one change at a time",

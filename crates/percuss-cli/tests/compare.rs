@@ -46,7 +46,7 @@ fn the_table_starts_with_regime_and_recommendation() {
         "case shot, impact at 183 m/s",
         "\nregime       deforming projectile, a rigid wall: ",
         "\nrecommended  chain: ",
-        "length      [%]",
+        "length          [%]",
         "difference",
         "\n chain ★ ",
         "16.81 ± 0.1",
@@ -66,7 +66,7 @@ fn a_sweep_has_one_row_per_velocity() {
     let text = ok(&folder, &["--velocity", "89..183:3"]);
     for part in [
         "3 velocities, 89 to 183 m/s",
-        "\n   136 ",
+        "\n      136 ",
         "difference from experiment [%]",
     ] {
         assert!(text.contains(part), "{part:?} is not in:\n{text}");

@@ -98,7 +98,7 @@ fn input_curve(chart: LineChart, limit: &ModelLimit, symbol: usize) -> LineChart
     let at = input.ballistic_limit_m_s;
     let points = limit.curve.iter();
     let points = points.map(|p| (p.impact_velocity_m_s, p.residual_velocity_m_s));
-    let name = format!("{}, input limit {} m/s", limit.model, significant(at));
+    let name = format!("{}, input {} m/s", limit.model, significant(at));
     let curve = Series::new(name, std::iter::once((at, 0.0)).chain(points));
     let color = palette::symbol_color(symbol);
     chart.series(curve.style(Style::Dashed).color(color))

@@ -78,20 +78,16 @@ pub(super) fn tornado(
     let name = format!("tornado-{}", stem(quantity.quantity));
     let mut chart = BarRows::new(
         name,
-        title(
-            "Tornado chart (one parameter at a time): effect on the",
-            quantity,
-            found,
-        ),
+        title("Tornado chart of the", quantity, found),
         axis(quantity),
         1,
     )
     .caption(format!(
-        "{}; all other parameters at their medians",
+        "{}; one parameter at a time, all others at their medians",
         caption(scenario, None)
     ))
-    .color("parameter at its 5th percentile", low_color)
-    .color("parameter at its 95th percentile", high_color)
+    .color("at 5th percentile", low_color)
+    .color("at 95th percentile", high_color)
     .mark(Mark::vertical("at median inputs", nominal));
     for TornadoBar {
         key,

@@ -49,7 +49,7 @@ fn words(record: &ResultRecord, quantity: BandQuantity, value: f64) -> String {
     let value = number(value, quantity.unit());
     match (&record.expected_error, quantity) {
         (Some(error), BandQuantity::DepthOfPenetration) => {
-            format!("{value}, estimated model error {}", error.in_words())
+            format!("{value}, model error {}", error.in_words())
         }
         _ => value,
     }

@@ -40,7 +40,10 @@ pub fn text(compared: &BenchmarkResults, origin: &Origin, by: &[Grouping]) -> St
         text += &format!("\n{}\n{}", bold(title), plain(table, SPACES));
     };
     let all = benchmark::statistics(verdicts, Grouping::All);
-    add("all cases, errors in %", &errors(&all));
+    add(
+        "all cases, errors in % (P10-P90: 10th-90th percentile)",
+        &errors(&all),
+    );
     for &grouping in by {
         let groups = benchmark::statistics(verdicts, grouping);
         for value in grouping.values() {
@@ -77,7 +80,7 @@ fn errors(groups: &[Group]) -> Table {
         .words("model", |group| group.contender)
         .numbers("n", "", |group| group.errors.count.to_string())
         .numbers("median", "", |group| signed(group.errors.median))
-        .numbers("10th-90th pct.", "", |group| {
+        .numbers("P10-P90", "", |group| {
             let errors = &group.errors;
             format!("{} … {}", signed(errors.low), signed(errors.high))
         })
