@@ -95,7 +95,7 @@ design = "sobol"
 samples = 240
 block_size = 2
 [[parameter]]
-key = "projectile.velocity"
+key = "projectile.impact_velocity"
 uniform = { from = "150 m/s", to = "400 m/s" }
 EOF
 cd "$work"

@@ -137,13 +137,13 @@ def chains_for(checked: Checked, seconds: float) -> int:
 
 
 BLOCK = 64
-"""Shots of a block of `percuss sweep`."""
+"""Runs of a block of `percuss sweep`."""
 RUNS, SHOTS = "percuss run, to rest", "percuss sweep, to rest"
 
 
 def shots(percuss: Program, seconds: float) -> Iterator[tuple[str, Work, Timing]]:
-    """percuss's own shots of the same case, which it computes with large strain, contact, border shear and books: for information."""
-    # About how long a shot takes [s].
+    """percuss's own runs of the same case, which it computes with large strain, contact, border shear and the energy balance: for information."""
+    # About how long a run takes [s].
     run, shot = 6e-3, 2e-3
     for name, what, kind, each in (
         (RUNS, "runs", ONE_POWER, run),

@@ -47,7 +47,7 @@ def text(checked: list[Checked], results: Results, skipped: dict[str, str], roun
         "",
         f"Million elements times steps a second: median (range) of {rounds} rounds, and the ratio to percuss of the same rounds.",
         "One core: of processor time. Two cores: by the clock. Off by: largest difference of an end from percuss's, as a part of the largest displacement.",
-        "The two last rows are percuss's real shots of the same case (large strain, contact, border shear, books; powers only where material flows).",
+        "The two last rows are percuss's full runs of the same case (large strain, contact, border shear, energy balance; powers only where material flows).",
     ]
     busy = [t.share for timings in results.values() for t in timings]
     if statistics.median(busy) < 0.9:

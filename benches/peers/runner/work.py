@@ -39,7 +39,7 @@ def springs() -> list[Spring]:
 
 def write(path: Path, chains: int, steps: int) -> None:
     """Writes the masses, the length of the rod in masses, the number of chains, of steps, and the time step; then a line a spring;
-    then the impact speed of every chain [m/s]."""
+    then the impact velocity of every chain [m/s]."""
     rows = springs()
     lines = [f"{len(rows)} {ROD} {chains} {steps} {TIME_STEP_S!r}"]
     lines += [

@@ -5,7 +5,7 @@ use percuss::model::{self, MODELS, Model};
 /// Models of these names in the order of the list; without names, all models that do not take minutes.
 pub fn named(names: &[String]) -> Vec<&'static dyn Model> {
     if names.is_empty() {
-        return model::quick();
+        return model::fast_models();
     }
     let models = MODELS.iter().copied();
     let is_named = |model: &&dyn Model| names.iter().any(|name| name == model.name());

@@ -69,11 +69,11 @@ fn head(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text: &m
     if !result.scheme.is_empty() {
         line += &format!(", scheme {}", result.scheme);
     }
-    if let Some(closure) = record.target_closure {
+    if let Some(closure) = record.target_resistance {
         line += &format!(", target resistance model {closure}");
     }
     *text += &paragraph(&line);
-    let choices = [&result.model_choice, &result.target_closure_choice];
+    let choices = [&result.model_choice, &result.target_resistance_choice];
     for choice in choices.into_iter().flatten() {
         *text += &paragraph(choice);
     }

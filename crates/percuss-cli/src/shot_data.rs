@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use percuss::{
+    experiments::{self, Experiment},
     material::Library,
-    shots::{self, Shot},
 };
 
 use crate::failure::Failure;
@@ -17,14 +17,14 @@ pub fn read(
     data: &[PathBuf],
     kinds: &[String],
     library: &Library,
-) -> Result<(Vec<Shot>, Vec<String>), Failure> {
-    let (mut shots, mut files): (Vec<Shot>, Vec<String>) = (Vec::new(), Vec::new());
+) -> Result<(Vec<Experiment>, Vec<String>), Failure> {
+    let (mut shots, mut files): (Vec<Experiment>, Vec<String>) = (Vec::new(), Vec::new());
     for path in data {
         let (more, name) = if path.as_path() == Path::new(BUILT_IN) {
-            let own = format!("tests of the program ({})", shots::built_in().len());
-            (shots::built_in().to_vec(), own)
+            let own = format!("tests of the program ({})", experiments::built_in().len());
+            (experiments::built_in().to_vec(), own)
         } else {
-            let read = shots::read(path, library)?;
+            let read = experiments::read(path, library)?;
             let name = format!("{} ({})", path.display(), read.len());
             (read, name)
         };

@@ -1,7 +1,7 @@
 //! Terminal output of a validation.
 
 use percuss::{
-    shots::Kind,
+    experiments::Kind,
     validate::{self, Coverage, Group, Grouping, Standing, Validation},
 };
 use percuss_report::validation::tables;
@@ -23,12 +23,12 @@ pub fn text(validation: &Validation, files: &[String], in_detail: bool) -> Strin
         wrap(&format!("data: {}", files.join(", ")), width(), 2)
     );
     let repeated = validation
-        .shots
+        .tests
         .iter()
         .filter(|shot| shot.duplicate_of.is_some())
         .count();
     let suspect = validation
-        .shots
+        .tests
         .iter()
         .filter(|shot| shot.flag.is_some())
         .count();
@@ -37,7 +37,7 @@ pub fn text(validation: &Validation, files: &[String], in_detail: bool) -> Strin
     }
     text += "relative errors in %: predicted / measured - 1\n";
     for kind in Kind::ALL {
-        if validation.shots.iter().any(|shot| shot.kind == kind) {
+        if validation.tests.iter().any(|shot| shot.kind == kind) {
             text += &section(validation, kind, in_detail);
         }
     }
@@ -53,7 +53,7 @@ fn section(validation: &Validation, kind: Kind, in_detail: bool) -> String {
     let models = tables::models(validation, kind);
     let mut text = format!(
         "\n{}\n",
-        bold(format!("{} (--kind {})", kind.in_words(), kind.name()))
+        bold(format!("{} (--kind {})", kind.describe(), kind.name()))
     );
     if !models.is_empty() {
         text += &plain(&models, SPACES);

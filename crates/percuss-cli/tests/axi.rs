@@ -8,7 +8,7 @@ use std::{
 use crate::support::percuss;
 
 const CASE: &str = r#"
-projectile = { material = "copper", length = "6 mm", diameter = "4 mm", velocity = "400 m/s" }
+projectile = { material = "copper", length = "6 mm", diameter = "4 mm", impact_velocity = "400 m/s" }
 target = { material = "aluminium-2024-t351", thickness = "4 mm" }
 [axi]
 cells_per_radius = 3

@@ -151,7 +151,7 @@ fn noise_is_refused() {
 fn a_long_line_does_not_flood_the_terminal() {
     let before = "x".repeat(450_000);
     let case = format!(
-        "title = \"{before}\"\nprojectile = {{ material = \"copper\", diameter = 4.8, velocity = \"{before} m/s\" }}\n"
+        "title = \"{before}\"\nprojectile = {{ material = \"copper\", diameter = 4.8, impact_velocity = \"{before} m/s\" }}\n"
     );
     let message = refused_bytes(case.as_bytes(), 2);
     assert!(message.contains(":2:48"), "{message}");

@@ -65,7 +65,7 @@ fn models_are_compared_with_a_reference() {
     );
     let lines = ok(folder.path(), &["--quiet"]);
     assert!(
-        lines.starts_with("contender=chain:column count=2 median="),
+        lines.starts_with("candidate=chain:column count=2 median="),
         "{lines}"
     );
 }
@@ -77,7 +77,7 @@ fn json_holds_statistics_and_verdicts_of_the_extrapolated_reference() {
     let verdicts = json["verdicts"].as_array().unwrap();
     let of = |speed: f64| {
         let own =
-            |v: &&Value| v["impact_velocity_m_s"] == speed && v["contender"] == "chain: column";
+            |v: &&Value| v["impact_velocity_m_s"] == speed && v["candidate"] == "chain: column";
         verdicts.iter().find(own).unwrap()
     };
     assert!((of(600.0)["reference_depth_mm"].as_f64().unwrap() - 2.0).abs() < 1e-9);
@@ -103,7 +103,7 @@ fn json_holds_statistics_and_verdicts_of_the_extrapolated_reference() {
     assert!(verdicts.iter().all(|v| v["projectile"] != "6061-t6-lesuer"));
     let all = &json["statistics"][0];
     assert_eq!(
-        (&all["contender"], &all["grouping"], &all["count"]),
+        (&all["candidate"], &all["grouping"], &all["count"]),
         (&"chain: column".into(), &"all".into(), &2.into())
     );
     assert_eq!(json["failures"], serde_json::json!([]));
@@ -130,7 +130,7 @@ fn the_report_is_written_whole() {
     assert!(markdown.contains("error-chain-column.png"), "{markdown}");
     let header = read("verdicts.csv").lines().next().unwrap().to_owned();
     assert!(
-        header.starts_with("contender,projectile,target,"),
+        header.starts_with("candidate,projectile,target,"),
         "{header}"
     );
     let references = read("references.csv");

@@ -90,7 +90,7 @@ fn the_folder_holds_a_material_that_a_case_takes() {
     assert!(folder.path().join("one/corner.png").is_file());
     let case = "
 material_files = ['one/material.toml']
-projectile = { material = 'my-copper', length = '23.47 mm', diameter = '7.62 mm', velocity = '183 m/s' }
+projectile = { material = 'my-copper', length = '23.47 mm', diameter = '7.62 mm', impact_velocity = '183 m/s' }
 target = { rigid_wall = true }
 ";
     fs::write(folder.path().join("case.toml"), case).unwrap();
@@ -127,7 +127,7 @@ target = { rigid_wall = true }
 fn a_case_with_experiments_is_data() {
     let folder = TempDir::new().unwrap();
     let case = "
-projectile = { material = 'copper', length = '23.47 mm', diameter = '7.62 mm', velocity = '183 m/s' }
+projectile = { material = 'copper', length = '23.47 mm', diameter = '7.62 mm', impact_velocity = '183 m/s' }
 target = { rigid_wall = true }
 ";
     fs::write(folder.path().join("case.toml"), case).unwrap();
@@ -147,7 +147,7 @@ target = { rigid_wall = true }
         "{}",
         said.stderr
     );
-    let measured = "[[experiments]]\nvelocity = '183 m/s'\nprojectile_final_length = '16.81 mm'\nsource = 'wilkins1973'\n";
+    let measured = "[[experiments]]\nimpact_velocity = '183 m/s'\nprojectile_final_length = '16.81 mm'\nsource = 'wilkins1973'\n";
     fs::write(folder.path().join("case.toml"), format!("{case}{measured}")).unwrap();
     let said = percuss(
         folder.path(),

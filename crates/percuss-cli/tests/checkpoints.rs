@@ -45,9 +45,9 @@ fn a_run_that_is_interrupted_continues_with_the_same_numbers() {
 
     // A few seconds on the column: long enough to be interrupted.
     let case = r#"
-        projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+        projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
         target = { material = "aluminium-2024-t351", thickness = "25 mm" }
-        chain = { target_closure = "column", projectile_elements = 1500, target_elements = 3000 }
+        chain = { target_resistance = "column", projectile_elements = 1500, target_elements = 3000 }
         "#;
     let folder = shot(case);
     let run = |out: &'static str| ["run", "shot.toml", "--model", "chain", "--out", out];

@@ -7,22 +7,22 @@ use tempfile::TempDir;
 use crate::support::{Said, flat, json, percuss, shot};
 
 const TAYLOR: &str = "
-projectile = { material = 'ofhc-copper', length = '23.47 mm', diameter = '7.62 mm', velocity = '183 m/s' }
+projectile = { material = 'ofhc-copper', length = '23.47 mm', diameter = '7.62 mm', impact_velocity = '183 m/s' }
 target = { rigid_wall = true }
 chain = { projectile_elements = 20 }
 [[experiments]]
-velocity = '89 m/s'
+impact_velocity = '89 m/s'
 projectile_final_length = '21.01 mm'
 source = 'wilkins1973'
 [[experiments]]
-velocity = '183 m/s'
+impact_velocity = '183 m/s'
 projectile_final_length = '16.81 mm'
 uncertainty = '0.1 mm'
 source = 'wilkins1973'
 ";
 /// An ogive that no more than one kind of model takes.
 const OGIVE: &str = "
-projectile = { material = '4340', length = '60 mm', diameter = '7.62 mm', velocity = '600 m/s', nose = { ogive = { crh = 3.0 } } }
+projectile = { material = '4340', length = '60 mm', diameter = '7.62 mm', impact_velocity = '600 m/s', nose = { ogive = { crh = 3.0 } } }
 target = { material = 'aluminium-2024-t351', thickness = '50 mm' }
 ";
 
@@ -218,7 +218,7 @@ fn speeds_that_are_none_are_refused_with_what_is_allowed() {
 #[test]
 fn a_failure_is_told_and_named() {
     // Elements that never erode are compressed to nothing at this speed.
-    let case = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '9 km/s' }\n\
+    let case = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '9 km/s' }\n\
                 target = { material = 'aluminium-2024-t351', thickness = 'semi-infinite' }\n\
                 chain = { erosion_strain = 'never', courant = 1.0 }";
     let said = compare(&shot(case), &["--model", "chain"]);
@@ -241,14 +241,14 @@ fn a_sweep_has_one_line_per_reason() {
 #[test]
 fn what_a_recommended_model_gives_and_what_was_measured_is_printed() {
     let plate = "
-projectile = { material = 'apm2-core', length = '27.6 mm', diameter = '6.17 mm', velocity = '300 m/s', nose = { ogive = { crh = 3.0 } } }
+projectile = { material = 'apm2-core', length = '27.6 mm', diameter = '6.17 mm', impact_velocity = '300 m/s', nose = { ogive = { crh = 3.0 } } }
 target = { material = 'aluminium-2024-t351', thickness = '40 mm' }
 [[experiments]]
-velocity = '200 m/s'
+impact_velocity = '200 m/s'
 depth_of_penetration = '3 mm'
 source = 'a'
 [[experiments]]
-velocity = '700 m/s'
+impact_velocity = '700 m/s'
 residual_velocity = '300 m/s'
 source = 'a'
 ";
@@ -276,7 +276,7 @@ source = 'a'
 
 /// A blunt rod on a plate that it does not perforate.
 const BLUNT: &str = "
-projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '100 m/s' }
+projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '100 m/s' }
 target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
 chain = { projectile_elements = 10, target_elements = 20 }
 ";

@@ -8,17 +8,18 @@ use tempfile::TempDir;
 use crate::support::{Said, flat, folder_with, json, percuss};
 
 const BLUNT: &str = "
-projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', velocity = '300 m/s' }
+projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', impact_velocity = '300 m/s' }
 target = { material = 'weldox-460-e', thickness = '12 mm' }
 [[experiments]]
 ballistic_limit = '184.5 m/s'
 source = 'borvik2002a'
 [[experiments]]
-velocity = '300 m/s'
+impact_velocity = '300 m/s'
 residual_velocity = '200 m/s'
 source = 'made up'
 ";
-const SHOTS: &str = "velocity_m_s,perforated\n180,no\n184,no\n188,no\n186,yes\n190,yes\n194,yes\n";
+const SHOTS: &str =
+    "impact_velocity_m_s,perforated\n180,no\n184,no\n188,no\n186,yes\n190,yes\n194,yes\n";
 
 fn folder(case: &str) -> TempDir {
     folder_with(&[("shot.toml", case), ("shots.csv", SHOTS)])
@@ -106,8 +107,8 @@ fn json_has_an_entry_a_model_with_stable_names() {
     assert_eq!(probit["method"], "probit");
     assert!((number(&probit["v50_m_s"]) - 187.0).abs() < 1e-6);
     let shots = object["shots"].as_array().unwrap();
-    assert_eq!(object["v50"]["shots"], shots.len());
-    assert!(number(&shots[0]["velocity_m_s"]) > 0.0 && shots[0]["perforated"].is_boolean());
+    assert_eq!(object["v50"]["tests"], shots.len());
+    assert!(number(&shots[0]["impact_velocity_m_s"]) > 0.0 && shots[0]["perforated"].is_boolean());
 }
 
 #[test]
@@ -141,13 +142,13 @@ fn a_range_that_is_stopped_or_perforated_throughout_is_an_answer() {
 #[test]
 fn where_no_model_applies_the_reasons_are_the_error() {
     let folder = folder("
-projectile = { material = 'ofhc-copper', length = '23.47 mm', diameter = '7.62 mm', velocity = '183 m/s' }
+projectile = { material = 'ofhc-copper', length = '23.47 mm', diameter = '7.62 mm', impact_velocity = '183 m/s' }
 target = { rigid_wall = true }
 ");
     let said = limit(&folder, &["shot.toml"]);
     assert_eq!((said.code, said.stdout.as_str()), (2, ""));
     assert!(
-        flat(&said.stderr).contains("the target has no back face to perforate"),
+        flat(&said.stderr).contains("the target has no rear face to perforate"),
         "{}",
         said.stderr
     );
@@ -207,7 +208,7 @@ fn shots_need_no_case_and_separated_ones_have_no_likeliest_v50() {
     );
     fs::write(
         folder.path().join("apart.csv"),
-        "velocity_m_s,perforated\n170,no\n180,no\n190,yes\n200,yes\n",
+        "impact_velocity_m_s,perforated\n170,no\n180,no\n190,yes\n200,yes\n",
     )
     .unwrap();
     let text = ok(&folder, &["--shots", "apart.csv", "--span", "20 m/s"]);
@@ -228,7 +229,7 @@ fn what_is_wrong_is_said_with_its_place() {
     let folder = folder(BLUNT);
     fs::write(
         folder.path().join("bad.csv"),
-        "velocity_m_s,perforated\n184,maybe\n",
+        "impact_velocity_m_s,perforated\n184,maybe\n",
     )
     .unwrap();
     for (arguments, code, words) in [
@@ -281,8 +282,8 @@ fn the_expected_error_is_that_on_published_limits_of_the_same_kind() {
     assert!(flat(&text).contains("noses on "), "{text}");
     let object = json(&ok(&folder, &[&options[..], &["--json"]].concat()));
     let expected = &object["results"][0]["expected_error"];
-    assert!(expected["shots"].as_u64().unwrap() >= 5, "{expected}");
-    assert_eq!(expected["blind"], expected["shots"]);
+    assert!(expected["cases"].as_u64().unwrap() >= 5, "{expected}");
+    assert_eq!(expected["blind"], expected["cases"]);
 }
 
 /// Without a word on the rear face the chain used to be stopped at every speed.
@@ -290,7 +291,7 @@ fn the_expected_error_is_that_on_published_limits_of_the_same_kind() {
 fn a_rear_face_is_free_unless_the_case_fixes_it() {
     let sheet = |back: &str| {
         format!(
-            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', velocity = '300 m/s' }}\n\
+            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '300 m/s' }}\n\
              target = {{ material = 'aluminium-2024-t351', thickness = '5 mm'{back} }}\n\
              chain = {{ projectile_elements = 10, target_elements = 8 }}\n"
         )

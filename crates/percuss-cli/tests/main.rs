@@ -1,4 +1,4 @@
-//! All integration tests of this crate as one program: what it tests is linked once, not once a file.
+//! All integration tests of this crate as one program: what it tests is linked once, not once per file.
 
 mod axi;
 mod bad_input;

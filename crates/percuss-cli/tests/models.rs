@@ -55,7 +55,7 @@ fn models_as_json_hold_their_whole_guard() {
         json(&ok(folder.path(), &["models", "chain", "--json"]))
     );
     assert_eq!(list[0]["name"], "chain");
-    assert_eq!(list[0]["guard"]["noses"], serde_json::json!(["flat"]));
+    assert_eq!(list[0]["validity"]["noses"], serde_json::json!(["flat"]));
     assert_eq!(
         list[3]["options"],
         serde_json::json!(["projectile_strength", "target_resistance"])
@@ -63,14 +63,17 @@ fn models_as_json_hold_their_whole_guard() {
     let keys =
         |value: &Value| -> Vec<String> { value.as_object().unwrap().keys().cloned().collect() };
     for model in list.as_array().unwrap() {
-        assert_eq!(keys(model), ["guard", "name", "options", "page", "summary"]);
+        assert_eq!(
+            keys(model),
+            ["validity", "name", "options", "page", "summary"]
+        );
         let page = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("../..")
             .join(model["page"].as_str().unwrap());
         assert!(page.is_file(), "{}", page.display());
-        let guard = &model["guard"];
+        let validity = &model["validity"];
         assert_eq!(
-            keys(guard),
+            keys(validity),
             [
                 "first_choice",
                 "fitted_to",
@@ -88,11 +91,11 @@ fn models_as_json_hold_their_whole_guard() {
                 "targets",
             ]
         );
-        for range in guard["ranges"].as_array().unwrap() {
+        for range in validity["ranges"].as_array().unwrap() {
             assert_eq!(keys(range), ["because", "max", "measure", "min", "outside"]);
             assert!(range["min"].is_number());
         }
-        for choice in guard["first_choice"].as_array().unwrap() {
+        for choice in validity["first_choice"].as_array().unwrap() {
             assert_eq!(
                 keys(choice),
                 [

@@ -105,7 +105,7 @@ fn a_crate_depends_on_lower_layers_only() {
 #[test]
 fn no_run_consults_a_benchmark() {
     let studies = ModuleGraph::read(&crates()["percuss-studies"]);
-    for table in ["model_error", "shots", "validate"] {
+    for table in ["model_error", "experiments", "validate"] {
         assert!(studies.modules.contains(table), "{table}");
     }
     let consults = studies.describe(|from, to| from == "summary" && to == "model_error");

@@ -14,7 +14,7 @@ material_files = ['../library/rod.toml', '../library/plate.toml']
 material = 'rod' # of the file
 length = '20 mm'
 diameter = '5 mm'
-velocity = '300 m/s'
+impact_velocity = '300 m/s'
 
 [target]
 material = 'plate'
@@ -32,7 +32,7 @@ poissons_ratio = 0.3
 strength.perfectly_plastic.flow_stress = '1 MPa'
 
 [[uncertainty.parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 normal = { mean = '300 m/s', standard_deviation = '3 m/s' }
 ";
 const ROD: &str = "

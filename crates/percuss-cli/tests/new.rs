@@ -70,7 +70,7 @@ fn a_new_case_shows_every_option_at_its_default() {
     let (text, options) = starter();
     let folder = shot(&text);
     let reference = ok(folder.path(), &["run", "shot.toml", "--json"]);
-    // These stand in place of something else, or have no default.
+    // These stand instead of something else, or have no default.
     let no_defaults = [
         "mass",
         "material_files",
@@ -171,7 +171,7 @@ fn the_example_options_of_a_new_case_can_be_written() {
         .map(|(block, _)| block)
         .unwrap();
     let lines = block.lines().filter_map(|line| line.strip_prefix("#   "));
-    let together = lines.filter(|line| !line.contains("in place of"));
+    let together = lines.filter(|line| !line.contains("instead of"));
     let (planar, rod): (Vec<&str>, Vec<&str>) =
         together.partition(|line| line.contains("geometry \"planar\" only"));
     let examples = [

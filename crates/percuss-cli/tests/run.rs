@@ -76,7 +76,7 @@ fn json_is_one_object_with_stable_names() {
     assert!(result["energy_residual"].as_f64().unwrap().abs() < 1e-3);
     assert!(result["warnings"].is_array());
     // A number that does not exist is null, not left out.
-    let wall = "projectile = { material = 'copper', length = '10 mm', diameter = '5 mm', velocity = '100 m/s' }\n\
+    let wall = "projectile = { material = 'copper', length = '10 mm', diameter = '5 mm', impact_velocity = '100 m/s' }\n\
                 target = { rigid_wall = true }";
     let folder = shot(wall);
     let object = json(&ok(folder.path(), &["run", "shot.toml", "--json"]));
@@ -113,21 +113,21 @@ fn quiet_is_one_line_with_the_values_of_json() {
 #[test]
 fn every_model_that_applies_writes_its_folder() {
     const PLATE: &str = r#"
-projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "300 m/s" }
+projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "300 m/s" }
 target = { material = "weldox-460-e", thickness = "12 mm" }
 chain = { projectile_elements = 10, target_elements = 10 }
 "#;
     const ROD: &str = r#"
-projectile = { material = "4340", length = "80 mm", diameter = "5 mm", velocity = "1500 m/s" }
+projectile = { material = "4340", length = "80 mm", diameter = "5 mm", impact_velocity = "1500 m/s" }
 target = { material = "aluminium-2024-t351", thickness = "semi-infinite" }
 chain = { projectile_elements = 10, target_elements = 10 }
 "#;
     const CORE: &str = r#"
-projectile = { material = "apm2-core", length = "35 mm", diameter = "6.17 mm", velocity = "300 m/s", nose = { ogive = { crh = 3.0 } } }
+projectile = { material = "apm2-core", length = "35 mm", diameter = "6.17 mm", impact_velocity = "300 m/s", nose = { ogive = { crh = 3.0 } } }
 target = { material = "aluminium-2024-t351", thickness = "semi-infinite" }
 "#;
     const WALL: &str = r#"
-projectile = { material = "ofhc-copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "183 m/s" }
+projectile = { material = "ofhc-copper", length = "23.47 mm", diameter = "7.62 mm", impact_velocity = "183 m/s" }
 target = { rigid_wall = true }
 chain = { projectile_elements = 10 }
 "#;
@@ -229,7 +229,7 @@ fn the_published_scheme_and_a_named_model_run() {
 #[test]
 fn a_numerical_failure_has_its_own_exit_code() {
     // Elements that never erode are compressed to nothing at this speed.
-    let case = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '9 km/s' }\n\
+    let case = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '9 km/s' }\n\
                 target = { material = 'aluminium-2024-t351', thickness = 'semi-infinite' }\n\
                 chain = { erosion_strain = 'never', courant = 1.0 }";
     let folder = shot(case);
@@ -250,7 +250,7 @@ fn a_numerical_failure_has_its_own_exit_code() {
 
 /// A rigid ogive on a thick plate, which the chain does not take.
 const OGIVE: &str = r#"
-projectile = { material = "4340", length = "60 mm", diameter = "8 mm", nose = { ogive = { crh = 3.0 } }, velocity = "400 m/s" }
+projectile = { material = "4340", length = "60 mm", diameter = "8 mm", nose = { ogive = { crh = 3.0 } }, impact_velocity = "400 m/s" }
 target = { material = "6061-t6", thickness = "semi-infinite" }
 "#;
 

@@ -24,7 +24,7 @@ model = 'chain'
 design = 'grid'
 block_size = 3
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 linear = { from = '150 m/s', to = '400 m/s', count = 40 }
 [[parameter]]
 key = 'chain.constraint_factor'
@@ -40,7 +40,7 @@ samples = 50
 seed = 3
 block_size = 4
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 normal = { mean = '150 m/s', standard_deviation = '120 m/s' }
 [[parameter]]
 key = 'chain.border_shear'
@@ -101,7 +101,7 @@ fn every_shot_is_a_row_and_one_that_fails_has_its_error() {
             .map(|column| column.name().to_owned());
         names.position(|found| found == name).unwrap()
     };
-    let (speed, outcome) = (column("projectile.velocity_m_s"), column("outcome"));
+    let (speed, outcome) = (column("projectile.impact_velocity_m_s"), column("outcome"));
     let (depth, error) = (column("depth_of_penetration_mm"), column("error"));
     let mut failed = 0;
     let rows = reader.get_row_iter(None).unwrap();

@@ -32,8 +32,8 @@ const NOBODY: u32 = 65534;
 fn folder(samples: u32) -> TempDir {
     let sweep = format!(
         "base = 'scenario.toml'\nmodel = 'chain'\ndesign = 'sobol'\nsamples = {samples}\nblock_size = 2
-[[parameter]]\nkey = 'projectile.velocity'\nuniform = {{ from = '150 m/s', to = '400 m/s' }}
-[[parameter]]\nkey = 'chain.target_closure'\nvalues = ['column', 'diverging', 'expanding-cavity']\n"
+[[parameter]]\nkey = 'projectile.impact_velocity'\nuniform = {{ from = '150 m/s', to = '400 m/s' }}
+[[parameter]]\nkey = 'chain.target_resistance'\nvalues = ['column', 'diverging', 'expanding-cavity']\n"
     );
     folder_with(&[("scenario.toml", CASE), ("sweep.toml", &sweep)])
 }

@@ -7,19 +7,19 @@ use tempfile::TempDir;
 use crate::support::{Said, flat, folder_with, percuss};
 
 const CASE: &str = "
-projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }
+projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '230 m/s' }
 target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
 chain = { projectile_elements = 10, target_elements = 20 }
 ";
 const SPEEDS: &str = "[[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 linear = { from = '150 m/s', to = '400 m/s', count = 8 }\n";
 /// Some of the speeds are negative, which no case has.
 const DRAWN_SPEEDS: &str = "[[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 normal = { mean = '150 m/s', standard_deviation = '120 m/s' }\n";
-const CLOSURES: &str = "[[parameter]]
-key = 'chain.target_closure'
+const RESISTANCE_MODELS: &str = "[[parameter]]
+key = 'chain.target_resistance'
 values = ['column', 'diverging', 'expanding-cavity']\n";
 const LENGTHS: &str = "[[parameter]]
 key = 'projectile.length'
@@ -59,7 +59,7 @@ const DEPTH: &str = "depth_of_penetration_mm";
 
 #[test]
 fn one_parameter_makes_a_curve_and_words_make_one_each() {
-    let folder = computed("design = 'grid'", &[SPEEDS, CLOSURES]);
+    let folder = computed("design = 'grid'", &[SPEEDS, RESISTANCE_MODELS]);
     let svg = drawn(&folder, &[], &format!("curves-{DEPTH}"));
     for word in [
         "column",
@@ -100,7 +100,7 @@ fn shots_that_failed_are_shown_and_counted() {
     assert!(svg.contains(&format!("40 runs, {failed} failed")));
     let folder = computed(
         "design = 'sobol'\nsamples = 40",
-        &[DRAWN_SPEEDS, CLOSURES, LENGTHS],
+        &[DRAWN_SPEEDS, RESISTANCE_MODELS, LENGTHS],
     );
     let svg = drawn(&folder, &[], &format!("parallel-{DEPTH}"));
     let failed = count(&svg, "failed (", ')');
@@ -108,7 +108,7 @@ fn shots_that_failed_are_shown_and_counted() {
     // A dashed line for each of them, and a full one for each of the others.
     assert_eq!(svg.matches("stroke-dasharray").count() as u64, failed);
     assert_eq!(svg.matches("stroke-opacity=\"0.6\"").count(), 40);
-    let named = ["--x", "projectile.velocity"];
+    let named = ["--x", "projectile.impact_velocity"];
     let svg = drawn(&folder, &named, &format!("curves-{DEPTH}"));
     assert_eq!(count(&svg, "failed (", ')'), failed);
     assert!(svg.contains("over all values of Target closure"));
@@ -141,13 +141,21 @@ fn a_request_that_does_not_fit_is_refused_with_what_does() {
     );
     refused(
         &["--x", "target.thickness"],
-        ["does not vary `target.thickness`", "projectile.velocity"],
+        [
+            "does not vary `target.thickness`",
+            "projectile.impact_velocity",
+        ],
     );
     refused(
         &["--style", "map"],
         ["a map needs two parameters", "--style curves"],
     );
-    let same = ["--x", "projectile.velocity", "--y", "projectile.velocity"];
+    let same = [
+        "--x",
+        "projectile.impact_velocity",
+        "--y",
+        "projectile.impact_velocity",
+    ];
     refused(&same, ["the same parameter", "name two"]);
     let said = percuss(folder.path(), ["sweep", "plot", "."]);
     assert_eq!(said.code, 2);

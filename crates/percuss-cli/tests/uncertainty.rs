@@ -7,11 +7,11 @@ use tempfile::TempDir;
 use crate::support::{Said, flat, folder_with, json, names_in, percuss, refuses_all_of};
 
 const CASE: &str = "
-projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }
+projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '230 m/s' }
 target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
 chain = { projectile_elements = 20, target_elements = 40 }
 [[uncertainty.parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 normal = { mean = '230 m/s', standard_deviation = '3 m/s' }
 [[uncertainty.parameter]]
 key = 'projectile.length'
@@ -19,19 +19,19 @@ uniform = { from = '12.5 mm', to = '13 mm' }
 ";
 const CORRELATION: &str = "
 [uncertainty.correlation]
-parameters = ['projectile.velocity', 'projectile.length']
+parameters = ['projectile.impact_velocity', 'projectile.length']
 matrix = [[1, 0.5], [0.5, 1]]
 ";
 const BLUNT: &str = "
-projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', velocity = '187 m/s' }
+projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', impact_velocity = '187 m/s' }
 target = { material = 'weldox-460-e', thickness = '12 mm', back_face = 'free' }
 recht_ipson = { ballistic_limit = '184.5 m/s' }
 [[experiments]]
-velocity = '184.8 m/s'
+impact_velocity = '184.8 m/s'
 residual_velocity = '0 m/s'
 source = 'borvik2002a'
 [[uncertainty.parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 normal = { mean = '187 m/s', standard_deviation = '5 m/s' }
 [[uncertainty.parameter]]
 key = 'recht_ipson.ballistic_limit'
@@ -60,7 +60,7 @@ fn tables_json_and_pairs_say_the_same() {
     let folder = folder();
     let arguments = ["case.toml", "--samples", "32", "--seed", "5"];
     let object = json(&ok(&folder, &[&arguments[..], &["--json"]].concat()));
-    assert_eq!(object["shots"], 1 + 4 + 32 * 4);
+    assert_eq!(object["runs"], 1 + 4 + 32 * 4);
     assert_eq!(object["inputs"][1]["distribution"], "uniform, 12.5 … 13 mm");
     let depth = &object["quantities"][0];
     assert_eq!(depth["quantity"], "depth_of_penetration_mm");
@@ -72,7 +72,7 @@ fn tables_json_and_pairs_say_the_same() {
     );
     assert_eq!(depth["indices"]["rows"], 32);
     assert_eq!(object["perforation"]["probability"], 0.0);
-    assert_eq!(object["failures"]["shots"], 0);
+    assert_eq!(object["failures"]["runs"], 0);
 
     let quiet = ok(&folder, &[&arguments[..], &["--quiet"]].concat());
     assert!(
@@ -130,7 +130,7 @@ fn correlated_parameters_have_all_but_indices() {
     );
     let object = json(&ok(&folder, &["joint.toml", "--samples", "16", "--json"]));
     assert_eq!(
-        (object["correlated"].as_bool(), object["shots"].as_u64()),
+        (object["correlated"].as_bool(), object["runs"].as_u64()),
         (Some(true), Some(21))
     );
     assert!(object["quantities"][0]["indices"].is_null());
@@ -179,23 +179,24 @@ fn a_folder_holds_numbers_and_figures() {
     let samples = fs::read_to_string(found.join("samples.csv")).unwrap();
     assert_eq!(samples.lines().count(), 1025);
     assert!(
-        samples.starts_with("projectile.velocity_m_s,recht_ipson.ballistic_limit_m_s,outcome,"),
+        samples
+            .starts_with("projectile.impact_velocity_m_s,recht_ipson.ballistic_limit_m_s,outcome,"),
         "{samples}"
     );
     let object = json(&fs::read_to_string(found.join("uncertainty.json")).unwrap());
     // Half of the difference of two normal variables over its deviation of 7.07 m/s.
     let probability = object["perforation"]["probability"].as_f64().unwrap();
     assert!((probability - 0.638).abs() < 0.004, "{probability}");
-    let chances: Vec<f64> = object["bands"]
+    let probabilities: Vec<f64> = object["bands"]
         .as_array()
         .unwrap()
         .iter()
         .map(|band| band["perforation"]["probability"].as_f64().unwrap())
         .collect();
-    assert_eq!(chances.len(), 11);
+    assert_eq!(probabilities.len(), 11);
     assert!(
-        chances.is_sorted() && chances[0] == 0.0 && chances[10] == 1.0,
-        "{chances:?}"
+        probabilities.is_sorted() && probabilities[0] == 0.0 && probabilities[10] == 1.0,
+        "{probabilities:?}"
     );
     for name in figures {
         let svg = fs::read_to_string(found.join(format!("{name}.svg"))).unwrap();

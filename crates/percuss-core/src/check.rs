@@ -14,9 +14,9 @@ pub struct Limits {
     pub max: f64,
 }
 
-/// A finding of a check, before it is tied to a place in a file.
+/// A diagnostic of a check, before it is tied to a place in a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Finding {
+pub struct Diagnostic {
     /// What it is about.
     pub subject: Subject,
     /// Key in dotted form.
@@ -27,7 +27,7 @@ pub struct Finding {
     pub help: String,
 }
 
-impl Finding {
+impl Diagnostic {
     /// What is wrong in a file as a whole.
     pub fn whole(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self::at("", message, help)
@@ -52,21 +52,21 @@ impl Finding {
     }
 }
 
-/// Collects findings; keys are relative to the table it stands in.
+/// Collects diagnostics; keys are relative to the table it stands in.
 #[derive(Debug)]
 pub struct Check<'a> {
     subject: Subject,
     prefix: String,
-    findings: &'a mut Vec<Finding>,
+    diagnostics: &'a mut Vec<Diagnostic>,
 }
 
 impl<'a> Check<'a> {
     /// A check at the root of a file.
-    pub fn new(findings: &'a mut Vec<Finding>) -> Self {
+    pub fn new(diagnostics: &'a mut Vec<Diagnostic>) -> Self {
         Self {
             subject: Subject::Case,
             prefix: String::new(),
-            findings,
+            diagnostics,
         }
     }
 
@@ -75,7 +75,7 @@ impl<'a> Check<'a> {
         Check {
             subject: self.subject,
             prefix: self.key(table),
-            findings: self.findings,
+            diagnostics: self.diagnostics,
         }
     }
 
@@ -84,7 +84,7 @@ impl<'a> Check<'a> {
         Check {
             subject: Subject::Material,
             prefix: self.prefix.clone(),
-            findings: self.findings,
+            diagnostics: self.diagnostics,
         }
     }
 
@@ -96,12 +96,12 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// Reports a finding at a key; an empty key is the table itself.
+    /// Reports a diagnostic at a key; an empty key is the table itself.
     pub fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
-        let finding = Finding::at(&self.key(key), message, help);
-        self.findings.push(Finding {
+        let diagnostic = Diagnostic::at(&self.key(key), message, help);
+        self.diagnostics.push(Diagnostic {
             subject: self.subject,
-            ..finding
+            ..diagnostic
         });
     }
 
@@ -116,7 +116,7 @@ impl<'a> Check<'a> {
                     "allowed: {} to {}{}",
                     display::<D>(limits.min),
                     display::<D>(limits.max),
-                    slip(value.si(), limits)
+                    unit_error(value.si(), limits)
                 ),
             );
         }
@@ -139,7 +139,7 @@ impl<'a> Check<'a> {
 }
 
 /// Says that a value would fit with another prefix of its unit, if it would.
-fn slip(value: f64, limits: Limits) -> &'static str {
+fn unit_error(value: f64, limits: Limits) -> &'static str {
     let fits = |value: f64| value > 0.0 && (limits.min..=limits.max).contains(&value);
     if fits(value * 1000.0) || fits(value / 1000.0) {
         "; is it off by a factor of 1000?"
@@ -148,7 +148,7 @@ fn slip(value: f64, limits: Limits) -> &'static str {
     }
 }
 
-/// Limits of what a case or a material may hold: wide enough for any real one, narrow enough to catch a slip of units.
+/// Limits of what a case or a material may hold: wide enough for any real one, narrow enough to detect a unit error.
 pub mod limits {
     use super::Limits;
 
@@ -169,7 +169,7 @@ pub mod limits {
     pub const DIAMETER: Limits = limits(1e-5, 10.0);
     /// Mass [kg].
     pub const MASS: Limits = limits(1e-9, 1e5);
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub const IMPACT_SPEED: Limits = limits(0.0, 10_000.0);
     /// Angle of an impact to the normal [rad]: up to 85 degrees.
     pub const OBLIQUITY: Limits = limits(0.0, 85.0 * std::f64::consts::PI / 180.0);

@@ -173,7 +173,7 @@ fn in_one_line(reasons: &[(&'static str, String)]) -> String {
 /// What an error of input is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Subject {
-    /// What a file describes: a case, a sweep, shots.
+    /// What a file describes: a case, a sweep, tests.
     #[default]
     Case,
     /// A material, or the name of one.

@@ -16,15 +16,15 @@ pub struct Sample {
     pub time: f64,
     /// Time step number.
     pub step: u64,
-    /// Speed of the projectile's front end [m/s].
+    /// Velocity of the projectile's front end [m/s].
     pub tip_velocity: f64,
-    /// Speed of the projectile's rear end [m/s].
+    /// Velocity of the projectile's rear end [m/s].
     pub tail_velocity: f64,
     /// Speed of the target's struck face, the crater floor [m/s].
     pub interface_velocity: f64,
-    /// Speed of the target's back face [m/s]; no number where there is none.
+    /// Speed of the target's rear face [m/s]; no number where there is none.
     pub back_velocity: f64,
-    /// Mean speed of the projectile [m/s].
+    /// Mean velocity of the projectile [m/s].
     pub mean_velocity: f64,
     /// Position of the projectile's front end below the original face [m].
     pub tip_position: f64,
@@ -34,7 +34,7 @@ pub struct Sample {
     pub projectile_length: f64,
     /// Force between projectile and target [N].
     pub contact_force: f64,
-    /// Force on the back face [N].
+    /// Force on the rear face [N].
     pub back_force: f64,
     /// Energy balance.
     pub energy: EnergyLedger,
@@ -108,7 +108,7 @@ impl ElementState {
 pub struct Profile {
     /// Time [s].
     pub time: f64,
-    /// Elements from the projectile's tail to the target's back face; eroded ones are left out.
+    /// Elements from the projectile's tail to the target's rear face; eroded ones are left out.
     pub elements: Vec<ElementState>,
 }
 

@@ -25,7 +25,7 @@ pub struct EnergyLedger {
     /// Lost when free ends meet: contact conserves momentum, not energy; it vanishes with the element mass.
     /// And what a penetrating tip lost to the target that it took up.
     pub contact: f64,
-    /// Energy that left through a non-reflecting back face, or is stored in what stands behind it.
+    /// Energy that left through a non-reflecting rear face, or is stored in what stands behind it.
     pub boundary: f64,
     /// Energy that eroded elements and target that was turned aside carried away.
     pub eroded: f64,
@@ -57,7 +57,7 @@ impl EnergyLedger {
             ("border shear", self.border_shear),
             ("viscosity and damping", self.viscous),
             ("contact", self.contact),
-            ("through back face", self.boundary),
+            ("through rear face", self.boundary),
             ("eroded", self.eroded),
             ("fracture", self.fracture),
             ("kinetic, plate", self.kinetic_plate),
@@ -81,7 +81,7 @@ impl EnergyLedger {
     }
 }
 
-/// Where the momentum of a run is [N s], along the direction of the shot.
+/// Where the momentum of a run is [N s], along the direction of impact.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct MomentumLedger {
@@ -91,7 +91,7 @@ pub struct MomentumLedger {
     pub projectile: f64,
     /// Momentum of the target.
     pub target: f64,
-    /// Impulse taken by a fixed back face, a wall, a non-reflecting boundary or the support of a plate.
+    /// Impulse taken by a fixed rear face, a wall, a non-reflecting boundary or the support of a plate.
     pub support: f64,
     /// Impulse taken by border shear, or by a constant-pressure target.
     pub border_shear: f64,

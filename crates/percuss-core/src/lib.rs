@@ -6,7 +6,6 @@ pub mod check;
 pub mod document;
 pub mod error;
 pub mod fragments;
-pub mod guard;
 pub mod history;
 pub mod lanes;
 pub mod ledger;
@@ -24,6 +23,7 @@ pub mod shapes;
 pub mod solver;
 pub mod statistics;
 pub mod units;
+pub mod validity;
 
 pub use error::{Error, InputError, NumericalError, Subject};
 pub use refusal::Refusal;

@@ -10,22 +10,22 @@ use crate::{
     units::ResultUnit,
 };
 
-/// How a shot ended.
+/// Outcome of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// The projectile stopped: its mean speed is within 1 % of the impact speed around zero.
+    /// The projectile stopped: its mean speed is within 1 % of the impact velocity around zero.
     AtRest,
     /// The projectile left the target backwards.
     Rebounded,
     /// The target moved away from the projectile, which still moves forward.
     Separated,
-    /// The crater floor passed the original back face of the target, or a plug left it: the hole is open, whether or not the projectile
+    /// The crater floor passed the original rear face of the target, or a plug left it: the hole is open, whether or not the projectile
     /// follows.
     Perforated,
     /// Nothing of the projectile is left.
     ProjectileEroded,
-    /// The run ended before the shot did.
+    /// The run ended before the impact was over.
     #[default]
     OutOfTime,
     /// The model does not apply.
@@ -45,7 +45,7 @@ impl Outcome {
     }
 
     /// The outcome in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::AtRest => "at rest",
             Self::Rebounded => "rebounded",
@@ -65,11 +65,11 @@ impl Outcome {
 pub enum Termination {
     /// The tip has stopped and neither depth nor dissipated energy grew over a round trip of a wave in the projectile.
     Quiescent,
-    /// Projectile and target have parted, will not meet again, and what still rings in them dissipates next to nothing.
+    /// Projectile and target have separated without further contact, and their vibrations dissipate almost nothing.
     Parted,
     /// The tip's speed reached zero (scheme `published`, paper section 3.6).
     TipStopped,
-    /// The crater floor passed the original back face.
+    /// The crater floor passed the original rear face.
     PassedBackFace,
     /// No border shear holds the plug any more, and projectile and plug fly at their final speeds.
     PlugFree,
@@ -86,20 +86,20 @@ pub enum Termination {
     EndTime,
     /// `max_steps` was reached.
     StepLimit,
-    /// Nothing moves: the impact speed is zero.
+    /// Nothing moves: the impact velocity is zero.
     NothingMoves,
 }
 
 impl Termination {
     /// The reason in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::Quiescent => {
                 "tip stopped; neither depth nor dissipation grew over a round trip of a wave"
             }
-            Self::Parted => "projectile and target have parted and will not meet again",
+            Self::Parted => "projectile and target have separated: no further contact",
             Self::TipStopped => "the tip's speed reached zero",
-            Self::PassedBackFace => "crater floor passed the original back face",
+            Self::PassedBackFace => "crater floor passed the original rear face",
             Self::PlugFree => "no border shear is left; projectile and plug fly freely",
             Self::ProjectileConsumed => "the last of the projectile eroded",
             Self::PenetrationStopped => {
@@ -109,7 +109,7 @@ impl Termination {
             Self::ClosedForm => "the answer is a formula",
             Self::EndTime => "end_time reached",
             Self::StepLimit => "max_steps reached",
-            Self::NothingMoves => "impact speed is zero",
+            Self::NothingMoves => "impact velocity is zero",
         }
     }
 }
@@ -126,10 +126,10 @@ pub struct RunResult {
     pub model_choice: Option<String>,
     /// Why the target resistance model is not the usual one, of a case that names none, and the depth by that one if it differs by more than a
     /// tenth; `None` otherwise.
-    pub target_closure_choice: Option<String>,
-    /// How the shot ended.
+    pub target_resistance_choice: Option<String>,
+    /// Outcome of the run.
     pub outcome: Outcome,
-    /// What the outcome was told by, in words; empty where the model names nothing beyond its termination.
+    /// Termination criterion, in words; empty where the model names nothing beyond its termination.
     pub criterion: String,
     /// Why the run was ended.
     pub termination: Termination,
@@ -143,7 +143,7 @@ pub struct RunResult {
     pub permanent_depth: Option<f64>,
     /// Mean speed of what is left of the projectile at the end, forward positive [m/s].
     pub residual_velocity: Option<f64>,
-    /// Impact speed above which the target is perforated [m/s].
+    /// Impact velocity above which the target is perforated [m/s].
     pub ballistic_limit: Option<f64>,
     /// Range that the model gives its main number: where its own constants are uncertain.
     pub band: Option<Band>,
@@ -153,7 +153,7 @@ pub struct RunResult {
     pub projectile_final_diameter: Option<f64>,
     /// Mass left of the projectile [kg].
     pub projectile_final_mass: Option<f64>,
-    /// Mass of the plug that a plate let go [kg].
+    /// Mass of the plug that is ejected from a plate [kg].
     pub plug_mass: Option<f64>,
     /// Its speed [m/s].
     pub plug_velocity: Option<f64>,
@@ -173,7 +173,7 @@ pub struct RunResult {
     pub numerics: Option<Numerics>,
     /// Crater and projectile at the end, from a model that has fields.
     pub shapes: Option<Shapes>,
-    /// What a user should know before relying on the numbers.
+    /// Limitations of the numbers.
     pub warnings: Vec<String>,
     /// Time histories, when they were asked for.
     pub history: Option<History>,
@@ -224,7 +224,7 @@ impl BandQuantity {
     }
 
     /// Its name in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::DepthOfPenetration => "depth",
             Self::ResidualVelocity => "residual velocity",

@@ -1,4 +1,4 @@
-//! What kind of shot a case is: what the projectile does, what kind of target it meets, and how sharp that judgement is.
+//! Regime of an impact: behaviour of the projectile, kind of target, and how certain that classification is.
 
 use std::fmt::Write as _;
 
@@ -29,7 +29,7 @@ impl ProjectileRegime {
     pub const ALL: &'static [Self] = &[Self::Rigid, Self::Deforming, Self::Eroding];
 
     /// The regime in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::Rigid => "rigid",
             Self::Deforming => "deforming",
@@ -42,7 +42,7 @@ impl ProjectileRegime {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TargetKind {
-    /// One material without a back face.
+    /// One material without a rear face.
     SemiInfinite,
     /// One plate, at least [`THICK`] projectile diameters thick.
     ThickPlate,
@@ -95,7 +95,7 @@ impl TargetKind {
     }
 
     /// The kind in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::SemiInfinite => "semi-infinite targets",
             Self::ThickPlate => "thick plates",
@@ -113,24 +113,24 @@ impl TargetKind {
     }
 }
 
-/// What kind of shot a case is.
+/// Regime of an impact.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Regime {
     /// What the projectile does.
     pub projectile: ProjectileRegime,
-    /// What it might do as well, as the judgement is not sharper than that.
+    /// Regime that it may also have, where the classification is uncertain.
     pub neighbour: Option<ProjectileRegime>,
     /// What is struck.
     pub target: TargetKind,
-    /// The numbers behind the judgement.
+    /// The numbers behind the classification.
     pub because: String,
 }
 
-/// Plastic strain at which a strength is judged: reached early in any impact that yields.
+/// Plastic strain at which a strength is evaluated: reached early in any impact that yields.
 const STRENGTH_STRAIN: f64 = 0.1;
-/// Factor on either side of a threshold stress within which the judgement is not sharp.
+/// Factor on either side of a threshold stress within which the classification is uncertain.
 const STRESS_EDGE: f64 = 1.5;
-/// Factor on either side of a threshold speed within which the judgement is not sharp.
+/// Factor on either side of a threshold speed within which the classification is uncertain.
 const SPEED_EDGE: f64 = 1.25;
 
 impl Regime {
@@ -271,23 +271,23 @@ impl Regime {
         format!("{kind}{ratio}")
     }
 
-    /// The regime in a few words, without the numbers behind the judgement.
+    /// The regime in a few words, without the numbers behind the classification.
     pub fn kind_in_words(&self, scenario: &Scenario) -> String {
-        let mut text = format!("{} projectile", self.projectile.in_words());
+        let mut text = format!("{} projectile", self.projectile.describe());
         if let Some(neighbour) = self.neighbour {
-            let _ = write!(text, " (or {})", neighbour.in_words());
+            let _ = write!(text, " (or {})", neighbour.describe());
         }
         let _ = write!(text, ", {}", self.target_in_words(scenario));
         text
     }
 
     /// The regime in one sentence.
-    pub fn in_words(&self, scenario: &Scenario) -> String {
+    pub fn describe(&self, scenario: &Scenario) -> String {
         format!("{}: {}", self.kind_in_words(scenario), self.because)
     }
 }
 
-/// A value to three digits: more would promise more than the judgement holds.
+/// A value to three digits: the classification is no more precise.
 fn rounded(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }

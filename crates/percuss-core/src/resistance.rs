@@ -1,4 +1,4 @@
-//! What a target opposes to penetration, where a program brings a law of its own along.
+//! Penetration resistance law of the caller's own.
 
 use std::{fmt, ptr, sync::Arc};
 
@@ -11,12 +11,12 @@ pub trait ResistanceLaw {
 
 /// A law of the caller's own. No file can name it, and it equals itself only.
 ///
-/// Model `chain` takes it in its target closure `expanding-cavity`, in the place of the pressure of the expanding cavity; what the
+/// Model `chain` takes it in its target resistance model `expanding-cavity`, instead of the pressure of the expanding cavity; what the
 /// projectile has spread beyond its own area presses with its flow stress, and no harder than the law.
 ///
 /// ```
 /// use std::sync::Arc;
-/// use percuss::{case, model::{self, Control}, resistance::{OwnResistance, ResistanceLaw}};
+/// use percuss::{case, model::{self, Control}, resistance::{CustomResistance, ResistanceLaw}};
 ///
 /// struct Constant;
 ///
@@ -27,24 +27,24 @@ pub trait ResistanceLaw {
 /// }
 ///
 /// let mut scenario = case::load_str("shot", "
-///     projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }
+///     projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '230 m/s' }
 ///     target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
 /// ")?;
-/// scenario.resistance = Some(OwnResistance(Arc::new(Constant)));
+/// scenario.resistance = Some(CustomResistance(Arc::new(Constant)));
 /// let result = model::run(model::model("chain")?, &scenario, &mut Control::default())?;
 /// assert!(result.depth_of_penetration.is_some_and(|depth| depth > 0.0));
 /// # Ok::<(), percuss::Error>(())
 /// ```
 #[derive(Clone)]
-pub struct OwnResistance(pub Arc<dyn ResistanceLaw + Send + Sync>);
+pub struct CustomResistance(pub Arc<dyn ResistanceLaw + Send + Sync>);
 
-impl PartialEq for OwnResistance {
+impl PartialEq for CustomResistance {
     fn eq(&self, other: &Self) -> bool {
         ptr::addr_eq(Arc::as_ptr(&self.0), Arc::as_ptr(&other.0))
     }
 }
 
-impl fmt::Debug for OwnResistance {
+impl fmt::Debug for CustomResistance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a law of the caller's own")
     }

@@ -5,10 +5,10 @@ use std::{f64::consts::PI, sync::Arc};
 use crate::{
     history::GaugePlace,
     material::Material,
-    options::{ModelOptions, TargetClosure},
+    options::{ModelOptions, TargetResistanceModel},
     outcome::BandQuantity,
-    problem::{BackFace, Extensions, LayerInterface, Nose, Support},
-    resistance::OwnResistance,
+    problem::{EdgeSupport, Extensions, LayerInterface, Nose, RearFaceCondition},
+    resistance::CustomResistance,
 };
 
 /// What strikes what, how fast, and by which options.
@@ -22,14 +22,14 @@ pub struct Scenario {
     pub sources: Vec<String>,
     /// What strikes.
     pub projectile: Rod,
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity: f64,
     /// Angle between the path and the normal of the struck face [rad].
     pub obliquity: f64,
     /// What is struck.
     pub target: TargetBody,
     /// What the target opposes to penetration, where the caller brings a law along; no file can name one.
-    pub resistance: Option<OwnResistance>,
+    pub resistance: Option<CustomResistance>,
     /// Why the default target resistance model of the chain is not the expanding cavity; `None` where it is, and where the case names
     /// one.
     pub resistance_reason: Option<String>,
@@ -50,8 +50,8 @@ pub struct Scenario {
 pub struct Given {
     /// `target.back_face`.
     pub rear_face: bool,
-    /// `chain.target_closure`.
-    pub target_closure: bool,
+    /// `chain.target_resistance`.
+    pub target_resistance: bool,
 }
 
 /// A measured value of one quantity, in SI units.
@@ -59,7 +59,7 @@ pub struct Given {
 pub struct Measurement {
     /// What was measured.
     pub quantity: BandQuantity,
-    /// Impact speed [m/s]; `None` for a ballistic limit without one.
+    /// Impact velocity [m/s]; `None` for a ballistic limit without one.
     pub impact_velocity: Option<f64>,
     /// The value [m or m/s].
     pub value: f64,
@@ -67,7 +67,7 @@ pub struct Measurement {
     pub uncertainty: Option<f64>,
     /// Bibliography keys.
     pub sources: Vec<String>,
-    /// What a user should know of it.
+    /// Remarks on it.
     pub note: String,
 }
 
@@ -104,8 +104,8 @@ pub enum TargetBody {
     Layers {
         /// From the struck face to the back.
         layers: Vec<Plate>,
-        /// What holds the back face.
-        back_face: BackFace,
+        /// Boundary condition of the rear face.
+        back_face: RearFaceCondition,
         /// Diameter of the column that is modelled [m], where a layer has none of its own.
         column_diameter: f64,
         /// Whether a layer has a gap, an interface or a diameter of its own.
@@ -125,7 +125,7 @@ pub struct PlateEdge {
     /// Diameter inside the support [m].
     pub diameter: f64,
     /// How it is held there.
-    pub support: Support,
+    pub support: EdgeSupport,
 }
 
 /// A layer of a target.
@@ -146,7 +146,7 @@ pub struct Plate {
 }
 
 impl Scenario {
-    /// The same case at another impact speed [m/s].
+    /// The same case at another impact velocity [m/s].
     pub fn at_speed(&self, impact_velocity: f64) -> Self {
         Self {
             impact_velocity,
@@ -156,13 +156,13 @@ impl Scenario {
 
     /// Makes a column the target resistance model, unless the case gives one: a study varies a key that only a column has.
     pub fn choose_column(&mut self, key: &str) {
-        if !self.given.target_closure {
-            self.options.chain.target_closure = Some(TargetClosure::Column);
+        if !self.given.target_resistance {
+            self.options.chain.target_resistance = Some(TargetResistanceModel::Column);
             self.resistance_reason = Some(format!("`{key}` is varied, and only a column has it"));
         }
     }
 
-    /// Whether the constants of one of its materials were calibrated on shots of a source.
+    /// Whether the constants of one of its materials were calibrated on tests of a source.
     pub fn is_calibrated_on(&self, source: &str) -> bool {
         let layers: &[Plate] = match &self.target {
             TargetBody::Layers { layers, .. } => layers,

@@ -12,6 +12,6 @@ pub mod model;
 #[cfg(test)]
 use percuss::{case, compare, summary};
 use percuss_core::{
-    Error, Refusal, Scenario, error, fragments, guard, history, lanes, ledger, material, options,
-    outcome, power, problem, regime, resistance, scenario, shapes, solver, units,
+    Error, Refusal, Scenario, error, fragments, history, lanes, ledger, material, options, outcome,
+    power, problem, regime, resistance, scenario, shapes, solver, units, validity,
 };

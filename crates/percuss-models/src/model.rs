@@ -21,7 +21,7 @@ pub use recommend::recommend;
 pub use recommend::{Choice, Recommendation};
 
 pub use crate::solver::{
-    Checkpoints, Control, Model, OnFrame, Progress, applicability, run, run_explained,
+    Checkpoints, Control, CostClass, Model, OnFrame, Progress, applicability, run, run_explained,
 };
 pub use crate::solver::{applicability_in, complete, run_in};
 
@@ -48,12 +48,12 @@ pub static MODELS: &[&dyn Model] = &[
     &AwerbuchBodner,
 ];
 
-/// The models that answer at once: what comparisons and validations run unless models are named.
-pub fn quick() -> Vec<&'static dyn Model> {
+/// The models that take seconds at most: what comparisons and validations run unless models are named.
+pub fn fast_models() -> Vec<&'static dyn Model> {
     MODELS
         .iter()
         .copied()
-        .filter(|model| !model.is_slow())
+        .filter(|model| model.cost() < CostClass::Minutes)
         .collect()
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use percuss::resistance::{OwnResistance, ResistanceLaw};
+use percuss::resistance::{CustomResistance, ResistanceLaw};
 use pyo3::{exceptions::PyValueError, prelude::*};
 
 use crate::first_error::FirstError;
@@ -16,8 +16,8 @@ struct Law {
 }
 
 /// A function of the depth [m] and the speed [m/s] of the crater floor as a law; what it raises goes to `error`.
-pub fn resistance(function: Py<PyAny>, error: FirstError) -> OwnResistance {
-    OwnResistance(Arc::new(Law { function, error }))
+pub fn resistance(function: Py<PyAny>, error: FirstError) -> CustomResistance {
+    CustomResistance(Arc::new(Law { function, error }))
 }
 
 impl ResistanceLaw for Law {

@@ -99,7 +99,7 @@ impl Response {
         match &self.response.data {
             ResponseData::Uncertainty(found) => {
                 let draws = found.draws.iter();
-                draws.map(|draw| draw.outcome.in_words()).collect()
+                draws.map(|draw| draw.outcome.describe()).collect()
             }
             _ => Vec::new(),
         }

@@ -8,7 +8,7 @@ use std::{
     },
 };
 
-use percuss::sweep::{BatchKernel, Row, Sweep as Loaded};
+use percuss::sweep::{BatchKernel, Sweep as Loaded, SweepRow};
 use percuss_cli::Failure;
 use percuss_report::sweep::{Block, SweepFolder as Folder};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyBytes};
@@ -34,7 +34,7 @@ impl Sweep {
     /// Number of shots.
     #[getter]
     fn shots(&self) -> u64 {
-        self.sweep.shots()
+        self.sweep.runs()
     }
 
     /// The files that it rests on: itself, its base case and the material files of that.
@@ -133,7 +133,7 @@ pub fn compute_sweep(
         .sum();
     run_monitored(py, progress.as_ref(), |progress_state| {
         let done = AtomicU64::new(0);
-        let on_progress = |rows: &[Row]| {
+        let on_progress = |rows: &[SweepRow]| {
             let done = done.fetch_add(rows.len() as u64, Ordering::Relaxed) + rows.len() as u64;
             // Whether to go on is asked of the progress_state by the folder itself.
             let _ = progress_state

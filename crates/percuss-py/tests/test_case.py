@@ -13,7 +13,7 @@ import percuss
 import pytest
 from conftest import CASES, Program
 
-COPPER = {"material": "copper", "length": "12.74 mm", "diameter": "4.8 mm", "velocity": "230 m/s"}
+COPPER = {"material": "copper", "length": "12.74 mm", "diameter": "4.8 mm", "impact_velocity": "230 m/s"}
 PLATE = {"material": "aluminium-2024-t351", "thickness": "25 mm"}
 
 
@@ -40,7 +40,7 @@ def test_material_files_are_found_from_where_the_case_stands(tmp_path: Path, mon
     read = percuss.load("shot/shot.toml")
     depth = percuss.run(read).depth_of_penetration_mm
     # Changed or sent elsewhere on this machine, it still finds them.
-    for case in (built, read.replace({"projectile.velocity": 230.0}), pickle.loads(pickle.dumps(read))):
+    for case in (built, read.replace({"projectile.impact_velocity": 230.0}), pickle.loads(pickle.dumps(read))):
         assert percuss.run(case).depth_of_penetration_mm == depth
         assert percuss.compare(case, model="chain").results[0].depth_of_penetration_mm == depth
     with pytest.raises(percuss.MaterialError, match="cannot read"):
@@ -52,19 +52,19 @@ def test_numbers_are_in_si_units_where_a_quantity_is_due() -> None:
         projectile={**COPPER, "temperature": "293 K"},
         target=PLATE,
         chain={"constraint_factor": 2.7, "courant": 0.5, "end_time": "50 us"},
-        experiments=[{"velocity": "230 m/s", "depth_of_penetration": "0.25 mm", "source": "user"}],
+        experiments=[{"impact_velocity": "230 m/s", "depth_of_penetration": "0.25 mm", "source": "user"}],
         materials={"mine": {"name": "mine", "density": "8000 kg/m3", "youngs_modulus": "100 GPa", "poissons_ratio": 0.3,
                             "strength": {"perfectly_plastic": {"flow_stress": "300 MPa"}}}},
     )
     numbers = percuss.Case(
-        projectile={"material": "copper", "length": 12.74e-3, "diameter": 4.8e-3, "velocity": 230, "temperature": 293},
+        projectile={"material": "copper", "length": 12.74e-3, "diameter": 4.8e-3, "impact_velocity": 230, "temperature": 293},
         target={"material": "aluminium-2024-t351", "thickness": numpy.float64(25e-3)},
         chain={"constraint_factor": numpy.float32(2.7).item(), "courant": 0.5, "end_time": 50e-6},
-        experiments=[{"velocity": 230.0, "depth_of_penetration": 0.25e-3, "source": "user"}],
+        experiments=[{"impact_velocity": 230.0, "depth_of_penetration": 0.25e-3, "source": "user"}],
         materials={"mine": {"name": "mine", "density": 8000, "youngs_modulus": 100e9, "poissons_ratio": 0.3,
                             "strength": {"perfectly_plastic": {"flow_stress": 300e6}}}},
     )
-    assert 'velocity = "230 m/s"' in numbers.text and "courant = 0.5" in numbers.text
+    assert 'impact_velocity = "230 m/s"' in numbers.text and "courant = 0.5" in numbers.text
     first, second = (percuss.run(case).to_dict() for case in (with_units, numbers))
     for name, value in first.items():
         if isinstance(value, float):
@@ -73,7 +73,7 @@ def test_numbers_are_in_si_units_where_a_quantity_is_due() -> None:
 
 def test_an_si_number_keeps_all_its_bits() -> None:
     speed = 230.0 * (1 + 2**-50)
-    case = percuss.Case(projectile={**COPPER, "velocity": speed}, target=PLATE)
+    case = percuss.Case(projectile={**COPPER, "impact_velocity": speed}, target=PLATE)
     assert case.impact_velocity_m_s == speed
     assert percuss.Case.from_text(case.text).impact_velocity_m_s == speed
 
@@ -82,7 +82,7 @@ def test_a_case_can_be_written_changed_and_sent(tmp_path: Path, program: Program
     case = percuss.Case("shot", projectile=COPPER, target=PLATE, chain=None)
     case.save(tmp_path / "shot.toml")
     assert f"{percuss.run(case).depth_of_penetration_mm}" in program("run", tmp_path / "shot.toml", "--json").stdout
-    faster = case.replace({"projectile.velocity": 400.0, "chain.target_elements": 40})
+    faster = case.replace({"projectile.impact_velocity": 400.0, "chain.target_elements": 40})
     assert (faster.impact_velocity_m_s, case.impact_velocity_m_s) == (400.0, 230.0)
     assert tomllib.loads(faster.text)["chain"]["target_elements"] == 40
     sent = pickle.loads(pickle.dumps(faster))

@@ -113,7 +113,7 @@ def test_what_is_wrong_with_a_sweep_or_a_worker_is_said(
         "base": str(case.resolve()),
         "model": "tate",
         "design": "grid",
-        "parameter": [{"key": "projectile.velocity", "values": ["900 m/s"]}],
+        "parameter": [{"key": "projectile.impact_velocity", "values": ["900 m/s"]}],
     }
     with pytest.raises(percuss.UsageError, match="is an absolute path"):
         percuss.sweep(sweep, tmp_path / "rows", client=client)

@@ -55,7 +55,7 @@ def test_the_kind_of_error_says_what_is_wrong(program: Program, tmp_path: Path) 
 
     with pytest.raises(percuss.MaterialError, match="coper"):
         percuss.Case(
-            projectile={"material": "coper", "length": "1 mm", "diameter": "1 mm", "velocity": "1 m/s"},
+            projectile={"material": "coper", "length": "1 mm", "diameter": "1 mm", "impact_velocity": "1 m/s"},
             target={"rigid_wall": True},
         )
 
@@ -78,7 +78,7 @@ def test_a_numerical_failure_has_time_step_and_element(program: Program, tmp_pat
     # Elements that never erode are compressed to nothing at this speed.
     failing = tmp_path / "failing.toml"
     failing.write_text(
-        "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '9 km/s' }\n"
+        "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '9 km/s' }\n"
         "target = { material = 'aluminium-2024-t351', thickness = 'semi-infinite' }\n"
         "chain = { erosion_strain = 'never', courant = 1.0 }"
     )

@@ -88,7 +88,7 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 @pytest.mark.parametrize("what", CALLS)
 def test_a_folder_is_that_of_the_program(what: str, program: Program, tmp_path: Path) -> None:
-    (tmp_path / "shots.csv").write_text("velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
+    (tmp_path / "shots.csv").write_text("impact_velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
     (tmp_path / "reference.csv").write_text(REFERENCE)
     words, call = CALLS[what]
     # Reports name the command that wrote them: both write to a folder of the same name.
@@ -113,7 +113,7 @@ def test_without_a_folder_nothing_is_written() -> None:
 def test_a_run_that_is_stopped_goes_on_to_the_folder_of_the_program(program: Program, tmp_path: Path) -> None:
     case = percuss.Case(
         "short",
-        projectile={"material": "copper", "length": "6 mm", "diameter": "4 mm", "velocity": "400 m/s"},
+        projectile={"material": "copper", "length": "6 mm", "diameter": "4 mm", "impact_velocity": "400 m/s"},
         target={"material": "aluminium-2024-t351", "thickness": "4 mm"},
         axi={"cells_per_radius": 8, "target_radius": "8 mm", "end_time": "4 us"},
     )

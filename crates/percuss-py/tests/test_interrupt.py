@@ -17,7 +17,7 @@ LONG = {
     "run": "percuss.run(case, 'axi')",
     "compare": "percuss.compare(case, model='axi', velocity=[300, 400, 500, 600])",
     "sweep": "percuss.sweep({'base': case, 'model': 'chain', 'design': 'sobol', 'samples': 100000, 'parameter': [{'key':"
-    " 'projectile.velocity', 'uniform': {'from': '150 m/s', 'to': '400 m/s'}}]}, sys.argv[1])",
+    " 'projectile.impact_velocity', 'uniform': {'from': '150 m/s', 'to': '400 m/s'}}]}, sys.argv[1])",
     "uncertainty": "percuss.uncertainty('cases/paper-table1-uncertainty/scenario.toml', samples=1048576)",
     "run with its folder": "percuss.run(case, 'axi', out=sys.argv[1])",
     "benchmark": "percuss.benchmark(compute=True, paper_case=sys.argv[1] + '.csv')",

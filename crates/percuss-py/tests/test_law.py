@@ -19,9 +19,9 @@ MINE: dict[str, Any] = {
 
 def shot(target: dict[str, Any], material: dict[str, Any] = MINE) -> percuss.Case:
     return percuss.Case(
-        projectile={"material": "mine", "length": 0.02, "diameter": 0.005, "velocity": 150.0},
+        projectile={"material": "mine", "length": 0.02, "diameter": 0.005, "impact_velocity": 150.0},
         target=target,
-        chain={"projectile_elements": 10, "target_elements": 20, "target_closure": "column"} if "material" in target
+        chain={"projectile_elements": 10, "target_elements": 20, "target_resistance": "column"} if "material" in target
         else {"projectile_elements": 10},
         materials={"mine": material},
     )
@@ -71,7 +71,7 @@ BLOCK = {"material": "aluminium-2024-t351", "thickness": "semi-infinite"}
 
 def thick(speed: float, **chain: Any) -> percuss.Case:
     return percuss.Case(
-        projectile={"material": "mine", "length": 0.05, "diameter": 0.005, "velocity": speed},
+        projectile={"material": "mine", "length": 0.05, "diameter": 0.005, "impact_velocity": speed},
         target=BLOCK,
         chain={"projectile_elements": 20, "target_elements": 20, **chain},
         materials={"mine": RIGID},
@@ -118,6 +118,6 @@ def test_what_a_law_of_resistance_does_wrong_ends_the_run(law: Any, error: type[
 
 
 def test_where_there_is_no_crater_floor_a_law_of_resistance_is_refused() -> None:
-    for case, model in [(thick(150.0), "fdm"), (thick(150.0, target_closure="column"), "chain"), (shot({"rigid_wall": True}), "chain")]:
+    for case, model in [(thick(150.0), "fdm"), (thick(150.0, target_resistance="column"), "chain"), (shot({"rigid_wall": True}), "chain")]:
         with pytest.raises(percuss.NotApplicableError, match="resistance law"):
             percuss.run(case, model, resistance_law=lambda _depth, _speed: 1e9)

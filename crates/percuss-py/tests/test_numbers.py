@@ -45,7 +45,7 @@ def test_a_run_without_a_model_takes_the_one_of_the_program(program: Program, tm
             "length": "60 mm",
             "diameter": "8 mm",
             "nose": {"ogive": {"crh": 3.0}},
-            "velocity": "400 m/s",
+            "impact_velocity": "400 m/s",
         },
         target={"material": "6061-t6", "thickness": "semi-infinite"},
     )
@@ -86,7 +86,7 @@ def test_every_command_gives_the_answer_of_the_program(program: Program, tmp_pat
     assert [m.to_dict() for m in percuss.materials("titanium")] == answer(program, "materials", "titanium")
 
     shots = tmp_path / "shots.csv"
-    shots.write_text("velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
+    shots.write_text("impact_velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
     assert percuss.limit(shots=shots).to_dict() == answer(program, "limit", "--shots", str(shots))
 
     assert percuss.converge(case, levels=3).to_dict() == answer(program, "converge", case, "--levels", "3")

@@ -38,7 +38,7 @@ def records(tmp_path_factory: pytest.TempPathFactory) -> dict[type[Record], list
     folder = tmp_path_factory.mktemp("shots")
     shots, reference = folder / "shots.csv", folder / "reference.csv"
     reference.write_text(REFERENCE)
-    shots.write_text("velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
+    shots.write_text("impact_velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
     coefficient = {f"{law}.coefficient": "150..900 MPa"}
     copper: dict[str, Any] = {"data": "builtin", "source": "wilkins1973", "model": "wilkins_guinan"}
     return {
@@ -144,7 +144,7 @@ def test_lists_are_tables() -> None:
 
 def test_what_was_not_asked_for_is_not_drawn(tmp_path: Path) -> None:
     shots = tmp_path / "shots.csv"
-    shots.write_text("velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n")
+    shots.write_text("impact_velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n")
     limits = percuss.limit(shots=shots)
     assert limits.to_pandas().empty and limits.plot_v50().lines
     with pytest.raises(ValueError, match="no case was searched"):

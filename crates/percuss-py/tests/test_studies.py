@@ -83,13 +83,13 @@ def test_a_material_whose_id_is_digits_can_be_uncertain(program: Program, tmp_pa
     }
     case = percuss.Case(
         "rod",
-        projectile={"material": "4340", "length": "25 mm", "diameter": "7.6 mm", "velocity": "200 m/s"},
+        projectile={"material": "4340", "length": "25 mm", "diameter": "7.6 mm", "impact_velocity": "200 m/s"},
         target={"rigid_wall": True},
         materials={"4340": steel},
         uncertainty={"parameter": [{"key": key, "normal": {"mean": "900 MPa", "standard_deviation": "50 MPa"}}]},
     )
     found = percuss.uncertainty(case, model="taylor", samples=16)
-    assert found.inputs[0].key == key and found.failures.shots == 0
+    assert found.inputs[0].key == key and found.failures.runs == 0
     case.save(tmp_path / "rod.toml")
     assert found.to_dict() == answer(program, "uncertainty", str(tmp_path / "rod.toml"), "--model", "taylor", "--samples", "16")
     # The length left rises with the flow stress.
@@ -138,7 +138,7 @@ def test_a_calibration_is_that_of_the_program(program: Program, tmp_path: Path) 
     ours.save_materials(tmp_path / "mine.toml")
     assert tomllib.loads((tmp_path / "mine.toml").read_text()) == tomllib.loads((tmp_path / "out/material.toml").read_text())
     (name,) = ours.materials
-    shot = {"material": name, "length": "23.47 mm", "diameter": "7.62 mm", "velocity": "183 m/s"}
+    shot = {"material": name, "length": "23.47 mm", "diameter": "7.62 mm", "impact_velocity": "183 m/s"}
     wall = {"rigid_wall": True}
     runs = [
         percuss.run(percuss.Case(projectile=shot, target=wall, **materials), "wilkins_guinan")
@@ -153,9 +153,9 @@ def test_cases_and_priors_in_code_are_those_of_files(program: Program, tmp_path:
     shots = [
         percuss.Case(
             f"shot-{i}",
-            projectile={"material": "copper", "length": "23.47 mm", "diameter": "7.62 mm", "velocity": velocity},
+            projectile={"material": "copper", "length": "23.47 mm", "diameter": "7.62 mm", "impact_velocity": velocity},
             target={"rigid_wall": True},
-            experiments=[{"velocity": velocity, "projectile_final_length": length, "source": "wilkins1973"}],
+            experiments=[{"impact_velocity": velocity, "projectile_final_length": length, "source": "wilkins1973"}],
         )
         for i, (velocity, length) in enumerate([(183.0, 0.01681), (150.0, 0.0185)])
     ]

@@ -19,7 +19,7 @@ SWEEP: dict[str, Any] = {
     "seed": 7,
     "block_size": 4,
     "parameter": [
-        {"key": "projectile.velocity", "uniform": {"from": "150 m/s", "to": "300 m/s"}},
+        {"key": "projectile.impact_velocity", "uniform": {"from": "150 m/s", "to": "300 m/s"}},
         {"key": "projectile.diameter", "normal": {"mean": "4.8 mm", "standard_deviation": "0.2 mm"}},
     ],
 }
@@ -54,7 +54,7 @@ def test_a_sweep_is_that_of_the_program(program: Program, tmp_path: Path) -> Non
     assert program("sweep", "merge", tmp_path / "cli", "--out", tmp_path / "cli.parquet").returncode == 0
     assert (tmp_path / "all.parquet").read_bytes() == (tmp_path / "cli.parquet").read_bytes()
     # Both draw the same figure into the folder.
-    for words in ({}, {"style": "map", "quantity": "peak_force_kn"}, {"x": "projectile.velocity"}):
+    for words in ({}, {"style": "map", "quantity": "peak_force_kn"}, {"x": "projectile.impact_velocity"}):
         drawn = percuss.plot(rows, out=tmp_path / "drawn", **words)
         line = [word for name, value in words.items() for word in (f"--{name}", value)]
         assert program("sweep", "plot", tmp_path / "cli", "--out", tmp_path / "figure", *line).returncode == 0
@@ -65,8 +65,8 @@ def test_a_sweep_is_that_of_the_program(program: Program, tmp_path: Path) -> Non
         percuss.plot(rows, x="speed")
     status = program("sweep", "status", tmp_path / "python", "--json")
     assert json.loads(status.stdout) == rows.status.to_dict()
-    axes = rows.plot("projectile.velocity_m_s", "depth_of_penetration_mm", "projectile.diameter_mm")
-    assert axes.get_xlabel() == "projectile.velocity_m_s" and axes.collections
+    axes = rows.plot("projectile.impact_velocity_m_s", "depth_of_penetration_mm", "projectile.diameter_mm")
+    assert axes.get_xlabel() == "projectile.impact_velocity_m_s" and axes.collections
     assert "24 of 24" in repr(rows) and "small" in rows._repr_html_()
 
 
@@ -98,7 +98,7 @@ def test_a_mapping_is_a_sweep_file(program: Program, tmp_path: Path) -> None:
         "base": case.replace({"chain.projectile_elements": 10}),
         "model": "chain",
         "design": "grid",
-        "parameter": [{"key": "projectile.velocity", "values": ["150 m/s", "200 m/s"]}],
+        "parameter": [{"key": "projectile.impact_velocity", "values": ["150 m/s", "200 m/s"]}],
     }
     rows = percuss.sweep(sweep, tmp_path / "rows")
     assert program("sweep", tmp_path / "rows/sweep.toml", "--out", tmp_path / "cli").returncode == 0

@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         &scenario,
         &mut model::Control::recording(),
     )?;
-    println!("outcome: {}", result.outcome.in_words());
+    println!("outcome: {}", result.outcome.describe());
     let start = Instant::now();
     for figure in percuss_report::run_figures(&scenario, &result)? {
         let files = figure.write(folder)?;

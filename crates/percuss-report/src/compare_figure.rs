@@ -47,7 +47,7 @@ fn quantity_name(quantity: BandQuantity) -> &'static str {
     match quantity {
         BandQuantity::DepthOfPenetration => "depth of penetration",
         BandQuantity::ProjectileFinalLength => "final projectile length",
-        quantity => quantity.in_words(),
+        quantity => quantity.describe(),
     }
 }
 

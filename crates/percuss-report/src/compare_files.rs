@@ -48,7 +48,7 @@ pub fn comparison_files(
             let recommended = &comparison.recommended[i].models;
             comparison.at_speed(i).iter().map(move |record| Entry {
                 record: record.clone(),
-                regime: comparison.regime[i].regime.projectile.in_words(),
+                regime: comparison.regime[i].regime.projectile.describe(),
                 recommended: recommended
                     .iter()
                     .any(|choice| choice.model == record.model),
@@ -73,7 +73,7 @@ fn columns() -> Vec<Column<Entry>> {
         Column::text("model", |e: &Entry| e.record.model.to_owned()),
         Column::integer("recommended", |e: &Entry| i64::from(e.recommended)),
         Column::text("outcome", |e: &Entry| {
-            e.record.outcome.in_words().to_owned()
+            e.record.outcome.describe().to_owned()
         }),
     ];
     for (name, quantity) in [

@@ -1,6 +1,6 @@
 //! Chart of a convergence study, and its figure.
 
-use percuss::converge::{Study, Verdict};
+use percuss::converge::{ConvergenceStatus, MeshStudy};
 
 use crate::{
     Axis, Chart, Figure, LineChart, Mark, Series, Style,
@@ -8,12 +8,12 @@ use crate::{
 };
 
 /// Draws one quantity of a study versus the number of elements along the projectile.
-pub fn convergence_figure(case: &str, study: &Study, quantity: usize) -> Option<Figure> {
+pub fn convergence_figure(case: &str, study: &MeshStudy, quantity: usize) -> Option<Figure> {
     convergence_chart(case, study, quantity).map(|chart| chart.draw())
 }
 
 /// The chart that [`convergence_figure`] draws.
-pub fn convergence_chart(case: &str, study: &Study, quantity: usize) -> Option<Chart> {
+pub fn convergence_chart(case: &str, study: &MeshStudy, quantity: usize) -> Option<Chart> {
     let quantity = study.quantities.get(quantity)?;
     let (name, unit) = result_column(quantity.name);
     let points = study
@@ -28,14 +28,14 @@ pub fn convergence_chart(case: &str, study: &Study, quantity: usize) -> Option<C
         Axis::new(with_unit(&name, unit)),
     )
     .series(Series::new("computed", points).style(Style::LineAndMarkers));
-    if let Verdict::Converging {
+    if let ConvergenceStatus::Converging {
         richardson, order, ..
-    } = quantity.verdict
+    } = quantity.status
     {
         chart = chart.mark(Mark::horizontal(
             format!("Richardson extrapolation, order {order:.2}"),
             richardson,
         ));
     }
-    Some(chart.caption(quantity.verdict.in_words()).into())
+    Some(chart.caption(quantity.status.describe()).into())
 }

@@ -8,7 +8,7 @@
 //! use percuss::{case, model};
 //!
 //! let text = r#"
-//!     projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "183 m/s" }
+//!     projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", impact_velocity = "183 m/s" }
 //!     target = { rigid_wall = true }
 //! "#;
 //! let scenario = case::load_str("taylor", text)?;

@@ -66,7 +66,7 @@ fn model_columns() -> Vec<Column<ModelLimit>> {
     };
     vec![
         Column::text("model", |l: &ModelLimit| l.model.to_owned()),
-        Column::text("outcome", |l: &ModelLimit| l.outcome.in_words().to_owned()),
+        Column::text("outcome", |l: &ModelLimit| l.outcome.describe().to_owned()),
         Column::optional("ballistic_limit_m_s", |l: &ModelLimit| {
             l.ballistic_limit_m_s
         }),

@@ -47,10 +47,10 @@ mod tests {
     #[test]
     fn lines_are_those_of_the_same_quantity_and_speed() {
         let shot = |speed: u32, more: &str| {
-            format!("[[experiments]]\nvelocity = \"{speed} m/s\"\nsource = \"a\"\n{more}\n")
+            format!("[[experiments]]\nimpact_velocity = \"{speed} m/s\"\nsource = \"a\"\n{more}\n")
         };
         let text = [
-            "projectile = { material = \"copper\", length = \"20 mm\", diameter = \"5 mm\", velocity = \"200 m/s\" }\n",
+            "projectile = { material = \"copper\", length = \"20 mm\", diameter = \"5 mm\", impact_velocity = \"200 m/s\" }\n",
             "target = { rigid_wall = true }\n",
             &shot(
                 200,

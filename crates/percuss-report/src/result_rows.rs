@@ -22,11 +22,11 @@ impl Rows {
 /// Outcome and all result numbers of tables, in the order of the record.
 pub fn outcome_rows(scenario: &Scenario, result: &RunResult, record: &ResultRecord) -> Vec<Row> {
     let mut rows = Rows::default();
-    rows.add("outcome", result.outcome.in_words());
+    rows.add("outcome", result.outcome.describe());
     if let Some(criterion) = &record.criterion {
         rows.add("termination criterion", criterion.as_str());
     }
-    rows.add("termination", result.termination.in_words());
+    rows.add("termination", result.termination.describe());
     for field in RESULT_FIELDS {
         match (&field.number, field.name) {
             (Some(result_number), _) if result_number.role.is_result() => {
@@ -77,8 +77,8 @@ fn expected_error(record: &ResultRecord) -> Option<Row> {
     let expected = record.expected_error.as_ref()?;
     let words = format!(
         "{} against the axisymmetric reference, from the {} most similar benchmark cases",
-        expected.in_words(),
-        expected.shots
+        expected.describe(),
+        expected.cases
     );
     Some(("estimated model error".to_owned(), words))
 }
@@ -91,7 +91,7 @@ fn band(record: &ResultRecord) -> Option<Row> {
         number(band.high, band.quantity.unit()),
         band.basis
     );
-    Some((format!("range of {}", band.quantity.in_words()), range))
+    Some((format!("range of {}", band.quantity.describe()), range))
 }
 
 /// Numbers that are specific to the model.

@@ -226,8 +226,7 @@ mod tests {
             "target = { constant_pressure = \"1 GPa\" }",
             "target = { material = \"aluminium-2024-t351\", thickness = \"50 mm\" }",
         ] {
-            let projectile =
-                r#"material = "copper", length = "15 mm", diameter = "5 mm", velocity = "600 m/s""#;
+            let projectile = r#"material = "copper", length = "15 mm", diameter = "5 mm", impact_velocity = "600 m/s""#;
             let text = format!("projectile = {{ {projectile} }}\n{target}");
             let scenario = case::load_str("case", &text).unwrap();
             let chain = model::model("chain").unwrap();

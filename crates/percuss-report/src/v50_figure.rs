@@ -1,6 +1,6 @@
 //! Figure of partial and complete penetrations, with the probability of perforation and V50.
 
-use percuss::v50::{Estimate, Method, Shot, V50, chance};
+use percuss::v50::{Estimate, Method, Test, V50, probability};
 
 use crate::{Axis, Figure, LineChart, Mark, Series, Style, caption::significant, palette};
 
@@ -8,7 +8,7 @@ use crate::{Axis, Figure, LineChart, Mark, Series, Style, caption::significant, 
 const POINTS: u32 = 200;
 
 /// Draws tests, the maximum-likelihood probability of perforation, and V50 with its interval, as `v50`.
-pub fn v50_figure(name: &str, shots: &[Shot], v50: &V50) -> Figure {
+pub fn v50_figure(name: &str, shots: &[Test], v50: &V50) -> Figure {
     let mut chart = LineChart::new(
         "v50",
         format!("Partial and complete penetrations: {name}"),
@@ -19,7 +19,10 @@ pub fn v50_figure(name: &str, shots: &[Shot], v50: &V50) -> Figure {
     let (slowest, fastest) = shots
         .iter()
         .fold((f64::MAX, f64::MIN), |(low, high), shot| {
-            (low.min(shot.speed), high.max(shot.speed))
+            (
+                low.min(shot.impact_velocity),
+                high.max(shot.impact_velocity),
+            )
         });
     let margin = 0.15 * (fastest - slowest);
     let speeds = (0..=POINTS).map(|i| {
@@ -35,9 +38,9 @@ pub fn v50_figure(name: &str, shots: &[Shot], v50: &V50) -> Figure {
         };
         let curve: Vec<(f64, f64)> = speeds
             .clone()
-            .filter_map(|speed| Some((speed, chance(entry, speed)?)))
+            .filter_map(|speed| Some((speed, probability(entry, speed)?)))
             .collect();
-        chart = chart.series(Series::new(method.in_words(), curve).style(style));
+        chart = chart.series(Series::new(method.describe(), curve).style(style));
     }
     for (words, perforated, color) in [
         ("complete penetration", true, palette::SERIES[1]),
@@ -46,7 +49,7 @@ pub fn v50_figure(name: &str, shots: &[Shot], v50: &V50) -> Figure {
         let kind = shots.iter().filter(|shot| shot.perforated == perforated);
         let height = f64::from(u8::from(perforated));
         chart = chart.series(
-            Series::new(words, kind.map(|shot| (shot.speed, height)))
+            Series::new(words, kind.map(|shot| (shot.impact_velocity, height)))
                 .style(Style::Markers)
                 .color(color),
         );
@@ -80,8 +83,8 @@ fn marks(mut chart: LineChart, entry: &Estimate) -> LineChart {
 fn caption(v50: &V50) -> String {
     format!(
         "{} tests: {} partial and {} complete penetrations",
-        v50.shots,
-        v50.shots - v50.perforated,
+        v50.tests,
+        v50.tests - v50.perforated,
         v50.perforated
     )
 }

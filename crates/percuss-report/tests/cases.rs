@@ -11,18 +11,18 @@ use percuss_report::{Figure, ReportError, run_figures, write_histories};
 use resvg::{tiny_skia::Pixmap, usvg};
 
 const PLATE: &str = r#"
-projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
 target = { material = "aluminium-2024-t351", thickness = "25 mm" }
 "#;
 const TAYLOR: &str = r#"
 title = "Taylor test & a price in $"
-projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "183 m/s" }
+projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", impact_velocity = "183 m/s" }
 target = { rigid_wall = true }
 "#;
 const EROSION: &str = r#"
-projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "800 m/s" }
+projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "800 m/s" }
 target = { material = "aluminium-2024-t351", thickness = "50 mm" }
-chain.target_closure = "column"
+chain.target_resistance = "column"
 "#;
 
 fn run(text: &str) -> (Scenario, RunResult) {

@@ -5,19 +5,19 @@ use std::fs;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use percuss::{
     Error, Scenario, case,
-    compare::{Comparison, Watch, compare},
-    guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
+    compare::{Comparison, Observer, compare},
     material::MaterialClass,
     model::{Control, Model},
     outcome::{Band, BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
+    validity::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 use percuss_report::{compare_figure, write_comparison};
 
 /// A model that gives `scale` times a depth that grows with the speed.
 struct Fake {
     name: &'static str,
-    guard: Guard,
+    validity: ValidityDomain,
     scale: f64,
     band: bool,
 }
@@ -31,8 +31,8 @@ impl Model for Fake {
         "made up"
     }
 
-    fn guard(&self) -> &'static Guard {
-        Box::leak(Box::new(self.guard))
+    fn validity(&self) -> &'static ValidityDomain {
+        Box::leak(Box::new(self.validity))
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
@@ -60,11 +60,11 @@ const fn speeds(min: f64, max: f64) -> Range {
     }
 }
 
-const SLOW: Guard = Guard {
+const SLOW: ValidityDomain = ValidityDomain {
     ranges: &[speeds(0.0, 700.0)],
-    ..Guard::OPEN
+    ..ValidityDomain::OPEN
 };
-const FAST: Guard = Guard {
+const FAST: ValidityDomain = ValidityDomain {
     ranges: &[speeds(600.0, 5000.0)],
     first_choice: &[FirstChoice {
         projectile: ProjectileRegime::Eroding,
@@ -73,15 +73,15 @@ const FAST: Guard = Guard {
         target_material: MaterialClass::Metal,
         because: "it is made up for it",
     }],
-    ..Guard::OPEN
+    ..ValidityDomain::OPEN
 };
-const NEVER: Guard = Guard {
+const NEVER: ValidityDomain = ValidityDomain {
     ranges: &[speeds(9000.0, 9001.0)],
-    ..Guard::OPEN
+    ..ValidityDomain::OPEN
 };
 
 fn comparison(case: &str, speeds: &[f64]) -> (Scenario, Comparison) {
-    let guards = [Guard::OPEN, FAST, SLOW];
+    let validity = [ValidityDomain::OPEN, FAST, SLOW];
     let names = [
         "chain",
         "tate",
@@ -100,16 +100,16 @@ fn comparison(case: &str, speeds: &[f64]) -> (Scenario, Comparison) {
         .enumerate()
         .map(|(i, name)| Fake {
             name,
-            guard: match *name {
+            validity: match *name {
                 "never" => NEVER,
                 "tate" => FAST,
-                "walker_anderson" => Guard {
+                "walker_anderson" => ValidityDomain {
                     first_choice: &[],
                     ..FAST
                 },
-                _ => Guard {
+                _ => ValidityDomain {
                     first_choice: &[],
-                    ..guards[i % 3]
+                    ..validity[i % 3]
                 },
             },
             scale: 0.7 + 0.08 * ((7 * i) % 11) as f64,
@@ -118,20 +118,20 @@ fn comparison(case: &str, speeds: &[f64]) -> (Scenario, Comparison) {
         .collect();
     let models: Vec<&dyn Model> = fakes.iter().map(|fake| fake as &dyn Model).collect();
     let scenario = case::load_str("made-up", case).unwrap();
-    let comparison = compare(&models, &scenario, speeds, &mut Watch::default()).unwrap();
+    let comparison = compare(&models, &scenario, speeds, &mut Observer::default()).unwrap();
     (scenario, comparison)
 }
 
 const CASE: &str = "
-projectile = { material = 'copper', length = '40 mm', diameter = '5 mm', velocity = '1000 m/s' }
+projectile = { material = 'copper', length = '40 mm', diameter = '5 mm', impact_velocity = '1000 m/s' }
 target = { material = 'aluminium-2024-t351', thickness = 'semi-infinite' }
 [[experiments]]
-velocity = '1000 m/s'
+impact_velocity = '1000 m/s'
 depth_of_penetration = '16 mm'
 uncertainty = '1.5 mm'
 source = 'a'
 [[experiments]]
-velocity = '500 m/s'
+impact_velocity = '500 m/s'
 depth_of_penetration = '5 mm'
 source = 'a'
 ";

@@ -126,7 +126,7 @@ pub fn damping_study(progress: OnProgress<'_>) -> Result<DampingStudy, Error> {
 fn run(speed: f64, elements: u32, options: &str) -> Result<(f64, f64, f64), Error> {
     let target = 2 * elements;
     let options = format!(
-        "[chain]\ntarget_closure = \"column\"\nprojectile_elements = {elements}\ntarget_elements = {target}\n{options}\n"
+        "[chain]\ntarget_resistance = \"column\"\nprojectile_elements = {elements}\ntarget_elements = {target}\n{options}\n"
     );
     let scenario = paper_case::scenario(speed, &options)?;
     let result = model::run(model::model("chain")?, &scenario, &mut Control::default())?;

@@ -1,6 +1,6 @@
 //! Stored benchmark results: sound references, and depths that the models give now.
 
-use percuss::model_error::{self, Verdict};
+use percuss::model_error::{self, ErrorRecord};
 use percuss_research::{
     benchmark::{self, cases, reference},
     paper_case::{self, variants},
@@ -44,7 +44,7 @@ fn a_refused_reference_is_left_out_of_the_stored_results() {
     let refused = checked.iter().filter(|entry| entry.estimate.is_err());
     assert!(refused.clone().count() > 10);
     for entry in refused {
-        let stored = model_error::verdicts().iter().any(|v| entry.case.is_of(v));
+        let stored = model_error::records().iter().any(|v| entry.case.is_of(v));
         assert!(!stored, "{entry:?}");
     }
 }
@@ -84,10 +84,10 @@ const SAME: f64 = 1e-6;
 #[test]
 fn the_stored_results_are_those_of_the_models() {
     let now = benchmark::compare(&cases(), &reference::built_in()).unwrap();
-    let stored = model_error::verdicts();
-    let key = |verdict: &Verdict| {
-        let Verdict {
-            contender,
+    let stored = model_error::records();
+    let key = |verdict: &ErrorRecord| {
+        let ErrorRecord {
+            candidate,
             projectile,
             target,
             length_to_diameter,
@@ -95,10 +95,10 @@ fn the_stored_results_are_those_of_the_models() {
             ..
         } = verdict;
         format!(
-            "{contender}: {projectile} on {target}, L/D {length_to_diameter}, {impact_velocity_m_s} m/s"
+            "{candidate}: {projectile} on {target}, L/D {length_to_diameter}, {impact_velocity_m_s} m/s"
         )
     };
-    let keys = |verdicts: &[Verdict]| verdicts.iter().map(key).collect::<Vec<_>>();
+    let keys = |verdicts: &[ErrorRecord]| verdicts.iter().map(key).collect::<Vec<_>>();
     let remedy = "regenerate the benchmark: see CONTRIBUTING.md";
     assert_eq!(keys(stored), keys(&now), "{remedy}");
     for (stored, now) in stored.iter().zip(&now) {

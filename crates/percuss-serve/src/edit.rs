@@ -114,7 +114,7 @@ fn set(table: &mut dyn TableLike, key: &str, value: Option<Value>) -> Option<()>
 mod tests {
     use super::*;
 
-    const CASE: &str = "# A shot.\n[projectile]\nvelocity = \"230 m/s\" # measured\n\n[target]\nlayers = [\n  { thickness = \"1 mm\" },\n]\n";
+    const CASE: &str = "# A shot.\n[projectile]\nimpact_velocity = \"230 m/s\" # measured\n\n[target]\nlayers = [\n  { thickness = \"1 mm\" },\n]\n";
 
     fn edited(text: &str, edits: &[(&str, Option<&str>)]) -> String {
         let edits: Vec<Edit> = edits
@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn a_value_changes_and_the_rest_stays() {
-        let text = edited(CASE, &[("projectile.velocity", Some("\"231 m/s\""))]);
+        let text = edited(CASE, &[("projectile.impact_velocity", Some("\"231 m/s\""))]);
         assert_eq!(text, CASE.replace("230", "231"));
         let text = edited(CASE, &[("target.layers.0.thickness", Some("\"2 mm\""))]);
         assert_eq!(text, CASE.replace("1 mm", "2 mm"));
@@ -152,7 +152,7 @@ mod tests {
     #[test]
     fn what_has_no_place_is_refused() {
         for key in [
-            "projectile.velocity.x",
+            "projectile.impact_velocity.x",
             "target.layers.7.thickness",
             "",
             "a..b",
@@ -164,7 +164,7 @@ mod tests {
             assert!(apply(CASE, &[edit]).is_err(), "{key}");
         }
         let edit = Edit {
-            key: "projectile.velocity".to_owned(),
+            key: "projectile.impact_velocity".to_owned(),
             value: Some("1 = 2".to_owned()),
         };
         assert!(apply(CASE, &[edit]).is_err());
@@ -172,7 +172,7 @@ mod tests {
 
     #[test]
     fn what_is_no_toml_is_left_to_the_reader() {
-        let edits = [("projectile.velocity", Some("\"1 m/s\""))];
+        let edits = [("projectile.impact_velocity", Some("\"1 m/s\""))];
         assert_eq!(edited("a = [", &edits), "a = [");
     }
 }

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 /// Keys that the form shows at once, in this order, with the range of their sliders in SI units. All others are shown on demand.
 const COMMON: &[(&str, Option<(f64, f64)>)] = &[
     ("projectile.material", None),
-    ("projectile.velocity", Some((0.0, 1500.0))),
+    ("projectile.impact_velocity", Some((0.0, 1500.0))),
     ("projectile.length", Some((1e-3, 50e-3))),
     ("projectile.diameter", Some((1e-3, 20e-3))),
     ("projectile.nose", None),
@@ -19,7 +19,7 @@ const COMMON: &[(&str, Option<(f64, f64)>)] = &[
     ("target.layers.*.material", None),
     ("target.layers.*.thickness", Some((1e-3, 50e-3))),
     ("target.layers.*.gap", None),
-    ("chain.target_closure", None),
+    ("chain.target_resistance", None),
     ("chain.projectile_elements", Some((10.0, 200.0))),
     ("chain.target_elements", Some((20.0, 400.0))),
 ];

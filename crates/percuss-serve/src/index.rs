@@ -3,7 +3,7 @@
 use axum::{extract::State, http::StatusCode, response::Response};
 use percuss::{
     material::{Library, MaterialEntry},
-    model::{MODELS, Model},
+    model::{CostClass, MODELS, Model},
 };
 use percuss_report::{palette, result_rows::Row};
 use serde::Serialize;
@@ -104,7 +104,7 @@ fn model_record(model: &dyn Model) -> ModelRecord {
     ModelRecord {
         name: model.name(),
         summary: model.summary(),
-        slow: model.is_slow(),
+        slow: model.cost() == CostClass::Minutes,
     }
 }
 

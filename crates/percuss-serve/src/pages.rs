@@ -9,7 +9,7 @@ use axum::{
     extract::{Path, Request, State},
     response::{IntoResponse, Response},
 };
-use percuss::{material::Library, model, shots, validate};
+use percuss::{experiments, material::Library, model, validate};
 use percuss_report::{
     MaterialCard,
     validation::{self, Origin},
@@ -77,8 +77,8 @@ impl Validation {
                         false => stop.flow(),
                     }
                 };
-                let shots = shots::built_in();
-                let (models, library) = (model::quick(), Library::built_in());
+                let shots = experiments::built_in();
+                let (models, library) = (model::fast_models(), Library::built_in());
                 let validation = validate::run(&models, shots, library, &progress)
                     .map_err(|error| stop.problem(error))?;
                 let origin = Origin {

@@ -9,7 +9,7 @@ use axum::{
 };
 use percuss::{
     Scenario,
-    model::{self, ChosenModel, Control},
+    model::{self, ChosenModel, Control, CostClass},
     outcome::RunResult,
     summary::CaseResults,
 };
@@ -142,7 +142,7 @@ pub(crate) fn compute(
         .iter()
         .map(|note| ("model".to_owned(), note.clone()));
     let resistance = result
-        .target_closure_choice
+        .target_resistance_choice
         .iter()
         .map(|note| ("target resistance".to_owned(), note.clone()));
     let rows = [
@@ -179,7 +179,7 @@ pub(crate) fn compute_request(
 ) -> Result<CaseResponse, Problem> {
     let read = asked.read(text)?;
     let chosen = asked.model(&read.scenario, bounds)?;
-    if chosen.model.is_slow() {
+    if chosen.model.cost() == CostClass::Minutes {
         return Err(Problem::bad_request(format!(
             "model `{}` takes too long for an immediate response",
             chosen.model.name()

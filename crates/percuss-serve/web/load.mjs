@@ -17,7 +17,7 @@ const sweep = `base = "scenario.toml"
 model = "chain"
 design = "grid"
 [[parameter]]
-key = "projectile.velocity"
+key = "projectile.impact_velocity"
 linear = { from = "150 m/s", to = "300 m/s", count = 4 }
 `;
 const SPEEDS = [180, 200, 220, 240, 260];
@@ -58,7 +58,7 @@ function raw(bytes, patient) {
   });
 }
 
-const asked = (speed) => JSON.stringify({ name: "shot", case: paper, model: "chain", edits: [{ key: "projectile.velocity", value: `"${speed} m/s"` }] });
+const asked = (speed) => JSON.stringify({ name: "shot", case: paper, model: "chain", edits: [{ key: "projectile.impact_velocity", value: `"${speed} m/s"` }] });
 const post = (path, body, more = "") =>
   `POST ${path} HTTP/1.1\r\nHost: ${hostname}:${port}\r\nContent-Type: application/json\r\nConnection: close\r\n${more}Content-Length: ${Buffer.byteLength(body)}\r\n\r\n${body}`;
 

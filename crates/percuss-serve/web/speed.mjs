@@ -11,7 +11,7 @@ const steps = Number(given.steps);
 
 // Moves the slider of the speed and waits each time until the new curves are painted.
 const drag = async (count) => {
-  const slider = document.getElementById("field-projectile-velocity-slider");
+  const slider = document.getElementById("field-projectile-impact_velocity-slider");
   const root = document.documentElement;
   const times = [];
   const runs = [];
@@ -53,7 +53,7 @@ try {
   await page.waitForFunction(() => document.documentElement.dataset.answers === "1");
   console.log(`${program}, the seed paper's case with 40 and 80 elements, ${steps} steps of a slider`);
   for (const closure of ["default", "column"]) {
-    await page.locator("#field-chain-target_closure").selectOption({ label: closure });
+    await page.locator("#field-chain-target_resistance").selectOption({ label: closure });
     // The whole answer and the models side by side are there: nothing else is computed.
     await page.waitForTimeout(2000);
     await page.evaluate(drag, 5);

@@ -24,10 +24,10 @@ const SAME_ORDER: f64 = 0.5;
 
 /// A case on successively finer meshes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Study {
+pub struct MeshStudy {
     /// The meshes, from coarse to fine.
     pub meshes: Vec<Mesh>,
-    /// One entry a quantity that every mesh gives.
+    /// One entry per quantity that every mesh gives.
     pub quantities: Vec<Quantity>,
 }
 
@@ -52,13 +52,13 @@ pub struct Quantity {
     /// Value on each mesh.
     pub values: Vec<f64>,
     /// Convergence over the meshes.
-    pub verdict: Verdict,
+    pub status: ConvergenceStatus,
 }
 
 /// Convergence of a quantity over the meshes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
-pub enum Verdict {
+pub enum ConvergenceStatus {
     /// Two successive triples of meshes show the same credible order: the asymptotic range is confirmed.
     Converging {
         /// Observed order of convergence in the element length.
@@ -100,8 +100,8 @@ pub enum Verdict {
     },
 }
 
-impl Verdict {
-    /// The verdict on values of three or more meshes, coarse to fine, each [`REFINEMENT`] times finer than the last.
+impl ConvergenceStatus {
+    /// The status on values of three or more meshes, coarse to fine, each [`REFINEMENT`] times finer than the last.
     pub fn of(values: &[f64]) -> Option<Self> {
         let meshes: Vec<OnMesh> = values
             .iter()
@@ -167,8 +167,8 @@ impl Verdict {
         }
     }
 
-    /// The verdict in words.
-    pub fn in_words(&self) -> String {
+    /// The status in words.
+    pub fn describe(&self) -> String {
         match *self {
             Self::Exact => "the finest meshes agree to rounding".to_owned(),
             Self::Vanishing { limit, .. } => format!(
@@ -244,7 +244,7 @@ pub fn study(
     scenario: &Scenario,
     levels: u32,
     control: &mut Control<'_>,
-) -> Result<(Study, Vec<RunResult>), Error> {
+) -> Result<(MeshStudy, Vec<RunResult>), Error> {
     let mut meshes = Vec::new();
     let mut results = Vec::new();
     for level in 0..levels {
@@ -263,7 +263,7 @@ pub fn study(
         });
         results.push(result);
     }
-    Ok((Study::new(scenario, meshes, &results), results))
+    Ok((MeshStudy::new(scenario, meshes, &results), results))
 }
 
 /// The result numbers whose convergence is evaluated.
@@ -275,7 +275,7 @@ const QUANTITIES: [&str; 5] = [
     "residual_velocity_m_s",
 ];
 
-impl Study {
+impl MeshStudy {
     /// The study of a case's results on meshes from coarse to fine.
     pub fn new(scenario: &Scenario, meshes: Vec<Mesh>, results: &[RunResult]) -> Self {
         let quantities = QUANTITIES
@@ -287,7 +287,7 @@ impl Study {
                 Some(Quantity {
                     name: ResultUnit::split(number.name).0,
                     unit: number.unit.symbol,
-                    verdict: Verdict::of(&values)?,
+                    status: ConvergenceStatus::of(&values)?,
                     values,
                 })
             })
@@ -307,11 +307,11 @@ mod tests {
     #[test]
     fn a_second_order_result_on_four_meshes_converges() {
         let values = second_order(4);
-        let Some(Verdict::Converging {
+        let Some(ConvergenceStatus::Converging {
             order,
             richardson,
             index,
-        }) = Verdict::of(&values)
+        }) = ConvergenceStatus::of(&values)
         else {
             panic!("not converging");
         };
@@ -323,18 +323,18 @@ mod tests {
 
     #[test]
     fn three_meshes_confirm_no_order() {
-        let verdict = Verdict::of(&second_order(3)).unwrap();
-        let Verdict::Unconfirmed {
+        let status = ConvergenceStatus::of(&second_order(3)).unwrap();
+        let ConvergenceStatus::Unconfirmed {
             order,
             earlier_order: None,
             meshes: 3,
             ..
-        } = verdict
+        } = status
         else {
-            panic!("{verdict:?}");
+            panic!("{status:?}");
         };
         assert!((order - 2.0).abs() < 1e-9);
-        let words = verdict.in_words();
+        let words = status.describe();
         assert!(
             words.contains("not confirmed: three meshes give one order (2.00); run `--levels 4`"),
             "{words}"
@@ -344,38 +344,43 @@ mod tests {
     #[test]
     fn an_order_that_changes_is_not_confirmed() {
         // The fourth mesh shows what three cannot: orders of 2 and then 1.
-        let changes = Verdict::of(&[1.0, 0.6, 0.5, 0.45]).unwrap();
+        let changes = ConvergenceStatus::of(&[1.0, 0.6, 0.5, 0.45]).unwrap();
         assert_eq!(changes.order().map(f64::round), Some(1.0));
-        let words = changes.in_words();
+        let words = changes.describe();
         assert!(words.contains("from 2.00 to 1.00"), "{words}");
-        let first = Verdict::of(&[1.0, 1.3, 0.9, 0.7]).unwrap().in_words();
+        let first = ConvergenceStatus::of(&[1.0, 1.3, 0.9, 0.7])
+            .unwrap()
+            .describe();
         assert!(first.contains("none on the coarser ones"), "{first}");
         for (ratio, words) in [(1.2, "too slow"), (8.0, "more than the scheme has")] {
             let values: Vec<f64> = (0..4).map(|i| 3.0 + f64::powi(1.0 / ratio, i)).collect();
-            let verdict = Verdict::of(&values).unwrap();
+            let status = ConvergenceStatus::of(&values).unwrap();
             assert!(
-                matches!(verdict, Verdict::Unconfirmed { .. }),
-                "{verdict:?}"
+                matches!(status, ConvergenceStatus::Unconfirmed { .. }),
+                "{status:?}"
             );
-            assert!(verdict.in_words().contains(words), "{}", verdict.in_words());
+            assert!(status.describe().contains(words), "{}", status.describe());
         }
     }
 
     #[test]
     fn a_result_that_follows_the_mesh_is_not_called_converged() {
         for values in [&[2.6, 1.3, 0.65][..], &[5.2, 2.6, 1.3, 0.65]] {
-            let words = Verdict::of(values).unwrap().in_words();
+            let words = ConvergenceStatus::of(values).unwrap().describe();
             assert!(words.starts_with("does not converge to a result"));
         }
         assert!(matches!(
-            Verdict::of(&[1.0, 1.1, 1.3]),
-            Some(Verdict::Diverging { .. })
+            ConvergenceStatus::of(&[1.0, 1.1, 1.3]),
+            Some(ConvergenceStatus::Diverging { .. })
         ));
         assert!(matches!(
-            Verdict::of(&[1.0, 1.2, 1.1]),
-            Some(Verdict::Oscillating { .. })
+            ConvergenceStatus::of(&[1.0, 1.2, 1.1]),
+            Some(ConvergenceStatus::Oscillating { .. })
         ));
-        assert_eq!(Verdict::of(&[1.0, 1.0, 1.0]), Some(Verdict::Exact));
-        assert_eq!(Verdict::of(&[1.0, 1.0]), None);
+        assert_eq!(
+            ConvergenceStatus::of(&[1.0, 1.0, 1.0]),
+            Some(ConvergenceStatus::Exact)
+        );
+        assert_eq!(ConvergenceStatus::of(&[1.0, 1.0]), None);
     }
 }

@@ -5,11 +5,11 @@
 pub mod calibrate;
 pub mod compare;
 pub mod converge;
+pub mod experiments;
 pub mod limit;
 #[cfg(test)]
 mod made_up;
 pub mod model_error;
-pub mod shots;
 pub mod summary;
 pub mod sweep;
 pub mod uncertainty;
@@ -18,8 +18,8 @@ pub mod validate;
 
 // What the studies use of the layers below.
 use percuss_core::{
-    Error, Scenario, check, document, error, fragments, guard, material, options, outcome, problem,
-    regime, richardson, scenario, statistics, units,
+    Error, Scenario, check, document, error, fragments, material, options, outcome, problem,
+    regime, richardson, scenario, statistics, units, validity,
 };
 #[cfg(test)]
 use percuss_core::{NumericalError, solver};

@@ -2,15 +2,15 @@
 
 use crate::{
     Error, Scenario,
-    guard::Guard,
     outcome::RunResult,
     solver::{Control, Model, Progress},
+    validity::ValidityDomain,
 };
 
 /// A model whose result is a function of the case.
 pub(crate) struct MadeUp {
     pub(crate) name: &'static str,
-    pub(crate) guard: Guard,
+    pub(crate) validity: ValidityDomain,
     pub(crate) result: fn(&Scenario) -> Result<RunResult, Error>,
 }
 
@@ -23,8 +23,8 @@ impl Model for MadeUp {
         "made up"
     }
 
-    fn guard(&self) -> &'static Guard {
-        Box::leak(Box::new(self.guard))
+    fn validity(&self) -> &'static ValidityDomain {
+        Box::leak(Box::new(self.validity))
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {

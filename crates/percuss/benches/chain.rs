@@ -6,14 +6,14 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use percuss::{
     Scenario, case,
     model::{self, Control},
-    sweep::{BatchKernel, Kernel, Shot},
+    sweep::{BatchKernel, Kernel, SweepRun},
 };
 
-const COLUMN: &str = "target_closure = \"column\"";
+const COLUMN: &str = "target_resistance = \"column\"";
 
 fn paper(velocity: f64, elements: (u32, u32), options: &str) -> Scenario {
     let text = format!(
-        "projectile = {{ material = \"copper\", length = \"12.74 mm\", diameter = \"4.8 mm\", velocity = \"{velocity} m/s\" }}\n\
+        "projectile = {{ material = \"copper\", length = \"12.74 mm\", diameter = \"4.8 mm\", impact_velocity = \"{velocity} m/s\" }}\n\
          target = {{ material = \"aluminium-2024-t351\", thickness = \"25 mm\" }}\n\
          [chain]\nprojectile_elements = {}\ntarget_elements = {}\n{options}\n",
         elements.0, elements.1
@@ -58,12 +58,12 @@ fn runs(criterion: &mut Criterion) {
 
 fn side_by_side(criterion: &mut Criterion) {
     let chain = model::model("chain").unwrap_or_else(|error| panic!("{error}"));
-    let shot = |i: u32| Shot {
+    let shot = |i: u32| SweepRun {
         index: u64::from(i),
         inputs: Vec::new(),
         scenario: Ok(paper(150.0 + 3.5 * f64::from(i), (40, 80), COLUMN)),
     };
-    let shots: Vec<Shot> = (0..64).map(shot).collect();
+    let shots: Vec<SweepRun> = (0..64).map(shot).collect();
     let mut group = criterion.benchmark_group("chain");
     group.throughput(Throughput::Elements(shots.len() as u64));
     group.bench_function("64 shots side by side, 40-80", |bencher| {

@@ -7,7 +7,7 @@
 //! use percuss::{case, model::{self, Control}};
 //!
 //! let scenario = case::load_str("example", r#"
-//!     projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+//!     projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
 //!     target = { material = "aluminium-2024-t351", thickness = "25 mm" }
 //! "#)?;
 //! let result = model::run(model::model("chain")?, &scenario, &mut Control::default())?;
@@ -24,10 +24,10 @@
 #[doc(inline)]
 pub use percuss_core::{
     Error, InputError, NumericalError, Refusal, Scenario, Subject, check, document, fragments,
-    guard, history, ledger, material, options, outcome, power, problem, regime, resistance,
-    richardson, scenario, shapes, solver,
+    history, ledger, material, options, outcome, power, problem, regime, resistance, richardson,
+    scenario, shapes, solver,
     solver::{checkpoint, frames},
-    statistics, units,
+    statistics, units, validity,
 };
 #[doc(inline)]
 pub use percuss_input::{case, inputs};
@@ -35,8 +35,8 @@ pub use percuss_input::{case, inputs};
 pub use percuss_models::{analytic, axi, chain, fdm, model};
 #[doc(inline)]
 pub use percuss_studies::{
-    calibrate, compare, converge, limit, model_error, shots, summary, sweep, uncertainty, v50,
-    validate,
+    calibrate, compare, converge, experiments, limit, model_error, summary, sweep, uncertainty,
+    v50, validate,
 };
 
 /// The README's library example, run from the folder that it stands in.

@@ -26,7 +26,7 @@ fn axi(text: &str) -> RunResult {
 fn copper_length(density: f64, cells: u32) -> f64 {
     let result = axi(&format!(
         r#"
-        projectile = {{ material = "rod", length = "23.47 mm", diameter = "7.62 mm", velocity = "183 m/s" }}
+        projectile = {{ material = "rod", length = "23.47 mm", diameter = "7.62 mm", impact_velocity = "183 m/s" }}
         target = {{ rigid_wall = true }}
         axi = {{ cells_per_radius = {cells} }}
         [materials.rod]
@@ -75,7 +75,7 @@ fn a_run_whose_energy_balance_does_not_close_is_repeated_with_half_the_courant_n
     let text = |courant: &str| {
         format!(
             r#"
-            projectile = {{ material = "ofhc-copper", length = "2.5 mm", diameter = "5 mm", velocity = "2870 m/s" }}
+            projectile = {{ material = "ofhc-copper", length = "2.5 mm", diameter = "5 mm", impact_velocity = "2870 m/s" }}
             target = {{ material = "tungsten-carbide", thickness = "semi-infinite" }}
             axi = {{ cells_per_radius = 5{courant} }}
             "#

@@ -1,4 +1,4 @@
-//! What model `axi` gives besides its result: frames, and checkpoints that a run goes on from with the same bits.
+//! Output of model `axi` besides its result: frames, and checkpoints from which a run continues with the same bits.
 
 use std::ops::ControlFlow;
 
@@ -12,7 +12,7 @@ use percuss::{
 fn scenario(speed: &str) -> Scenario {
     let text = format!(
         r#"
-        projectile = {{ material = "copper", length = "6 mm", diameter = "4 mm", velocity = "{speed}" }}
+        projectile = {{ material = "copper", length = "6 mm", diameter = "4 mm", impact_velocity = "{speed}" }}
         target = {{ material = "aluminium-2024-t351", thickness = "semi-infinite" }}
         [axi]
         cells_per_radius = 4

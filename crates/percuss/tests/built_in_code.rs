@@ -2,7 +2,7 @@
 
 use percuss::{
     Error, case,
-    case::{BackFace, Case, Layer, Nose, Projectile, Target, Thickness},
+    case::{Case, Layer, Nose, Projectile, RearFaceCondition, Target, Thickness},
     units::{Length, Pressure, Velocity},
 };
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,7 @@ fn a_case_built_in_code_is_that_of_the_same_text() {
         material = "copper"
         length = "12.74 mm"
         diameter = "4.8 mm"
-        velocity = "230 m/s"
+        impact_velocity = "230 m/s"
         nose = "hemisphere"
         [target]
         back_face = "free"
@@ -43,7 +43,8 @@ fn a_case_built_in_code_is_that_of_the_same_text() {
         built.scenario("same").unwrap(),
         case::load_str("same", &text).unwrap()
     );
-    let plate = Target::plate("aluminium-2024-t351", mm(25.0)).with_back_face(BackFace::Free);
+    let plate =
+        Target::plate("aluminium-2024-t351", mm(25.0)).with_back_face(RearFaceCondition::Free);
     let scenario = Case::new(rod(), plate).scenario("plate").unwrap();
     assert_eq!(scenario.target_thickness(), Some(0.025));
     for target in [
@@ -83,7 +84,7 @@ struct Options {
 #[test]
 fn a_table_of_another_model_is_read_and_written() {
     let text = r#"
-        projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+        projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
         target = { rigid_wall = true }
         extensions.mine = { factor = 2.5 }
         "#;

@@ -1,4 +1,4 @@
-//! Every folder of `cases/` gives what its `expected.toml` says.
+//! Expected values of every folder of `cases/`.
 //!
 //! After an intended change of results, `RETAKE_GOLDEN=1 cargo test -p percuss --test all cases::` writes the golden numbers and the
 //! known errors of the files again; exact, published and measured values stay as they are. The difference is for a person to read.
@@ -40,7 +40,10 @@ fn compute(folder: &Path, expected: &Expected) -> f64 {
             bracket.each_ref().map(|velocity| velocity.si()),
         );
     }
-    let velocity = expected.velocity.as_ref().map(|velocity| velocity.si());
+    let velocity = expected
+        .impact_velocity
+        .as_ref()
+        .map(|velocity| velocity.si());
     let (scenario, result) = run(folder, expected, velocity);
     let span = expected.mean_from.as_ref().zip(expected.mean_to.as_ref());
     let span = span.map(|(from, to)| (from.si(), to.si()));

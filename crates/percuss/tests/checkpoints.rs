@@ -22,32 +22,32 @@ const CASES: &[(&str, &str, &str)] = &[
 ];
 
 const COLUMN: &str = r#"
-    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "800 m/s" }
+    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "800 m/s" }
     target = { material = "aluminium-2024-t351", thickness = "50 mm" }
-    chain = { target_closure = "column", erosion_strain = 1.0 }
+    chain = { target_resistance = "column", erosion_strain = 1.0 }
 "#;
 const COLUMN_WITHOUT_EROSION: &str = r#"
-    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
     target = { material = "aluminium-2024-t351", thickness = "50 mm" }
 "#;
 const PLUG: &str = include_str!("../../../cases/weldox-460e-12mm-blunt/scenario.toml");
 const FAILURE: &str = include_str!("../../../cases/spall-two-plates/scenario.toml");
 const CAVITY: &str = r#"
-    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
     target = { material = "aluminium-2024-t351", thickness = "25 mm", back_face = "free" }
 "#;
 const CAVITY_FAILURE: &str = r#"
-    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "400 m/s" }
+    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "400 m/s" }
     target = { material = "aluminium-2024-t351", thickness = "25 mm" }
     chain.failure.spall.strength = '80 MPa'
 "#;
 const PUBLISHED: &str = r#"
-    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+    projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
     target = { material = "aluminium-2024-t351", thickness = "25 mm" }
     chain = { scheme = "published" }
 "#;
 const SPALL: &str = r#"
-    projectile = { material = "ofhc-copper-steinberg", length = "2 mm", diameter = "80 mm", velocity = "400 m/s" }
+    projectile = { material = "ofhc-copper-steinberg", length = "2 mm", diameter = "80 mm", impact_velocity = "400 m/s" }
     target = { material = "ofhc-copper-steinberg", thickness = "4 mm", back_face = "free" }
     fdm = { geometry = "planar", spall_strength = "1 GPa", projectile_elements = 40 }
 "#;
@@ -169,7 +169,7 @@ fn a_resumed_run_keeps_the_courant_number_that_it_was_reduced_to() {
     let viscous = "fdm.artificial_viscosity = { linear = 2.0, quadratic = 0.0 }";
     let scenario = scenario(&format!(
         r#"
-        projectile = {{ material = "6061-t6-lesuer", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }}
+        projectile = {{ material = "6061-t6-lesuer", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }}
         target = {{ material = "4340-johnson-cook", thickness = "20 mm" }}
         {viscous}
         "#

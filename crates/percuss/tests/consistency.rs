@@ -13,49 +13,49 @@ use percuss::{
 const SHOTS: &[(&str, &str, &[f64])] = &[
     (
         "rigid steel sphere-nosed rod into aluminium",
-        r#"projectile = { material = "tool", length = "70 mm", diameter = "7.1 mm", nose = "hemisphere", velocity = "500 m/s" }
+        r#"projectile = { material = "tool", length = "70 mm", diameter = "7.1 mm", nose = "hemisphere", impact_velocity = "500 m/s" }
            target = { material = "light", thickness = "semi-infinite" }"#,
         &[100.0, 200.0, 400.0, 600.0, 800.0, 1000.0],
     ),
     (
         "rigid steel ogive into aluminium",
-        r#"projectile = { material = "tool", length = "70 mm", diameter = "7.1 mm", nose.ogive.crh = 3.0, velocity = "500 m/s" }
+        r#"projectile = { material = "tool", length = "70 mm", diameter = "7.1 mm", nose.ogive.crh = 3.0, impact_velocity = "500 m/s" }
            target = { material = "light", thickness = "semi-infinite" }"#,
         &[100.0, 200.0, 400.0, 600.0, 800.0, 1000.0],
     ),
     (
         "rigid ogive into concrete",
-        r#"projectile = { material = "tool", length = "240 mm", diameter = "26.9 mm", nose.ogive.crh = 2.0, velocity = "277 m/s" }
+        r#"projectile = { material = "tool", length = "240 mm", diameter = "26.9 mm", nose.ogive.crh = 2.0, impact_velocity = "277 m/s" }
            target = { material = "concrete", thickness = "semi-infinite" }"#,
         &[100.0, 200.0, 300.0, 500.0, 800.0],
     ),
     (
         "soft flat rod into a thick plate",
-        r#"projectile = { material = "soft", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+        r#"projectile = { material = "soft", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
            target = { material = "light", thickness = "60 mm" }"#,
         &[100.0, 200.0, 300.0, 400.0],
     ),
     (
         "long heavy rod into steel",
-        r#"projectile = { material = "heavy", length = "100 mm", diameter = "10 mm", velocity = "1500 m/s" }
+        r#"projectile = { material = "heavy", length = "100 mm", diameter = "10 mm", impact_velocity = "1500 m/s" }
            target = { material = "armour", thickness = "semi-infinite" }"#,
         &[1000.0, 1200.0, 1500.0, 1800.0],
     ),
     (
         "strong rod into a weaker target, from rigid to eroding",
-        r#"projectile = { material = "strong", length = "100 mm", diameter = "10 mm", nose = "hemisphere", velocity = "1500 m/s" }
+        r#"projectile = { material = "strong", length = "100 mm", diameter = "10 mm", nose = "hemisphere", impact_velocity = "1500 m/s" }
            target = { material = "light", thickness = "semi-infinite" }"#,
         &[200.0, 500.0, 1000.0, 1600.0, 2000.0, 2500.0],
     ),
     (
         "soft rod on a rigid wall",
-        r#"projectile = { material = "soft", length = "23.47 mm", diameter = "7.62 mm", velocity = "183 m/s" }
+        r#"projectile = { material = "soft", length = "23.47 mm", diameter = "7.62 mm", impact_velocity = "183 m/s" }
            target = { rigid_wall = true }"#,
         &[50.0, 100.0, 150.0, 200.0, 250.0],
     ),
     (
         "blunt hard rod on a thin plate",
-        r#"projectile = { material = "tool", mass = "197 g", diameter = "20 mm", velocity = "250 m/s" }
+        r#"projectile = { material = "tool", mass = "197 g", diameter = "20 mm", impact_velocity = "250 m/s" }
            target = { material = "armour", thickness = "12 mm", back_face = "free" }
            
            "#,
@@ -63,7 +63,7 @@ const SHOTS: &[(&str, &str, &[f64])] = &[
     ),
     (
         "hard ogive on an aluminium plate",
-        r#"projectile = { material = "tool", mass = "5.3 g", diameter = "6.2 mm", nose.ogive.crh = 3.0, velocity = "600 m/s" }
+        r#"projectile = { material = "tool", mass = "5.3 g", diameter = "6.2 mm", nose.ogive.crh = 3.0, impact_velocity = "600 m/s" }
            target = { material = "light", thickness = "20 mm", back_face = "free" }
            
            "#,
@@ -230,7 +230,7 @@ pub fn assert_finite(result: &RunResult) {
 
 /// Holds every model to an identity on every shot that it applies to, and known failures to failing.
 fn hold(identity: Identity, check: impl Fn(&dyn Model, &str, &[f64]) -> Result<usize, String>) {
-    for model in model::quick() {
+    for model in model::fast_models() {
         let known = KNOWN_FAILURES
             .iter()
             .find(|known| known.0 == model.name() && known.1 == identity);
@@ -458,7 +458,7 @@ fn a_denser_projectile_goes_deeper() {
 
 #[test]
 fn every_model_applies_to_some_shot_and_says_why_not_to_the_others() {
-    for model in model::quick() {
+    for model in model::fast_models() {
         let applies = SHOTS.iter().any(|(_, text, speeds)| {
             let base = shot(text);
             speeds
@@ -484,25 +484,25 @@ fn every_material_works_in_every_model() {
         let id = &entry.id;
         let cases = [
             format!(
-                r#"projectile = {{ material = "{id}", length = "30 mm", diameter = "6 mm", velocity = "200 m/s" }}
+                r#"projectile = {{ material = "{id}", length = "30 mm", diameter = "6 mm", impact_velocity = "200 m/s" }}
                    target = {{ rigid_wall = true }}"#
             ),
             format!(
-                r#"projectile = {{ material = "{id}", length = "60 mm", diameter = "6 mm", velocity = "1200 m/s" }}
+                r#"projectile = {{ material = "{id}", length = "60 mm", diameter = "6 mm", impact_velocity = "1200 m/s" }}
                    target = {{ material = "6061-t6", thickness = "semi-infinite" }}"#
             ),
             format!(
-                r#"projectile = {{ material = "tool", length = "60 mm", diameter = "6 mm", nose = "hemisphere", velocity = "300 m/s" }}
+                r#"projectile = {{ material = "tool", length = "60 mm", diameter = "6 mm", nose = "hemisphere", impact_velocity = "300 m/s" }}
                    target = {{ material = "{id}", thickness = "semi-infinite" }}"#
             ),
             format!(
-                r#"projectile = {{ material = "tool", length = "30 mm", diameter = "10 mm", velocity = "300 m/s" }}
+                r#"projectile = {{ material = "tool", length = "30 mm", diameter = "10 mm", impact_velocity = "300 m/s" }}
                    target = {{ material = "{id}", thickness = "6 mm", back_face = "free" }}"#
             ),
         ];
         for text in cases {
             let scenario = shot(&text);
-            for model in model::quick() {
+            for model in model::fast_models() {
                 let Some(result) = run(model, &scenario) else {
                     continue;
                 };

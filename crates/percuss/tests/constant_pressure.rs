@@ -6,7 +6,7 @@ use percuss::outcome::Outcome;
 fn stopped_by(pressure_mpa: f64, velocity: f64, courant: f64) -> percuss::outcome::RunResult {
     run(&format!(
         r#"
-        projectile = {{ material = "stiff", length = "50 mm", diameter = "10 mm", velocity = "{velocity} m/s" }}
+        projectile = {{ material = "stiff", length = "50 mm", diameter = "10 mm", impact_velocity = "{velocity} m/s" }}
         target = {{ constant_pressure = "{pressure_mpa} MPa" }}
         [chain]
         projectile_elements = 20
@@ -48,7 +48,7 @@ fn depth_is_the_kinetic_energy_over_the_force() {
 #[test]
 fn the_pressure_stays_on_a_tip_that_erodes() {
     let result = run(r#"
-        projectile = { material = "copper", length = "50 mm", diameter = "10 mm", velocity = "800 m/s" }
+        projectile = { material = "copper", length = "50 mm", diameter = "10 mm", impact_velocity = "800 m/s" }
         target = { constant_pressure = "2 GPa" }
         "#);
     assert_eq!(result.outcome, Outcome::AtRest);
@@ -65,7 +65,7 @@ fn the_pressure_stays_on_a_tip_that_erodes() {
 fn a_projectile_of_which_nothing_is_left_ends_the_run() {
     // Its only element fails in tension at once.
     let result = run(r#"
-        projectile = { material = "copper-woodward", length = "1 mm", diameter = "0.5 mm", velocity = "2213.9 m/s" }
+        projectile = { material = "copper-woodward", length = "1 mm", diameter = "0.5 mm", impact_velocity = "2213.9 m/s" }
         target = { constant_pressure = "2901 MPa" }
         [chain]
         projectile_elements = 1

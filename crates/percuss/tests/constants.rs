@@ -5,7 +5,7 @@ use std::{path::Path, sync::atomic::AtomicBool};
 use percuss::{
     model,
     sweep::BatchKernel,
-    uncertainty::{Settings, Study, Watch, analyse},
+    uncertainty::{Observer, Settings, Study, analyse},
 };
 
 /// Total index of a constant for the depth.
@@ -19,7 +19,7 @@ fn index_of(key: &str, file: &str, samples: u64) -> f64 {
         indices: true,
         speeds: Vec::new(),
     };
-    let watch = Watch {
+    let watch = Observer {
         stop: &AtomicBool::new(false),
         progress: &|_, _| {},
     };

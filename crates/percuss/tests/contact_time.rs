@@ -25,7 +25,7 @@ fn elastic(poissons_ratio: f64) -> String {
 fn bar(target: &str, options: &str, poissons_ratio: f64) -> String {
     format!(
         r#"
-        projectile = {{ material = "e", length = "50 mm", diameter = "10 mm", velocity = "5 m/s" }}
+        projectile = {{ material = "e", length = "50 mm", diameter = "10 mm", impact_velocity = "5 m/s" }}
         target = {{ {target} }}
         {options}
         {}
@@ -96,7 +96,7 @@ fn equal_plates_touch_for_a_round_trip() {
     let speed = (4500.0_f64.powi(2) + 4.0 / 3.0 * shear / 8000.0).sqrt();
     let text = format!(
         r#"
-        projectile = {{ material = "e", length = "5 mm", diameter = "100 mm", velocity = "5 m/s" }}
+        projectile = {{ material = "e", length = "5 mm", diameter = "100 mm", impact_velocity = "5 m/s" }}
         target = {{ material = "e", thickness = "5 mm", back_face = "free" }}
         fdm = {{ geometry = "planar" }}
         {}

@@ -25,7 +25,7 @@ fn elastic_front() {
         .map(|n| {
             let result = run_recorded(&format!(
                 r#"
-                projectile = {{ material = "e", length = "100 mm", diameter = "5 mm", velocity = "1 m/s" }}
+                projectile = {{ material = "e", length = "100 mm", diameter = "5 mm", impact_velocity = "1 m/s" }}
                 target = {{ rigid_wall = true }}
                 [chain]
                 projectile_elements = {n}
@@ -64,7 +64,7 @@ fn plastic_plateau() {
         .map(|n| {
             let result = run_recorded(&format!(
                 r#"
-                projectile = {{ material = "b", length = "50 mm", diameter = "5 mm", velocity = "40 m/s" }}
+                projectile = {{ material = "b", length = "50 mm", diameter = "5 mm", impact_velocity = "40 m/s" }}
                 target = {{ rigid_wall = true }}
                 [chain]
                 projectile_elements = {n}
@@ -95,7 +95,7 @@ fn copper_taylor_bar() {
         .map(|n| {
             run(&format!(
                 r#"
-                projectile = {{ material = "copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "183 m/s" }}
+                projectile = {{ material = "copper", length = "23.47 mm", diameter = "7.62 mm", impact_velocity = "183 m/s" }}
                 target = {{ rigid_wall = true }}
                 [chain]
                 projectile_elements = {n}
@@ -122,7 +122,7 @@ fn constant_pressure_in_the_time_step() {
         .map(|courant| {
             let result = run(&format!(
                 r#"
-                projectile = {{ material = "s", length = "50 mm", diameter = "10 mm", velocity = "100 m/s" }}
+                projectile = {{ material = "s", length = "50 mm", diameter = "10 mm", impact_velocity = "100 m/s" }}
                 target = {{ constant_pressure = "100 MPa" }}
                 [chain]
                 projectile_elements = 20

@@ -9,14 +9,14 @@ use serde_json::Value;
 
 /// A flat rod on a plate.
 const ROD: [&str; 2] = [
-    "material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '400 m/s'",
+    "material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '400 m/s'",
     "material = 'aluminium-2024-t351', thickness = '10 mm'",
 ];
 const THICK: [&str; 2] = [
     ROD[0],
     "material = 'aluminium-2024-t351', thickness = '25 mm'",
 ];
-const OGIVE: &str = "material = '4340-johnson-cook', length = '40 mm', diameter = '8 mm', velocity = '150 m/s', nose = { ogive = { crh = 3.0 } }";
+const OGIVE: &str = "material = '4340-johnson-cook', length = '40 mm', diameter = '8 mm', impact_velocity = '150 m/s', nose = { ogive = { crh = 3.0 } }";
 
 /// A run that shows whether a default changes it.
 struct Try {
@@ -42,13 +42,13 @@ const TRIES: [Try; 10] = [
         shot: THICK,
         model: "chain",
         table: "chain",
-        options: "target_closure = 'expanding-cavity'",
+        options: "target_resistance = 'expanding-cavity'",
     },
     Try {
         shot: ROD,
         model: "chain",
         table: "chain",
-        options: "target_closure = 'column'",
+        options: "target_resistance = 'column'",
     },
     Try {
         shot: THICK,
@@ -229,7 +229,7 @@ fn every_option_has_a_default_or_its_description_says_when_it_has_none() {
             if is_table(&schema, property) {
                 continue;
             }
-            let words = ["when not given", " Default: ", "in place of"];
+            let words = ["when not given", " Default: ", "instead of"];
             let said = words.iter().any(|words| description.contains(words));
             assert!(
                 said != property.get("default").is_some(),
@@ -252,12 +252,12 @@ fn lines(defaults: &[&str]) -> Vec<String> {
 /// Defaults that depend on another option.
 #[test]
 fn of_the_courant_number_by_target_resistance_model() {
-    for (closure, courant) in [
+    for (resistance, courant) in [
         ("expanding-cavity", ChainOptions::EXPANDING_CAVITY_COURANT),
         ("column", ChainOptions::COURANT),
         ("diverging", ChainOptions::COURANT),
     ] {
-        let options = format!("chain.target_closure = '{closure}'");
+        let options = format!("chain.target_resistance = '{resistance}'");
         unchanged(
             THICK,
             "chain",
@@ -272,7 +272,7 @@ fn of_the_courant_number_by_target_resistance_model() {
 #[test]
 fn of_plane_impacts() {
     let shot = [
-        "material = 'ofhc-copper-johnson-cook', length = '2 mm', diameter = '40 mm', velocity = '400 m/s'",
+        "material = 'ofhc-copper-johnson-cook', length = '2 mm', diameter = '40 mm', impact_velocity = '400 m/s'",
         "material = 'ofhc-copper-johnson-cook', thickness = '4 mm', back_face = 'free'",
     ];
     let elements = FdmOptions::PLANAR_ELEMENTS;
@@ -311,7 +311,7 @@ fn of_spall_in_the_axisymmetric_model() {
 fn of_finite_differences_whose_energy_balance_does_not_close_at_it() {
     let run = |options: &str| {
         let text = format!(
-            "projectile = {{ material = '6061-t6-lesuer', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }}\n\
+            "projectile = {{ material = '6061-t6-lesuer', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '230 m/s' }}\n\
              target = {{ material = '4340-johnson-cook', thickness = '20 mm' }}\n\
              fdm.artificial_viscosity = {{ linear = 2.0, quadratic = 0.0 }}\n{options}\n"
         );

@@ -12,12 +12,12 @@ const NU: f64 = 0.3;
 fn elastic(back_face: &str, thickness_mm: f64, elements: (u32, u32)) -> String {
     format!(
         r#"
-        projectile = {{ material = "rod", length = "400 mm", diameter = "10 mm", velocity = "1 m/s" }}
+        projectile = {{ material = "rod", length = "400 mm", diameter = "10 mm", impact_velocity = "1 m/s" }}
         target = {{ material = "plate", thickness = "{thickness_mm} mm", back_face = "{back_face}" }}
         [chain]
         projectile_elements = {}
         target_elements = {}
-        target_closure = "diverging"
+        target_resistance = "diverging"
         kinematics = "small-strain"
         end_time = "100 us"
         [materials.rod]
@@ -118,7 +118,7 @@ fn depth_mm(velocity: f64, elements: (u32, u32), options: &str) -> f64 {
 /// 0.196 mm at 230 m/s, 1.94 mm at 600 m/s without erosion.
 #[test]
 fn an_independent_program_gives_the_same_depths() {
-    let never = "target_closure = \"diverging\"\nerosion_strain = \"never\"";
+    let never = "target_resistance = \"diverging\"\nerosion_strain = \"never\"";
     for (velocity, elements, other_mm) in [
         (230.0, (20, 50), 0.1928),
         (230.0, (40, 100), 0.1963),
@@ -132,22 +132,22 @@ fn an_independent_program_gives_the_same_depths() {
 
 #[test]
 fn depths_converge() {
-    for (closure, velocity, tolerance) in [
+    for (resistance, velocity, tolerance) in [
         ("diverging", 230.0, 0.04),
         ("diverging-penetrable", 230.0, 0.04),
         ("diverging-penetrable", 600.0, 0.01),
         ("diverging-penetrable", 1500.0, 0.05),
     ] {
-        let options = format!("target_closure = \"{closure}\"");
+        let options = format!("target_resistance = \"{resistance}\"");
         let depths = [(40, 100), (80, 200)].map(|mesh| depth_mm(velocity, mesh, &options));
-        println!("{closure} at {velocity} m/s: {depths:?} mm");
+        println!("{resistance} at {velocity} m/s: {depths:?} mm");
         assert!((depths[0] / depths[1] - 1.0).abs() < tolerance);
     }
 }
 
 #[test]
 fn the_books_balance_with_any_back_face_and_layers() {
-    for closure in ["diverging", "diverging-penetrable"] {
+    for resistance in ["diverging", "diverging-penetrable"] {
         for target in [
             "material = \"6061-t6\", thickness = \"20 mm\", back_face = \"fixed\"",
             "material = \"6061-t6\", thickness = \"20 mm\", back_face = \"free\"",
@@ -155,23 +155,23 @@ fn the_books_balance_with_any_back_face_and_layers() {
             "material = \"4340\", thickness = \"semi-infinite\"",
             "layers = [{ material = \"4340\", thickness = \"3 mm\" }, { material = \"6061-t6\", thickness = \"semi-infinite\" }]",
         ] {
-            if closure == "diverging-penetrable" && target.starts_with("layers") {
+            if resistance == "diverging-penetrable" && target.starts_with("layers") {
                 continue;
             }
             for velocity in [100.0, 600.0, 1500.0] {
                 let result = run(&format!(
                     r#"
-                    projectile = {{ material = "4340", length = "20 mm", diameter = "5 mm", velocity = "{velocity} m/s" }}
+                    projectile = {{ material = "4340", length = "20 mm", diameter = "5 mm", impact_velocity = "{velocity} m/s" }}
                     target = {{ {target} }}
                     [chain]
                     projectile_elements = 40
-                    target_closure = "{closure}"
+                    target_resistance = "{resistance}"
                     "#
                 ));
                 let numerics = result.numerics();
                 let residuals = (numerics.energy_residual, numerics.momentum_residual);
                 println!(
-                    "{closure}, {target}, {velocity} m/s: {residuals:?}, {:?}, {:?}",
+                    "{resistance}, {target}, {velocity} m/s: {residuals:?}, {:?}, {:?}",
                     result.depth_of_penetration, result.outcome
                 );
                 assert!(residuals.0 <= 1e-3 && residuals.1 <= 1e-12);
@@ -185,12 +185,12 @@ fn the_books_balance_with_any_back_face_and_layers() {
 fn rods(diameters: u32, strengths_mpa: (f64, f64), velocity: f64, per_diameter: u32) -> String {
     format!(
         r#"
-        projectile = {{ material = "rod", length = "{} mm", diameter = "10 mm", velocity = "{velocity} m/s" }}
+        projectile = {{ material = "rod", length = "{} mm", diameter = "10 mm", impact_velocity = "{velocity} m/s" }}
         target = {{ material = "target", thickness = "semi-infinite" }}
         [chain]
         projectile_elements = {}
         target_elements = 120
-        target_closure = "diverging-penetrable"
+        target_resistance = "diverging-penetrable"
         {}{}
         "#,
         10 * diameters,
@@ -215,7 +215,7 @@ fn tate(strengths_mpa: (f64, f64)) -> Rods {
     }
 }
 
-/// A rod that stays rigid stops at `(ρ_p L/ρ_t) ln(1 + ρ_t V²/2p_s)`, but for what the cone yields until it carries p_s.
+/// A rod that stays rigid stops at `(ρ_p L/ρ_t) ln(1 + ρ_t V²/2p_s)`, except for what the cone yields until it carries p_s.
 #[test]
 fn a_rigid_rod_stops_where_steady_penetration_stops_it() {
     let strengths = (20_000.0, 200.0);
@@ -268,11 +268,11 @@ fn an_eroding_rod_digs_at_the_speed_of_steady_flow() {
 fn below_the_threshold_a_penetrable_cone_is_the_plain_one() {
     let never = "erosion_strain = \"never\"";
     for velocity in [100.0, 230.0, 400.0] {
-        let [plain, penetrable] = ["diverging", "diverging-penetrable"].map(|closure| {
+        let [plain, penetrable] = ["diverging", "diverging-penetrable"].map(|resistance| {
             depth_mm(
                 velocity,
                 (40, 100),
-                &format!("target_closure = \"{closure}\"\n{never}"),
+                &format!("target_resistance = \"{resistance}\"\n{never}"),
             )
         });
         println!("{velocity} m/s: {plain:.4} mm, penetrable {penetrable:.4} mm");
@@ -285,18 +285,18 @@ fn keys_of_a_column_are_refused() {
     for (options, key) in [
         ("border_shear = 0.1", "border_shear"),
         ("constraint_factor = 2.5", "constraint_factor"),
-        ("erosion_closure = \"tate\"", "erosion_closure"),
-        ("scheme = \"published\"", "target_closure"),
+        ("erosion_criterion = \"tate\"", "erosion_criterion"),
+        ("scheme = \"published\"", "target_resistance"),
     ] {
         let text = paper(
             230.0,
             (4, 8),
-            &format!("target_closure = \"diverging\"\n{options}"),
+            &format!("target_resistance = \"diverging\"\n{options}"),
         );
         let error = case::load_str("test", &text).unwrap_err().to_string();
         assert!(error.contains(key), "{error}");
     }
-    let text = paper(230.0, (4, 8), "target_closure = \"diverging\"")
+    let text = paper(230.0, (4, 8), "target_resistance = \"diverging\"")
         .replace("25 mm\" }", "25 mm\", column_diameter = \"5 mm\" }");
     let error = case::load_str("test", &text).unwrap_err().to_string();
     assert!(error.contains("column_diameter"), "{error}");

@@ -107,7 +107,7 @@ fn equal_bars_exchange_velocities_and_part_after_a_round_trip() {
         .unwrap()
         .time;
     assert_near("contact time [s]", parted, transit, 5e-3);
-    // All momentum and, but for what rings in the bars, all energy are the target's.
+    // All momentum and, except for what rings in the bars, all energy are the target's.
     let ledger = &result.numerics().momentum;
     assert_near(
         "momentum of the struck bar [N s]",
@@ -151,7 +151,7 @@ fn stress_past_yield() {
     let (modulus, density, yield_stress, hardening) = (100e9_f64, 8000.0, 200e6, 5e9_f64);
     let case = format!(
         r#"
-        projectile = {{ material = "bilinear", length = "50 mm", diameter = "5 mm", velocity = "40 m/s" }}
+        projectile = {{ material = "bilinear", length = "50 mm", diameter = "5 mm", impact_velocity = "40 m/s" }}
         target = {{ rigid_wall = true }}
         [chain]
         projectile_elements = 800

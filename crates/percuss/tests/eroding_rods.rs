@@ -67,7 +67,7 @@ impl Shot {
         let metal = |id, density| plastic_metal(id, density, YOUNGS_MODULUS_GPA, FLOW_STRESS_MPA);
         format!(
             r#"
-            projectile = {{ material = "rod", length = "{} mm", diameter = "{DIAMETER_MM} mm", velocity = "{} m/s" }}
+            projectile = {{ material = "rod", length = "{} mm", diameter = "{DIAMETER_MM} mm", impact_velocity = "{} m/s" }}
             target = {{ material = "target", thickness = "{} mm", back_face = "non-reflecting" }}
             [chain]
             constraint_factor = {}
@@ -149,7 +149,7 @@ impl Shot {
         self.case(&format!("{options}\nend_time = \"{end} us\""))
     }
 
-    /// Ratios with the closure: every length of rod that it uses up has taken the work of the flow stress over that length,
+    /// Ratios with the resistance: every length of rod that it uses up has taken the work of the flow stress over that length,
     /// which leaves out what the rod shortens elastically.
     fn closure_ratios(self, case: &str) -> (f64, f64) {
         let radius = 0.5 * DIAMETER_MM * 1e-3;
@@ -158,7 +158,7 @@ impl Shot {
     }
 }
 
-const CLOSURE: &str = "erosion_closure = \"tate\"";
+const CLOSURE: &str = "erosion_criterion = \"tate\"";
 /// The same mesh as by default, without the border shear that Tate has no counterpart of.
 const DEFAULT: &str = "border_shear = 0.0";
 
@@ -282,7 +282,7 @@ fn the_closures_whole_depth_is_near_tate() {
     }
 }
 
-/// Without the closure the chain is no more than near Tate: the ratios are reported, and bounded so that a change shows.
+/// Without the resistance the chain is no more than near Tate: the ratios are reported, and bounded so that a change shows.
 #[test]
 fn the_chain_without_the_closure_is_near_tate() {
     for shot in shots() {
@@ -298,7 +298,7 @@ fn the_chain_without_the_closure_is_near_tate() {
 }
 
 #[test]
-fn the_closure_balances_its_books_and_leaves_the_tips_mass_out_of_the_projectile() {
+fn the_criterion_closes_its_balances_and_leaves_the_tips_mass_out_of_the_projectile() {
     for densities in [(STEEL, STEEL), (TUNGSTEN, STEEL), (LIGHT, STEEL)] {
         let shot = Shot {
             densities,
@@ -336,7 +336,7 @@ fn the_closure_refuses_keys_that_it_would_ignore() {
         let text = shot.case(&format!("{CLOSURE}\n{key}"));
         let error = case::load_str("test", &text).unwrap_err().to_string();
         assert!(
-            error.contains("has no effect with the erosion closure `tate`"),
+            error.contains("has no effect with the erosion criterion `tate`"),
             "{error}"
         );
     }

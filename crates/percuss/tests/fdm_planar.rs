@@ -3,7 +3,7 @@
 use crate::common::{assert_near, fdm_recorded};
 use percuss::{
     fdm::planar::{
-        Boundary, CellState, Column, DEFAULT_VISCOSITY, Layer, Medium, Solid, StateEquation,
+        Boundary, CellState, DEFAULT_VISCOSITY, Layer, Medium, PlanarGrid, Solid, StateEquation,
         impedance_match,
     },
     material::Material,
@@ -179,7 +179,7 @@ fn push(zones: usize, time: f64) -> Vec<CellState> {
         velocity: 0.0,
     };
     let ends = [Boundary::Piston(piston::SPEED), Boundary::Free];
-    let mut column = Column::new(&[layer], ends, DEFAULT_VISCOSITY, COURANT);
+    let mut column = PlanarGrid::new(&[layer], ends, DEFAULT_VISCOSITY, COURANT);
     column.advance_to(time).unwrap();
     assert!(column.energy().residual().abs() < 1e-9 * column.energy().total());
     assert!(column.momentum().residual().abs() < 1e-9 * column.momentum().projectile);
@@ -304,7 +304,7 @@ fn nohs_gas_piles_up_to_density_four() {
         velocity: 1.0,
     };
     let ends = [Boundary::Free, Boundary::Piston(0.0)];
-    let mut column = Column::new(&[layer], ends, DEFAULT_VISCOSITY, COURANT);
+    let mut column = PlanarGrid::new(&[layer], ends, DEFAULT_VISCOSITY, COURANT);
     let time = 0.6;
     column.advance_to(time).unwrap();
     let cells = column.cells();
@@ -345,7 +345,7 @@ fn fluid(name: &str) -> Medium {
     }
 }
 
-fn plates(flyer: (Medium, f64), target: (Medium, f64), size: f64, velocity: f64) -> Column {
+fn plates(flyer: (Medium, f64), target: (Medium, f64), size: f64, velocity: f64) -> PlanarGrid {
     let layer = |(medium, thickness): (Medium, f64), velocity| Layer {
         medium,
         thickness,
@@ -353,7 +353,7 @@ fn plates(flyer: (Medium, f64), target: (Medium, f64), size: f64, velocity: f64)
         velocity,
     };
     let layers = [layer(flyer, velocity), layer(target, 0.0)];
-    Column::new(
+    PlanarGrid::new(
         &layers,
         [Boundary::Free, Boundary::Free],
         DEFAULT_VISCOSITY,
@@ -474,7 +474,7 @@ fn elastic_plates_spall_where_and_when_the_releases_meet() {
 fn shot(length_mm: f64, material: &str, velocity: f64, fdm: &str) -> String {
     format!(
         r#"
-        projectile = {{ material = "{material}", length = "{length_mm} mm", diameter = "60 mm", velocity = "{velocity} m/s" }}
+        projectile = {{ material = "{material}", length = "{length_mm} mm", diameter = "60 mm", impact_velocity = "{velocity} m/s" }}
         target = {{ material = "{material}", thickness = "6 mm", back_face = "free" }}
         [fdm]
         geometry = "planar"
@@ -509,7 +509,7 @@ fn a_flyer_plate_as_a_case() {
         250.0,
         1e-9,
     );
-    assert!((480.0..520.0).contains(&detail(&result, "largest speed of the back face")));
+    assert!((480.0..520.0).contains(&detail(&result, "largest speed of the rear face")));
     // Plastic release lags behind elastic, so the plane lies near, not at, one flyer thickness under the back.
     assert!((2.5..4.5).contains(&detail(&result, "first spall plane, below the struck face")));
     assert_eq!(result.depth_of_penetration, None);
@@ -526,7 +526,7 @@ fn the_plateau_of_the_interface_stress_is_the_exact_one() {
     for cells in [25, 50, 100, 200, 400] {
         let result = fdm_recorded(&format!(
             r#"
-            projectile = {{ material = "a", length = "3 mm", diameter = "60 mm", velocity = "{} m/s" }}
+            projectile = {{ material = "a", length = "3 mm", diameter = "60 mm", impact_velocity = "{} m/s" }}
             target = {{ material = "a", thickness = "6 mm", back_face = "free" }}
             fdm = {{ geometry = "planar", projectile_elements = {cells} }}
             [materials.a]
@@ -569,7 +569,7 @@ fn the_plateau_is_the_impedance_match_of_unlike_plates() {
         for cells in [50, 100, 200] {
             let result = fdm_recorded(&format!(
                 r#"
-                projectile = {{ material = "{flyer}", length = "3 mm", diameter = "60 mm", velocity = "800 m/s" }}
+                projectile = {{ material = "{flyer}", length = "3 mm", diameter = "60 mm", impact_velocity = "800 m/s" }}
                 target = {{ material = "{target}", thickness = "3 mm", back_face = "free" }}
                 fdm = {{ geometry = "planar", projectile_elements = {cells} }}
                 {metals}

@@ -96,7 +96,7 @@ fn like_bars_exchange_their_velocities() {
 fn stiff(target: &str, length_mm: f64, velocity: f64, strength: &str, cells: u32) -> String {
     format!(
         r#"
-        projectile = {{ material = "stiff", length = "{length_mm} mm", diameter = "10 mm", velocity = "{velocity} m/s" }}
+        projectile = {{ material = "stiff", length = "{length_mm} mm", diameter = "10 mm", impact_velocity = "{velocity} m/s" }}
         target = {{ {target} }}
         [fdm]
         projectile_elements = {cells}
@@ -163,7 +163,7 @@ fn strain_levels_travel_at_their_own_speeds() {
     let time = 30e-6;
     let result = fdm_recorded(&format!(
         r#"
-        projectile = {{ material = "hardening", length = "200 mm", diameter = "5 mm", velocity = "60 m/s" }}
+        projectile = {{ material = "hardening", length = "200 mm", diameter = "5 mm", impact_velocity = "60 m/s" }}
         target = {{ rigid_wall = true }}
         [fdm]
         projectile_elements = 2000
@@ -200,7 +200,7 @@ fn the_chain_and_finite_differences_agree() {
             let case = paper(
                 velocity,
                 mesh,
-                "target_closure = \"column\"\nerosion_strain = \"never\"",
+                "target_resistance = \"column\"\nerosion_strain = \"never\"",
             );
             let (chain, here) = (run(&case), fdm(&case));
             let depth = |result: &RunResult| result.depth_of_penetration.unwrap() * 1e3;
@@ -229,7 +229,7 @@ fn finer_meshes_agree_better() {
         let case = paper(
             230.0,
             (10 * factor, 20 * factor),
-            "target_closure = \"column\"",
+            "target_resistance = \"column\"",
         );
         let (chain, here) = (run(&case), fdm(&case));
         here.depth_of_penetration.unwrap() / chain.depth_of_penetration.unwrap() - 1.0
@@ -297,7 +297,7 @@ fn layers_and_back_faces() {
     for back_face in ["fixed", "free", "non-reflecting"] {
         let result = fdm(&format!(
             r#"
-            projectile = {{ material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }}
+            projectile = {{ material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }}
             [target]
             back_face = "{back_face}"
             layers = [
@@ -313,7 +313,7 @@ fn layers_and_back_faces() {
         assert_books(&result);
         let deep = run(&format!(
             r#"
-            projectile = {{ material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }}
+            projectile = {{ material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }}
             [target]
             back_face = "{back_face}"
             layers = [

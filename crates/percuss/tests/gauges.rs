@@ -12,7 +12,7 @@ const BARS: &str = r#"
     material = "bar"
     length = "50 mm"
     diameter = "10 mm"
-    velocity = "10 m/s"
+    impact_velocity = "10 m/s"
     [target]
     material = "bar"
     thickness = "100 mm"
@@ -81,7 +81,7 @@ fn check(model: &str, gauges: &[GaugeHistory], tolerance: f64) {
 
 #[test]
 fn a_wave_in_bars_arrives_at_the_gauges_of_every_one_dimensional_solver() {
-    let column = "[chain]\ntarget_closure = 'column'\nborder_shear = 0.0\nconstraint_factor = 1.0\n\
+    let column = "[chain]\ntarget_resistance = 'column'\nborder_shear = 0.0\nconstraint_factor = 1.0\n\
                   projectile_elements = 100\ntarget_elements = 200\nend_time = '18 us'";
     check(
         "chain",
@@ -104,9 +104,9 @@ fn a_plane_wave_arrives_at_the_gauges_of_material_points() {
 #[test]
 fn a_gauge_moves_with_the_material_and_ends_with_its_element() {
     let text = r#"
-        projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "500 m/s" }
+        projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "500 m/s" }
         target = { material = "aluminium-2024-t351", thickness = "50 mm" }
-        chain = { target_closure = "column", erosion_strain = 1.0 }
+        chain = { target_resistance = "column", erosion_strain = 1.0 }
         gauges = [{ position = "-0.2 mm" }, { position = "-12 mm" }]
         "#;
     let gauges = gauges("chain", text);
@@ -154,7 +154,7 @@ fn a_gauge_outside_the_bodies_is_refused() {
 #[test]
 fn a_gauge_below_the_modelled_target_is_reported() {
     let text = r#"
-        projectile = { material = "copper", length = "6 mm", diameter = "4 mm", velocity = "300 m/s" }
+        projectile = { material = "copper", length = "6 mm", diameter = "4 mm", impact_velocity = "300 m/s" }
         target = { material = "aluminium-2024-t351", thickness = "semi-infinite" }
         axi = { cells_per_radius = 4, target_radius = "12 mm", target_depth = "14 mm", end_time = "2 us" }
         gauges = [{ position = "20 mm" }, { position = "5 mm" }]

@@ -8,7 +8,7 @@ use percuss::{
 
 fn run(material: &str, temperature: &str) -> Result<RunResult, Error> {
     let text = format!(
-        "projectile = {{ material = '{material}', length = '30 mm', diameter = '6 mm', velocity = '188 m/s'{temperature} }}\n\
+        "projectile = {{ material = '{material}', length = '30 mm', diameter = '6 mm', impact_velocity = '188 m/s'{temperature} }}\n\
          target = {{ rigid_wall = true }}"
     );
     let scenario = case::load_str("hot", &text)?;
@@ -36,7 +36,7 @@ fn a_hotter_rod_ends_shorter() {
 
 #[test]
 fn a_rod_gets_hotter_from_where_it_starts() {
-    let text = "projectile = { material = 'etp-copper-johnson-cook', length = '30 mm', diameter = '6 mm', velocity = '188 m/s', temperature = '718 K' }\n\
+    let text = "projectile = { material = 'etp-copper-johnson-cook', length = '30 mm', diameter = '6 mm', impact_velocity = '188 m/s', temperature = '718 K' }\n\
                 target = { rigid_wall = true }";
     let scenario = case::load_str("hot", text).unwrap();
     let chain = model::model("chain").unwrap();

@@ -104,9 +104,9 @@ fn options() -> impl Strategy<Value = String> {
         0.0..2.0_f64,
         any::<bool>(),
     )
-        .prop_map(|(closure, erosion, viscosity, small)| {
+        .prop_map(|(resistance, erosion, viscosity, small)| {
             format!(
-                "target_closure = \"{closure}\"\nerosion_strain = {erosion}\nkinematics = \"{}\"\n\
+                "target_resistance = \"{resistance}\"\nerosion_strain = {erosion}\nkinematics = \"{}\"\n\
                  artificial_viscosity = {{ linear = {}, quadratic = {viscosity} }}",
                 if small { "small-strain" } else { "logarithmic" },
                 0.1 * viscosity
@@ -127,7 +127,7 @@ prop_compose! {
         failure in failure(),
     ) -> String {
         let text = format!(
-            "[projectile]\nmaterial = \"{rod}\"\nlength = \"{length} mm\"\ndiameter = \"{diameter} mm\"\nvelocity = \"{velocity} m/s\"\n\
+            "[projectile]\nmaterial = \"{rod}\"\nlength = \"{length} mm\"\ndiameter = \"{diameter} mm\"\nimpact_velocity = \"{velocity} m/s\"\n\
              [target]\n{target}\n[chain]\nmax_steps = 20000\nprojectile_elements = {}\ntarget_elements = {}\n{}\n{options}\n",
             elements.0,
             elements.1,
@@ -135,9 +135,9 @@ prop_compose! {
         );
         // A wall or a pressure has no column: the options of one would be refused.
         let solid = !target.starts_with("rigid_wall") && !target.starts_with("constant_pressure");
-        let column = ["target_elements", "border_shear", "constraint_factor", "target_closure"];
+        let column = ["target_elements", "border_shear", "constraint_factor", "target_resistance"];
         let separate = target.contains("column_diameter");
-        let text: String = text.lines().filter(|line| !(separate && line.starts_with("target_closure"))).map(|line| format!("{line}\n")).collect();
+        let text: String = text.lines().filter(|line| !(separate && line.starts_with("target_resistance"))).map(|line| format!("{line}\n")).collect();
         let text = if target.starts_with("layers") { text.replace("diverging-penetrable", "diverging") } else { text };
         text.lines()
             .filter(|line| solid || !column.iter().any(|key| line.starts_with(key)))
@@ -203,7 +203,7 @@ fn lengths_scale() {
     let scaled = |k: f64| {
         run(&format!(
             r#"
-            projectile = {{ material = "copper", length = "{} mm", diameter = "{} mm", velocity = "300 m/s" }}
+            projectile = {{ material = "copper", length = "{} mm", diameter = "{} mm", impact_velocity = "300 m/s" }}
             target = {{ material = "aluminium-2024-t351", thickness = "{} mm" }}
             "#,
             12.0 * k,
@@ -272,7 +272,7 @@ fn default_options_carry_every_material() {
         for velocity in [50.0, 300.0, 1000.0] {
             let result = run(&format!(
                 r#"
-                projectile = {{ material = "{}", length = "20 mm", diameter = "5 mm", velocity = "{velocity} m/s" }}
+                projectile = {{ material = "{}", length = "20 mm", diameter = "5 mm", impact_velocity = "{velocity} m/s" }}
                 target = {{ material = "{}", thickness = "60 mm" }}
                 [chain]
                 projectile_elements = 20

@@ -24,7 +24,7 @@ fn case(velocity: f64, rod_mm: f64, layers: &str, back_face: &str, options: &str
         )
     };
     format!(
-        "projectile = {{ material = \"steel\", length = \"{rod_mm} mm\", diameter = \"10 mm\", velocity = \"{velocity} m/s\" }}\n\
+        "projectile = {{ material = \"steel\", length = \"{rod_mm} mm\", diameter = \"10 mm\", impact_velocity = \"{velocity} m/s\" }}\n\
          target = {{ layers = [{layers}], back_face = \"{back_face}\" }}\n[chain]\n{options}\n{}{}{}",
         material("steel", STEEL, "elastic = {}"),
         material("light", LIGHT, "elastic = {}"),
@@ -134,7 +134,7 @@ fn two_bonded_layers_of_one_material_are_one_layer() {
     }
 }
 
-/// Free plates of one length pass a velocity on across gaps, as balls do: every one flies at the speed of the projectile until it
+/// Free plates of one length pass a velocity on across gaps, as balls do: every one flies at the velocity of the projectile until it
 /// strikes the next.
 #[test]
 fn a_row_of_plates_with_gaps_passes_the_velocity_on() {

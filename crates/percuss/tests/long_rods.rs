@@ -1,4 +1,4 @@
-//! What must hold of every model of long eroding rods, through the case file.
+//! Properties of every model of long eroding rods, through the case file.
 
 use crate::common::scenario;
 use percuss::{
@@ -13,7 +13,7 @@ const MODELS: [&dyn Model; 4] = [&Tate, &WalkerAnderson, &LanzOdermatt, &Hydrody
 fn case(density: f64, scale: f64, velocity: f64) -> String {
     format!(
         r#"
-        projectile = {{ material = "rod", length = "{} mm", diameter = "{} mm", velocity = "{velocity} m/s" }}
+        projectile = {{ material = "rod", length = "{} mm", diameter = "{} mm", impact_velocity = "{velocity} m/s" }}
         target = {{ material = "armour", thickness = "semi-infinite" }}
         lanz_odermatt.target_hardness = 260
         [materials.rod]

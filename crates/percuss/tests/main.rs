@@ -1,4 +1,4 @@
-//! All integration tests of this crate as one program: what it tests is linked once, not once a file.
+//! All integration tests of this crate as one program: what it tests is linked once, not once per file.
 
 mod axi;
 mod axi_output;
@@ -18,7 +18,6 @@ mod eroding_rods;
 mod fdm_planar;
 mod fdm_rod;
 mod gauges;
-mod guard;
 mod hot_rod;
 mod invariants;
 mod layers;
@@ -32,9 +31,11 @@ mod prototype;
 mod published;
 mod regime;
 mod remnant;
+mod renamed;
 mod rigid_penetration;
 mod rod_on_wall;
 mod separation;
 mod spall;
 mod strength_laws;
 mod taylor_bar;
+mod validity;

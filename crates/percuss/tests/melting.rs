@@ -7,7 +7,7 @@ use percuss::outcome::RunResult;
 fn shot(melting: f64, options: &str) -> RunResult {
     run(&format!(
         r#"
-        projectile = {{ material = "metal", length = "20 mm", diameter = "5 mm", velocity = "600 m/s" }}
+        projectile = {{ material = "metal", length = "20 mm", diameter = "5 mm", impact_velocity = "600 m/s" }}
         target = {{ material = "metal", thickness = "15 mm" }}
         [chain]
         constraint_factor = 1.0

@@ -63,11 +63,11 @@ fn oblique_impact_is_for_models_that_take_it() {
 /// Limits measured at an angle, none of which any constant was fitted to: as far off as those at normal impact.
 #[test]
 fn oblique_limits_come_out_as_well_as_normal_ones() {
-    use percuss::{material::Library, shots};
+    use percuss::{experiments, material::Library};
     let library = Library::built_in();
     let mut errors: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
-    for shot in shots::built_in().iter().filter(|shot| shot.counts()) {
-        if shot.kind != shots::Kind::BallisticLimit || shot.projectile_materials.is_empty() {
+    for shot in experiments::built_in().iter().filter(|shot| shot.counts()) {
+        if shot.kind != experiments::Kind::BallisticLimit || shot.projectile_materials.is_empty() {
             continue;
         }
         let Ok(scenario) = shot.scenario(&shot.projectile_materials[0], library) else {

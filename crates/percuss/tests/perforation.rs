@@ -139,7 +139,7 @@ fn cores_on_aluminium_have_their_measured_limits() {
         let coefficient = strength * (modulus * 1e3 / strength).powf(exponent);
         let text = format!(
             r#"
-            projectile = {{ material = "apm2-core", mass = "{mass} g", diameter = "{diameter} mm", nose = {OGIVE}, velocity = "{measured} m/s" }}
+            projectile = {{ material = "apm2-core", mass = "{mass} g", diameter = "{diameter} mm", nose = {OGIVE}, impact_velocity = "{measured} m/s" }}
             target = {{ material = "plate", thickness = "{thickness} mm" }}
             materials.plate = {{ name = "plate", density = "{density} g/cm3", youngs_modulus = "{modulus} GPa", poissons_ratio = 0.33, strength = {{ power_law = {{ coefficient = "{coefficient} MPa", exponent = {exponent} }} }} }}
             "#

@@ -21,7 +21,7 @@ fn strain_levels_travel_at_their_own_speeds() {
     let time = 30e-6;
     let case = format!(
         r#"
-        projectile = {{ material = "hardening", length = "200 mm", diameter = "5 mm", velocity = "60 m/s" }}
+        projectile = {{ material = "hardening", length = "200 mm", diameter = "5 mm", impact_velocity = "60 m/s" }}
         target = {{ rigid_wall = true }}
         [chain]
         projectile_elements = 2000

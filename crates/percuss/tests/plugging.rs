@@ -11,7 +11,7 @@ use percuss::{
 fn scenario(velocity: f64, target: &str, chain: &str) -> Scenario {
     let text = format!(
         r#"
-        projectile = {{ material = "stiff", mass = "197 g", diameter = "20 mm", velocity = "{velocity} m/s" }}
+        projectile = {{ material = "stiff", mass = "197 g", diameter = "20 mm", impact_velocity = "{velocity} m/s" }}
         target = {{ material = "stiff", thickness = "12 mm", back_face = "free"{target} }}
         materials.stiff = {{ name = "stiff", density = "7850 kg/m3", youngs_modulus = "1400 GPa", poissons_ratio = 0.3, strength = {{ elastic = {{}} }} }}
         [chain]
@@ -140,7 +140,7 @@ fn a_plug_that_is_free_keeps_its_momentum() {
 fn weldox(speed: f64, elements: (u32, u32), chain: &str) -> Scenario {
     let text = format!(
         r#"
-        projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "{speed} m/s" }}
+        projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "{speed} m/s" }}
         target = {{ material = "weldox-460-e", thickness = "12 mm", back_face = "free", plate_diameter = "500 mm" }}
         [chain]
         border_shear_law = "shear-band"
@@ -319,7 +319,7 @@ fn the_books_close_where_the_plug_spalls() {
                 "{more:?} {speed}"
             );
         }
-        // What flies free at the end is all there is, but for what eroded, once the plug is free.
+        // What flies free at the end is all there is, except for what eroded, once the plug is free.
         if result.outcome == Outcome::Perforated && !more.contains("erosion") {
             let free: f64 = result.fragments.iter().map(|piece| piece.mass).sum();
             let (mass, plug) = masses();

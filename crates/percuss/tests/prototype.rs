@@ -6,7 +6,7 @@
 use crate::common::{assert_near, paper, run, wilkins};
 
 /// The target that both implement.
-const COLUMN: &str = "target_closure = \"column\"";
+const COLUMN: &str = "target_resistance = \"column\"";
 
 fn depth_mm(text: &str) -> f64 {
     run(text).depth_of_penetration.unwrap() * 1e3

@@ -15,7 +15,7 @@ fn scenario(rod: f64, plate: f64, target: &str, nose: &str, speed: f64) -> Scena
         )
     };
     let text = format!(
-        "projectile = {{ material = 'rod', length = '50 mm', diameter = '5 mm', velocity = '{speed} m/s', nose = {nose} }}\n\
+        "projectile = {{ material = 'rod', length = '50 mm', diameter = '5 mm', impact_velocity = '{speed} m/s', nose = {nose} }}\n\
          target = {{ {target} }}\n{}{}",
         material("rod", 8000.0, rod),
         material("plate", 2700.0, plate)
@@ -25,7 +25,7 @@ fn scenario(rod: f64, plate: f64, target: &str, nose: &str, speed: f64) -> Scena
 
 const DEEP: &str = "material = 'plate', thickness = 'semi-infinite'";
 
-fn judged(
+fn classified(
     rod: f64,
     plate: f64,
     target: &str,
@@ -41,7 +41,7 @@ use ProjectileRegime::{Deforming, Eroding, Rigid};
 #[test]
 fn a_wall_and_a_pressure_compare_one_stress() {
     // On a wall: ρ c V = 8000 × 5000 × V, 400 MPa at 10 m/s.
-    let wall = |speed| judged(400.0, 100.0, "rigid_wall = true", "'flat'", speed);
+    let wall = |speed| classified(400.0, 100.0, "rigid_wall = true", "'flat'", speed);
     assert_eq!(wall(0.0), (Rigid, None));
     assert_eq!(wall(6.6), (Rigid, None));
     assert_eq!(wall(6.7), (Rigid, Some(Deforming)));
@@ -50,7 +50,7 @@ fn a_wall_and_a_pressure_compare_one_stress() {
     assert_eq!(wall(14.9), (Deforming, Some(Rigid)));
     assert_eq!(wall(15.1), (Deforming, None));
     let pressure = |stress: &str| {
-        judged(
+        classified(
             400.0,
             100.0,
             &format!("constant_pressure = '{stress}'"),
@@ -86,7 +86,7 @@ fn a_strong_rod_stays_rigid_up_to_the_speed_at_which_its_nose_yields() {
     let resistance = resistance(200.0);
     for (nose, factor) in [("'flat'", 1.0), ("'hemisphere'", 0.5)] {
         let yields = ((2e9 - resistance) / (2700.0 * factor)).sqrt();
-        let at = |speed: f64| judged(2000.0, 200.0, DEEP, nose, speed);
+        let at = |speed: f64| classified(2000.0, 200.0, DEEP, nose, speed);
         assert_eq!(at(0.999 * yields), (Rigid, Some(Deforming)), "{nose}");
         assert_ne!(at(1.001 * yields).0, Rigid, "{nose}");
         // Not close: 1.5 (R + N ρ V²) < 2 GPa.
@@ -96,7 +96,7 @@ fn a_strong_rod_stays_rigid_up_to_the_speed_at_which_its_nose_yields() {
     }
     // A flat nose yields below √(2(Y − R)/ρt), so there is a range in which the rod deforms; it is close to rigid there.
     let erodes = (2.0 * (2e9 - resistance) / 2700.0).sqrt();
-    let at = |speed: f64| judged(2000.0, 200.0, DEEP, "'flat'", speed);
+    let at = |speed: f64| classified(2000.0, 200.0, DEEP, "'flat'", speed);
     assert_eq!(at(0.999 * erodes).0, Deforming);
     assert_eq!(at(1.001 * erodes).0, Eroding);
 }
@@ -105,7 +105,7 @@ fn a_strong_rod_stays_rigid_up_to_the_speed_at_which_its_nose_yields() {
 fn a_weak_rod_erodes_above_the_speed_at_which_it_penetrates() {
     // Y = 100 MPa < R: √(2(R − Y)/ρp), whatever the density of the target.
     let threshold = (2.0 * (resistance(200.0) - 100e6) / 8000.0).sqrt();
-    let at = |speed: f64| judged(100.0, 200.0, DEEP, "'flat'", speed);
+    let at = |speed: f64| classified(100.0, 200.0, DEEP, "'flat'", speed);
     assert_eq!(at(0.79 * threshold), (Deforming, None));
     assert_eq!(at(0.81 * threshold), (Deforming, Some(Eroding)));
     assert_eq!(at(0.999 * threshold), (Deforming, Some(Eroding)));
@@ -137,7 +137,7 @@ fn targets_are_told_apart_by_their_thickness() {
 fn the_sentence_holds_the_numbers() {
     let wall = scenario(400.0, 100.0, "rigid_wall = true", "'flat'", 12.0);
     assert_eq!(
-        Regime::of(&wall).in_words(&wall),
+        Regime::of(&wall).describe(&wall),
         "deforming projectile (or rigid), a rigid wall: an elastic impact on the wall would stress it to 480 MPa against its \
          flow stress of 400 MPa"
     );
@@ -167,7 +167,7 @@ fn what_never_yields_stays_rigid_and_what_it_meets_deforms() {
     let elastic = "[materials.e]\nname = 'e'\ndensity = '8000 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\nstrength.elastic = {}\n";
     let rod = |projectile: &str, target: &str| {
         let text = format!(
-            "projectile = {{ material = '{projectile}', length = '50 mm', diameter = '5 mm', velocity = '900 m/s' }}\n\
+            "projectile = {{ material = '{projectile}', length = '50 mm', diameter = '5 mm', impact_velocity = '900 m/s' }}\n\
              target = {{ material = '{target}', thickness = 'semi-infinite' }}\n{elastic}"
         );
         let regime = Regime::of(&case::load_str("elastic", &text).unwrap());

@@ -8,7 +8,7 @@ const LENGTH: f64 = 2.5e-3;
 fn case(elements: u32, more: &str) -> String {
     format!(
         r#"
-        projectile = {{ material = "ofhc-copper", length = "2.5 mm", diameter = "5 mm", velocity = "2870 m/s" }}
+        projectile = {{ material = "ofhc-copper", length = "2.5 mm", diameter = "5 mm", impact_velocity = "2870 m/s" }}
         target = {{ material = "tungsten-carbide", thickness = "semi-infinite" }}
         chain = {{ projectile_elements = {elements}{more} }}
         "#

@@ -37,7 +37,7 @@ fn rod(nose: &str, velocity: f64, options: &str) -> Scenario {
         length = "71 mm"
         diameter = "7.1 mm"
         nose = {nose}
-        velocity = "{velocity} m/s"
+        impact_velocity = "{velocity} m/s"
         [target]
         material = "soft"
         thickness = "semi-infinite"
@@ -213,7 +213,7 @@ fn given_coefficients_are_used() {
 fn a_rigid_projectile_against_a_constant_pressure_is_poncelet_without_drag() {
     let case = scenario(
         r#"
-        projectile = { material = "steel", length = "50 mm", diameter = "10 mm", velocity = "200 m/s" }
+        projectile = { material = "steel", length = "50 mm", diameter = "10 mm", impact_velocity = "200 m/s" }
         target = { constant_pressure = "500 MPa" }
         [materials.steel]
         name = "elastic"
@@ -235,7 +235,7 @@ fn what_lies_outside_is_refused_or_warned_of() {
     };
     let soft_rod = scenario(
         r#"
-        projectile = { material = "copper", length = "50 mm", diameter = "5 mm", velocity = "1500 m/s" }
+        projectile = { material = "copper", length = "50 mm", diameter = "5 mm", impact_velocity = "1500 m/s" }
         target = { material = "4340", thickness = "semi-infinite" }
         "#,
     );
@@ -251,7 +251,7 @@ fn what_lies_outside_is_refused_or_warned_of() {
     }
     for model in METAL_MODELS {
         assert!(
-            refusal(model, &plate).contains("the back face would have a say"),
+            refusal(model, &plate).contains("the rear face would affect it"),
             "{model}"
         );
     }

@@ -46,7 +46,7 @@ impl Plates {
         let flyer_elements = (f64::from(self.elements) * transit).round();
         run_recorded(&format!(
             r#"
-            projectile = {{ material = "flyer", length = "{} mm", diameter = "20 mm", velocity = "{} m/s" }}
+            projectile = {{ material = "flyer", length = "{} mm", diameter = "20 mm", impact_velocity = "{} m/s" }}
             target = {{ material = "plate", thickness = "{} mm", back_face = "free" }}
             [chain]
             projectile_elements = {flyer_elements}
@@ -173,7 +173,7 @@ fn elastic_plates_spall_where_and_when_the_releases_meet() {
 fn bodies_that_cannot_part_are_named() {
     let shot = |spall: &str| {
         format!(
-            "projectile = {{ material = \"4340\", length = \"5 mm\", diameter = \"8 mm\", velocity = \"100 m/s\" }}\n\
+            "projectile = {{ material = \"4340\", length = \"5 mm\", diameter = \"8 mm\", impact_velocity = \"100 m/s\" }}\n\
              target = {{ material = \"own\", thickness = \"10 mm\", back_face = \"free\" }}\n[chain]\nfailure = {{ spall = {{}} }}\n\
              [materials.own]\nname = \"own\"\ndensity = \"7800 kg/m3\"\nyoungs_modulus = \"200 GPa\"\npoissons_ratio = 0.3\n{spall}\n\
              strength.elastic = {{}}"
@@ -201,7 +201,7 @@ fn bodies_that_cannot_part_are_named() {
 #[test]
 fn models_that_take_layers_as_one_body_refuse_gaps() {
     let scenario = crate::common::scenario(
-        "projectile = { material = \"4340\", length = \"5 mm\", diameter = \"8 mm\", velocity = \"100 m/s\" }\n\
+        "projectile = { material = \"4340\", length = \"5 mm\", diameter = \"8 mm\", impact_velocity = \"100 m/s\" }\n\
          target = { layers = [{ material = \"4340\", thickness = \"5 mm\" }, { material = \"4340\", thickness = \"5 mm\", gap = \"1 mm\" }] }",
     );
     for model in percuss::model::MODELS {
@@ -301,7 +301,7 @@ fn local_damping_of_a_mass_on_a_spring() {
     let peak = |damping: f64| {
         let result = run_recorded(&format!(
             r#"
-            projectile = {{ material = "steel", length = "20 mm", diameter = "10 mm", velocity = "10 m/s" }}
+            projectile = {{ material = "steel", length = "20 mm", diameter = "10 mm", impact_velocity = "10 m/s" }}
             target = {{ rigid_wall = true }}
             [chain]
             projectile_elements = 1
@@ -332,7 +332,7 @@ fn a_locally_damped_bar_is_stable_at_its_longest_step() {
     for damping in [0.2, 0.5, 0.8] {
         let result = run_recorded(&format!(
             r#"
-            projectile = {{ material = "steel", length = "1 mm", diameter = "0.5 mm", velocity = "0.001 m/s" }}
+            projectile = {{ material = "steel", length = "1 mm", diameter = "0.5 mm", impact_velocity = "0.001 m/s" }}
             target = {{ material = "steel", thickness = "0.5 mm" }}
             [chain]
             projectile_elements = 9

@@ -7,7 +7,7 @@
 
 use crate::common::assert_near;
 use percuss::fdm::planar::{
-    Boundary, Column, DEFAULT_VISCOSITY, Layer, Medium, Solid, StateEquation,
+    Boundary, DEFAULT_VISCOSITY, Layer, Medium, PlanarGrid, Solid, StateEquation,
 };
 
 const DENSITY: f64 = 2700.0;
@@ -86,7 +86,7 @@ fn pull_back(
             layers.insert(0, layer(medium, 0.1, velocity, part, cells_per_mm));
         }
     }
-    let mut column = Column::new(
+    let mut column = PlanarGrid::new(
         &layers,
         [Boundary::Free, Boundary::Free],
         DEFAULT_VISCOSITY,

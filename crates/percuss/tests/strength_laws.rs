@@ -54,22 +54,22 @@ const fn numerical(model: &'static str, options: &'static str, energy: f64) -> N
 const MODELS: &[Numerical] = &[
     numerical(
         "chain",
-        "chain = { projectile_elements = 8, target_elements = 16, end_time = '6 us', target_closure = 'expanding-cavity' }",
+        "chain = { projectile_elements = 8, target_elements = 16, end_time = '6 us', target_resistance = 'expanding-cavity' }",
         1e-3,
     ),
     numerical(
         "chain",
-        "chain = { projectile_elements = 8, target_elements = 16, end_time = '6 us', target_closure = 'column' }",
+        "chain = { projectile_elements = 8, target_elements = 16, end_time = '6 us', target_resistance = 'column' }",
         1e-3,
     ),
     numerical(
         "chain",
-        "chain = { projectile_elements = 8, target_elements = 16, end_time = '6 us', target_closure = 'diverging' }",
+        "chain = { projectile_elements = 8, target_elements = 16, end_time = '6 us', target_resistance = 'diverging' }",
         1e-3,
     ),
     numerical(
         "chain",
-        "chain = { projectile_elements = 8, target_elements = 16, end_time = '6 us', target_closure = 'diverging-penetrable' }",
+        "chain = { projectile_elements = 8, target_elements = 16, end_time = '6 us', target_resistance = 'diverging-penetrable' }",
         1e-3,
     ),
     numerical(
@@ -125,7 +125,7 @@ fn records() -> Vec<String> {
 /// Whether a model gives a result; panics where it fails numerically.
 fn is_run(numerical: &Numerical, projectile: &str, target: &str, speed: f64) -> bool {
     let text = format!(
-        "projectile = {{ material = '{projectile}', length = '{}', diameter = '4 mm', velocity = '{speed} m/s' }}\n\
+        "projectile = {{ material = '{projectile}', length = '{}', diameter = '4 mm', impact_velocity = '{speed} m/s' }}\n\
          target = {{ material = '{target}', thickness = '25 mm' }}\n{}\n{ELASTIC}",
         numerical.length, numerical.options
     );

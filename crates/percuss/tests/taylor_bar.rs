@@ -9,7 +9,7 @@ use crate::common::{
 fn rigid_plastic(velocity: f64, elements: u32) -> f64 {
     let result = run(&format!(
         r#"
-        projectile = {{ material = "stiff", length = "100 mm", diameter = "10 mm", velocity = "{velocity} m/s" }}
+        projectile = {{ material = "stiff", length = "100 mm", diameter = "10 mm", impact_velocity = "{velocity} m/s" }}
         target = {{ rigid_wall = true }}
         [chain]
         projectile_elements = {elements}

@@ -53,7 +53,7 @@ fn show(result: &RunResult) {
     println!(
         "{:<20} depth {depth:6.2} mm, {}, {} pieces",
         result.model,
-        result.outcome.in_words(),
+        result.outcome.describe(),
         result.fragments.len()
     );
 }

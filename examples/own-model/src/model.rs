@@ -2,7 +2,7 @@
 
 use percuss::{
     Error, Refusal, Scenario,
-    guard::Guard,
+    validity::ValidityDomain,
     model::{Control, Model},
     outcome::{Outcome, RunResult, Termination},
 };
@@ -43,11 +43,11 @@ impl Model for ConstantResistance {
         "rigid projectile against a constant pressure"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 notes: &["the projectile does not deform"],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }

@@ -5,7 +5,7 @@
 
 mod kernel;
 mod problem;
-mod shots;
+mod runs;
 
 use std::{env, error::Error, fs, process::ExitCode, time::Instant};
 
@@ -32,11 +32,11 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, f64, f64) {
 fn run(words: &[&str]) -> Outcome<()> {
     match *words {
         [case, what @ ("shots" | "runs"), count, threads] => {
-            let scenarios = shots::scenarios(case, count.parse()?)?;
+            let scenarios = runs::scenarios(case, count.parse()?)?;
             let pool = threads_of(threads)?;
             let (work, clock, processor) = timed(|| match what {
-                "shots" => pool.install(|| shots::side_by_side(&scenarios)),
-                _ => shots::one_by_one(&scenarios),
+                "shots" => pool.install(|| runs::side_by_side(&scenarios)),
+                _ => runs::one_by_one(&scenarios),
             });
             println!("{clock:.9} {processor:.9} {}", work?);
         }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario, case,
-    converge::{self, Study, Verdict},
+    converge::{self, ConvergenceStatus, MeshStudy},
     model::{self, Control, MODELS, Model},
     units::significant,
 };
@@ -76,7 +76,7 @@ pub struct Converge {
 /// Result of the command and the files that it wrote.
 struct ConvergenceOutput {
     scenario: Scenario,
-    study: Study,
+    study: MeshStudy,
     files: Vec<PathBuf>,
 }
 
@@ -107,7 +107,7 @@ impl Converge {
             )
         );
         text += &table(&study);
-        text += &verdicts(&study);
+        text += &statuses(&study);
         FileList::new(&files).print_under(text)
     }
 
@@ -150,7 +150,7 @@ impl Converge {
         model: &dyn Model,
         scenario: &Scenario,
         on_progress: ProgressCallback<'_>,
-    ) -> Result<Study, Failure> {
+    ) -> Result<MeshStudy, Failure> {
         let mut report = |now: model::Progress| {
             let words = format!("{:.1} us on the current mesh", now.time * 1e6);
             on_progress(now.fraction, &words)
@@ -166,15 +166,15 @@ impl Converge {
 }
 
 /// Meshes as rows, quantities as columns, and below them order, extrapolated value and grid-convergence index.
-fn table(study: &Study) -> String {
-    let numbers = |verdict: &Verdict| {
-        let (richardson, index) = match *verdict {
-            Verdict::Converging {
+fn table(study: &MeshStudy) -> String {
+    let numbers = |status: &ConvergenceStatus| {
+        let (richardson, index) = match *status {
+            ConvergenceStatus::Converging {
                 richardson, index, ..
             } => (Some(richardson), Some(100.0 * index)),
             _ => (None, None),
         };
-        let order = verdict.order().map(|order| format!("{order:.2}"));
+        let order = status.order().map(|order| format!("{order:.2}"));
         [
             order.unwrap_or_else(|| number(None, 0)),
             number(richardson, 5),
@@ -199,19 +199,19 @@ fn table(study: &Study) -> String {
                 heading: quantity.name.replace('_', "\n"),
                 unit: quantity.unit.to_owned(),
                 numbers: true,
-                cells: values.chain(numbers(&quantity.verdict)).collect(),
+                cells: values.chain(numbers(&quantity.status)).collect(),
             }
         }));
     blocks(&table)
 }
 
-fn verdicts(study: &Study) -> String {
+fn statuses(study: &MeshStudy) -> String {
     study
         .quantities
         .iter()
         .map(|quantity| {
             let name = quantity.name.replace('_', " ");
-            let line = format!("{name}: {}", quantity.verdict.in_words());
+            let line = format!("{name}: {}", quantity.status.describe());
             format!("{}\n", wrap(&line, width(), 2))
         })
         .collect()

@@ -5,9 +5,9 @@ use std::{ops::ControlFlow, path::PathBuf, sync::Mutex};
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     case,
+    experiments::{Experiment, Kind},
     material::Library,
     model::{self, MODELS, Model},
-    shots::{Kind, Shot},
     validate::{self, Group, Grouping, PredictionRecord, Standing, Validation},
 };
 use percuss_report::validation::{self, Origin};
@@ -85,7 +85,7 @@ struct ValidationRecord {
     percuss_version: &'static str,
     data: Vec<String>,
     models: Vec<&'static str>,
-    shots: usize,
+    tests: usize,
     statistics: Vec<Group>,
     coverage: Vec<CoverageRecord>,
     predictions: Vec<PredictionRecord>,
@@ -95,7 +95,7 @@ struct ValidationRecord {
 struct CoverageRecord {
     model: &'static str,
     kind: Kind,
-    shots: usize,
+    tests: usize,
     counted: usize,
     commonest_reason: Option<String>,
 }
@@ -172,7 +172,7 @@ impl Validate {
 
     fn models(&self) -> Result<Vec<&'static dyn Model>, Failure> {
         if self.model.is_empty() {
-            return Ok(model::quick());
+            return Ok(model::fast_models());
         }
         let chosen = self.model.iter().map(|name| model::model(name));
         let mut models = chosen.collect::<Result<Vec<_>, _>>()?;
@@ -186,7 +186,7 @@ impl Validate {
     }
 
     /// Tests with their sources.
-    fn shots(&self, library: &Library) -> Result<(Vec<Shot>, Vec<String>), Failure> {
+    fn shots(&self, library: &Library) -> Result<(Vec<Experiment>, Vec<String>), Failure> {
         let built_in = [PathBuf::from(shot_data::BUILT_IN)];
         let data = if self.data.is_empty() {
             &built_in[..]
@@ -199,7 +199,7 @@ impl Validate {
     fn compute(
         &self,
         models: &[&'static dyn Model],
-        shots: &[Shot],
+        shots: &[Experiment],
         library: &Library,
         on_progress: ProgressCallback<'_>,
     ) -> Result<Validation, Failure> {
@@ -235,14 +235,14 @@ fn record(validation: &Validation, data: Vec<String>) -> ValidationRecord {
         percuss_version: env!("CARGO_PKG_VERSION"),
         data,
         models: validation.models.clone(),
-        shots: validation.shots.len(),
+        tests: validation.tests.len(),
         statistics: validation.all_statistics(),
         coverage: validate::coverage(validation)
             .into_iter()
             .map(|coverage| CoverageRecord {
                 model: coverage.model,
                 kind: coverage.kind,
-                shots: coverage.total(),
+                tests: coverage.total(),
                 counted: coverage.count(Standing::Counted),
                 commonest_reason: coverage.reason.map(|(reason, _)| reason),
             })

@@ -125,7 +125,7 @@ impl Reference<'_> {
         format!("[{name}](#{})", name.to_lowercase())
     }
 
-    /// A table that stands in place of a value.
+    /// A table that stands instead of a value.
     fn inner(&mut self, properties: &Value) -> String {
         let keys = properties.as_object().into_iter().flatten();
         let keys: Vec<String> = keys

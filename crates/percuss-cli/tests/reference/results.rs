@@ -31,8 +31,8 @@ Every number above, null where a model does not give it, and:
 | column | meaning |
 |---|---|
 | `shot` | number of the shot, from 0 |
-| an input | key and unit, such as `projectile.velocity_m_s`; the column of an option holds its words |
-| `outcome`, `termination`, `scheme`, `target_closure`, `criterion` | the texts above |
+| an input | key and unit, such as `projectile.impact_velocity_m_s`; the column of an option holds its words |
+| `outcome`, `termination`, `scheme`, `target_resistance`, `criterion` | the texts above |
 | `expected_error`, `expected_error_low`, `expected_error_high` | estimated error of the depth: median, 10th and 90th percentile |
 | `band_of`, `band_low`, `band_high` | range that the model gives its main number |
 | `details` | numbers that the model alone has, as JSON |
@@ -58,7 +58,7 @@ const PROFILES: &str = "
 pub(crate) fn page() -> String {
     let mut page = String::from(INTRODUCTION);
     for field in RESULT_FIELDS {
-        let (name, kind) = (field.name, field.kind.in_words());
+        let (name, kind) = (field.name, field.kind.describe());
         let meaning = field.description();
         let _ = writeln!(page, "| `{name}` | {kind} | {meaning} | {} |", used(field));
     }

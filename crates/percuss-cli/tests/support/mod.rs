@@ -19,7 +19,7 @@ use tempfile::TempDir;
 /// A quick case.
 pub const CASE: &str = r#"
 title = "Copper on aluminium"
-projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
 target = { material = "aluminium-2024-t351", thickness = "25 mm" }
 chain = { projectile_elements = 20, target_elements = 40 }
 "#;

@@ -1,6 +1,7 @@
 //! A text with the name of its file, and where in it something is wrong.
 
-mod reword;
+mod error_messages;
+mod renamed;
 mod text_file;
 
 use std::{
@@ -11,14 +12,14 @@ use std::{
 use toml::de::{DeArray, DeTable, DeValue};
 
 pub use text_file::MAX_FILE_BYTES;
-pub use {reword::reword, text_file::read_text};
+pub use {error_messages::reword_toml_error, renamed::Renamed, text_file::read_text};
 
 use self::{
-    reword::{Reworded, help_for_key},
+    error_messages::{Reworded, help_for_key},
     text_file::case_name,
 };
 use crate::{
-    check::Finding,
+    check::Diagnostic,
     error::{Error, InputError, Subject},
 };
 
@@ -99,27 +100,27 @@ impl Document {
         toml::from_str(&self.text).map_err(|error| self.parse_error(&error).into())
     }
 
-    /// Fails with the first finding, if there is one.
+    /// Fails with the first diagnostic, if there is one.
     ///
     /// # Errors
     /// [`Error::Input`] with the place of its key.
-    pub fn report(&self, findings: Vec<Finding>) -> Result<(), Error> {
-        match findings.into_iter().next() {
-            Some(finding) => Err(self.place(finding).into()),
+    pub fn report(&self, diagnostics: Vec<Diagnostic>) -> Result<(), Error> {
+        match diagnostics.into_iter().next() {
+            Some(diagnostic) => Err(self.place(diagnostic).into()),
             None => Ok(()),
         }
     }
 
-    /// The error of a finding, with the place of its key.
-    pub fn place(&self, finding: Finding) -> InputError {
+    /// The error of a diagnostic, with the place of its key.
+    pub fn place(&self, diagnostic: Diagnostic) -> InputError {
         InputError {
-            subject: finding.subject,
+            subject: diagnostic.subject,
             file: self.file.clone(),
             text: self.text.clone(),
-            span: self.span_of(&finding.key),
-            key: finding.key,
-            message: finding.message,
-            help: finding.help,
+            span: self.span_of(&diagnostic.key),
+            key: diagnostic.key,
+            message: diagnostic.message,
+            help: diagnostic.help,
         }
     }
 
@@ -127,10 +128,10 @@ impl Document {
         let mut span = error.span().unwrap_or(0..0);
         let source = self.text.get(span.clone()).unwrap_or_default();
         let Reworded {
-            message,
+            mut message,
             mut help,
             name,
-        } = reword(error.message(), source);
+        } = reword_toml_error(error.message(), source);
         let key = match DeTable::parse(&self.text) {
             Ok(root) => key_at(root.get_ref(), &span, name),
             Err(_) => {
@@ -145,6 +146,10 @@ impl Document {
         };
         if let Some(more) = help_for_key(&key, &self.names_under(&key), error.message()) {
             help = more;
+        }
+        if let Some(renamed) = Renamed::of(&key).filter(|_| message.starts_with("unknown key")) {
+            let renamed = renamed.in_its_table();
+            (message, help) = (renamed.message(), renamed.help());
         }
         let table = key.split('.').next().unwrap_or_default();
         InputError {

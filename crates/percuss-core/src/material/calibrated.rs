@@ -1,4 +1,4 @@
-//! What a record was calibrated on.
+//! Provenance of a calibrated material record.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -11,11 +11,11 @@ pub struct Calibrated {
     pub parameters: Vec<String>,
     /// The record that the other constants come from.
     pub from: String,
-    /// The model that computed the shots: with another one the constants may be far off.
+    /// The model that computed the tests: with another one the constants may be far off.
     pub model: String,
-    /// Sources of the shots: validation does not count them as blind.
+    /// Sources of the tests: validation does not count them as blind.
     pub sources: Vec<String>,
-    /// The shots and cases.
+    /// The tests and cases.
     pub shots: Vec<String>,
     /// Version of the program.
     pub percuss_version: String,

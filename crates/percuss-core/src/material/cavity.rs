@@ -34,8 +34,8 @@ thread_local! {
     static LAST: RefCell<Option<(Material, f64, Option<f64>)>> = const { RefCell::new(None) };
 }
 
-/// [`expansion_pressure`], and the last one again where nothing has changed: shots of a sweep mostly have the same target, and the
-/// integral takes as long as a third of a shot.
+/// [`expansion_pressure`], and the last one again where nothing has changed: runs of a sweep mostly have the same target, and the
+/// integral takes as long as a third of a run.
 fn remembered_pressure(material: &Material, exponent: f64) -> Option<f64> {
     LAST.with_borrow_mut(|last| match last {
         Some((known, of, pressure)) if known == material && *of == exponent => *pressure,

@@ -37,7 +37,7 @@ pub struct Damage {
     /// Bibliography keys.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sources: Vec<String>,
-    /// What a user should know before relying on it.
+    /// Limitations.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{check::Finding, material::Library};
+use crate::{check::Diagnostic, material::Library};
 
 fn metal(damage: &str) -> Material {
     toml::from_str(&format!(
@@ -115,9 +115,12 @@ fn where_the_formula_leaves_no_strain_the_first_flow_fails() {
 }
 
 fn keys(material: &Material) -> Vec<String> {
-    let mut findings: Vec<Finding> = Vec::new();
-    material.check(&mut Check::new(&mut findings));
-    findings.into_iter().map(|finding| finding.key).collect()
+    let mut diagnostics: Vec<Diagnostic> = Vec::new();
+    material.check(&mut Check::new(&mut diagnostics));
+    diagnostics
+        .into_iter()
+        .map(|diagnostic| diagnostic.key)
+        .collect()
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::{
 
 use super::{Material, MaterialTable};
 use crate::{
-    check::{Check, Finding},
+    check::{Check, Diagnostic},
     document::Document,
     error::Error,
 };
@@ -55,11 +55,11 @@ static BUILT_IN: LazyLock<Result<Library, Error>> = LazyLock::new(|| {
     for (file, text) in FILES {
         let document = Document::new(file, *text).of_materials();
         let table: MaterialTable = document.parse()?;
-        let mut findings: Vec<Finding> = Vec::new();
+        let mut diagnostics: Vec<Diagnostic> = Vec::new();
         for (id, material) in &table {
-            material.check(&mut Check::new(&mut findings).within(id));
+            material.check(&mut Check::new(&mut diagnostics).within(id));
         }
-        document.report(findings)?;
+        document.report(diagnostics)?;
         library.add(&table, file);
     }
     Ok(library)

@@ -59,7 +59,7 @@ pub struct Material {
     /// Bibliography keys of the works that the numbers come from.
     #[serde(default)]
     pub sources: Vec<String>,
-    /// What a user should know before relying on the record.
+    /// Limitations of the record.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
     /// What its constants were calibrated on, where `percuss calibrate` made the record.
@@ -167,7 +167,7 @@ pub enum MaterialClass {
 
 impl MaterialClass {
     /// The class in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::Metal => "metal",
             Self::Concrete => "concrete",
@@ -186,7 +186,7 @@ pub enum Trust {
     B,
     /// Secondary source without a named primary one, or values put together from several.
     C,
-    /// Supplied by the user; not judged.
+    /// Supplied by the user; not graded.
     #[default]
     #[serde(rename = "user")]
     User,
@@ -209,7 +209,7 @@ impl Trust {
             Self::A => "read in two independent places",
             Self::B => "one secondary source that names its primary source",
             Self::C => "indicative: primary source not named, or put together from several",
-            Self::User => "supplied by the user; not judged",
+            Self::User => "supplied by the user; not graded",
         }
     }
 }
@@ -235,5 +235,5 @@ impl Validity {
     }
 }
 
-/// A file of materials: one table a record, the table's name being the material's id.
+/// A file of materials: one table per record, the table's name being the material's id.
 pub type MaterialTable = BTreeMap<String, Material>;

@@ -1,4 +1,4 @@
-//! Checks that every material passes on load: wide enough for any real solid, narrow enough to catch a slip of 1000.
+//! Checks that every material passes on load: wide enough for any real solid, narrow enough to detect a unit error of 1000.
 
 use super::Material;
 use crate::{
@@ -6,7 +6,7 @@ use crate::{
     units::Pressure,
 };
 
-/// Plastic strain at which a hardened flow stress is judged: every impact reaches it, and fits hold there.
+/// Plastic strain at which a hardened flow stress is checked: every impact reaches it, and fits hold there.
 const HARDENED_STRAIN: f64 = 0.1;
 
 impl Material {
@@ -78,7 +78,7 @@ impl Material {
             "initial yield stress",
             law.initial_yield_stress(self),
         );
-        // One slip, one finding: a wrong yield stress is in the hardened stress as well.
+        // One error, one diagnostic: a wrong yield stress is also in the hardened stress.
         if yields {
             self.check_ratio(
                 check,
@@ -137,13 +137,13 @@ impl Material {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::Finding;
+    use crate::check::Diagnostic;
 
-    fn findings(text: &str) -> Vec<Finding> {
+    fn diagnostics(text: &str) -> Vec<Diagnostic> {
         let material: Material = toml::from_str(text).unwrap();
-        let mut findings = Vec::new();
-        material.check(&mut Check::new(&mut findings));
-        findings
+        let mut diagnostics = Vec::new();
+        material.check(&mut Check::new(&mut diagnostics));
+        diagnostics
     }
 
     /// A solid like a stiff polymer: far from the metals of the library.
@@ -156,16 +156,16 @@ mod tests {
 
     #[test]
     fn solids_that_are_no_metals_pass() {
-        assert_eq!(findings(&polymer("5 MPa")), []);
-        assert_eq!(findings(&polymer("0 MPa")), []);
+        assert_eq!(diagnostics(&polymer("5 MPa")), []);
+        assert_eq!(diagnostics(&polymer("0 MPa")), []);
         let foam = "name = 'foam'\ndensity = '30 kg/m3'\nyoungs_modulus = '20 MPa'\npoissons_ratio = 0.1\n\
                     strength.perfectly_plastic = { flow_stress = '400 kPa' }";
-        assert_eq!(findings(foam), []);
+        assert_eq!(diagnostics(foam), []);
     }
 
     #[test]
     fn hardening_beyond_the_modulus_is_one_finding() {
-        let found = findings(&polymer("5 GPa"));
+        let found = diagnostics(&polymer("5 GPa"));
         assert_eq!(found.len(), 1, "{found:?}");
         assert_eq!(found[0].key, "strength.johnson_cook");
         assert!(found[0].message.contains("plastic strain of 0.1"));
@@ -173,7 +173,7 @@ mod tests {
 
     #[test]
     fn hardening_too_small_for_its_yield_stress_is_a_finding() {
-        let found = findings(&polymer("5 kPa"));
+        let found = diagnostics(&polymer("5 kPa"));
         assert_eq!(found.len(), 1, "{found:?}");
         assert_eq!(found[0].key, "strength.johnson_cook.b");
     }

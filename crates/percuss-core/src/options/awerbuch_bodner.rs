@@ -12,6 +12,7 @@ use crate::{
 /// Options of the model `awerbuch_bodner`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct AwerbuchBodnerOptions {
     /// Stress that crushes the plate in front of the flat face [Pa]; 2.7 tensile strengths when not given.
     pub crushing_stress: Option<Pressure>,

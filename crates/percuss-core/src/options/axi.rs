@@ -17,6 +17,7 @@ use crate::{
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[schemars(transform = axi_in_schema)]
+#[non_exhaustive]
 pub struct AxiOptions {
     /// Cells along the projectile's radius.
     pub cells_per_radius: Option<u32>,
@@ -24,7 +25,7 @@ pub struct AxiOptions {
     pub particles_per_side: Option<u32>,
     /// Radius of the target that is modelled [m]; 10 radii of the projectile when not given.
     pub target_radius: Option<Length>,
-    /// Depth of the target that is modelled when the target is thicker [m]; what the shot is expected to need when not given.
+    /// Depth of the target that is modelled when the target is thicker [m]; what the impact is expected to need when not given.
     pub target_depth: Option<Length>,
     /// What holds the target at `target_radius`.
     pub edge: Option<Edge>,
@@ -54,7 +55,7 @@ pub struct AxiOptions {
     pub erode_failed: Option<bool>,
     /// Whether material spalls at the spall strength of its record.
     pub spall: Option<bool>,
-    /// Tensile stress at which material spalls, in place of that of the materials' records [Pa].
+    /// Tensile stress at which material spalls, instead of that of the materials' records [Pa].
     pub spall_strength: Option<Pressure>,
     /// Time at which a run is ended [s]; long enough for the case to end by itself when not given.
     pub end_time: Option<Time>,

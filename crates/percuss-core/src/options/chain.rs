@@ -4,8 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    chain_words::{ArtificialViscosity, ErosionClosure, Kinematics, Scheme, TargetClosure},
-    number_or_word::{ConstraintFactor, ErosionStrain, NumberOrWord},
+    chain_enums::{
+        ArtificialViscosity, ErosionCriterion, Kinematics, Scheme, TargetResistanceModel,
+    },
+    number_or_name::{ConstraintFactor, ErosionStrain, NumberOrName},
     published_options::PublishedOptions,
     shear_band::{BorderShearLaw, ShearBandOptions},
 };
@@ -31,7 +33,7 @@ pub struct ChainOptions {
     /// Elements through the target, shared among its layers by thickness.
     pub target_elements: Option<u32>,
     /// Target resistance model; scheme `conservative` only.
-    pub target_closure: Option<TargetClosure>,
+    pub target_resistance: Option<TargetResistanceModel>,
     /// Factor on the target's flow stress for the lateral constraint \[woodward1982\].
     pub constraint_factor: Option<ConstraintFactor>,
     /// Border-shear coefficient C in `Fy = C π d h σ_f` \[paper, eq. 24\].
@@ -49,7 +51,7 @@ pub struct ChainOptions {
     /// Magnitude of strain at which an element erodes, or `"never"`; scheme `conservative` only.
     pub erosion_strain: Option<ErosionStrain>,
     /// How what erodes leaves the tip; scheme `conservative` only.
-    pub erosion_closure: Option<ErosionClosure>,
+    pub erosion_criterion: Option<ErosionCriterion>,
     /// Artificial viscosity in compression; scheme `conservative` only.
     pub artificial_viscosity: Option<ArtificialViscosity>,
     /// Viscous damping of every spring as a fraction of critical; scheme `conservative` only.
@@ -148,10 +150,10 @@ impl ChainOptions {
     fn check_target(&self, check: &mut Check<'_>, target_is_solid: bool) {
         let column_only = [
             ("target_elements", self.target_elements.is_some()),
-            ("target_closure", self.target_closure.is_some()),
+            ("target_resistance", self.target_resistance.is_some()),
             ("constraint_factor", self.constraint_factor.is_some()),
             ("border_shear", self.border_shear.is_some()),
-            ("erosion_closure", self.erosion_closure.is_some()),
+            ("erosion_criterion", self.erosion_criterion.is_some()),
         ];
         for (key, _) in column_only
             .iter()
@@ -163,7 +165,7 @@ impl ChainOptions {
                 "remove the key",
             );
         }
-        if self.erosion_closure() == ErosionClosure::Tate {
+        if self.erosion_criterion() == ErosionCriterion::Tate {
             for (key, given) in [
                 ("kinematics", self.kinematics.is_some()),
                 ("erosion_strain", self.erosion_strain.is_some()),
@@ -172,7 +174,7 @@ impl ChainOptions {
                 if given {
                     check.fail(
                         key,
-                        format!("`{key}` has no effect with the erosion closure `tate`"),
+                        format!("`{key}` has no effect with the erosion criterion `tate`"),
                         "remove one of the two keys",
                     );
                 }
@@ -189,46 +191,46 @@ impl ChainOptions {
 
     /// Reports keys that a cone has no use for.
     fn check_closure(&self, check: &mut Check<'_>, target: &Target) {
-        let closure = self.target_closure();
-        if closure == TargetClosure::Column {
+        let resistance = self.target_resistance();
+        if resistance == TargetResistanceModel::Column {
             return;
         }
-        let lacks: Vec<_> = match closure {
-            TargetClosure::ExpandingCavity => self.cavity_lacks().collect(),
+        let lacks: Vec<_> = match resistance {
+            TargetResistanceModel::ExpandingCavity => self.cavity_lacks().collect(),
             _ => self.column_keys().to_vec(),
         };
         for (key, _) in lacks.iter().filter(|(_, differs)| *differs) {
             check.fail(
                 key,
                 format!(
-                    "`{key}` belongs to a column: the target closure `{}` has none",
-                    closure.name()
+                    "`{key}` belongs to a column: the target resistance model `{}` has none",
+                    resistance.name()
                 ),
-                "remove the key, or use target_closure = \"column\"",
+                "remove the key, or use target_resistance = \"column\"",
             );
         }
         if target.column_diameter.is_some() {
             check.fail(
-                "target_closure",
+                "target_resistance",
                 format!(
-                    "the target closure `{}` starts with the projectile's area: `target.column_diameter` has no effect",
-                    closure.name()
+                    "the target resistance model `{}` starts with the projectile's area: `target.column_diameter` has no effect",
+                    resistance.name()
                 ),
-                "remove `target.column_diameter`, or use target_closure = \"column\"",
+                "remove `target.column_diameter`, or use target_resistance = \"column\"",
             );
         }
         let one_material = [
-            TargetClosure::DivergingPenetrable,
-            TargetClosure::ExpandingCavity,
+            TargetResistanceModel::DivergingPenetrable,
+            TargetResistanceModel::ExpandingCavity,
         ];
-        if one_material.contains(&closure) && target.layers.len() > 1 {
+        if one_material.contains(&resistance) && target.layers.len() > 1 {
             check.fail(
-                "target_closure",
+                "target_resistance",
                 format!(
-                    "the target closure `{}` has one resistance: it takes a target of one material",
-                    closure.name()
+                    "the target resistance model `{}` has one resistance: it takes a target of one material",
+                    resistance.name()
                 ),
-                "use target_closure = \"diverging\" or \"column\"",
+                "use target_resistance = \"diverging\" or \"column\"",
             );
         }
     }
@@ -239,8 +241,8 @@ impl ChainOptions {
             ("kinematics", self.kinematics.is_some()),
             ("courant", self.courant.is_some()),
             ("erosion_strain", self.erosion_strain.is_some()),
-            ("erosion_closure", self.erosion_closure.is_some()),
-            ("target_closure", self.target_closure.is_some()),
+            ("erosion_criterion", self.erosion_criterion.is_some()),
+            ("target_resistance", self.target_resistance.is_some()),
             ("artificial_viscosity", self.artificial_viscosity.is_some()),
             ("damping_ratio", self.damping_ratio.is_some()),
             ("local_damping", self.local_damping.is_some()),

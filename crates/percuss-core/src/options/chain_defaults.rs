@@ -1,10 +1,10 @@
-//! Options of the 1-D discrete element model with their defaults in place of what is not given.
+//! Options of the 1-D discrete element model with their defaults for options that are not given.
 
 use super::{
     chain::ChainOptions,
-    chain_words::{ArtificialViscosity, ErosionClosure, Kinematics, TargetClosure},
+    chain_enums::{ArtificialViscosity, ErosionCriterion, Kinematics, TargetResistanceModel},
     defaults::{MAX_STEPS, defaults},
-    number_or_word::{ConstraintFactor, ErosionStrain, NumberOrWord},
+    number_or_name::{ConstraintFactor, ErosionStrain, NumberOrName},
     published_options::PublishedOptions,
     shear_band::BorderShearLaw,
 };
@@ -21,7 +21,7 @@ defaults! { ChainOptions, chain_in_schema {
     /// Strain at which an element erodes.
     erosion_strain: ErosionStrain = ErosionStrain::At(2.0);
     /// How what erodes leaves the tip.
-    erosion_closure: ErosionClosure = ErosionClosure::Strain;
+    erosion_criterion: ErosionCriterion = ErosionCriterion::Strain;
     /// Artificial viscosity.
     artificial_viscosity: ArtificialViscosity = ArtificialViscosity::default();
     /// Damping of every spring as a fraction of critical.
@@ -39,7 +39,7 @@ defaults! { ChainOptions, chain_in_schema {
     also projectile_elements = ChainOptions::PROJECTILE_ELEMENTS;
     also kinematics = Kinematics::Logarithmic;
     depending target_elements: few_elements();
-    depending target_closure: resistance_model();
+    depending target_resistance: resistance_model();
     depending courant: courant_by_model();
 } }
 
@@ -94,15 +94,15 @@ impl ChainOptions {
 
     /// Courant number: of a [`Scenario`](crate::Scenario), where the target resistance model of its case is known.
     pub fn courant(&self) -> f64 {
-        self.courant.unwrap_or(match self.target_closure() {
-            TargetClosure::ExpandingCavity => Self::EXPANDING_CAVITY_COURANT,
+        self.courant.unwrap_or(match self.target_resistance() {
+            TargetResistanceModel::ExpandingCavity => Self::EXPANDING_CAVITY_COURANT,
             _ => Self::COURANT,
         })
     }
 
     /// What stands for the target: of a [`Scenario`](crate::Scenario), where the default of its case is worked out.
-    pub fn target_closure(&self) -> TargetClosure {
-        self.target_closure.unwrap_or_default()
+    pub fn target_resistance(&self) -> TargetResistanceModel {
+        self.target_resistance.unwrap_or_default()
     }
 
     /// Keys that only a column has, and whether their values differ from the default: writing down a default changes nothing.
@@ -124,8 +124,8 @@ impl ChainOptions {
                 differ(self.border_shear(), default.border_shear()),
             ),
             (
-                "erosion_closure",
-                self.erosion_closure() != default.erosion_closure(),
+                "erosion_criterion",
+                self.erosion_criterion() != default.erosion_criterion(),
             ),
         ]
     }
@@ -160,11 +160,11 @@ impl ChainOptions {
                 .is_some_and(|key| keys.any(|(own, _)| key.split('.').next() == Some(own)))
     }
 
-    /// Strain measure; the closure of Tate has one of its own.
+    /// Strain measure; the erosion criterion of Tate has one of its own.
     pub fn kinematics(&self) -> Kinematics {
-        match self.erosion_closure() {
-            ErosionClosure::Strain => self.kinematics.unwrap_or_default(),
-            ErosionClosure::Tate => Kinematics::SmallStrain,
+        match self.erosion_criterion() {
+            ErosionCriterion::Strain => self.kinematics.unwrap_or_default(),
+            ErosionCriterion::Tate => Kinematics::SmallStrain,
         }
     }
 

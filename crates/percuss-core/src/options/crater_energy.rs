@@ -12,6 +12,7 @@ use crate::{
 /// Options of the model `crater_energy`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct CraterEnergyOptions {
     /// Energy that a volume of crater costs [J/m3 = Pa]; the target's quasi-static cavity-expansion pressure when not given.
     pub resistance: Option<Pressure>,

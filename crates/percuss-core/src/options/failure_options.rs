@@ -2,7 +2,7 @@
 
 use super::{
     chain::ChainOptions,
-    chain_words::{ErosionClosure, TargetClosure},
+    chain_enums::{ErosionCriterion, TargetResistanceModel},
 };
 use crate::{
     check::{Check, limits},
@@ -14,10 +14,10 @@ impl ChainOptions {
         if let Some(failure) = &self.failure {
             let key = format!("failure.{}", failure.key());
             failure.law().check(&mut check.within(&key));
-            if self.erosion_closure() == ErosionClosure::Tate {
+            if self.erosion_criterion() == ErosionCriterion::Tate {
                 check.fail(
                     "failure",
-                    "the erosion closure `tate` holds the target in place: nothing of it can part",
+                    "the erosion criterion `tate` holds the target in place: nothing of it can separate",
                     "remove one of the two keys",
                 );
             }
@@ -39,10 +39,10 @@ impl ChainOptions {
         if !target.has_separate_layers() {
             return;
         }
-        let held = match (self.erosion_closure(), self.target_closure()) {
-            (ErosionClosure::Tate, _) => Some(("erosion_closure", "tate")),
-            (_, TargetClosure::Column) => None,
-            (_, closure) => Some(("target_closure", closure.name())),
+        let held = match (self.erosion_criterion(), self.target_resistance()) {
+            (ErosionCriterion::Tate, _) => Some(("erosion_criterion", "tate")),
+            (_, TargetResistanceModel::Column) => None,
+            (_, resistance) => Some(("target_resistance", resistance.name())),
         };
         if let Some((key, name)) = held {
             check.fail(

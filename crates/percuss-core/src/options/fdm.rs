@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     ArtificialViscosity, ChainOptions, ConstraintFactor,
     defaults::{MAX_STEPS, defaults},
-    number_or_word::NumberOrWord,
+    number_or_name::NumberOrName,
 };
 use crate::{
     check::{
@@ -21,6 +21,7 @@ use crate::{
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[schemars(transform = fdm_in_schema)]
+#[non_exhaustive]
 pub struct FdmOptions {
     /// Geometry of the impact.
     pub geometry: Geometry,
@@ -37,7 +38,7 @@ pub struct FdmOptions {
     pub courant: Option<f64>,
     /// Artificial viscosity in compression.
     pub artificial_viscosity: Option<ArtificialViscosity>,
-    /// Tensile stress at which material spalls, in place of that of the materials' records; geometry `planar` only [Pa].
+    /// Tensile stress at which material spalls, instead of that of the materials' records; geometry `planar` only [Pa].
     pub spall_strength: Option<Pressure>,
     /// Time at which a run is ended [s]; when not given, that of `[chain]` in a rod, and three passages of a wave through
     /// both bodies in a planar impact.

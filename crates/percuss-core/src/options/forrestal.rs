@@ -14,6 +14,7 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[schemars(transform = forrestal_in_schema)]
+#[non_exhaustive]
 pub struct ForrestalOptions {
     /// Cavity expansion that the resistance comes from.
     pub cavity: Option<Cavity>,

@@ -13,6 +13,7 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[schemars(transform = concrete_in_schema)]
+#[non_exhaustive]
 pub struct ForrestalConcreteOptions {
     /// Factor S on the compressive strength; `82.6 (f_c in MPa)^−0.544` \[forrestal1994\] when not given.
     pub s: Option<f64>,

@@ -11,6 +11,7 @@ use crate::{
 /// Options of the model `lanz_odermatt`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct LanzOdermattOptions {
     /// Brinell hardness of the target; that of its material when not given.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -13,6 +13,7 @@ use crate::{
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[schemars(transform = plate_in_schema)]
+#[non_exhaustive]
 pub struct PlateCavityOptions {
     /// Cavity whose quasi-static pressure resists.
     pub cavity: CavityShape,

@@ -12,6 +12,7 @@ use crate::{
 /// Options of the model `plugging`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct PluggingOptions {
     /// Shear strength of the plate [Pa]; its tensile strength over √3 when not given.
     pub shear_strength: Option<Pressure>,

@@ -12,6 +12,7 @@ use crate::{
 /// Options of the model `poncelet`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct PonceletOptions {
     /// Resistance R of the target [Pa]; its quasi-static cavity-expansion pressure when not given.
     pub resistance: Option<Pressure>,

@@ -1,4 +1,4 @@
-//! Readings of the seed paper.
+//! Options of the published scheme: readings of the seed paper.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -8,6 +8,7 @@ use crate::units::Mass;
 /// Readings of the paper where its text leaves a choice.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct PublishedOptions {
     /// How rod and target are joined.
     pub interface: Interface,
@@ -32,7 +33,7 @@ pub enum Interface {
     /// Every mass has its own equation; a contact spring with both stiffnesses in series joins rod and target (eq. 22).
     #[default]
     Chain,
-    /// The first masses of rod and target move as one from the impact speed on (eq. 15 taken literally) and are stopped
+    /// The first masses of rod and target move as one from the impact velocity on (eq. 15 taken literally) and are stopped
     /// by the target's springs alone.
     Joined,
     /// As `joined`, and the rod's next spring pushes the joined mass from behind.
@@ -72,7 +73,7 @@ pub enum PublishedBorderShear {
     Friction,
     /// Friction on the target masses, and on the penetrator masses that have passed the target's original face.
     FrictionAndPenetrator,
-    /// A constant force against the shot on every target mass that has started to move (eq. 23 as printed).
+    /// A constant force against the direction of impact on every target mass that has started to move (eq. 23 as printed).
     Constant,
     /// None.
     None,

@@ -12,6 +12,7 @@ use crate::{
 /// Options of the model `recht_ipson`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct RechtIpsonOptions {
     /// Ballistic limit [m/s]; that of `plugging` (flat noses) or `plate_cavity` (sharp ones) when not given.
     pub ballistic_limit: Option<Velocity>,

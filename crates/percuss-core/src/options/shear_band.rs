@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     chain::ChainOptions,
-    chain_words::{ErosionClosure, Scheme, TargetClosure},
+    chain_enums::{ErosionCriterion, Scheme, TargetResistanceModel},
 };
 use crate::{
     check::{Check, limits},
-    problem::{BackFace, Target},
+    problem::{RearFaceCondition, Target},
     units::{Length, Pressure},
 };
 
@@ -27,14 +27,15 @@ pub enum BorderShearLaw {
 /// The band around a plug.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct ShearBandOptions {
     /// Width of a band that shears evenly [m]; when not given, the shear spreads as equilibrium, hardening and rate say.
     pub width: Option<Length>,
     /// When the band fails; `damage` where the material has damage, otherwise `instability` when not given.
     pub failure: Option<BandFailure>,
-    /// Plastic shear strain at which the band fails, in place of `failure`.
+    /// Plastic shear strain at which the band fails, instead of `failure`.
     pub failure_strain: Option<f64>,
-    /// Constant shear strength [Pa] in place of the material's strength law.
+    /// Constant shear strength [Pa] instead of the material's strength law.
     pub shear_strength: Option<Pressure>,
 }
 
@@ -81,19 +82,19 @@ impl ChainOptions {
             ),
             (
                 !target.is_solid() || target.without_back_in_words().is_some(),
-                "a plug needs a plate with a back face",
+                "a plug needs a plate with a rear face",
                 "give the target a thickness, or remove the key",
             ),
             (
-                target.back_face != Some(BackFace::Free),
-                "a plug leaves through a free back face",
+                target.back_face != Some(RearFaceCondition::Free),
+                "a plug leaves through a free rear face",
                 "add back_face = \"free\" to the target",
             ),
             (
-                self.target_closure() != TargetClosure::Column
-                    || self.erosion_closure() != ErosionClosure::Strain,
+                self.target_resistance() != TargetResistanceModel::Column
+                    || self.erosion_criterion() != ErosionCriterion::Strain,
                 "a shear band surrounds a column of target",
-                "remove `target_closure` and `erosion_closure`",
+                "remove `target_resistance` and `erosion_criterion`",
             ),
             (
                 self.border_shear.is_some(),

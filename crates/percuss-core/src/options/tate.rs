@@ -12,6 +12,7 @@ use crate::{
 /// Options of the model `tate`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct TateOptions {
     /// Strength Y of the projectile [Pa]; its flow stress at a plastic strain of 0.1 when not given.
     #[serde(skip_serializing_if = "Option::is_none")]

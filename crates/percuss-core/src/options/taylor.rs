@@ -12,6 +12,7 @@ use crate::{
 /// Options of the model `taylor`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct TaylorOptions {
     /// Dynamic yield stress Y [Pa]; mean flow stress of the strength law over the strain and at the rate reached when not given.
     pub dynamic_yield_stress: Option<Pressure>,

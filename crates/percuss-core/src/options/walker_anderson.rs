@@ -12,6 +12,7 @@ use crate::{
 /// Options of the model `walker_anderson`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct WalkerAndersonOptions {
     /// Flow stress of the projectile [Pa]; that at a plastic strain of 0.1 when not given.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -19,7 +20,7 @@ pub struct WalkerAndersonOptions {
     /// Flow stress of the target [Pa], not its resistance; that at a plastic strain of 0.1 when not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target_strength: Option<Pressure>,
-    /// Radius of the crater [m]; from the impact speed when not given.
+    /// Radius of the crater [m]; from the impact velocity when not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crater_radius: Option<Length>,
 }

@@ -14,6 +14,7 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[schemars(transform = wilkins_in_schema)]
+#[non_exhaustive]
 pub struct WilkinsGuinanOptions {
     /// Dynamic yield stress Y [Pa]; mean flow stress of the strength law over the strain and at the rate reached when not given.
     pub dynamic_yield_stress: Option<Pressure>,

@@ -1,4 +1,4 @@
-//! What was measured on a shot of the case: for comparison only, no model sees it.
+//! Measured values of a test of the case, for comparison with results; models do not read them.
 
 use std::{borrow::Cow, fmt};
 
@@ -12,17 +12,17 @@ use crate::{
     units::{Length, Velocity},
 };
 
-/// One measured quantity of one shot.
+/// One measured quantity of one test.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Experiment {
-    /// Impact speed [m/s]; a ballistic limit needs none.
+    /// Impact velocity [m/s]; a ballistic limit needs none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub velocity: Option<Velocity>,
+    pub impact_velocity: Option<Velocity>,
     /// Measured depth of penetration [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth_of_penetration: Option<Length>,
-    /// Measured speed behind the target [m/s]; 0 when it was stopped.
+    /// Measured residual velocity [m/s]; 0 when it was stopped.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub residual_velocity: Option<Velocity>,
     /// Measured ballistic limit [m/s].
@@ -36,7 +36,7 @@ pub struct Experiment {
     pub uncertainty: Option<Uncertainty>,
     /// Bibliography key, or a list of keys, of where the value was read.
     pub source: SourceKeys,
-    /// What a user should know of the value.
+    /// Remarks on the value.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
 }
@@ -113,8 +113,8 @@ impl Experiment {
                 "give every quantity an `[[experiments]]` entry of its own",
             ),
         }
-        if let Some(velocity) = self.velocity {
-            check.quantity("velocity", velocity, limits::IMPACT_SPEED);
+        if let Some(velocity) = self.impact_velocity {
+            check.quantity("impact_velocity", velocity, limits::IMPACT_SPEED);
         }
         if self.source.0.iter().all(|key| key.trim().is_empty()) {
             check.fail(
@@ -142,21 +142,24 @@ impl Experiment {
         } else {
             check.quantity(key, Velocity::new(value), limits::IMPACT_SPEED);
         }
-        if self.velocity.is_none() && quantity != BandQuantity::BallisticLimit {
+        if self.impact_velocity.is_none() && quantity != BandQuantity::BallisticLimit {
             check.fail(
                 key,
-                format!("the measured {} has no impact speed", quantity.in_words()),
-                "add `velocity`, for example velocity = \"230 m/s\"",
+                format!(
+                    "the measured {} has no impact velocity",
+                    quantity.describe()
+                ),
+                "add `impact_velocity`, for example impact_velocity = \"230 m/s\"",
             );
         }
-        if let Some(velocity) = self.velocity
+        if let Some(velocity) = self.impact_velocity
             && quantity == BandQuantity::ResidualVelocity
             && value > velocity.si()
         {
             check.fail(
                 key,
-                "the residual velocity is larger than the impact speed",
-                format!("the shot struck at {velocity}"),
+                "the residual velocity is larger than the impact velocity",
+                format!("the impact velocity is {velocity}"),
             );
         }
         let without = match quantity {
@@ -169,7 +172,7 @@ impl Experiment {
         if let Some(target) = without {
             check.fail(
                 key,
-                format!("{target} has no {}", quantity.in_words()),
+                format!("{target} has no {}", quantity.describe()),
                 "remove the entry, or describe the target that was struck",
             );
         }
@@ -187,7 +190,7 @@ impl Experiment {
                 "uncertainty",
                 format!(
                     "the uncertainty of a {} is {due}, not {}",
-                    quantity.in_words(),
+                    quantity.describe(),
                     if is_length { "a speed" } else { "a length" }
                 ),
                 format!("write it as {due}, for example uncertainty = \"{example}\""),

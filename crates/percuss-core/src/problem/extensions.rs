@@ -5,7 +5,7 @@ use std::{borrow::Cow, collections::BTreeMap};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-use crate::{Error, check::Finding, document::Document};
+use crate::{Error, check::Diagnostic, document::Document};
 
 /// Tables of models that are not part of percuss, by name.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -29,8 +29,8 @@ impl Extensions {
         table.clone().try_into().map_err(|error: toml::de::Error| {
             let key = format!("extensions.{name}");
             let help = "the model of this table lists its keys";
-            let finding = Finding::at(&key, error.message().to_owned(), help);
-            Document::new("case", "").place(finding).into()
+            let diagnostic = Diagnostic::at(&key, error.message().to_owned(), help);
+            Document::new("case", "").place(diagnostic).into()
         })
     }
 
@@ -41,8 +41,8 @@ impl Extensions {
     pub fn set<T: Serialize>(&mut self, name: &str, options: &T) -> Result<(), Error> {
         let table = toml::Table::try_from(options).map_err(|error| {
             let key = format!("extensions.{name}");
-            let finding = Finding::at(&key, error.to_string(), "");
-            Error::from(Document::new("case", "").place(finding))
+            let diagnostic = Diagnostic::at(&key, error.to_string(), "");
+            Error::from(Document::new("case", "").place(diagnostic))
         })?;
         self.0.insert(name.to_owned(), table);
         Ok(())

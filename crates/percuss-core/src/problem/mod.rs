@@ -10,4 +10,4 @@ pub use experiment::{Experiment, SourceKeys, Uncertainty};
 pub use extensions::Extensions;
 pub use gauge::Gauge;
 pub use projectile::{Nose, Projectile};
-pub use target::{BackFace, Layer, LayerInterface, Support, Target, Thickness};
+pub use target::{EdgeSupport, Layer, LayerInterface, RearFaceCondition, Target, Thickness};

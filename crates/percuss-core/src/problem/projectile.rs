@@ -25,8 +25,8 @@ pub struct Projectile {
     /// Shape of the nose.
     #[serde(default)]
     pub nose: Nose,
-    /// Impact speed [m/s].
-    pub velocity: Velocity,
+    /// Impact velocity [m/s].
+    pub impact_velocity: Velocity,
     /// Angle between the path and the normal of the struck face [rad]; 0, normal impact, when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub obliquity: Option<Angle>,
@@ -104,35 +104,35 @@ impl Projectile {
         material: impl Into<String>,
         length: Length,
         diameter: Length,
-        velocity: Velocity,
+        impact_velocity: Velocity,
     ) -> Self {
         Self {
             length: Some(length),
-            ..Self::blank(material, diameter, velocity)
+            ..Self::blank(material, diameter, impact_velocity)
         }
     }
 
-    /// The same of a mass in place of the length.
+    /// The same of a mass instead of the length.
     pub fn of_mass(
         material: impl Into<String>,
         mass: Mass,
         diameter: Length,
-        velocity: Velocity,
+        impact_velocity: Velocity,
     ) -> Self {
         Self {
             mass: Some(mass),
-            ..Self::blank(material, diameter, velocity)
+            ..Self::blank(material, diameter, impact_velocity)
         }
     }
 
-    fn blank(material: impl Into<String>, diameter: Length, velocity: Velocity) -> Self {
+    fn blank(material: impl Into<String>, diameter: Length, impact_velocity: Velocity) -> Self {
         Self {
             material: material.into(),
             length: None,
             mass: None,
             diameter,
             nose: Nose::Flat,
-            velocity,
+            impact_velocity,
             obliquity: None,
             temperature: None,
         }
@@ -188,7 +188,11 @@ impl Projectile {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>) {
         check.quantity("diameter", self.diameter, limits::DIAMETER);
-        check.quantity("velocity", self.velocity, limits::IMPACT_SPEED);
+        check.quantity(
+            "impact_velocity",
+            self.impact_velocity,
+            limits::IMPACT_SPEED,
+        );
         let allowed = limits::OBLIQUITY.min..=limits::OBLIQUITY.max;
         if let Some(obliquity) = self
             .obliquity

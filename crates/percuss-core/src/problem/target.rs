@@ -18,12 +18,12 @@ pub struct Target {
     /// Thickness of a target of one layer, or `"semi-infinite"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<Thickness>,
-    /// Layers from the struck face to the back, in place of `material` and `thickness`.
+    /// Layers from the struck face to the back, instead of `material` and `thickness`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub layers: Vec<Layer>,
-    /// What holds the back face; `fixed` when not given, `non-reflecting` behind a semi-infinite layer.
+    /// Boundary condition of the rear face; `fixed` when not given, `non-reflecting` behind a semi-infinite layer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub back_face: Option<BackFace>,
+    pub back_face: Option<RearFaceCondition>,
     /// Diameter of the column of target that is modelled [m]; the projectile's when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column_diameter: Option<Length>,
@@ -32,7 +32,7 @@ pub struct Target {
     pub plate_diameter: Option<Length>,
     /// How the plate is held there; `clamped` when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub support: Option<Support>,
+    pub support: Option<EdgeSupport>,
     /// `true` for a rigid, frictionless wall: a Taylor test.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub rigid_wall: bool,
@@ -71,10 +71,10 @@ pub enum LayerInterface {
     Bonded,
 }
 
-/// What holds the back face of a target.
+/// Boundary condition of the rear face of a target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum BackFace {
+pub enum RearFaceCondition {
     /// Does not move; waves come back.
     #[default]
     Fixed,
@@ -84,7 +84,7 @@ pub enum BackFace {
     NonReflecting,
 }
 
-impl BackFace {
+impl RearFaceCondition {
     /// Name as the file has it.
     pub fn name(self) -> &'static str {
         match self {
@@ -98,7 +98,7 @@ impl BackFace {
 /// How the edge of a plate is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Support {
+pub enum EdgeSupport {
     /// It neither moves nor turns.
     #[default]
     Clamped,
@@ -111,7 +111,7 @@ pub enum Support {
 pub enum Thickness {
     /// A plate [m].
     Finite(Length),
-    /// So thick that its back face does not matter.
+    /// So thick that its rear face does not matter.
     SemiInfinite,
 }
 
@@ -220,7 +220,7 @@ impl Target {
 
     /// The same with a boundary condition at the rear face.
     #[must_use]
-    pub fn with_back_face(self, back_face: BackFace) -> Self {
+    pub fn with_back_face(self, back_face: RearFaceCondition) -> Self {
         Self {
             back_face: Some(back_face),
             ..self
@@ -406,11 +406,11 @@ impl Target {
         if self.is_semi_infinite()
             && self
                 .back_face
-                .is_some_and(|face| face != BackFace::NonReflecting)
+                .is_some_and(|face| face != RearFaceCondition::NonReflecting)
         {
             check.fail(
                 "back_face",
-                "a semi-infinite target has no back face that is fixed or free",
+                "a semi-infinite target has no rear face that is fixed or free",
                 "remove `back_face`, or give a thickness",
             );
         }
@@ -425,7 +425,7 @@ impl Target {
         if self.back_face.is_some() && !solid {
             check.fail(
                 "back_face",
-                "a rigid wall or a constant pressure has no back face",
+                "a rigid wall or a constant pressure has no rear face",
                 "remove `back_face`",
             );
         }

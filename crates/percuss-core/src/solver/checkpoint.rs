@@ -63,7 +63,7 @@ pub(super) fn open<'a>(
     model: &str,
     scenario: &Scenario,
 ) -> Result<(Header, &'a [u8]), Error> {
-    const ANEW: &str = "start anew without `--resume`";
+    const ANEW: &str = "start again without `--resume`";
     let Some(rest) = bytes.strip_prefix(MAGIC) else {
         return Err(refused("it is no checkpoint of percuss", ANEW));
     };
@@ -85,7 +85,7 @@ pub(super) fn open<'a>(
     if header.case != fingerprint(scenario) {
         return Err(refused(
             "it is of another case: only its title, sources, experiments, and `end_time` and `max_steps` of a model may change",
-            "restore the case or start anew without `--resume`",
+            "restore the case or start again without `--resume`",
         ));
     }
     if header.content != hash(content) {
@@ -95,7 +95,7 @@ pub(super) fn open<'a>(
 }
 
 pub(super) fn damaged() -> Error {
-    refused("it is damaged", "start anew without `--resume`")
+    refused("it is damaged", "start again without `--resume`")
 }
 
 fn refused(reason: &str, remedy: &str) -> Error {

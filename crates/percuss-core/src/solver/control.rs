@@ -1,4 +1,4 @@
-//! How a caller watches, records, interrupts and resumes a run.
+//! Control of a run by its caller: progress, cancellation, histories, fields, checkpoints, resumption.
 
 use std::ops::ControlFlow;
 
@@ -12,7 +12,7 @@ pub struct Progress {
     pub step: u64,
     /// Time [s].
     pub time: f64,
-    /// Estimated part done, 0 to 1: of a shot that ends by itself nobody knows the end beforehand.
+    /// Estimated part done, 0 to 1: the end of a run is not known beforehand.
     pub fraction: f64,
     /// Depth reached [m].
     pub depth: f64,

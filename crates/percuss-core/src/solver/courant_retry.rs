@@ -82,7 +82,7 @@ impl CourantRetry {
         Ok(())
     }
 
-    /// What to know of a number that was lowered.
+    /// Remarks on a number that was lowered.
     pub fn warning(&self) -> Option<String> {
         let reason = self.reason.as_ref()?;
         Some(format!(

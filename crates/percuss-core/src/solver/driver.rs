@@ -167,7 +167,7 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
         Ok(None)
     }
 
-    /// Checks the balances, and what the solver alone knows of, between two steps.
+    /// Checks the balances, and invariants of the solver itself, between two steps.
     pub fn audit(
         &mut self,
         energy: EnergyLedger,

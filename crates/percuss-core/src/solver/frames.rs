@@ -64,7 +64,7 @@ pub struct FrameClock {
 }
 
 impl FrameClock {
-    /// A clock for a case: nobody knows the length of a run beforehand, so the interval is that of a short one.
+    /// A clock for a case: the length of a run is unknown beforehand, so the interval is that of a short one.
     pub fn new(scenario: &Scenario) -> Self {
         let rod = &scenario.projectile;
         let waves = 6.0 * rod.length / rod.material.bar_wave_speed();

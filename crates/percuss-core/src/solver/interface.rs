@@ -1,4 +1,4 @@
-//! What a numerical model implements to run on the one time loop.
+//! Interface of a numerical model to the time loop.
 
 use super::{
     archive::Archive,
@@ -58,7 +58,7 @@ pub trait Solver<'a>: Sized {
     /// Part of the run that is done, estimated by the motion: 0 to 1.
     fn progress(&self) -> f64;
 
-    /// Checks at every audit what the solver alone knows of.
+    /// Checks at every audit invariants of the solver itself.
     ///
     /// # Errors
     /// When the run cannot come to its end.

@@ -15,9 +15,9 @@ mod particle;
 
 use crate::{
     Error, Refusal, Scenario,
-    guard::{Guard, Verdict},
     outcome::RunResult,
     regime::Regime,
+    validity::{Applicability, ValidityDomain},
 };
 
 pub(crate) use control::go_on;
@@ -27,7 +27,18 @@ pub use input_limit::InputLimit;
 pub use particle::Particle;
 pub use particle::{equivalent, kinetic_energy};
 
-/// A way to compute what becomes of a shot.
+/// Order of the time that one run of a model takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum CostClass {
+    /// A formula or an ordinary differential equation: less than a millisecond.
+    Analytic,
+    /// A one-dimensional numerical model: up to seconds.
+    Seconds,
+    /// A two-dimensional numerical model: minutes. Comparisons and validations run it only where it is named.
+    Minutes,
+}
+
+/// A way to compute an impact.
 pub trait Model: Sync {
     /// Name on the command line and in results.
     fn name(&self) -> &'static str;
@@ -36,11 +47,11 @@ pub trait Model: Sync {
     fn summary(&self) -> &'static str;
 
     /// The regime that it is made for.
-    fn guard(&self) -> &'static Guard;
+    fn validity(&self) -> &'static ValidityDomain;
 
-    /// Whether a run takes minutes: comparisons and validations then run it only when it is asked for by name.
-    fn is_slow(&self) -> bool {
-        false
+    /// Order of the time that a run takes.
+    fn cost(&self) -> CostClass {
+        CostClass::Analytic
     }
 
     /// Whether it steps through time: then [`Control::frames`] gets its fields, and a run continues from a checkpoint.
@@ -53,7 +64,7 @@ pub trait Model: Sync {
         false
     }
 
-    /// Why the model does not apply to a case that its guard lets pass, if it does not: an option or a number is missing.
+    /// Why the model does not apply to a case inside its validity domain, if it does not: an option or a number is missing.
     fn not_applicable(&self, _: &Scenario) -> Option<Refusal> {
         None
     }
@@ -140,7 +151,7 @@ pub fn complete(
     mut result: RunResult,
 ) -> Result<RunResult, Error> {
     if let Some(depth) = result.depth_of_penetration
-        && let Some(reason) = model.guard().depth_at_back_face(scenario, depth)
+        && let Some(reason) = model.validity().depth_at_back_face(scenario, depth)
     {
         return Err(refused(model, reason));
     }
@@ -148,7 +159,7 @@ pub fn complete(
     Ok(result)
 }
 
-/// Whether a model applies to a case: the warnings of its guard, or the reason why not.
+/// Whether a model applies to a case: the warnings of its validity, or the reason why not.
 ///
 /// # Errors
 /// Why it does not.
@@ -165,9 +176,9 @@ pub fn applicability_in(
     scenario: &Scenario,
     regime: &Regime,
 ) -> Result<Vec<String>, Refusal> {
-    match model.guard().verdict(scenario, regime) {
-        Verdict::Outside(refusal) => Err(refusal),
-        Verdict::Inside(warnings) => match model.not_applicable(scenario) {
+    match model.validity().applicability(scenario, regime) {
+        Applicability::Outside(refusal) => Err(refusal),
+        Applicability::Inside(warnings) => match model.not_applicable(scenario) {
             Some(refusal) => Err(refusal),
             None => Ok(warnings),
         },

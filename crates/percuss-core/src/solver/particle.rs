@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::material::{FlowState, YieldPoint};
 
-/// A material point. Vectors are radial and axial, the axis along the shot; stresses are positive in tension, pressures in
+/// A material point. Vectors are radial and axial, the axis along the direction of impact; stresses are positive in tension, pressures in
 /// compression.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Particle {

@@ -98,7 +98,7 @@ pub fn display<D: Dimension>(si: f64) -> String {
     }
 }
 
-/// Writes an SI value so that it reads back unchanged but for rounding, with six significant digits where they suffice.
+/// Writes an SI value so that it reads back unchanged except for rounding, with six significant digits where they suffice.
 pub(crate) fn written<D: Dimension>(si: f64) -> String {
     let short = display::<D>(si);
     let same = |text: &str| {
@@ -163,7 +163,7 @@ pub enum QuantityError {
         /// What is due, with an example and the units allowed.
         expected: String,
     },
-    /// A comma in place of the decimal point, or between thousands.
+    /// A comma instead of the decimal point, or between thousands.
     #[error(
         "the number of `{text}` has a comma\nwrite a decimal point, and nothing between thousands; {expected}"
     )]
@@ -193,7 +193,7 @@ pub enum QuantityError {
         /// What is due, with an example and the units allowed.
         expected: String,
     },
-    /// A unit that nobody knows.
+    /// An unknown unit.
     #[error("`{unit}` is not a known unit\n{expected}")]
     UnknownUnit {
         /// The unit found.

@@ -8,7 +8,7 @@ fn load(target: &str, experiment: &str) -> Result<Scenario, Error> {
     case::load_str(
         "shot",
         &format!(
-            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', velocity = '230 m/s' }}\n\
+            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '230 m/s' }}\n\
              target = {{ {target} }}\n[[experiments]]\n{experiment}"
         ),
     )
@@ -18,7 +18,7 @@ const PLATE: &str = "material = 'aluminium-2024-t351', thickness = '5 mm'";
 
 #[test]
 fn measured_values_are_in_si_units() {
-    let text = "velocity = '0.5 km/s'\ndepth_of_penetration = '4 mm'\nuncertainty = '100 um'\nsource = ['a', 'b']\nnote = 'n'";
+    let text = "impact_velocity = '0.5 km/s'\ndepth_of_penetration = '4 mm'\nuncertainty = '100 um'\nsource = ['a', 'b']\nnote = 'n'";
     let scenario = load(PLATE, text).unwrap();
     let [experiment] = scenario.experiments.as_slice() else {
         panic!("{:?}", scenario.experiments);
@@ -42,7 +42,7 @@ fn a_ballistic_limit_needs_no_speed() {
 
 #[test]
 fn what_a_target_cannot_have_is_refused() {
-    let speed = "velocity = '300 m/s'\nsource = 'a'\n";
+    let speed = "impact_velocity = '300 m/s'\nsource = 'a'\n";
     let semi_infinite = "material = 'copper', thickness = 'semi-infinite'";
     for (target, quantity, words) in [
         (
@@ -63,7 +63,7 @@ fn what_a_target_cannot_have_is_refused() {
         (
             PLATE,
             "residual_velocity = '301 m/s'",
-            "larger than the impact speed",
+            "larger than the impact velocity",
         ),
     ] {
         let error = load(target, &format!("{speed}{quantity}")).unwrap_err();

@@ -44,7 +44,7 @@ macro_rules! case_with_model_options {
             /// Tables of models that are not part of percuss, by name; only those models read them.
             #[serde(default, skip_serializing_if = "Extensions::is_empty")]
             pub extensions: Extensions,
-            /// What was measured on shots of this case, for comparison; no model sees it.
+            /// What was measured in tests of this case, for comparison; no model sees it.
             #[serde(default, skip_serializing_if = "Vec::is_empty")]
             pub experiments: Vec<Experiment>,
             /// Which of its numbers are uncertain, for `percuss uncertainty`; no model sees it.

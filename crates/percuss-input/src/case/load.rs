@@ -1,10 +1,10 @@
-//! Reading a case file and turning it into a scenario, with errors that name the place.
+//! Case files: reading, checks, and conversion to a scenario; errors name the place.
 
 use std::path::Path;
 
 use super::{Case, load_materials, resolve::resolve};
 use crate::{
-    check::{Check, Finding},
+    check::{Check, Diagnostic},
     document::Document,
     error::Error,
     material::Library,
@@ -34,9 +34,9 @@ pub fn load_str(name: &str, text: &str) -> Result<Scenario, Error> {
 /// Those of [`load`], but what the case describes beside its materials need not fit together.
 pub fn library(document: &Document) -> Result<Library, Error> {
     let case: Case = document.parse()?;
-    let mut findings = Vec::new();
-    case.check_materials(&mut Check::new(&mut findings));
-    document.report(findings)?;
+    let mut diagnostics = Vec::new();
+    case.check_materials(&mut Check::new(&mut diagnostics));
+    document.report(diagnostics)?;
     library_of(&case, document)
 }
 
@@ -46,22 +46,22 @@ pub fn library(document: &Document) -> Result<Library, Error> {
 /// [`Error::Input`] when it is not valid, or a file that it names.
 pub fn scenario(document: &Document) -> Result<Scenario, Error> {
     let case: Case = document.parse()?;
-    let mut findings = Vec::new();
-    case.check(&mut Check::new(&mut findings));
-    document.report(findings)?;
+    let mut diagnostics = Vec::new();
+    case.check(&mut Check::new(&mut diagnostics));
+    document.report(diagnostics)?;
 
     let library = library_of(&case, document)?;
-    let mut findings = Vec::new();
+    let mut diagnostics = Vec::new();
     let scenario = resolve(
         &document.name,
         case,
         &library,
-        &mut Check::new(&mut findings),
+        &mut Check::new(&mut diagnostics),
     );
-    document.report(findings)?;
+    document.report(diagnostics)?;
     scenario.ok_or_else(|| {
-        let finding = Finding::whole("the case could not be resolved", "");
-        document.place(finding).into()
+        let diagnostic = Diagnostic::whole("the case could not be resolved", "");
+        document.place(diagnostic).into()
     })
 }
 
@@ -71,8 +71,8 @@ pub(super) fn library_of(case: &Case, document: &Document) -> Result<Library, Er
     library.add(&case.materials, &format!("{} (this case)", document.name));
     for (i, relative) in case.material_files.iter().enumerate() {
         let refuse = |message: &str, help: &str| {
-            let finding = Finding::at(&format!("material_files.{i}"), message, help);
-            document.place(finding.of_material())
+            let diagnostic = Diagnostic::at(&format!("material_files.{i}"), message, help);
+            document.place(diagnostic.of_material())
         };
         let Some(folder) = &document.folder else {
             let message = "a case that comes from no file cannot name material files";
@@ -99,8 +99,8 @@ pub(super) fn library_of(case: &Case, document: &Document) -> Result<Library, Er
                 relative.display()
             );
             let help = "rename or remove one of the two";
-            let finding = Finding::at(&format!("materials.{id}"), message, help);
-            return Err(document.place(finding.of_material()).into());
+            let diagnostic = Diagnostic::at(&format!("materials.{id}"), message, help);
+            return Err(document.place(diagnostic.of_material()).into());
         }
         library.add(&table, &relative.display().to_string());
     }
@@ -134,31 +134,33 @@ impl Case {
         if !self.material_files.is_empty() {
             let message = "a case that comes from no file cannot name material files";
             let help = "put the materials into its `materials` table";
-            let finding = Finding::at("material_files", message, help).of_material();
-            return Err(document.place(finding).into());
+            let diagnostic = Diagnostic::at("material_files", message, help).of_material();
+            return Err(document.place(diagnostic).into());
         }
         self.into_scenario(name, Library::built_in())
-            .map_err(|findings| {
-                let unknown = || Finding::whole("the case could not be resolved", "");
-                let first = findings.into_iter().next().unwrap_or_else(unknown);
+            .map_err(|diagnostics| {
+                let unknown = || Diagnostic::whole("the case could not be resolved", "");
+                let first = diagnostics.into_iter().next().unwrap_or_else(unknown);
                 document.place(first).into()
             })
     }
 
     /// The scenario of a case that comes from no text, its own materials included; otherwise what is wrong with it.
-    pub fn into_scenario(self, name: &str, library: &Library) -> Result<Scenario, Vec<Finding>> {
-        let mut findings = Vec::new();
-        self.check(&mut Check::new(&mut findings));
-        if !findings.is_empty() {
-            return Err(findings);
+    pub fn into_scenario(self, name: &str, library: &Library) -> Result<Scenario, Vec<Diagnostic>> {
+        let mut diagnostics = Vec::new();
+        self.check(&mut Check::new(&mut diagnostics));
+        if !diagnostics.is_empty() {
+            return Err(diagnostics);
         }
         let mut own = None;
         if !self.materials.is_empty() {
             own.insert(library.clone()).add(&self.materials, name);
         }
         let library = own.as_ref().unwrap_or(library);
-        let scenario = resolve(name, self, library, &mut Check::new(&mut findings));
-        scenario.filter(|_| findings.is_empty()).ok_or(findings)
+        let scenario = resolve(name, self, library, &mut Check::new(&mut diagnostics));
+        scenario
+            .filter(|_| diagnostics.is_empty())
+            .ok_or(diagnostics)
     }
 
     fn check(&self, check: &mut Check<'_>) {

@@ -66,8 +66,8 @@ pub fn load_materials(path: impl AsRef<Path>) -> Result<MaterialTable, Error> {
 
 fn read(document: &Document) -> Result<MaterialTable, Error> {
     let MaterialFile { plain, nested } = document.parse()?;
-    let mut findings = Vec::new();
-    let mut check = Check::new(&mut findings);
+    let mut diagnostics = Vec::new();
+    let mut check = Check::new(&mut diagnostics);
     for (id, material) in &plain {
         material.check(&mut check.within(id));
         if nested.contains_key(id) {
@@ -81,7 +81,7 @@ fn read(document: &Document) -> Result<MaterialTable, Error> {
     for (id, material) in &nested {
         material.check(&mut check.within(TABLE).within(id));
     }
-    document.report(findings)?;
+    document.report(diagnostics)?;
     Ok(plain.into_iter().chain(nested).collect())
 }
 

@@ -26,12 +26,12 @@ pub use crate::{
     document::{Document, MAX_FILE_BYTES},
     options::{
         ArtificialViscosity, BandFailure, BorderShearLaw, ChainOptions, ConstraintFactor,
-        ContactSpring, ErosionClosure, ErosionStrain, Interface, Kinematics, ModelOptions,
+        ContactSpring, ErosionCriterion, ErosionStrain, Interface, Kinematics, ModelOptions,
         PublishedBorderShear, PublishedOptions, PublishedTimeStep, Scheme, ShearBandOptions,
-        SmallStrainStiffness, TargetClosure,
+        SmallStrainStiffness, TargetResistanceModel,
     },
     problem::{
-        BackFace, Experiment, Extensions, Gauge, Layer, LayerInterface, Nose, Projectile,
-        SourceKeys, Support, Target, Thickness, Uncertainty,
+        EdgeSupport, Experiment, Extensions, Gauge, Layer, LayerInterface, Nose, Projectile,
+        RearFaceCondition, SourceKeys, Target, Thickness, Uncertainty,
     },
 };

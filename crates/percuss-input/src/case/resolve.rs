@@ -7,14 +7,14 @@ use crate::{
     history::GaugePlace,
     material::{Library, MaterialEntry},
     options::Scheme,
-    problem::{BackFace, Experiment, Gauge, Layer, Nose, Thickness, Uncertainty},
+    problem::{Experiment, Gauge, Layer, Nose, RearFaceCondition, Thickness, Uncertainty},
     scenario::{
         Given, Measurement, Plate, PlateEdge, Rod, Scenario, TargetBody, modelled_thickness,
     },
     units::{Length, Mass, Quantity, Velocity},
 };
 
-/// Looks up materials and works out what is given indirectly; findings go to `check`.
+/// Looks up materials and works out what is given indirectly; diagnostics go to `check`.
 pub(super) fn resolve(
     name: &str,
     case: Case,
@@ -26,14 +26,14 @@ pub(super) fn resolve(
     let options = case.model_options();
     let given = Given {
         rear_face: case.target.back_face.is_some(),
-        target_closure: options.chain.target_closure.is_some(),
+        target_resistance: options.chain.target_resistance.is_some(),
     };
     let mut scenario = Scenario {
         name: name.to_owned(),
         title: case.title,
         sources: case.sources,
         projectile: projectile?,
-        impact_velocity: case.projectile.velocity.si(),
+        impact_velocity: case.projectile.impact_velocity.si(),
         obliquity: case.projectile.obliquity(),
         target: target?,
         resistance: None,
@@ -48,7 +48,7 @@ pub(super) fn resolve(
     if chain.target_elements.is_none() && chain.scheme == Scheme::Conservative {
         scenario.options.chain.target_elements = thin_target_elements(&scenario);
     }
-    chain::choose_target_closure(&mut scenario);
+    chain::choose_target_resistance(&mut scenario);
     scenario.gauges = gauges(&case.gauges, &scenario, check);
     Some(scenario)
 }
@@ -97,7 +97,7 @@ fn measurement(experiment: &Experiment) -> Option<Measurement> {
     let (quantity, value) = experiment.measured()?;
     Some(Measurement {
         quantity,
-        impact_velocity: experiment.velocity.map(Velocity::si),
+        impact_velocity: experiment.impact_velocity.map(Velocity::si),
         value,
         uncertainty: experiment.uncertainty.map(Uncertainty::si),
         sources: experiment.source.0.clone(),
@@ -221,9 +221,9 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
         })
         .collect();
     let natural = if semi_infinite {
-        BackFace::NonReflecting
+        RearFaceCondition::NonReflecting
     } else {
-        BackFace::Fixed
+        RearFaceCondition::Fixed
     };
     let column_diameter = target
         .column_diameter

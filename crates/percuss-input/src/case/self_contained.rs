@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use toml_edit::{DocumentMut, Item, Table};
 
 use super::{Document, material_file::TABLE};
-use crate::{check::Finding, error::Error};
+use crate::{check::Diagnostic, error::Error};
 
 /// Key of the files that a case takes materials from.
 const FILES: &str = "material_files";
@@ -98,7 +98,9 @@ fn edited(document: &Document) -> Result<DocumentMut, Error> {
         .text
         .parse()
         .map_err(|error: toml_edit::TomlError| {
-            document.place(Finding::whole(error.message(), "")).into()
+            document
+                .place(Diagnostic::whole(error.message(), ""))
+                .into()
         })
 }
 
@@ -110,7 +112,7 @@ mod tests {
     use super::*;
 
     const CASE: &str = "# Two materials\nmaterial_files = ['lib/a.toml', 'lib/b.toml']\n\
-                        projectile = { material = 'rod', length = '20 mm', diameter = '5 mm', velocity = '300 m/s' }\n\
+                        projectile = { material = 'rod', length = '20 mm', diameter = '5 mm', impact_velocity = '300 m/s' }\n\
                         target = { material = 'plate', thickness = '5 mm', back_face = 'free' }\n\
                         [[experiments]]\nballistic_limit = '300 m/s'\nsource = 'made up'\n";
 
@@ -183,7 +185,7 @@ mod tests {
 
     #[test]
     fn a_case_without_files_keeps_its_text() {
-        let text = "# as it is\nprojectile = { material = 'copper' , length = '20 mm', diameter = '5 mm', velocity = '300 m/s' }\n\
+        let text = "# as it is\nprojectile = { material = 'copper' , length = '20 mm', diameter = '5 mm', impact_velocity = '300 m/s' }\n\
                     target = { rigid_wall = true }\n";
         assert_eq!(self_contained(&Document::new("shot", text)).unwrap(), text);
     }

@@ -7,8 +7,8 @@ use toml::{Table, Value};
 
 use super::{Case, ChainOptions, Document, load};
 use crate::{
-    check::Finding,
-    document::reword,
+    check::Diagnostic,
+    document::reword_toml_error,
     error::Error,
     material::{Library, Material},
     scenario::Scenario,
@@ -29,7 +29,7 @@ impl Template {
     pub fn of(document: &Document) -> Result<Self, Error> {
         super::scenario(document)?;
         let mut table: Table = document.parse()?;
-        // No shot depends on what is uncertain.
+        // No run depends on what is uncertain.
         table.remove("uncertainty");
         let mut case: Case = document.parse()?;
         // Its own materials are among the numbers that can be changed: only those of other files are looked up beforehand.
@@ -71,14 +71,14 @@ impl Template {
     }
 
     /// The scenario with other values under some dotted keys.
-    pub fn scenario(&self, changes: &[(&str, Value)]) -> Result<Scenario, Vec<Finding>> {
+    pub fn scenario(&self, changes: &[(&str, Value)]) -> Result<Scenario, Vec<Diagnostic>> {
         let table = self.changed(changes)?;
         let case = Case::deserialize(table).map_err(|error| {
             let source = changes
                 .last()
                 .map_or_else(String::new, |(_, v)| v.to_string());
-            let said = reword(error.message(), &source);
-            vec![Finding::whole(said.message, said.help)]
+            let said = reword_toml_error(error.message(), &source);
+            vec![Diagnostic::whole(said.message, said.help)]
         })?;
         let mut scenario = case.into_scenario(&self.name, &self.library)?;
         // All cases of a sweep have one target resistance model, also where a varied number happens to be its default.
@@ -94,7 +94,7 @@ impl Template {
         &self,
         id: &str,
         changes: &[(&str, Value)],
-    ) -> Result<Option<Material>, Vec<Finding>> {
+    ) -> Result<Option<Material>, Vec<Diagnostic>> {
         let table = self.changed(changes)?;
         let own = table.get("materials").and_then(|own| own.get(id));
         let read = |own: &Value| Material::deserialize(own.clone()).ok();
@@ -104,21 +104,21 @@ impl Template {
         }))
     }
 
-    fn changed(&self, changes: &[(&str, Value)]) -> Result<Table, Vec<Finding>> {
+    fn changed(&self, changes: &[(&str, Value)]) -> Result<Table, Vec<Diagnostic>> {
         let mut table = self.table.clone();
         for (key, value) in changes {
             self.adopt(&mut table, key)
-                .map_err(|finding| vec![finding])?;
+                .map_err(|diagnostic| vec![diagnostic])?;
             put(&mut table, key, value.clone()).map_err(|message| {
-                let help = "name a number of the case by the tables that it stands in, such as projectile.velocity";
-                vec![Finding::at(key, message, help)]
+                let help = "name a number of the case by the tables that it stands in, such as projectile.impact_velocity";
+                vec![Diagnostic::at(key, message, help)]
             })?;
         }
         Ok(table)
     }
 
     /// Puts the library's record of a material into the case that a key changes a number of, unless the case has its own.
-    fn adopt(&self, table: &mut Table, key: &str) -> Result<(), Finding> {
+    fn adopt(&self, table: &mut Table, key: &str) -> Result<(), Diagnostic> {
         let Some((id, _)) = key
             .strip_prefix("materials.")
             .and_then(|rest| rest.split_once('.'))
@@ -132,7 +132,7 @@ impl Template {
             return Ok(());
         };
         let fail = |message: String, help: String| {
-            Finding::at(&format!("materials.{id}"), message, help).of_material()
+            Diagnostic::at(&format!("materials.{id}"), message, help).of_material()
         };
         let entry = self.library.find(id).ok_or_else(|| {
             let near = self.library.suggestion(id);

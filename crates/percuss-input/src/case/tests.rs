@@ -2,7 +2,7 @@ use super::*;
 use crate::error::{Error, Subject};
 
 const SHORT: &str = r#"
-projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
 target = { material = "aluminium-2024-t351", thickness = "25 mm" }
 "#;
 
@@ -56,7 +56,7 @@ fn digits_are_an_index_in_a_list_and_a_key_in_a_table() {
     const LAYERS: &str = "[target]\nlayers = [{ material = '7075', thickness = '10 mm' }, { material = 'copper', thickness = '5 mm' }]\n";
     let with = |text: &str| {
         let text = format!(
-            "[projectile]\nmaterial = '4340'\nlength = '20 mm'\ndiameter = '5 mm'\nvelocity = '300 m/s'\n{LAYERS}{text}"
+            "[projectile]\nmaterial = '4340'\nlength = '20 mm'\ndiameter = '5 mm'\nimpact_velocity = '300 m/s'\n{LAYERS}{text}"
         );
         Template::of(&Document::new("digits", text))
     };
@@ -85,8 +85,8 @@ fn digits_are_an_index_in_a_list_and_a_key_in_a_table() {
     let thicker = change("target.layers.1.thickness", "6 mm").unwrap();
     assert!((thicker.target_thickness().unwrap() - 16e-3).abs() < 1e-12);
     let said = |key: &str| {
-        let findings = change(key, "1 mm").unwrap_err();
-        findings[0].message.clone()
+        let diagnostics = change(key, "1 mm").unwrap_err();
+        diagnostics[0].message.clone()
     };
     for (key, message) in [
         (

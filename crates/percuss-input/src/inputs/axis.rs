@@ -1,8 +1,8 @@
-//! One parameter of a sweep: the values that it takes, checked. A value that is no number counts as its place in the list.
+//! One parameter of a sweep: its checked values. A value that is no number counts as its place in the list.
 
 use toml::Value;
 
-use super::{amount::Amount, copula::Copula, distribution::Distribution};
+use super::{copula::Copula, distribution::Distribution, quantity_literal::QuantityLiteral};
 
 /// A number or an option of the case with the values that it takes.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,11 +55,11 @@ impl Axis {
     }
 
     /// Its values in words, such as `normal, 230 ± 3 m/s`.
-    pub fn in_words(&self) -> String {
+    pub fn describe(&self) -> String {
         match &self.values {
             Values::List(values) => format!("one of {} values", values.len()),
             Values::Options(options) => format!("one of {} options", options.len()),
-            Values::Distribution(distribution) => distribution.in_words(&self.unit),
+            Values::Distribution(distribution) => distribution.describe(&self.unit),
         }
     }
 
@@ -105,7 +105,7 @@ impl Axis {
     pub fn written(&self, value: f64) -> Value {
         match &self.values {
             Values::Options(options) => options[value as usize].clone(),
-            _ => Amount::written(value, &self.unit, self.whole),
+            _ => QuantityLiteral::written(value, &self.unit, self.whole),
         }
     }
 }

@@ -1,6 +1,6 @@
-//! Parameters that depend on each other: a Gaussian copula.
+//! Gaussian copula of correlated parameters.
 //!
-//! Each parameter has its own distribution and a normal score, the quantile of the standard normal distribution at its chance.
+//! Each parameter has its own distribution and a normal score, the quantile of the standard normal distribution at its probability.
 //! The scores are jointly normal with given correlations. Parameters with normal distributions are then jointly normal with the
 //! same correlations; of others the rank correlation (Spearman) is `(6/π) asin(ρ/2)`, whatever their distributions are.
 
@@ -38,7 +38,7 @@ impl Copula {
         Some(Self { members, factor })
     }
 
-    /// Puts the values of the axes that it joins in place of independent ones; `u` are evenly drawn numbers between 0 and 1.
+    /// Puts the values of the axes that it joins instead of independent ones; `u` are evenly drawn numbers between 0 and 1.
     pub fn join(&self, axes: &[Axis], u: &[f64], values: &mut [f64]) {
         let scores: Vec<f64> = self.members.iter().map(|&i| score(u[i])).collect();
         for (&member, row) in self.members.iter().zip(&self.factor) {

@@ -1,10 +1,10 @@
-//! Parameters that depend on each other: checking what a file says of them.
+//! Correlation of parameters as a file gives it, with its checks.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{axis::Axis, copula::Copula};
-use crate::{check::Check, units::significant};
+use crate::{check::Check, document::Renamed, units::significant};
 
 /// Relative difference of two entries that are to be equal and may be rounded.
 const ROUNDED: f64 = 1e-9;
@@ -64,8 +64,14 @@ impl Correlation {
             let place = format!("parameters.{i}");
             let Some(index) = axes.iter().position(|axis| axis.key == *key) else {
                 let known: Vec<&str> = axes.iter().map(|axis| axis.key.as_str()).collect();
-                let help = format!("parameters: {}", known.join(", "));
-                check.fail(&place, format!("`{key}` is not varied"), help);
+                let (message, help) = match Renamed::of(key) {
+                    Some(renamed) => (renamed.message(), renamed.help()),
+                    None => (
+                        format!("`{key}` is not varied"),
+                        format!("parameters: {}", known.join(", ")),
+                    ),
+                };
+                check.fail(&place, message, help);
                 return None;
             };
             if axes[index].distribution().is_none() {

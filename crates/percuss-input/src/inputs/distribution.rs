@@ -62,7 +62,7 @@ impl Cut {
 }
 
 impl Distribution {
-    /// The value that a number stays below with chance `u`, between 0 and 1.
+    /// The value that a number stays below with probability `u`, between 0 and 1.
     pub fn quantile(&self, u: f64) -> f64 {
         match *self {
             Self::Normal {
@@ -95,7 +95,7 @@ impl Distribution {
         }
     }
 
-    /// The value at a normal score: the quantile at the chance of staying below that score.
+    /// The value at a normal score: the quantile at the probability of staying below that score.
     pub fn at_score(&self, z: f64) -> f64 {
         match *self {
             // Straight, so that normal parameters of normal scores are exactly normal.
@@ -109,8 +109,8 @@ impl Distribution {
                 deviation,
                 cut: Cut::NONE,
             } => median * libm::exp(deviation * z),
-            // The chance of a high score rounds to 1, which has no finite quantile.
-            _ => self.quantile(chance(z).clamp(f64::MIN_POSITIVE, 1.0 - 0.5 * f64::EPSILON)),
+            // The probability of a high score rounds to 1, which has no finite quantile.
+            _ => self.quantile(probability(z).clamp(f64::MIN_POSITIVE, 1.0 - 0.5 * f64::EPSILON)),
         }
     }
 
@@ -128,7 +128,7 @@ impl Distribution {
 
     /// Part of the distribution that its cut leaves.
     pub fn part_left(&self) -> f64 {
-        let between = |low: f64, high: f64| chance(high) - chance(low);
+        let between = |low: f64, high: f64| probability(high) - probability(low);
         match *self {
             Self::Normal {
                 mean,
@@ -150,7 +150,7 @@ impl Distribution {
 
 impl Distribution {
     /// It in words, such as `normal, 230 ± 3 m/s`; the unit may be empty.
-    pub fn in_words(&self, unit: &str) -> String {
+    pub fn describe(&self, unit: &str) -> String {
         let number = |value: f64| significant(value, 6);
         let words = match *self {
             Self::Normal {
@@ -221,7 +221,7 @@ impl Distribution {
         }
     }
 
-    /// Where it is, but for next to nothing.
+    /// Where it is, except for a negligible part.
     pub fn support(&self) -> (f64, f64) {
         match *self {
             Self::Normal {
@@ -259,12 +259,12 @@ impl fmt::Display for Cut {
 
 /// Quantile of the standard normal distribution between two scores.
 fn truncated(u: f64, low: f64, high: f64) -> f64 {
-    let (below, above) = (chance(low), chance(high));
+    let (below, above) = (probability(low), probability(high));
     score(below + u * (above - below))
 }
 
 /// Standard normal distribution function.
-fn chance(z: f64) -> f64 {
+fn probability(z: f64) -> f64 {
     0.5 * libm::erfc(-z * FRAC_1_SQRT_2)
 }
 
@@ -284,7 +284,7 @@ pub fn score(u: f64) -> f64 {
     let bottom = 1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308));
     let mut z = top / bottom - t;
     for _ in 0..3 {
-        let step = (chance(z) - tail) * (2.0 * PI).sqrt() * libm::exp(0.5 * z * z);
+        let step = (probability(z) - tail) * (2.0 * PI).sqrt() * libm::exp(0.5 * z * z);
         z -= step / (1.0 + 0.5 * z * step);
     }
     if u < 0.5 { z } else { -z }

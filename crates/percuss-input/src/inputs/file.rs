@@ -3,15 +3,15 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{amount::Amount, entry::Entry};
+use super::{list_value::ListValue, quantity_literal::QuantityLiteral};
 
-/// How the shots are chosen.
+/// How the runs are chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Design {
     /// Every combination of the values; the first parameter varies slowest.
     Grid,
-    /// One shot in each of as many equally likely intervals of every parameter as there are shots, matched at random.
+    /// One run in each of as many equally likely intervals of every parameter as there are runs, matched at random.
     LatinHypercube,
     /// Sobol' points with Owen's scrambling.
     Sobol,
@@ -32,11 +32,11 @@ impl Design {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Parameter {
-    /// Number of the case by the tables that it stands in, such as `projectile.velocity`; entries of lists count from 0.
+    /// Number of the case by the tables that it stands in, such as `projectile.impact_velocity`; entries of lists count from 0.
     pub key: String,
     /// A list.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub values: Option<Vec<Entry>>,
+    pub values: Option<Vec<ListValue>>,
     /// Values at even steps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub linear: Option<Steps>,
@@ -62,9 +62,9 @@ pub struct Parameter {
 #[serde(deny_unknown_fields)]
 pub struct Steps {
     /// Lower end.
-    pub from: Amount,
+    pub from: QuantityLiteral,
     /// Upper end.
-    pub to: Amount,
+    pub to: QuantityLiteral,
     /// Number of values.
     pub count: u64,
 }
@@ -74,15 +74,15 @@ pub struct Steps {
 #[serde(deny_unknown_fields)]
 pub struct Normal {
     /// Mean.
-    pub mean: Amount,
+    pub mean: QuantityLiteral,
     /// Standard deviation.
-    pub standard_deviation: Amount,
+    pub standard_deviation: QuantityLiteral,
     /// Where it is cut off below.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub min: Option<Amount>,
+    pub min: Option<QuantityLiteral>,
     /// Where it is cut off above.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub max: Option<Amount>,
+    pub max: Option<QuantityLiteral>,
 }
 
 /// A lognormal distribution, which may be cut off.
@@ -90,15 +90,15 @@ pub struct Normal {
 #[serde(deny_unknown_fields)]
 pub struct Lognormal {
     /// Median.
-    pub median: Amount,
+    pub median: QuantityLiteral,
     /// Standard deviation of the natural logarithm.
     pub log_standard_deviation: f64,
     /// Where it is cut off below.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub min: Option<Amount>,
+    pub min: Option<QuantityLiteral>,
     /// Where it is cut off above.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub max: Option<Amount>,
+    pub max: Option<QuantityLiteral>,
 }
 
 /// A uniform distribution.
@@ -106,9 +106,9 @@ pub struct Lognormal {
 #[serde(deny_unknown_fields)]
 pub struct Uniform {
     /// Lower end.
-    pub from: Amount,
+    pub from: QuantityLiteral,
     /// Upper end.
-    pub to: Amount,
+    pub to: QuantityLiteral,
 }
 
 /// A triangular distribution.
@@ -116,9 +116,9 @@ pub struct Uniform {
 #[serde(deny_unknown_fields)]
 pub struct Triangular {
     /// Lower end.
-    pub from: Amount,
+    pub from: QuantityLiteral,
     /// Likeliest value.
-    pub mode: Amount,
+    pub mode: QuantityLiteral,
     /// Upper end.
-    pub to: Amount,
+    pub to: QuantityLiteral,
 }

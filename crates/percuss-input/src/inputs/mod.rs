@@ -1,25 +1,25 @@
 //! Varied and uncertain numbers of a case: parameters with their values or distributions, and how they depend on each other.
 
-mod amount;
 mod axis;
 mod copula;
 mod correlation;
 mod distribution;
-mod entry;
 mod file;
+mod list_value;
 mod parameter;
+mod quantity_literal;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use amount::Amount;
 pub use axis::Axis;
 pub use axis::{Values, values};
 pub use copula::Copula;
 pub use correlation::Correlation;
 pub use distribution::{Distribution, score};
-pub use entry::Entry;
 pub use file::{Design, Lognormal, Normal, Parameter, Steps, Triangular, Uniform};
+pub use list_value::ListValue;
+pub use quantity_literal::QuantityLiteral;
 
 use crate::check::Check;
 use parameter::MAX_TOGETHER;
@@ -42,10 +42,10 @@ impl UncertainInputs {
         self.resolve(check);
     }
 
-    /// The parameters as axes, and what joins them; what is wrong becomes a finding.
+    /// The parameters as axes, and what joins them; what is wrong becomes a diagnostic.
     pub fn resolve(&self, check: &mut Check<'_>) -> (Vec<Axis>, Option<Copula>) {
         if self.parameter.is_empty() {
-            let help = "write one under [[uncertainty.parameter]]: key = \"projectile.velocity\" and \
+            let help = "write one under [[uncertainty.parameter]]: key = \"projectile.impact_velocity\" and \
                         normal = { mean = \"230 m/s\", standard_deviation = \"3 m/s\" }";
             check.fail("", "nothing is uncertain", help);
         }
@@ -91,7 +91,7 @@ pub fn resolve(
             );
             None
         }
-        // A parameter that is wrong would be missing here as well.
+        // A parameter that is wrong would also be missing here.
         Some(correlation) if axes.len() == parameters.len() => {
             correlation.resolve(&axes, &mut check.within("correlation"))
         }

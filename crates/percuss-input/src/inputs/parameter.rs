@@ -1,13 +1,13 @@
 //! Checking a parameter of a sweep file and turning it into an axis.
 
 use super::{
-    amount::Amount,
     axis::{Axis, Values},
     distribution::{Cut, Distribution},
-    entry::Entry,
     file::{Design, Parameter, Steps},
+    list_value::ListValue,
+    quantity_literal::QuantityLiteral,
 };
-use crate::check::Check;
+use crate::{check::Check, document::Renamed};
 
 /// Most values of one list.
 pub(crate) const MAX_VALUES: u64 = 1_000_000;
@@ -24,7 +24,7 @@ struct Amounts {
 }
 
 impl Amounts {
-    fn read(&mut self, check: &mut Check<'_>, key: &str, amount: &Amount) -> f64 {
+    fn read(&mut self, check: &mut Check<'_>, key: &str, amount: &QuantityLiteral) -> f64 {
         let unit = self.unit.get_or_insert_with(|| amount.unit.clone());
         if *unit != amount.unit {
             let named = |unit: &str| match unit {
@@ -46,24 +46,26 @@ impl Amounts {
     }
 
     /// Reads an amount that the case has to accept.
-    fn sample(&mut self, check: &mut Check<'_>, key: &str, amount: &Amount) -> f64 {
+    fn sample(&mut self, check: &mut Check<'_>, key: &str, amount: &QuantityLiteral) -> f64 {
         let value = self.read(check, key, amount);
         self.samples.push((key.to_owned(), value));
         value
     }
 
     /// Reads a list that is written down value by value.
-    fn entries(&mut self, check: &mut Check<'_>, entries: &[Entry]) -> Option<Values> {
+    fn entries(&mut self, check: &mut Check<'_>, entries: &[ListValue]) -> Option<Values> {
         let (mut numbers, mut options) = (Vec::new(), Vec::new());
         for (i, entry) in entries.iter().enumerate() {
             let key = format!("values.{i}");
             match entry {
-                Entry::Amount(amount) => numbers.push(self.sample(check, &key, amount)),
-                Entry::Option(value) if options.contains(value) => {
+                ListValue::QuantityLiteral(amount) => {
+                    numbers.push(self.sample(check, &key, amount))
+                }
+                ListValue::Option(value) if options.contains(value) => {
                     check.fail(&key, format!("{value} is in the list twice"), "remove one");
                     return None;
                 }
-                Entry::Option(value) => {
+                ListValue::Option(value) => {
                     self.samples.push((key.clone(), i as f64));
                     options.push(value.clone());
                 }
@@ -108,8 +110,13 @@ impl Amounts {
         Some((from, to))
     }
 
-    fn cut(&mut self, check: &mut Check<'_>, kind: &str, ends: [Option<&Amount>; 2]) -> Cut {
-        let mut end = |name: &str, amount: Option<&Amount>, open: f64| {
+    fn cut(
+        &mut self,
+        check: &mut Check<'_>,
+        kind: &str,
+        ends: [Option<&QuantityLiteral>; 2],
+    ) -> Cut {
+        let mut end = |name: &str, amount: Option<&QuantityLiteral>, open: f64| {
             amount.map_or(open, |amount| {
                 self.sample(check, &format!("{kind}.{name}"), amount)
             })
@@ -140,6 +147,10 @@ impl Parameter {
 
     /// Checks the parameter; `None` when something is wrong with it.
     pub fn resolve(&self, check: &mut Check<'_>, design: Design) -> Option<Axis> {
+        if let Some(renamed) = Renamed::of(&self.key) {
+            check.fail("key", renamed.message(), renamed.help());
+            return None;
+        }
         const WAYS: &str =
             "give one of values, linear, log, normal, lognormal, uniform and triangular";
         let kind = match self.kinds().as_slice() {

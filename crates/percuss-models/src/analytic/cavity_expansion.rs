@@ -274,7 +274,7 @@ mod tests {
         let (one, ten) = (error(27.6e6), error(276e6));
         println!("static: error {one:.3e} at Y/E = 4e-4, {ten:.3e} at 4e-3");
         assert!(one.abs() < 4e-4 && ten.abs() < 4e-3);
-        // First order in Y/E, but for the logarithm in the denominator.
+        // First order in Y/E, except for the logarithm in the denominator.
         assert!((6.0..12.0).contains(&(ten / one)), "{}", ten / one);
     }
 

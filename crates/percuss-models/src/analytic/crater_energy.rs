@@ -1,18 +1,20 @@
 //! Model `crater_energy`: the kinetic energy of the projectile pays for the volume of the crater.
 
 use super::{
-    deep_shot::{DeepShot, NOT_ONE_TARGET, at_rest, detail, never_yields, termination},
+    deep_penetration::{
+        DeepPenetration, NOT_ONE_TARGET, at_rest, detail, never_yields, termination,
+    },
     nose_load::NoseLoad,
     rigid_motion::RigidMotion,
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::{Guard, Range},
     material::cavity_expansion_pressure,
     outcome::{BandQuantity, Outcome, RunResult},
     regime::{ProjectileRegime, Regime, TargetKind},
     solver::{Control, Model},
     units::Pressure,
+    validity::{Range, ValidityDomain},
 };
 
 /// Plastic strain at which the projectile's flow stress stands for its strength, as in [`crate::regime`].
@@ -24,13 +26,13 @@ pub struct CraterEnergy;
 
 impl CraterEnergy {
     fn resistance(scenario: &Scenario) -> Result<f64, Refusal> {
-        let shot = DeepShot::of(scenario).ok_or(NOT_ONE_TARGET)?;
+        let case = DeepPenetration::of(scenario).ok_or(NOT_ONE_TARGET)?;
         scenario
             .options
             .crater_energy
             .resistance
             .map(Pressure::si)
-            .or_else(|| cavity_expansion_pressure(shot.target))
+            .or_else(|| cavity_expansion_pressure(case.target))
             .ok_or_else(|| never_yields(Some("`crater_energy.resistance`")))
     }
 }
@@ -68,7 +70,7 @@ fn crater_speed(
 /// Area of a crater over that of the rod that flows out in it: `1 + 2ρ_p(V−U)²/R`.
 ///
 /// The rod's section holds its own against R. In the frame of the crater's bottom the projectile comes in at V − U and is turned
-/// back at the same speed, so that it pushes with `2ρ_p A (V−U)²` more; the crater is as wide as R lets that force make it.
+/// back at the same speed, so that it pushes with `2ρ_p A (V−U)²` more; the crater is as wide as R allows under that force.
 fn crater_growth(density: f64, relative_speed: f64, resistance: f64) -> f64 {
     1.0 + 2.0 * density * relative_speed * relative_speed / resistance
 }
@@ -82,9 +84,9 @@ impl Model for CraterEnergy {
         "crater volume times resistance equals the projectile's kinetic energy"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[BandQuantity::DepthOfPenetration],
                 targets: TargetKind::DEEP,
                 ranges: &[Range::INFINITE_BODY],
@@ -93,7 +95,7 @@ impl Model for CraterEnergy {
                     "all kinetic energy goes into the crater, which has the same width at every depth",
                     "a rigid projectile leaves its own shape; the crater of one that flows grows by the thrust of the flow",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }
@@ -105,12 +107,12 @@ impl Model for CraterEnergy {
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
         let refuse = |refusal: Refusal| Error::not_applicable(self.name(), refusal);
         let resistance = Self::resistance(scenario).map_err(refuse)?;
-        let shot = DeepShot::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET.into()))?;
-        let rod = shot.rod;
-        let energy = 0.5 * rod.mass * shot.speed * shot.speed;
+        let case = DeepPenetration::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET.into()))?;
+        let rod = case.rod;
+        let energy = 0.5 * rod.mass * case.speed * case.speed;
         let given = scenario.options.crater_energy.crater_to_projectile_diameter;
-        let judged = Regime::of(scenario);
-        let regime = judged.projectile;
+        let classified = Regime::of(scenario);
+        let regime = classified.projectile;
         let strength = rod.material.flow_stress(STRENGTH_STRAIN);
         let (mut result, growth) = match (regime, given, strength) {
             (ProjectileRegime::Rigid, None, _) | (_, None, None) => {
@@ -120,17 +122,17 @@ impl Model for CraterEnergy {
                     strength: resistance,
                     inertia: 0.0,
                 };
-                let stop = motion.gradual(shot.speed);
+                let stop = motion.gradual(case.speed);
                 (at_rest(self.name(), "rigid", scenario, stop), 1.0)
             }
             (_, given, strength) => {
                 let growth = match (given, strength) {
                     (Some(ratio), _) => ratio * ratio,
                     (None, strength) => {
-                        let densities = (rod.material.density.si(), shot.target.density.si());
+                        let densities = (rod.material.density.si(), case.target.density.si());
                         let strength = strength.unwrap_or(f64::INFINITY);
-                        let bottom = crater_speed(densities, shot.speed, strength, resistance);
-                        crater_growth(densities.0, shot.speed - bottom, resistance)
+                        let bottom = crater_speed(densities, case.speed, strength, resistance);
+                        crater_growth(densities.0, case.speed - bottom, resistance)
                     }
                 };
                 let depth = energy / (resistance * growth * rod.area());
@@ -151,14 +153,14 @@ impl Model for CraterEnergy {
             detail("crater diameter ratio", "", growth.sqrt()),
             detail("crater volume", "cm3", energy / resistance * 1e6),
         ];
-        let rigid_or_not = [regime].into_iter().chain(judged.neighbour);
-        if judged.neighbour.is_some()
+        let rigid_or_not = [regime].into_iter().chain(classified.neighbour);
+        if classified.neighbour.is_some()
             && rigid_or_not
                 .into_iter()
                 .any(|r| r == ProjectileRegime::Rigid)
         {
             result.warnings.push(
-                "the judgement whether the projectile stays rigid is not sharp here, and this model's depth jumps there: compare \
+                "whether the projectile stays rigid is uncertain here, and this model's depth jumps there: compare \
                  with the models of the other regime"
                     .to_owned(),
             );

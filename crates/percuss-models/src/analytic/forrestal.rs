@@ -2,19 +2,21 @@
 
 use super::{
     cavity_expansion::CavityExpansion,
-    deep_shot::{DeepShot, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail, never_yields},
+    deep_penetration::{
+        DeepPenetration, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail, never_yields,
+    },
     nose_load::NoseLoad,
     rigid_motion::{RigidMotion, Stop},
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
     material::{MaterialClass, cavity_expansion_pressure},
     options::{Cavity, Entry, ForrestalOptions},
     outcome::{Band, BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
     units::{Pressure, Velocity, significant},
+    validity::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 
 /// Rigid rods in thick metal targets \[forrestal1988, forrestal1995\].
@@ -29,16 +31,16 @@ struct Resistance {
 }
 
 impl Forrestal {
-    fn resistance(shot: &DeepShot<'_>, cavity: Cavity, steepest: f64) -> Option<Resistance> {
+    fn resistance(case: &DeepPenetration<'_>, cavity: Cavity, steepest: f64) -> Option<Resistance> {
         match cavity {
             Cavity::Incompressible => Some(Resistance {
-                strength: cavity_expansion_pressure(shot.target)?,
+                strength: cavity_expansion_pressure(case.target)?,
                 coefficient: 1.5,
                 warning: None,
             }),
             Cavity::Compressible => {
-                let speed = steepest * shot.speed;
-                let fit = CavityExpansion::of(shot.target)?.fit(speed);
+                let speed = steepest * case.speed;
+                let fit = CavityExpansion::of(case.target)?.fit(speed);
                 let warning = (speed > fit.largest_speed).then(|| {
                     format!(
                         "the compressible cavity expansion has no plastic shock and ends at {}: B is fitted up to there, and the nose \
@@ -50,37 +52,41 @@ impl Forrestal {
                 Some(Resistance {
                     strength: fit.strength,
                     coefficient: fit.inertia,
-                    warning: warning.filter(|_| shot.speed > 0.0),
+                    warning: warning.filter(|_| case.speed > 0.0),
                 })
             }
         }
     }
 
-    fn stop(shot: &DeepShot<'_>, options: &ForrestalOptions, resistance: &Resistance) -> Stop {
+    fn stop(
+        case: &DeepPenetration<'_>,
+        options: &ForrestalOptions,
+        resistance: &Resistance,
+    ) -> Stop {
         let motion = RigidMotion {
-            mass: shot.rod.mass,
-            nose: nose(shot, options),
+            mass: case.rod.mass,
+            nose: nose(case, options),
             strength: resistance.strength,
-            inertia: resistance.coefficient * shot.target.density.si(),
+            inertia: resistance.coefficient * case.target.density.si(),
         };
         match options.entry() {
-            Entry::Embedded => motion.embedded(shot.speed),
-            Entry::Gradual => motion.gradual(shot.speed),
+            Entry::Embedded => motion.embedded(case.speed),
+            Entry::Gradual => motion.gradual(case.speed),
         }
     }
 
     /// Yield stress that `a` multiplies [Pa].
-    fn yield_stress(shot: &DeepShot<'_>, options: &ForrestalOptions) -> Option<f64> {
-        let law = shot.target.strength.law();
+    fn yield_stress(case: &DeepPenetration<'_>, options: &ForrestalOptions) -> Option<f64> {
+        let law = case.target.strength.law();
         options
             .yield_stress
             .map(Pressure::si)
-            .or_else(|| law.initial_yield_stress(shot.target))
+            .or_else(|| law.initial_yield_stress(case.target))
     }
 }
 
-fn nose(shot: &DeepShot<'_>, options: &ForrestalOptions) -> NoseLoad {
-    NoseLoad::new(shot.rod.nose, shot.rod.diameter, options.friction())
+fn nose(case: &DeepPenetration<'_>, options: &ForrestalOptions) -> NoseLoad {
+    NoseLoad::new(case.rod.nose, case.rod.diameter, options.friction())
 }
 
 fn rounded(speed: f64) -> Velocity {
@@ -96,9 +102,9 @@ impl Model for Forrestal {
         "rigid rod in a thick metal target, resisted by spherical cavity expansion"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[BandQuantity::DepthOfPenetration],
                 projectile: &[ProjectileRegime::Rigid],
                 targets: TargetKind::DEEP,
@@ -131,18 +137,18 @@ impl Model for Forrestal {
                     "frictionless unless `forrestal.friction` says otherwise",
                     "a flat end carries a cap of dead metal in truth, which makes it less blunt than the model takes it",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
-        let Some(shot) = DeepShot::of(scenario) else {
+        let Some(case) = DeepPenetration::of(scenario) else {
             return Some(NOT_ONE_TARGET.into());
         };
         let options = &scenario.options.forrestal;
         let given = options.a.is_some() && options.yield_stress.is_some();
-        (cavity_expansion_pressure(shot.target).is_none() && !(given && options.b.is_some())).then(
+        (cavity_expansion_pressure(case.target).is_none() && !(given && options.b.is_some())).then(
             || {
                 never_yields(Some(
                     "`forrestal.a`, `forrestal.yield_stress` and `forrestal.b`",
@@ -153,13 +159,13 @@ impl Model for Forrestal {
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
         let refuse = |reason: &str| Error::not_applicable(self.name(), reason);
-        let shot = DeepShot::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET))?;
+        let case = DeepPenetration::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET))?;
         let options = &scenario.options.forrestal;
-        let nose = nose(&shot, options);
+        let nose = nose(&case, options);
         let cavity = options.cavity();
         let given = options
             .a
-            .and_then(|a| Some(a * Self::yield_stress(&shot, options)?));
+            .and_then(|a| Some(a * Self::yield_stress(&case, options)?));
         let resistance = match (given, options.b) {
             (Some(strength), Some(coefficient)) => Resistance {
                 strength,
@@ -167,7 +173,7 @@ impl Model for Forrestal {
                 warning: None,
             },
             _ => {
-                let computed = Self::resistance(&shot, cavity, nose.steepest())
+                let computed = Self::resistance(&case, cavity, nose.steepest())
                     .ok_or_else(|| refuse(NEVER_YIELDS))?;
                 Resistance {
                     strength: given.unwrap_or(computed.strength),
@@ -176,7 +182,7 @@ impl Model for Forrestal {
                 }
             }
         };
-        let stop = Self::stop(&shot, options, &resistance);
+        let stop = Self::stop(&case, options, &resistance);
         let entry = options.entry();
         let scheme = match (given, options.b, cavity) {
             (Some(_), Some(_), _) => "given-coefficients",
@@ -191,19 +197,19 @@ impl Model for Forrestal {
             detail("strength factor M", "", strength_factor),
             detail("inertia factor N", "", inertia_factor),
         ];
-        if let Some(yield_stress) = Self::yield_stress(&shot, options) {
+        if let Some(yield_stress) = Self::yield_stress(&case, options) {
             let coefficient = resistance.strength / yield_stress;
             result
                 .details
                 .push(detail("strength coefficient A", "", coefficient));
         }
-        if given.is_none() && options.b.is_none() && shot.speed > 0.0 {
+        if given.is_none() && options.b.is_none() && case.speed > 0.0 {
             let other = match cavity {
                 Cavity::Incompressible => Cavity::Compressible,
                 Cavity::Compressible => Cavity::Incompressible,
             };
-            result.band = Self::resistance(&shot, other, nose.steepest()).map(|other| {
-                let other = Self::stop(&shot, options, &other).depth;
+            result.band = Self::resistance(&case, other, nose.steepest()).map(|other| {
+                let other = Self::stop(&case, options, &other).depth;
                 Band {
                     quantity: BandQuantity::DepthOfPenetration,
                     low: other.min(stop.depth) * 1e3,
@@ -213,7 +219,7 @@ impl Model for Forrestal {
             });
         }
         result.warnings.extend(resistance.warning);
-        if entry == Entry::Embedded && shot.speed > 0.0 && stop.depth < nose.length() {
+        if entry == Entry::Embedded && case.speed > 0.0 && stop.depth < nose.length() {
             result.warnings.push(
                 "the nose is longer than the depth and was taken to be fully embedded: entry = \"gradual\" is the better choice here"
                     .to_owned(),

@@ -2,15 +2,15 @@
 
 use std::f64::consts::PI;
 
-use super::deep_shot::{DeepShot, NOT_ONE_TARGET, at_rest, detail};
+use super::deep_penetration::{DeepPenetration, NOT_ONE_TARGET, at_rest, detail};
 use super::rigid_motion::Stop;
 use crate::{
     Error, Refusal, Scenario,
-    guard::{FirstChoice, FittedTo, Guard, Measure, NoseKind, Outside, Range},
     material::{MaterialClass, Strength, strength_factor},
     outcome::{BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind, nose_factor},
     solver::{Control, Model},
+    validity::{FirstChoice, FittedTo, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 
 /// Rigid projectiles into concrete \[forrestal1994, li2003\].
@@ -65,18 +65,18 @@ impl TwoPhases {
 
 impl ForrestalConcrete {
     fn phases(scenario: &Scenario) -> Result<TwoPhases, Refusal> {
-        let shot = DeepShot::of(scenario).ok_or(NOT_ONE_TARGET)?;
-        let Strength::Concrete(concrete) = &shot.target.strength else {
+        let case = DeepPenetration::of(scenario).ok_or(NOT_ONE_TARGET)?;
+        let Strength::Concrete(concrete) = &case.target.strength else {
             let reason = "the target's strength law has no compressive strength of concrete";
             return Err(Refusal::new(reason).with_remedy("use `strength.concrete`"));
         };
         let compressive = concrete.compressive_strength.si();
         let options = &scenario.options.forrestal_concrete;
         Ok(TwoPhases {
-            mass: shot.rod.mass,
-            diameter: shot.rod.diameter,
-            nose: nose_factor(shot.rod.nose),
-            density: shot.target.density.si(),
+            mass: case.rod.mass,
+            diameter: case.rod.diameter,
+            nose: nose_factor(case.rod.nose),
+            density: case.target.density.si(),
             strength: compressive * options.s.unwrap_or_else(|| strength_factor(compressive)),
             crater: options.crater_depth_to_diameter(),
         })
@@ -92,9 +92,9 @@ impl Model for ForrestalConcrete {
         "rigid projectile into concrete: a crater, then a tunnel"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[BandQuantity::DepthOfPenetration],
                 projectile: &[ProjectileRegime::Rigid],
                 targets: TargetKind::DEEP,
@@ -132,7 +132,7 @@ impl Model for ForrestalConcrete {
                     "the factor S is empirical and stands for everything but inertia: aggregate, pressure and rate dependence",
                     "plain concrete, unreinforced or lightly reinforced; normal impact",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }
@@ -167,8 +167,8 @@ impl Model for ForrestalConcrete {
 mod tests {
     use super::*;
 
-    /// Forrestal et al. (1994), shot 14.
-    fn shot() -> TwoPhases {
+    /// Forrestal et al. (1994), case 14.
+    fn case() -> TwoPhases {
         TwoPhases {
             mass: 0.906,
             diameter: 0.0269,
@@ -180,16 +180,16 @@ mod tests {
     }
 
     #[test]
-    fn the_worked_shot_comes_out() {
+    fn the_worked_case_comes_out() {
         // The worked value has the nose factor rounded to 0.156; with 15/96 it is 6.2154.
         let rounded = TwoPhases {
             nose: 0.156,
-            ..shot()
+            ..case()
         };
         let ratio = rounded.stop(277.0).depth / 0.0269;
         println!("concrete: X/d = {ratio:.4}, N = 0.156");
         assert!((ratio - 6.216).abs() < 5e-4, "{ratio}");
-        let ratio = shot().stop(277.0).depth / 0.0269;
+        let ratio = case().stop(277.0).depth / 0.0269;
         println!("concrete: X/d = {ratio:.4}, N = 15/96");
         assert!((ratio - 6.2154).abs() < 5e-5, "{ratio}");
         assert!((strength_factor(35.2e6) - 11.9).abs() < 0.01);
@@ -197,32 +197,32 @@ mod tests {
 
     #[test]
     fn the_crater_meets_the_tunnel() {
-        let shot = shot();
-        let crater = PI * shot.crater * shot.diameter.powi(3) / 4.0;
-        let speed = (crater * shot.strength / shot.mass).sqrt();
+        let case = case();
+        let crater = PI * case.crater * case.diameter.powi(3) / 4.0;
+        let speed = (crater * case.strength / case.mass).sqrt();
         let (below, above) = (
-            shot.stop(speed * (1.0 - 1e-9)),
-            shot.stop(speed * (1.0 + 1e-9)),
+            case.stop(speed * (1.0 - 1e-9)),
+            case.stop(speed * (1.0 + 1e-9)),
         );
         assert!(
-            (below.depth / (2.0 * shot.diameter) - 1.0).abs() < 1e-8,
+            (below.depth / (2.0 * case.diameter) - 1.0).abs() < 1e-8,
             "{below:?}"
         );
         assert!((above.depth / below.depth - 1.0).abs() < 1e-8, "{above:?}");
-        assert_eq!(shot.stop(0.0).depth, 0.0);
+        assert_eq!(case.stop(0.0).depth, 0.0);
     }
 
     #[test]
     fn the_shallow_form_is_the_dimensionless_one() {
         // X/d = √[(1 + kπ/4N)/(1 + I/N) · 4kI/π], I = MV²/(d³ S f_c), N = M/(N* ρ d³) \[li2003\].
-        let (shot, speed) = (shot(), 60.0);
-        let impact = shot.mass * speed * speed / (shot.diameter.powi(3) * shot.strength);
-        let geometry = shot.mass / (shot.nose * shot.density * shot.diameter.powi(3));
-        let k = shot.crater;
+        let (case, speed) = (case(), 60.0);
+        let impact = case.mass * speed * speed / (case.diameter.powi(3) * case.strength);
+        let geometry = case.mass / (case.nose * case.density * case.diameter.powi(3));
+        let k = case.crater;
         let published = ((1.0 + k * PI / (4.0 * geometry)) / (1.0 + impact / geometry)
             * (4.0 * k * impact / PI))
             .sqrt();
-        let ratio = shot.stop(speed).depth / shot.diameter;
+        let ratio = case.stop(speed).depth / case.diameter;
         assert!(
             ratio < k && (ratio / published - 1.0).abs() < 1e-12,
             "{ratio} {published}"
@@ -231,25 +231,25 @@ mod tests {
 
     #[test]
     fn the_motion_through_both_phases_is_that_of_the_force() {
-        let (shot, speed) = (shot(), 277.0);
-        let area = PI * shot.diameter * shot.diameter / 4.0;
+        let (case, speed) = (case(), 277.0);
+        let area = PI * case.diameter * case.diameter / 4.0;
         let at_bottom =
-            area * (shot.strength + shot.nose * shot.density * shot.tunnel_speed_squared(speed));
-        let crater = shot.crater * shot.diameter;
+            area * (case.strength + case.nose * case.density * case.tunnel_speed_squared(speed));
+        let crater = case.crater * case.diameter;
         let force = |x: f64, square: f64| {
             if x < crater {
                 at_bottom * x / crater
             } else {
-                area * (shot.strength + shot.nose * shot.density * square)
+                area * (case.strength + case.nose * case.density * square)
             }
         };
         let step = 1e-7;
         let (mut x, mut square) = (0.0, speed * speed);
         while square > 0.0 {
-            let middle = square - step / shot.mass * force(x, square);
-            square -= 2.0 * step / shot.mass * force(x + step / 2.0, middle);
+            let middle = square - step / case.mass * force(x, square);
+            square -= 2.0 * step / case.mass * force(x + step / 2.0, middle);
             x += step;
         }
-        assert!((x / shot.stop(speed).depth - 1.0).abs() < 1e-6, "{x}");
+        assert!((x / case.stop(speed).depth - 1.0).abs() < 1e-6, "{x}");
     }
 }

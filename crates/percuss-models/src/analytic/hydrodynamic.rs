@@ -3,10 +3,10 @@
 use super::long_rod::{LongRod, NOT_ONE_TARGET, detail};
 use crate::{
     Error, Refusal, Scenario,
-    guard::{Guard, Measure, Outside, Range},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
+    validity::{Measure, Outside, Range, ValidityDomain},
 };
 
 /// The hydrodynamic limit `P = L √(ρ_p/ρ_t)`.
@@ -25,9 +25,9 @@ impl Model for Hydrodynamic {
         "hydrodynamic limit: a rod and a target without strength"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[BandQuantity::DepthOfPenetration],
                 projectile: &[ProjectileRegime::Eroding],
                 targets: TargetKind::DEEP,
@@ -49,9 +49,9 @@ impl Model for Hydrodynamic {
                 ],
                 sees_back_face: false,
                 notes: &[
-                    "the limit that the models with strength tend to at high speed; the speed has no say in it",
+                    "the limit that the models with strength tend to at high speed; it is independent of the impact velocity",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }
@@ -105,7 +105,7 @@ mod tests {
         let scenario = case::load_str(
             "jet",
             r#"
-            projectile = { material = "a", length = "100 mm", diameter = "5 mm", velocity = "6 km/s" }
+            projectile = { material = "a", length = "100 mm", diameter = "5 mm", impact_velocity = "6 km/s" }
             target = { material = "b", thickness = "semi-infinite" }
             [materials.a]
             name = "a"

@@ -2,14 +2,14 @@
 
 use super::{
     limit::{input_limit, limit},
-    plate_shot::{PlateShot, plate_result, refuse},
+    plate_impact::{PlateImpact, plate_result, refuse},
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::Guard,
     outcome::{BandQuantity, Detail, RunResult},
     regime::TargetKind,
     solver::{Control, InputLimit, Model},
+    validity::ValidityDomain,
 };
 
 /// Lambert and Jonas's residual velocity.
@@ -25,16 +25,16 @@ impl Model for LambertJonas {
         "residual velocity behind a plate from a ballistic limit: v_r = a (v^p - v_bl^p)^(1/p)"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[BandQuantity::ResidualVelocity],
                 targets: TargetKind::PLATES,
                 notes: &[
                     "normal impact",
                     "a form with three parameters: it interpolates between measured points and explains nothing",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }
@@ -57,22 +57,22 @@ impl Model for LambertJonas {
         let options = &scenario.options.lambert_jonas;
         let limit = limit(scenario, options.ballistic_limit, self.name())
             .map_err(|reason| refuse(self.name(), reason))?;
-        let shot =
-            PlateShot::of(scenario).ok_or_else(|| refuse(self.name(), "it takes one plate"))?;
+        let case =
+            PlateImpact::of(scenario).ok_or_else(|| refuse(self.name(), "it takes one plate"))?;
         let a = options
             .a
-            .unwrap_or(shot.mass / (shot.mass + shot.plug_mass() / 3.0));
+            .unwrap_or(case.mass / (case.mass + case.plug_mass() / 3.0));
         let p = options
             .p
-            .unwrap_or(2.0 + shot.thickness_to_diameter() / 3.0);
-        let residual = if shot.speed > limit.speed {
+            .unwrap_or(2.0 + case.thickness_to_diameter() / 3.0);
+        let residual = if case.speed > limit.speed {
             // Through the ratio, so that a large p does not overflow.
-            let ratio = (limit.speed / shot.speed).powf(p);
-            a * shot.speed * (1.0 - ratio).powf(1.0 / p)
+            let ratio = (limit.speed / case.speed).powf(p);
+            a * case.speed * (1.0 - ratio).powf(1.0 / p)
         } else {
             0.0
         };
-        let mut result = plate_result(self.name(), "", shot.speed, limit.speed, residual);
+        let mut result = plate_result(self.name(), "", case.speed, limit.speed, residual);
         // What the model starts from is no prediction of it.
         result.ballistic_limit = None;
         let detail = |name, value| Detail {

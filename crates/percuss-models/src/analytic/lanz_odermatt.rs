@@ -3,11 +3,11 @@
 use super::long_rod::{LongRod, NOT_ONE_TARGET, detail};
 use crate::{
     Error, Refusal, Scenario,
-    guard::{Guard, Measure, Outside, Range},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::TargetKind,
     solver::{Control, Model},
     units::significant,
+    validity::{Measure, Outside, Range, ValidityDomain},
 };
 
 /// The regression of Lanz and Odermatt.
@@ -66,9 +66,9 @@ impl Model for LanzOdermatt {
         "regression of Lanz and Odermatt: tungsten rods on thick steel"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[BandQuantity::DepthOfPenetration],
                 targets: TargetKind::DEEP,
                 ranges: &[Range {
@@ -84,7 +84,7 @@ impl Model for LanzOdermatt {
                      hardness of 200 to 600, above the smallest speed of the regression",
                     "a regression: outside its data it means nothing; a rod with a nose counts as the flat-ended one of its mass",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }
@@ -123,7 +123,7 @@ impl Model for LanzOdermatt {
         let smallest = smallest_speed(projectile, hardness);
         (rod.speed < smallest).then(|| {
             Refusal::new(format!(
-                "an impact speed of {} m/s is below the smallest one of the regression, {} m/s",
+                "an impact velocity of {} m/s is below the smallest one of the regression, {} m/s",
                 significant(rod.speed, 4),
                 significant(smallest, 4)
             ))
@@ -159,7 +159,7 @@ impl Model for LanzOdermatt {
             ),
         ];
         result.warnings = vec![
-            "a regression to shots of tungsten rods on steel: the scatter of its shots was not published where it could be read"
+            "a regression to cases of tungsten rods on steel: the scatter of its cases was not published where it could be read"
                 .to_owned(),
         ];
         Ok(result)
@@ -196,7 +196,7 @@ mod tests {
                 "rod",
                 &format!(
                     r#"
-                    projectile = {{ material = "rod", length = "100 mm", diameter = "5 mm", velocity = "{speed} m/s" }}
+                    projectile = {{ material = "rod", length = "100 mm", diameter = "5 mm", impact_velocity = "{speed} m/s" }}
                     target = {{ material = "steel", thickness = "semi-infinite" }}
                     lanz_odermatt = {{ {hardness} }}
                     [materials.rod]
@@ -216,9 +216,9 @@ mod tests {
             )
             .unwrap()
         };
-        let verdict = |scenario: &Scenario| model::applicability(&LanzOdermatt, scenario);
-        assert!(verdict(&case(17600, "target_hardness = 300", 1500)).is_ok());
-        let missing = verdict(&case(17600, "", 1500)).unwrap_err();
+        let applicability = |scenario: &Scenario| model::applicability(&LanzOdermatt, scenario);
+        assert!(applicability(&case(17600, "target_hardness = 300", 1500)).is_ok());
+        let missing = applicability(&case(17600, "", 1500)).unwrap_err();
         let remedy = missing.remedy.unwrap_or_default();
         assert!(
             remedy.contains("`lanz_odermatt.target_hardness`"),
@@ -229,7 +229,7 @@ mod tests {
             (case(17600, "target_hardness = 150", 1500), "200 to 600"),
             (case(17600, "target_hardness = 300", 1000), "1011 m/s"),
         ] {
-            let reason = verdict(&refused).unwrap_err().reason;
+            let reason = applicability(&refused).unwrap_err().reason;
             assert!(reason.contains(word), "{reason}");
         }
     }

@@ -6,10 +6,10 @@ use super::{
 };
 use crate::{
     Refusal, Scenario,
-    guard::NoseKind,
     outcome::Detail,
     solver::{InputLimit, Model, applicability},
     units::{Velocity, significant},
+    validity::NoseKind,
 };
 
 /// The limit that a case gives or another model computes; `None` when there is none.
@@ -28,13 +28,13 @@ pub(super) fn input_limit(
 /// A ballistic limit and where it comes from.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Limit {
-    /// Impact speed above which the plate is perforated [m/s].
+    /// Impact velocity above which the plate is perforated [m/s].
     pub speed: f64,
     /// Model that computes it; `None` where the case gives it.
     pub computed_by: Option<&'static str>,
     /// The limit with its origin in the name.
     pub detail: Detail,
-    /// What to know of a limit that the case does not give.
+    /// Remarks on a limit that the case does not give.
     pub warnings: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What the models of long rods read from a case: a rod of one metal on a target of one metal.
+//! Input of the models of long rods: a rod of one metal on a target of one metal.
 
 use crate::{
     Refusal,
@@ -11,7 +11,7 @@ use crate::{
     units::{Pressure, significant},
 };
 
-use super::ode::Stuck;
+use super::ode::IntegrationError;
 
 /// Plastic strain at which a flow stress stands for a strength, as in [`crate::regime`].
 pub(super) const STRENGTH_STRAIN: f64 = 0.1;
@@ -90,7 +90,7 @@ pub(super) fn detail(name: &'static str, unit: &'static str, value: f64) -> Deta
 }
 
 /// The error of an integration that found no end.
-pub(super) fn failure(stuck: Stuck) -> NumericalError {
+pub(super) fn failure(stuck: IntegrationError) -> NumericalError {
     NumericalError {
         what: "the integration in time found no end".to_owned(),
         step: stuck.attempts.into(),

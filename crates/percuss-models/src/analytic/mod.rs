@@ -3,7 +3,7 @@
 mod awerbuch_bodner;
 mod cavity_expansion;
 mod crater_energy;
-mod deep_shot;
+mod deep_penetration;
 mod dynamic_yield;
 mod forrestal;
 mod forrestal_concrete;
@@ -16,7 +16,7 @@ mod nose_load;
 mod nose_shape;
 mod ode;
 mod plate_cavity;
-mod plate_shot;
+mod plate_impact;
 mod plugging;
 mod poncelet;
 mod quasi_static;

@@ -1,4 +1,4 @@
-//! How much of a plate a nose has opened.
+//! Part of a plate that a nose has opened, by the shape of the nose.
 
 use std::f64::consts::PI;
 

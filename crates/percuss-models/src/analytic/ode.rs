@@ -65,7 +65,7 @@ pub(super) struct Problem<'a, const N: usize> {
 
 /// Where an integration ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Ending<const N: usize> {
+pub(super) struct FinalState<const N: usize> {
     pub(super) time: f64,
     pub(super) state: [f64; N],
     pub(super) steps: u32,
@@ -73,7 +73,7 @@ pub(super) struct Ending<const N: usize> {
 
 /// An integration that found no step small enough, or no end.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stuck {
+pub(super) struct IntegrationError {
     pub(super) time: f64,
     pub(super) attempts: u32,
 }
@@ -84,28 +84,28 @@ impl<const N: usize> Problem<'_, N> {
         &self,
         start: [f64; N],
         mut watch: impl FnMut(f64, &[f64; N]),
-    ) -> Result<Ending<N>, Stuck> {
-        let mut ending = Ending {
+    ) -> Result<FinalState<N>, IntegrationError> {
+        let mut end = FinalState {
             time: 0.0,
             state: start,
             steps: 0,
         };
         if (self.event)(&start) <= 0.0 {
-            return Ok(ending);
+            return Ok(end);
         }
         let mut step = self.first_step;
         for attempts in 1..=MAX_ATTEMPTS {
-            let (next, error) = self.step(&ending.state, step);
+            let (next, error) = self.step(&end.state, step);
             // Written so that NaN counts as too large an error.
             let accepted = error <= 1.0;
             if accepted {
                 if (self.event)(&next) <= 0.0 {
-                    return Ok(self.locate(ending, step));
+                    return Ok(self.locate(end, step));
                 }
-                ending.time += step;
-                ending.state = next;
-                ending.steps += 1;
-                watch(ending.time, &next);
+                end.time += step;
+                end.state = next;
+                end.steps += 1;
+                watch(end.time, &next);
             }
             let factor = SAFETY * error.powf(-0.2);
             step *= if factor.is_nan() {
@@ -113,34 +113,34 @@ impl<const N: usize> Problem<'_, N> {
             } else {
                 factor.clamp(SMALLEST_FACTOR, if accepted { LARGEST_FACTOR } else { 1.0 })
             };
-            if ending.time + step == ending.time && ending.time > 0.0 {
-                return Err(Stuck {
-                    time: ending.time,
+            if end.time + step == end.time && end.time > 0.0 {
+                return Err(IntegrationError {
+                    time: end.time,
                     attempts,
                 });
             }
         }
-        Err(Stuck {
-            time: ending.time,
+        Err(IntegrationError {
+            time: end.time,
             attempts: MAX_ATTEMPTS,
         })
     }
 
     /// Shortens the last step until it ends at the event.
-    fn locate(&self, mut ending: Ending<N>, step: f64) -> Ending<N> {
+    fn locate(&self, mut end: FinalState<N>, step: f64) -> FinalState<N> {
         let (mut before, mut after) = (0.0, step);
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (before + after);
-            if (self.event)(&self.step(&ending.state, middle).0) > 0.0 {
+            if (self.event)(&self.step(&end.state, middle).0) > 0.0 {
                 before = middle;
             } else {
                 after = middle;
             }
         }
-        ending.state = self.step(&ending.state, after).0;
-        ending.time += after;
-        ending.steps += 1;
-        ending
+        end.state = self.step(&end.state, after).0;
+        end.time += after;
+        end.steps += 1;
+        end
     }
 
     /// The state after a step and its error over the error allowed.
@@ -174,7 +174,7 @@ impl<const N: usize> Problem<'_, N> {
 mod tests {
     use super::*;
 
-    fn fall(relative: f64) -> Ending<2> {
+    fn fall(relative: f64) -> FinalState<2> {
         Problem {
             rates: &|&[_, speed]| [speed, -9.81 - 0.1 * speed],
             event: &|&[height, _]| height,
@@ -189,11 +189,11 @@ mod tests {
     /// With a linear drag the height is `h₀ + (g/c²)(1 − ct − e^{−ct})`.
     #[test]
     fn a_fall_with_drag_ends_at_the_ground_at_the_exact_time() {
-        let ending = fall(1e-12);
-        let (drag, time) = (0.1, ending.time);
+        let end = fall(1e-12);
+        let (drag, time) = (0.1, end.time);
         let height = 10.0 + 9.81 / (drag * drag) * (1.0 - drag * time - (-drag * time).exp());
         assert!(height.abs() < 1e-9, "{height:e}");
-        assert!((ending.state[1] + 9.81 / drag * (1.0 - (-drag * time).exp())).abs() < 1e-9);
+        assert!((end.state[1] + 9.81 / drag * (1.0 - (-drag * time).exp())).abs() < 1e-9);
     }
 
     #[test]
@@ -220,7 +220,7 @@ mod tests {
 
     #[test]
     fn an_event_that_has_come_ends_it_at_once() {
-        let ending = Problem {
+        let end = Problem {
             rates: &|_: &[f64; 1]| [1.0],
             event: &|_| 0.0,
             relative: 1e-9,
@@ -229,6 +229,6 @@ mod tests {
         }
         .solve([1.0], |_, _| ())
         .unwrap();
-        assert_eq!((ending.time, ending.steps), (0.0, 0));
+        assert_eq!((end.time, end.steps), (0.0, 0));
     }
 }

@@ -2,11 +2,10 @@
 
 use super::{
     nose_shape::tip_depth,
-    plate_shot::{PlateShot, plate_result, refuse},
+    plate_impact::{PlateImpact, plate_result, refuse},
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::{FirstChoice, FittedTo, Guard, Measure, NoseKind, Outside, Range},
     material::{
         Material, MaterialClass, cavity_expansion_pressure, cylindrical_cavity_pressure,
         tensile_strength,
@@ -16,6 +15,7 @@ use crate::{
     regime::{ProjectileRegime, TargetKind, nose_factor},
     solver::{Control, Model},
     units::{Pressure, significant},
+    validity::{FirstChoice, FittedTo, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 
 /// Ductile hole enlargement by cavity expansion.
@@ -49,7 +49,7 @@ const PLATES: &[&str] = &[
     "showalter2008b",
 ];
 
-/// Numbers of a perforation that do not depend on the impact speed.
+/// Numbers of a perforation that do not depend on the impact velocity.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Passage {
     /// Quasi-static pressure of the cavity [Pa].
@@ -63,25 +63,25 @@ pub(super) struct Passage {
 }
 
 impl Passage {
-    fn new(scenario: &Scenario, shot: &PlateShot<'_>, coefficient: f64) -> Option<Self> {
+    fn new(scenario: &Scenario, case: &PlateImpact<'_>, coefficient: f64) -> Option<Self> {
         let resistance = match scenario.options.plate_cavity.cavity {
-            CavityShape::Cylinder => cylindrical_cavity_pressure(shot.plate)?,
-            CavityShape::Sphere => cavity_expansion_pressure(shot.plate)?,
+            CavityShape::Cylinder => cylindrical_cavity_pressure(case.plate)?,
+            CavityShape::Sphere => cavity_expansion_pressure(case.plate)?,
         };
         let shape = nose_factor(scenario.projectile.nose);
         Some(Self {
             resistance,
             shape,
-            inertia: 2.0 * shot.plug_mass() * coefficient * shape / shot.mass,
-            slow_limit: (2.0 * resistance * shot.area() * shot.thickness / shot.mass).sqrt(),
+            inertia: 2.0 * case.plug_mass() * coefficient * shape / case.mass,
+            slow_limit: (2.0 * resistance * case.area() * case.thickness / case.mass).sqrt(),
         })
     }
 
     /// With the default inertial coefficient, or the case's own.
     pub(super) fn of(scenario: &Scenario) -> Option<Self> {
-        let shot = PlateShot::of(scenario)?;
+        let case = PlateImpact::of(scenario)?;
         let coefficient = scenario.options.plate_cavity.inertia();
-        Self::new(scenario, &shot, coefficient)
+        Self::new(scenario, &case, coefficient)
     }
 
     /// Ballistic limit [m/s].
@@ -113,15 +113,15 @@ impl Passage {
 
 /// Ballistic limit [m/s] with the inertial coefficient `ln(2c/v) − 1/2` of a cylinder that grows at the speed v in an unbounded
 /// elastic-plastic body with the dilatational wave speed c: more than a plate can offer.
-fn unbounded_limit(scenario: &Scenario, shot: &PlateShot<'_>) -> Option<f64> {
-    let plate = shot.plate;
+fn unbounded_limit(scenario: &Scenario, case: &PlateImpact<'_>) -> Option<f64> {
+    let plate = case.plate;
     let wave =
         ((plate.bulk_modulus() + 4.0 / 3.0 * plate.shear_modulus()) / plate.density.si()).sqrt();
-    let mut limit = Passage::new(scenario, shot, 0.0)?.slow_limit;
+    let mut limit = Passage::new(scenario, case, 0.0)?.slow_limit;
     for _ in 0..50 {
         let growth_speed = limit * nose_factor(scenario.projectile.nose).sqrt();
         let coefficient = ((2.0 * wave / growth_speed).ln() - 0.5).max(PlateCavityOptions::INERTIA);
-        limit = Passage::new(scenario, shot, coefficient)?.ballistic_limit();
+        limit = Passage::new(scenario, case, coefficient)?.ballistic_limit();
     }
     Some(limit)
 }
@@ -135,9 +135,9 @@ impl Model for PlateCavity {
         "perforation of plates by sharp rigid projectiles: ductile hole enlargement by cavity expansion"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[BandQuantity::BallisticLimit, BandQuantity::ResidualVelocity],
                 projectile: &[ProjectileRegime::Rigid],
                 targets: TargetKind::PLATES,
@@ -163,7 +163,7 @@ impl Model for PlateCavity {
                         min: 1.0,
                         max: 10.0,
                         outside: Outside::Warning,
-                        because: "a thinner plate bends as well; in a thicker one the tip meets the pressure of a sphere",
+                        because: "a thinner plate also bends; in a thicker one the tip meets the pressure of a sphere",
                     },
                     Range {
                         measure: Measure::Obliquity,
@@ -189,13 +189,13 @@ impl Model for PlateCavity {
                 }],
                 fitted_to: &[FittedTo {
                     sources: PLATES,
-                    because: "the form of the inertial pressure, V sin θ in place of V tan θ, was chosen with limits of the REL V50 database in view",
+                    because: "the form of the inertial pressure, V sin θ instead of V tan θ, was chosen with limits of the REL V50 database in view",
                 }],
                 notes: &[
                     "no friction, no free faces, no heat; an oblique path is straight, and the hole along it is longer (reconstructed)",
                     "a plate that plugs, scabs or breaks the projectile is out of its reach",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }
@@ -207,32 +207,32 @@ impl Model for PlateCavity {
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let (Some(shot), Some(passage)) = (PlateShot::of(scenario), Passage::of(scenario)) else {
+        let (Some(case), Some(passage)) = (PlateImpact::of(scenario), Passage::of(scenario)) else {
             return Err(refuse(
                 self.name(),
                 "it takes one plate of a metal that flows",
             ));
         };
         let limit = passage.ballistic_limit();
-        let residual = passage.residual(shot.speed);
+        let residual = passage.residual(case.speed);
         let scheme = match scenario.options.plate_cavity.cavity {
             CavityShape::Cylinder => "cylindrical cavity",
             CavityShape::Sphere => "spherical cavity",
         };
-        let mut result = plate_result(self.name(), scheme, shot.speed, limit, residual);
+        let mut result = plate_result(self.name(), scheme, case.speed, limit, residual);
         // Along an oblique path the tip has no depth that compares with others.
-        if shot.speed <= limit && scenario.obliquity == 0.0 {
-            let part = passage.part_opened(shot.speed).min(1.0);
+        if case.speed <= limit && scenario.obliquity == 0.0 {
+            let part = passage.part_opened(case.speed).min(1.0);
             let rod = &scenario.projectile;
             let depth = if part > 0.0 {
-                tip_depth(rod.nose, rod.diameter, shot.thickness, part)
+                tip_depth(rod.nose, rod.diameter, case.thickness, part)
             } else {
                 0.0
             };
             result.depth_of_penetration = Some(depth);
         }
         if scenario.options.plate_cavity == PlateCavityOptions::default() {
-            result.band = unbounded_limit(scenario, &shot).map(|high| Band {
+            result.band = unbounded_limit(scenario, &case).map(|high| Band {
                 quantity: BandQuantity::BallisticLimit,
                 low: passage.slow_limit,
                 high,
@@ -246,14 +246,14 @@ impl Model for PlateCavity {
             detail("inertia number", "", passage.inertia),
             detail("ballistic limit without inertia", "m/s", passage.slow_limit),
         ];
-        result.warnings.extend(hard_plate(shot.plate));
+        result.warnings.extend(hard_plate(case.plate));
         Ok(result)
     }
 }
 
 /// Says that a plate is so hard that projectiles break or plates plug.
 fn hard_plate(plate: &Material) -> Option<String> {
-    let tail = "hard steel plates break armour-piercing cores or let go a plug, which a cavity expansion does not see; \
+    let tail = "hard steel plates break armour-piercing cores or fail by plugging, which a cavity expansion does not model; \
                 expect errors of tens of per cent";
     match (plate.brinell_hardness, tensile_strength(plate)) {
         (Some(hardness), _) if hardness > HARD => Some(format!(

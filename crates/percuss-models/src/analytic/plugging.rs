@@ -1,15 +1,15 @@
-//! Model `plugging`: whether a plate lets go a plug, and the work to shear one out.
+//! Model `plugging`: plugging criterion, plugging work, ballistic limit and residual velocity.
 
 use std::f64::consts::PI;
 
-use super::plate_shot::{PlateShot, plate_result, refuse, taken_as_rigid};
+use super::plate_impact::{PlateImpact, plate_result, refuse, taken_as_rigid};
 use crate::{
     Error, Refusal, Scenario,
-    guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
     material::{Material, MaterialClass, tensile_strength},
     outcome::{Band, BandQuantity, Detail, RunResult},
     regime::{ProjectileRegime, THIN, TargetKind},
     solver::{Control, Model},
+    validity::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 
 /// Shearing out a plug.
@@ -25,34 +25,34 @@ fn shear_strength(material: &Material) -> Option<f64> {
 }
 
 /// Work to shear out a plug [J]: `∫₀ʰ τ π D (h − s) ds = τ π D h²/2`.
-fn shear_work(shot: &PlateShot<'_>, shear_strength: f64) -> f64 {
-    shear_strength * PI * shot.diameter * shot.thickness.powi(2) / 2.0
+fn shear_work(case: &PlateImpact<'_>, shear_strength: f64) -> f64 {
+    shear_strength * PI * case.diameter * case.thickness.powi(2) / 2.0
 }
 
 /// Speed [m/s] at which the energy that the plug's capture leaves over is the work `W`: `√(2 W (m + m_p))/m`.
-fn limit_of_work(shot: &PlateShot<'_>, work: f64) -> f64 {
-    (2.0 * work * (shot.mass + shot.plug_mass())).sqrt() / shot.mass
+fn limit_of_work(case: &PlateImpact<'_>, work: f64) -> f64 {
+    (2.0 * work * (case.mass + case.plug_mass())).sqrt() / case.mass
 }
 
 /// Shear strength [Pa] that a case gives or its plate implies; `None` when it gives none and the plate never flows.
-fn strength_of(scenario: &Scenario, shot: &PlateShot<'_>) -> Option<f64> {
+fn strength_of(scenario: &Scenario, case: &PlateImpact<'_>) -> Option<f64> {
     match scenario.options.plugging.shear_strength {
         Some(given) => Some(given.si()),
-        None => shear_strength(shot.plate),
+        None => shear_strength(case.plate),
     }
 }
 
 /// Ballistic limit of a case [m/s]; `None` when the plate never flows or there is no plate.
 pub(super) fn ballistic_limit(scenario: &Scenario) -> Option<f64> {
-    let shot = PlateShot::of(scenario)?;
-    let strength = strength_of(scenario, &shot)?;
-    Some(limit_of_work(&shot, shear_work(&shot, strength)))
+    let case = PlateImpact::of(scenario)?;
+    let strength = strength_of(scenario, &case)?;
+    Some(limit_of_work(&case, shear_work(&case, strength)))
 }
 
 /// Common speed of projectile and plug behind the plate [m/s] \[recht1963\].
-fn residual_with_plug(shot: &PlateShot<'_>, ballistic_limit: f64) -> f64 {
-    let excess = (shot.speed.powi(2) - ballistic_limit.powi(2)).max(0.0);
-    shot.mass / (shot.mass + shot.plug_mass()) * excess.sqrt()
+fn residual_with_plug(case: &PlateImpact<'_>, ballistic_limit: f64) -> f64 {
+    let excess = (case.speed.powi(2) - ballistic_limit.powi(2)).max(0.0);
+    case.mass / (case.mass + case.plug_mass()) * excess.sqrt()
 }
 
 /// Ranges of thickness of the models of plugs.
@@ -90,9 +90,9 @@ impl Model for Plugging {
         "plates struck by blunt projectiles: criterion of plugging, work to shear a plug, energy and momentum of the plug"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[BandQuantity::BallisticLimit, BandQuantity::ResidualVelocity],
                 projectile: &[ProjectileRegime::Rigid, ProjectileRegime::Deforming],
                 targets: TargetKind::PLATES,
@@ -109,7 +109,7 @@ impl Model for Plugging {
                     "normal impact; the whole thickness shears along the rim at a constant stress",
                     "bending of the plate, indentation, rate and heat are left out: see the validation report for how far measured limits lie off",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }
@@ -123,29 +123,29 @@ impl Model for Plugging {
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
         let inputs =
-            PlateShot::of(scenario).and_then(|shot| Some((strength_of(scenario, &shot)?, shot)));
-        let Some((strength, shot)) = inputs else {
+            PlateImpact::of(scenario).and_then(|case| Some((strength_of(scenario, &case)?, case)));
+        let Some((strength, case)) = inputs else {
             return Err(refuse(
                 self.name(),
                 "it takes one plate of a metal that flows",
             ));
         };
-        let work = shear_work(&shot, strength);
-        let limit = limit_of_work(&shot, work);
-        let residual = residual_with_plug(&shot, limit);
-        let mut result = plate_result(self.name(), "plug", shot.speed, limit, residual);
-        if shot.speed <= limit {
+        let work = shear_work(&case, strength);
+        let limit = limit_of_work(&case, work);
+        let residual = residual_with_plug(&case, limit);
+        let mut result = plate_result(self.name(), "plug", case.speed, limit, residual);
+        if case.speed <= limit {
             // What is left of the energy after the capture has sheared this far: h s − s²/2 is its part of h²/2.
-            let part = (shot.speed / limit).powi(2);
-            result.depth_of_penetration = Some(shot.thickness * (1.0 - (1.0 - part).sqrt()));
+            let part = (case.speed / limit).powi(2);
+            result.depth_of_penetration = Some(case.thickness * (1.0 - (1.0 - part).sqrt()));
         }
         if scenario.options.plugging.shear_strength.is_none() {
-            let law = shot.plate.strength.law();
+            let law = case.plate.strength.law();
             let at = |stress: Option<f64>| {
-                stress.map(|s| limit_of_work(&shot, shear_work(&shot, s / 3.0_f64.sqrt())))
+                stress.map(|s| limit_of_work(&case, shear_work(&case, s / 3.0_f64.sqrt())))
             };
-            let low = at(law.initial_yield_stress(shot.plate));
-            let high = at(law.flow_stress_at_unit_strain(shot.plate));
+            let low = at(law.initial_yield_stress(case.plate));
+            let high = at(law.flow_stress_at_unit_strain(case.plate));
             result.band = low.zip(high).map(|(low, high)| Band {
                 quantity: BandQuantity::BallisticLimit,
                 low: low.min(limit),
@@ -158,11 +158,11 @@ impl Model for Plugging {
             );
         }
         let detail = |name, unit, value| Detail { name, unit, value };
-        let ratio = shot.thickness_to_diameter();
+        let ratio = case.thickness_to_diameter();
         result.details = vec![
             detail("shear strength", "MPa", strength * 1e-6),
             detail("work to shear the plug", "J", work),
-            detail("mass of the plug", "g", shot.plug_mass() * 1e3),
+            detail("mass of the plug", "g", case.plug_mass() * 1e3),
             detail(
                 "thickness over the limit of plugging",
                 "",

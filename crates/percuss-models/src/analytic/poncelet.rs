@@ -1,13 +1,12 @@
 //! Model `poncelet`: momentum balance of a rigid projectile against strength and drag.
 
 use super::{
-    deep_shot::{DeepShot, NOT_ONE_TARGET, at_rest, detail, never_yields},
+    deep_penetration::{DeepPenetration, NOT_ONE_TARGET, at_rest, detail, never_yields},
     nose_load::NoseLoad,
     rigid_motion::RigidMotion,
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::{Guard, Range},
     material::cavity_expansion_pressure,
     options::PonceletOptions,
     outcome::{BandQuantity, RunResult},
@@ -16,6 +15,7 @@ use crate::{
     scenario::TargetBody,
     solver::{Control, Model},
     units::Pressure,
+    validity::{Range, ValidityDomain},
 };
 
 /// `m V dV/dx = −A (R + C ρ V²)`: the class of momentum balances for thick targets.
@@ -33,14 +33,14 @@ impl Poncelet {
             }
             return Ok((pressure, 0.0));
         }
-        let shot = DeepShot::of(scenario).ok_or(NOT_ONE_TARGET)?;
+        let case = DeepPenetration::of(scenario).ok_or(NOT_ONE_TARGET)?;
         let resistance = options
             .resistance
             .map(Pressure::si)
-            .or_else(|| cavity_expansion_pressure(shot.target))
+            .or_else(|| cavity_expansion_pressure(case.target))
             .ok_or_else(|| never_yields(Some("`poncelet.resistance`")))?;
-        let drag = options.drag.unwrap_or_else(|| nose_factor(shot.rod.nose));
-        Ok((resistance, drag * shot.target.density.si()))
+        let drag = options.drag.unwrap_or_else(|| nose_factor(case.rod.nose));
+        Ok((resistance, drag * case.target.density.si()))
     }
 }
 
@@ -53,9 +53,9 @@ impl Model for Poncelet {
         "momentum balance of a rigid projectile against strength and drag"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[BandQuantity::DepthOfPenetration],
                 projectile: &[ProjectileRegime::Rigid],
                 targets: &[
@@ -70,7 +70,7 @@ impl Model for Poncelet {
                     "the cross-section of the shank is loaded from first contact",
                     "drag by Newton's impact theory: the target in the way takes on the speed of the surface, and nothing flows ahead of it",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }

@@ -2,18 +2,20 @@
 
 use super::{
     cavity_expansion::CavityExpansion,
-    deep_shot::{DeepShot, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail, never_yields},
+    deep_penetration::{
+        DeepPenetration, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail, never_yields,
+    },
     nose_load::NoseLoad,
     rigid_motion::RigidMotion,
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::{Guard, Measure, Outside, Range},
     material::cavity_expansion_pressure,
     outcome::{Band, BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
     units::significant,
+    validity::{Measure, Outside, Range, ValidityDomain},
 };
 
 /// Dynamic pressure over the quasi-static one from which on a depth without inertia is warned of.
@@ -32,9 +34,9 @@ impl Model for QuasiStatic {
         "rigid projectile against the quasi-static pressure of spherical cavity expansion"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[BandQuantity::DepthOfPenetration],
                 projectile: &[ProjectileRegime::Rigid],
                 targets: TargetKind::DEEP,
@@ -50,15 +52,15 @@ impl Model for QuasiStatic {
                     "no inertia of the target: good at low speed, too deep at high speed",
                     "the whole nose is loaded from first contact; frictionless",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
-        match DeepShot::of(scenario) {
+        match DeepPenetration::of(scenario) {
             None => Some(NOT_ONE_TARGET.into()),
-            Some(shot) if cavity_expansion_pressure(shot.target).is_none() => {
+            Some(case) if cavity_expansion_pressure(case.target).is_none() => {
                 Some(never_yields(None))
             }
             Some(_) => None,
@@ -67,32 +69,32 @@ impl Model for QuasiStatic {
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
         let refuse = |reason: &str| Error::not_applicable(self.name(), reason);
-        let shot = DeepShot::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET))?;
+        let case = DeepPenetration::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET))?;
         let pressure =
-            cavity_expansion_pressure(shot.target).ok_or_else(|| refuse(NEVER_YIELDS))?;
-        let body = CavityExpansion::of(shot.target).ok_or_else(|| refuse(NEVER_YIELDS))?;
-        let nose = NoseLoad::new(shot.rod.nose, shot.rod.diameter, 0.0);
+            cavity_expansion_pressure(case.target).ok_or_else(|| refuse(NEVER_YIELDS))?;
+        let body = CavityExpansion::of(case.target).ok_or_else(|| refuse(NEVER_YIELDS))?;
+        let nose = NoseLoad::new(case.rod.nose, case.rod.diameter, 0.0);
         let against = |strength: f64| {
             let motion = RigidMotion {
-                mass: shot.rod.mass,
+                mass: case.rod.mass,
                 nose,
                 strength,
                 inertia: 0.0,
             };
-            motion.embedded(shot.speed)
+            motion.embedded(case.speed)
         };
         let compressible = body.static_pressure();
         let stop = against(pressure);
         let other = against(compressible).depth;
         let mut result = at_rest(self.name(), "incompressible", scenario, stop);
-        let dynamic = 1.5 * nose.factors().1 * shot.target.density.si() * shot.speed.powi(2);
+        let dynamic = 1.5 * nose.factors().1 * case.target.density.si() * case.speed.powi(2);
         result.details = vec![
             detail("quasi-static pressure", "MPa", pressure * 1e-6),
             detail("compressible pressure", "MPa", compressible * 1e-6),
             detail("effective yield stress", "MPa", body.yield_stress * 1e-6),
             detail("dynamic to static pressure", "", dynamic / pressure),
         ];
-        if shot.speed > 0.0 {
+        if case.speed > 0.0 {
             result.band = Some(Band {
                 quantity: BandQuantity::DepthOfPenetration,
                 low: other.min(stop.depth) * 1e3,

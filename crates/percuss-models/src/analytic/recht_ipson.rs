@@ -2,14 +2,14 @@
 
 use super::{
     limit::{input_limit, limit},
-    plate_shot::{PlateShot, plate_result, refuse, taken_as_rigid},
+    plate_impact::{PlateImpact, plate_result, refuse, taken_as_rigid},
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::{Guard, NoseKind},
     outcome::{BandQuantity, Detail, RunResult},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, InputLimit, Model},
+    validity::{NoseKind, ValidityDomain},
 };
 
 /// Recht and Ipson's residual velocity.
@@ -25,9 +25,9 @@ impl Model for RechtIpson {
         "residual velocity behind a plate from a ballistic limit, by energy and momentum"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[BandQuantity::ResidualVelocity],
                 projectile: &[ProjectileRegime::Rigid, ProjectileRegime::Deforming],
                 targets: TargetKind::PLATES,
@@ -36,7 +36,7 @@ impl Model for RechtIpson {
                     "the work that the plate takes does not depend on the speed",
                     "a flat nose drives a plug of its own diameter through the whole thickness; a sharp nose leaves the metal in the plate",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }
@@ -59,16 +59,16 @@ impl Model for RechtIpson {
         let given = scenario.options.recht_ipson.ballistic_limit;
         let limit =
             limit(scenario, given, self.name()).map_err(|reason| refuse(self.name(), reason))?;
-        let shot =
-            PlateShot::of(scenario).ok_or_else(|| refuse(self.name(), "it takes one plate"))?;
+        let case =
+            PlateImpact::of(scenario).ok_or_else(|| refuse(self.name(), "it takes one plate"))?;
         let plug = match NoseKind::of(scenario.projectile.nose) {
-            NoseKind::Flat => shot.plug_mass(),
+            NoseKind::Flat => case.plug_mass(),
             _ => 0.0,
         };
-        let factor = shot.mass / (shot.mass + plug);
-        let excess = (shot.speed.powi(2) - limit.speed.powi(2)).max(0.0);
+        let factor = case.mass / (case.mass + plug);
+        let excess = (case.speed.powi(2) - limit.speed.powi(2)).max(0.0);
         let residual = factor * excess.sqrt();
-        let mut result = plate_result(self.name(), "", shot.speed, limit.speed, residual);
+        let mut result = plate_result(self.name(), "", case.speed, limit.speed, residual);
         // What the model starts from is no prediction of it.
         result.ballistic_limit = None;
         let detail = |name, unit, value| Detail { name, unit, value };
@@ -79,12 +79,12 @@ impl Model for RechtIpson {
             detail(
                 "work that the plate takes",
                 "J",
-                0.5 * shot.mass * factor * limit.speed.powi(2),
+                0.5 * case.mass * factor * limit.speed.powi(2),
             ),
             detail(
                 "energy lost to the capture of the plug",
                 "J",
-                0.5 * shot.mass * (1.0 - factor) * shot.speed.powi(2),
+                0.5 * case.mass * (1.0 - factor) * case.speed.powi(2),
             ),
         ];
         result.warnings.extend(limit.warnings);

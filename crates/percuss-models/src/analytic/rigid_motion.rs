@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn slow_shots_stop_after_their_energy_over_the_force() {
+    fn slow_cases_stop_after_their_energy_over_the_force() {
         for nose in NOSES {
             let motion = motion(nose, 0.0);
             let depth = motion.embedded(1.0).depth;

@@ -1,15 +1,15 @@
 //! Model `taylor`: a rigid, perfectly plastic rod on a rigid wall, shortened by a plastic front that moves.
 
 use super::{
-    deep_shot::{detail, termination},
+    deep_penetration::{detail, termination},
     dynamic_yield::{DynamicYield, Shortening, dynamic_yield},
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::{Guard, Measure, NoseKind, Outside, Range},
     outcome::{BandQuantity, Outcome, RunResult},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
+    validity::{Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 
 /// Panels of the deformed part.
@@ -86,7 +86,7 @@ impl TaylorRod {
     }
 }
 
-/// Dynamic yield stress [Pa] of a rod from its density [kg/m3], impact speed [m/s] and final over initial length, by
+/// Dynamic yield stress [Pa] of a rod from its density [kg/m3], impact velocity [m/s] and final over initial length, by
 /// [`TaylorRod`]; `None` unless the length is between 0 and 1 and the speed above 0.
 pub fn taylor_yield_stress(density: f64, speed: f64, length_ratio: f64) -> Option<f64> {
     let valid = length_ratio > 0.0 && length_ratio < 1.0 && speed > 0.0 && density > 0.0;
@@ -121,7 +121,7 @@ impl Model for Taylor {
         "final length of a rigid-plastic rod on a rigid wall, moving plastic front"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         WALL
     }
 
@@ -165,7 +165,7 @@ impl Taylor {
 }
 
 /// The regime of both models of a rod on a wall.
-pub(super) const WALL: &Guard = &Guard {
+pub(super) const WALL: &ValidityDomain = &ValidityDomain {
     predicts: &[BandQuantity::ProjectileFinalLength],
     projectile: &[ProjectileRegime::Rigid, ProjectileRegime::Deforming],
     targets: &[TargetKind::RigidWall],
@@ -179,9 +179,9 @@ pub(super) const WALL: &Guard = &Guard {
     }],
     notes: &[
         "rigid, perfectly plastic rod: one flow stress stands for the strength law",
-        "below the impact speed at which an elastic wave reaches the yield stress the rod keeps its length",
+        "below the impact velocity at which an elastic wave reaches the yield stress the rod keeps its length",
     ],
-    ..Guard::OPEN
+    ..ValidityDomain::OPEN
 };
 
 /// The result of a rod that ends with a part of its length on a wall.

@@ -1,15 +1,15 @@
 //! Model `wilkins_guinan`: a rod on a rigid wall whose plastic front stands still a fixed part of its length from the wall.
 
 use super::{
-    deep_shot::detail,
+    deep_penetration::detail,
     dynamic_yield::{DynamicYield, Shortening, dynamic_yield},
     taylor::{WALL, on_wall},
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::{FittedTo, Guard},
     outcome::RunResult,
     solver::{Control, Model},
+    validity::{FittedTo, ValidityDomain},
 };
 
 /// Final over initial length of a rod for `ρV²/Y`: `(1 − h) exp(−ρV²/(2Y)) + h`, h the distance of the front from the wall over the
@@ -20,7 +20,7 @@ pub fn wilkins_guinan_length(number: f64, front: f64) -> f64 {
     (1.0 - front) * (-number / 2.0).exp() + front
 }
 
-/// Dynamic yield stress [Pa] of a rod from its density [kg/m3], impact speed [m/s], final over initial length, and the front's
+/// Dynamic yield stress [Pa] of a rod from its density [kg/m3], impact velocity [m/s], final over initial length, and the front's
 /// distance from the wall over the initial length; `None` unless the final length is between the front and 1.
 pub fn wilkins_guinan_yield_stress(
     density: f64,
@@ -67,9 +67,9 @@ impl Model for WilkinsGuinan {
         "final length of a rigid-plastic rod on a rigid wall, plastic front at a fixed distance"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 fitted_to: &[FittedTo {
                     sources: &["wilkins1973"],
                     because: "the place of the plastic front, 0.12 of the length, was found there",

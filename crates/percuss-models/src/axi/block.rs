@@ -64,7 +64,7 @@ impl Members {
 }
 
 impl Block {
-    /// Particles as they are, but for their velocities and gradients: those are yet to come.
+    /// Particles as they are, except for their velocities and gradients: those are yet to come.
     #[inline(always)]
     pub(super) fn of(particles: &[Particle], members: &Members) -> Self {
         let places = &members.places;

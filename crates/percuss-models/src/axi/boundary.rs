@@ -1,10 +1,10 @@
-//! What holds a body at its edges: symmetry axis, rigid wall, back face and far edge.
+//! Boundary conditions of a body: symmetry axis, rigid wall, rear face and far edge.
 
 use super::field::{FORCE, Field, MASS, MOMENTUM, Node};
 
-/// Support of a plane of a target.
+/// BoundaryCondition of a plane of a target.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Support {
+pub(super) enum BoundaryCondition {
     /// Nothing.
     Free,
     /// No motion across the plane.
@@ -18,30 +18,30 @@ pub(super) enum Support {
     },
 }
 
-/// Supports of a body. Planes stand on rows and columns of nodes.
+/// BoundaryConditions of a body. Planes stand on rows and columns of nodes.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Supports {
+pub(super) struct BoundaryConditions {
     /// Whether a rigid, smooth wall stands at row 0, in front of the body.
     pub(super) wall: bool,
-    /// Row of the back face and its support.
-    pub(super) back: (isize, Support),
+    /// Row of the rear face and its support.
+    pub(super) back: (isize, BoundaryCondition),
     /// Column of the far edge, counted with the mirrored one, and its support.
-    pub(super) edge: (usize, Support),
-    /// Displacement of the back face at each column [m].
+    pub(super) edge: (usize, BoundaryCondition),
+    /// Displacement of the rear face at each column [m].
     pub(super) displacement: Vec<f64>,
 }
 
-impl Supports {
+impl BoundaryConditions {
     pub(super) const NONE: Self = Self {
         wall: false,
-        back: (isize::MAX, Support::Free),
-        edge: (usize::MAX, Support::Free),
+        back: (isize::MAX, BoundaryCondition::Free),
+        edge: (usize::MAX, BoundaryCondition::Free),
         displacement: Vec::new(),
     };
 
-    /// Keeps up the displacement of the back face.
+    /// Keeps up the displacement of the rear face.
     pub(super) fn follow(&mut self, field: &Field, time_step: f64) {
-        let (row, Support::NonReflecting { .. }) = self.back else {
+        let (row, BoundaryCondition::NonReflecting { .. }) = self.back else {
             return;
         };
         self.displacement
@@ -53,11 +53,11 @@ impl Supports {
         }
     }
 
-    /// Row of the plane in which the body is mirrored, if there is one: that of the wall or of a smooth back face.
+    /// Row of the plane in which the body is mirrored, if there is one: that of the wall or of a smooth rear face.
     pub(super) fn mirror(&self) -> Option<isize> {
         match self.back {
             _ if self.wall => Some(0),
-            (row, Support::Smooth) => Some(row),
+            (row, BoundaryCondition::Smooth) => Some(row),
             _ => None,
         }
     }
@@ -66,7 +66,7 @@ impl Supports {
     /// nothing.
     fn mirror_column(&self) -> Option<usize> {
         match self.edge {
-            (column, Support::Smooth) if column > 1 => Some(column),
+            (column, BoundaryCondition::Smooth) if column > 1 => Some(column),
             _ => None,
         }
     }
@@ -157,8 +157,8 @@ impl Supports {
         };
         let (back, support) = self.back;
         match support {
-            Support::Smooth if row >= back => velocity[1] = 0.0,
-            Support::NonReflecting {
+            BoundaryCondition::Smooth if row >= back => velocity[1] = 0.0,
+            BoundaryCondition::NonReflecting {
                 impedance,
                 stiffness,
             } => {
@@ -181,8 +181,8 @@ impl Supports {
         }
         let (edge, support) = self.edge;
         match support {
-            Support::Smooth if column >= edge => velocity[0] = 0.0,
-            Support::NonReflecting { impedance, .. } => {
+            BoundaryCondition::Smooth if column >= edge => velocity[0] = 0.0,
+            BoundaryCondition::NonReflecting { impedance, .. } => {
                 if let Some(share) = share(column as isize - edge as isize) {
                     let load = time_step * share * area(edge, cell);
                     let mass = node[MASS];

@@ -1,4 +1,4 @@
-//! How a block of particles answers to its velocity gradients in a step.
+//! Constitutive update of a block of particles from its velocity gradients.
 
 use super::{
     block::{Block, Members},

@@ -7,11 +7,11 @@ use crate::{
     solver::monitor::RunMonitor,
 };
 
-/// Part of the impact speed below which a projectile counts as stopped.
+/// Part of the impact velocity below which a projectile counts as stopped.
 const REST_FRACTION: f64 = 0.01;
 /// Part of the initial energy that may still dissipate in a window of a run that is over.
 const QUIET_FRACTION: f64 = 1e-3;
-/// Part of the impact speed by which a projectile that has come through may still slow in a window.
+/// Part of the impact velocity by which a projectile that has come through may still slow in a window.
 const FREE_FRACTION: f64 = 1e-3;
 
 /// One round trip of a wave in the projectile, in which a run that is over changes no more.
@@ -54,7 +54,7 @@ impl Window {
         self.dissipation = dissipation;
         self.depth = monitor.largest_depth;
         self.speed = speed;
-        // A plate that dishes carries the crater floor past its original back face and may throw the projectile back.
+        // A plate that dishes carries the crater floor past its original rear face and may throw the projectile back.
         if self.perforated && speed > 0.0 {
             return (slowing <= FREE_FRACTION).then_some(Termination::LeftTarget);
         }

@@ -32,7 +32,7 @@ pub(super) struct Strip {
     pub(super) first_row: isize,
     pub(super) rows: usize,
     pub(super) columns: usize,
-    /// Every step fills them anew, so a checkpoint goes without.
+    /// Every step fills them again, so a checkpoint goes without.
     #[serde(skip)]
     pub(super) nodes: Vec<Node>,
 }

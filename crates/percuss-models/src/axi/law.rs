@@ -1,4 +1,4 @@
-//! What a body is made of, and what its particles can bear.
+//! Material law of a body, and the limits of its particles.
 
 use super::block::Block;
 use crate::{

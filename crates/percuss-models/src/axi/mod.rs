@@ -26,10 +26,10 @@ pub use crate::solver::Particle;
 
 use crate::{
     Error, Refusal, Scenario,
-    guard::Guard,
     outcome::RunResult,
     regime::TargetKind,
-    solver::{Control, Model},
+    solver::{Control, CostClass, Model},
+    validity::ValidityDomain,
 };
 
 /// Axisymmetric material point method.
@@ -45,9 +45,9 @@ impl Model for Axi {
         "axisymmetric reference: large deformation by the material point method"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 targets: &[
                     TargetKind::SemiInfinite,
                     TargetKind::ThickPlate,
@@ -61,13 +61,13 @@ impl Model for Axi {
                     "normal impact of a body of revolution",
                     "minutes rather than seconds: it runs only when asked for by name",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }
 
-    fn is_slow(&self) -> bool {
-        true
+    fn cost(&self) -> CostClass {
+        CostClass::Minutes
     }
 
     fn has_fields(&self) -> bool {

@@ -51,7 +51,7 @@ pub(crate) struct Axisymmetric<'a> {
 /// A run of the model.
 pub(super) type AxiRun<'a> = Drive<'a, Axisymmetric<'a>>;
 
-/// Why a case that the guard lets pass gets no number, if it does not.
+/// Why a case inside the validity domain gets no number, if it does not.
 pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     let options = &scenario.options.axi;
     let materials: Vec<(&Material, &str)> = materials(scenario).collect();

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::{
     body::{Body, Limits},
-    boundary::{Support, Supports},
+    boundary::{BoundaryCondition, BoundaryConditions},
     contact::Contact,
     law::{Law, Pressure},
     solver::{Accumulators, DeferredWork, Grid},
@@ -13,12 +13,12 @@ use crate::{
     Scenario,
     material::{Material, StateEquation},
     options::{ContactKind, Edge, Eos},
-    problem::{BackFace, Nose},
+    problem::{Nose, RearFaceCondition},
     scenario::{Plate, Rod, TargetBody},
     solver::Particle,
 };
 
-/// Radii of the projectile that a target is modelled out to, and below the depth that the shot is expected to reach.
+/// Radii of the projectile that a target is modelled out to, and below the depth that the impact is expected to reach.
 const MARGIN: f64 = 10.0;
 
 /// Part of a target that is modelled.
@@ -49,7 +49,7 @@ pub(super) fn extent(scenario: &Scenario) -> Option<Extent> {
         |depth| depth.si(),
     );
     let total = scenario.target_thickness();
-    // A little more than needed is modelled whole: the back face is then the case's own.
+    // A little more than needed is modelled whole: the rear face is then the case's own.
     let slack = if options.target_depth.is_some() {
         1.0
     } else {
@@ -72,7 +72,7 @@ pub(super) fn extent(scenario: &Scenario) -> Option<Extent> {
     })
 }
 
-/// Depth for sizing only: the energy of the shot against three times the target's flow stress over the rod's area, and no more
+/// Depth for sizing only: the energy of the impact against three times the target's flow stress over the rod's area, and no more
 /// than a jet of no strength would reach.
 fn expected_depth(scenario: &Scenario, layers: &[Plate]) -> f64 {
     let rod = &scenario.projectile;
@@ -231,9 +231,9 @@ pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
     let rod_law = law(&rod.material, scenario);
     let particles = projectile(rod, &rod_law, spacing, scenario.impact_velocity);
     let mut bodies = vec![Body::new(rod_law, particles)];
-    let mut supports = vec![Supports {
+    let mut supports = vec![BoundaryConditions {
         wall: scenario.target == TargetBody::RigidWall,
-        ..Supports::NONE
+        ..BoundaryConditions::NONE
     }];
     let reach = MARGIN * rod.diameter / 2.0;
     let mut limits = Limits {
@@ -270,24 +270,24 @@ pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
             let row = |depth: f64| (depth / cell).round() as isize;
             let last = supports.len() == extent.layers.len();
             let held = if extent.cut {
-                BackFace::NonReflecting
+                RearFaceCondition::NonReflecting
             } else {
                 *back_face
             };
-            supports.push(Supports {
+            supports.push(BoundaryConditions {
                 back: (
                     row(to),
                     if last {
                         back_support(held, &plate.material, total)
                     } else {
-                        Support::Free
+                        BoundaryCondition::Free
                     },
                 ),
                 edge: (
                     row(extent.radius) as usize + 1,
                     edge_support(options.edge(), &plate.material),
                 ),
-                ..Supports::NONE
+                ..BoundaryConditions::NONE
             });
             from = to;
         }
@@ -321,18 +321,22 @@ fn impedance(material: &Material) -> [f64; 2] {
     [(longitudinal * density).sqrt(), (shear * density).sqrt()]
 }
 
-/// Support of a back face at a depth.
+/// Boundary condition of a rear face at a depth.
 ///
 /// Below a point force on a half-space the axial stress is `3F/(2πz²)` and the displacement `F(1 + ν)(3 − 2ν)/(2πEz)`
 /// \[johnson1985\]: what was cut off has the stiffness of their ratio.
-fn back_support(back_face: BackFace, material: &Material, depth: f64) -> Support {
+fn back_support(
+    back_face: RearFaceCondition,
+    material: &Material,
+    depth: f64,
+) -> BoundaryCondition {
     match back_face {
-        BackFace::Free => Support::Free,
-        BackFace::Fixed => Support::Smooth,
-        BackFace::NonReflecting => {
+        RearFaceCondition::Free => BoundaryCondition::Free,
+        RearFaceCondition::Fixed => BoundaryCondition::Smooth,
+        RearFaceCondition::NonReflecting => {
             let ratio = material.poissons_ratio;
             let modulus = material.youngs_modulus.si();
-            Support::NonReflecting {
+            BoundaryCondition::NonReflecting {
                 impedance: impedance(material),
                 stiffness: 3.0 * modulus / ((1.0 + ratio) * (3.0 - 2.0 * ratio) * depth),
             }
@@ -340,11 +344,11 @@ fn back_support(back_face: BackFace, material: &Material, depth: f64) -> Support
     }
 }
 
-fn edge_support(edge: Edge, material: &Material) -> Support {
+fn edge_support(edge: Edge, material: &Material) -> BoundaryCondition {
     match edge {
-        Edge::Free => Support::Free,
-        Edge::Fixed => Support::Smooth,
-        Edge::NonReflecting => Support::NonReflecting {
+        Edge::Free => BoundaryCondition::Free,
+        Edge::Fixed => BoundaryCondition::Smooth,
+        Edge::NonReflecting => BoundaryCondition::NonReflecting {
             impedance: impedance(material),
             stiffness: 0.0,
         },

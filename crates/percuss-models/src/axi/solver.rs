@@ -1,10 +1,10 @@
-//! One time step: particles in parallel, their sums on the nodes, motion of the nodes, contact.
+//! Time step: particles in parallel, their sums on the nodes, motion of the nodes, contact.
 
 use rayon::prelude::*;
 
 use super::{
     body::{Body, CHUNK, Limits, Pass, Sums, advance},
-    boundary::{Load, Supports},
+    boundary::{BoundaryConditions, Load},
     contact::{Contact, meet, pushed},
     field::{FORCE, Field, MASS, MOMENTUM, Node, Strip},
 };
@@ -14,7 +14,7 @@ use crate::{Error, solver::archive::Archive};
 #[derive(Debug)]
 pub(super) struct Grid {
     pub(super) bodies: Vec<Body>,
-    pub(super) supports: Vec<Supports>,
+    pub(super) supports: Vec<BoundaryConditions>,
     pub(super) contact: Contact,
     pub(super) cell: f64,
     pub(super) courant: f64,
@@ -307,7 +307,7 @@ fn add_up(strips: &[Strip], row: isize, nodes: &mut [Node]) {
 /// Moves a row of nodes by a step: their velocities after forces and supports, and what that adds to the accumulated.
 fn move_row(
     field: &Field,
-    supports: &Supports,
+    supports: &BoundaryConditions,
     row: isize,
     velocity: &mut [[f64; 2]],
     cell: f64,
@@ -363,7 +363,7 @@ fn move_row(
         velocity[0] = [-velocity[2][0], velocity[2][1]];
     }
     if !supports.wall {
-        // What a smooth back face takes is the support's, not a contact's.
+        // What a smooth rear face takes is the support's, not a contact's.
         sums.boundary += sums.kinetic[0] - sums.kinetic[1];
         sums.kinetic[1] = sums.kinetic[0];
         sums.wall = 0.0;

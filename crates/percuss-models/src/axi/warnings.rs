@@ -1,11 +1,12 @@
-//! What to know before relying on a result.
+//! Limitations of a result.
 
 use super::{
     run::{Axisymmetric, materials},
     setup::extent,
 };
 use crate::{
-    Scenario, material::Material, outcome::RunResult, problem::BackFace, scenario::TargetBody,
+    Scenario, material::Material, outcome::RunResult, problem::RearFaceCondition,
+    scenario::TargetBody,
 };
 
 /// Part of the energy lost between particles and grid that deserves a word.
@@ -22,7 +23,7 @@ fn holds_a_plate(scenario: &Scenario) -> bool {
     let held = matches!(
         scenario.target,
         TargetBody::Layers {
-            back_face: BackFace::Fixed,
+            back_face: RearFaceCondition::Fixed,
             ..
         }
     );
@@ -72,7 +73,7 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
     }
     if holds_a_plate(run.scenario) {
         warnings.push(
-            "the back face of the plate is held, which is what `target.back_face` is unless it is given: a plate that may bend, bulge or be perforated needs `back_face = \"free\""
+            "the plate can neither bend, bulge nor be perforated: its rear face is fixed (the default). Set `back_face = \"free\""
                 .to_owned(),
         );
     }

@@ -1,4 +1,4 @@
-//! One band: what holds the slice of plug that belongs to a node.
+//! Shear band: constraint of the slice of plug that belongs to a node.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! What the shear bands of a layer have in common: strength, spread and failure, from its material and the options.
+//! Law of the shear bands of a layer: strength, spread and failure, from its material and the options.
 
 use crate::{
     Refusal,

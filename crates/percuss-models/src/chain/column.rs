@@ -6,7 +6,7 @@ use crate::{
     error::NumericalError,
     history::{Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
-    options::{ChainOptions, ErosionClosure, ErosionStrain},
+    options::{ChainOptions, ErosionCriterion, ErosionStrain},
     outcome::{Outcome, RunResult, Termination},
     solver::{
         archive::Archive,
@@ -52,12 +52,12 @@ impl<'a> Column<'a> {
         let options = &scenario.options.chain;
         let mut state = mesh::build(scenario);
         let mut longest_step = f64::INFINITY;
-        let erosion_strain = match options.erosion_closure() {
-            ErosionClosure::Tate => {
+        let erosion_strain = match options.erosion_criterion() {
+            ErosionCriterion::Tate => {
                 longest_step = tate::longest_step(&state, scenario.impact_velocity);
                 tate::USED_UP_STRAIN
             }
-            ErosionClosure::Strain => erosion_strain(options),
+            ErosionCriterion::Strain => erosion_strain(options),
         };
         let control = StepControl::new(options, courant, erosion_strain, longest_step);
         state.stable_step *= control.first_step_factor(&state, scenario.impact_velocity);

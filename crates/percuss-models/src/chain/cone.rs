@@ -1,4 +1,4 @@
-//! A target that widens away from the struck face: a truncated cone in place of a column.
+//! A target that widens away from the struck face: a truncated cone instead of a column.
 //!
 //! The cone stands for the half-space under a rigid disc [wolf1994]: its mouth is the disc, and its length follows from
 //! the disc's static stiffness. Everything of it that a mesh needs is exact: the compliance between two sections, the mass, and

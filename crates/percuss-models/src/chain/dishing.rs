@@ -11,7 +11,7 @@ use super::{
     plate_section::{PlateSection, Ring},
 };
 use crate::{
-    Error, material::Material, options::ChainOptions, problem::Support, scenario::PlateEdge,
+    Error, material::Material, options::ChainOptions, problem::EdgeSupport, scenario::PlateEdge,
     solver::archive::Archive,
 };
 
@@ -23,7 +23,7 @@ pub(super) struct Dishing {
     rings: Vec<Ring>,
     /// Circles of the plug, the first of `circles`; none where it is a boss that does not deform.
     plug: usize,
-    support: Support,
+    support: EdgeSupport,
     /// Whether plug and plate turn as one at the rim.
     pub(super) edge_held: bool,
     /// Impulse that the support took [N s].
@@ -175,8 +175,8 @@ impl Dishing {
         // On the axis nothing turns.
         let inner = plug.iter_mut().skip(1);
         let turning = match self.support {
-            Support::SimplySupported => &mut plate[..],
-            Support::Clamped => &mut plate[..support],
+            EdgeSupport::SimplySupported => &mut plate[..],
+            EdgeSupport::Clamped => &mut plate[..support],
         };
         for circle in inner.chain(turning) {
             circle.spin += circle.moment * kick / circle.inertia;

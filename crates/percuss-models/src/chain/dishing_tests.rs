@@ -30,7 +30,7 @@ type Build = fn(&Material, f64, f64, PlateEdge, Failure, &ChainOptions) -> Dishi
 fn build(build: Build, strength: &str, thickness: f64, radius: f64, diameter: f64) -> Dishing {
     let edge = PlateEdge {
         diameter,
-        support: Support::Clamped,
+        support: EdgeSupport::Clamped,
     };
     let material = metal(strength);
     build(
@@ -71,7 +71,7 @@ fn drive(
 }
 
 #[test]
-fn its_books_close() {
+fn its_energy_balance_closes() {
     let strengths = [
         "elastic = {}",
         "perfectly_plastic = { flow_stress = '400 MPa' }",

@@ -4,7 +4,7 @@ use pulp::{Arch, NullaryFnOnce};
 
 use super::{
     batch::Start,
-    part::Part,
+    part::Section,
     penetration::Limit,
     solver::{LARGEST_STRAIN_STEP, StepControl},
     state::{Element, Segment, State},
@@ -196,7 +196,7 @@ impl State {
 fn flow_together(
     elements: &mut [Element],
     working: &[YieldingElement],
-    part: &Part,
+    part: &Section,
     law: Hardening,
     time_step: f64,
 ) {
@@ -225,7 +225,7 @@ fn flow_eight(
     elements: &mut [Element],
     places: &[usize; LANES],
     count: usize,
-    part: &Part,
+    part: &Section,
     law: Hardening,
     time_step: f64,
 ) {

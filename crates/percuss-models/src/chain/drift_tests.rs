@@ -3,9 +3,9 @@ use crate::{case, chain::mesh};
 
 /// A chain at rest, of a projectile that hardens by a power of the strain.
 fn chain() -> State {
-    let text = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '200 m/s' }\n\
+    let text = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '200 m/s' }\n\
                 target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n\
-                [chain]\ntarget_closure = 'column'\nprojectile_elements = 27\ntarget_elements = 5\n";
+                [chain]\ntarget_resistance = 'column'\nprojectile_elements = 27\ntarget_elements = 5\n";
     mesh::build(&case::load_str("shot", text).unwrap_or_else(|error| panic!("{error}")))
 }
 

@@ -1,6 +1,6 @@
 //! Constitutive update of one element.
 
-use super::{part::Part, state::Element};
+use super::{part::Section, state::Element};
 use crate::{
     material::{FlowState, Trial},
     options::Kinematics,
@@ -14,7 +14,7 @@ impl Element {
     /// The work that belongs to a time is its stress times half the plastic strain of the steps before and after it: with
     /// that, kinetic, elastic and plastic energy of a chain of small strain add up to rounding.
     #[inline(always)]
-    pub(super) fn deform(&mut self, part: &Part, length: f64, time_step: f64) -> f64 {
+    pub(super) fn deform(&mut self, part: &Section, length: f64, time_step: f64) -> f64 {
         let step_before = self.stretch(part, length);
         if !self.yield_point.holds(self.stress.abs()) {
             self.flow(part, time_step);
@@ -24,7 +24,7 @@ impl Element {
 
     /// Brings the element to a new length as if nothing flowed; returns the plastic strain of the last step.
     #[inline(always)]
-    pub(super) fn stretch(&mut self, part: &Part, length: f64) -> f64 {
+    pub(super) fn stretch(&mut self, part: &Section, length: f64) -> f64 {
         self.length = length;
         let elastic = match part.kinematics {
             // Plastic strain changes the unloaded length, so that the logarithm is one of a small strain.
@@ -41,7 +41,7 @@ impl Element {
 
     /// Sets the force once what flows has flowed; returns the plastic work as [`Element::deform`] does.
     #[inline(always)]
-    pub(super) fn settle(&mut self, part: &Part, step_before: f64) -> f64 {
+    pub(super) fn settle(&mut self, part: &Section, step_before: f64) -> f64 {
         self.axial_force = match part.kinematics {
             Kinematics::Logarithmic => self.stress * self.volume * (1.0 / self.length),
             Kinematics::SmallStrain => self.stress * self.rest_area,
@@ -50,7 +50,7 @@ impl Element {
     }
 
     /// Returns a trial stress to the yield surface.
-    pub(super) fn flow(&mut self, part: &Part, time_step: f64) {
+    pub(super) fn flow(&mut self, part: &Section, time_step: f64) {
         let trial = self.stress;
         let increment = self.yield_point.plastic_increment(
             &*part.strength,
@@ -91,7 +91,7 @@ impl Element {
 
     /// Largest stable time step of the undamped element [s]: the time a wave takes through it.
     #[inline(always)]
-    pub(super) fn stable_step(&self, part: &Part) -> f64 {
+    pub(super) fn stable_step(&self, part: &Section) -> f64 {
         match part.kinematics {
             // The force grows faster than the stress as the area grows: the tangent is E + σ, and 1/sqrt(1 + x) > 1 − x/2.
             Kinematics::Logarithmic => {
@@ -103,7 +103,7 @@ impl Element {
     }
 
     /// Current cross-sectional area [m2].
-    pub(super) fn area(&self, part: &Part) -> f64 {
+    pub(super) fn area(&self, part: &Section) -> f64 {
         match part.kinematics {
             Kinematics::Logarithmic => self.volume / self.length,
             Kinematics::SmallStrain => self.rest_area,

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     part::Role,
-    state::{End, State},
+    state::{BoundaryCondition, State},
 };
 use crate::{
     outcome::{Outcome, Termination},
@@ -13,11 +13,11 @@ use crate::{
     units::significant,
 };
 
-/// Part of the impact speed below which a projectile counts as stopped.
+/// Part of the impact velocity below which a projectile counts as stopped.
 const REST_FRACTION: f64 = 0.01;
 /// Part of the initial energy that may still dissipate in a window of a run whose bodies touch.
 const QUIET_FRACTION: f64 = 1e-6;
-/// The same when they have parted: what rings inside them then changes neither depth nor speed.
+/// The same after separation: vibrations then change neither depth nor velocity.
 const PARTED_FRACTION: f64 = 1e-4;
 
 /// One round trip of a wave in the projectile, in which a run that is over changes no more.
@@ -99,8 +99,8 @@ impl Window {
             + state.plug_dissipation();
         let flow = (dissipation - self.dissipation) / accumulated.initial_energy;
         let deepening = monitor.largest_depth > self.depth * (1.0 + 1e-9);
-        // Where the target is free to fly, its pieces count as well.
-        let met = state.end == End::Free && state.meetings != self.meetings;
+        // Where the target is free to fly, its pieces also count.
+        let met = state.end == BoundaryCondition::Free && state.meetings != self.meetings;
         let touched = self.touched || met;
         self.meetings = state.meetings;
         self.start = state.time;
@@ -144,19 +144,19 @@ impl Window {
         let (mass, momentum) = state.projectile_motion();
         if let Some(time) = self.passed_back_face.filter(|_| state.hold.is_none()) {
             let words = format!(
-                "the crater floor passed the original back face at {} us",
+                "the crater floor passed the original rear face at {} us",
                 significant(time * 1e6, 4)
             );
             return (Outcome::Perforated, words);
         }
         if termination == Termination::NothingMoves {
-            return (Outcome::AtRest, "the impact speed is zero".to_owned());
+            return (Outcome::AtRest, "the impact velocity is zero".to_owned());
         }
         let percent = REST_FRACTION * 100.0;
         let ratio = momentum / (mass * impact_velocity);
         let speed = match mass > 0.0 {
             true => format!(
-                "the projectile's mean speed at the end is {} % of the impact speed",
+                "the projectile's mean speed at the end is {} % of the impact velocity",
                 significant(100.0 * ratio, 3)
             ),
             false => "no element of the projectile is left".to_owned(),
@@ -179,7 +179,7 @@ impl Window {
             }
             if plug > REST_FRACTION {
                 let words = format!(
-                    "{free}, and the plug leaves an open hole at {} % of the impact speed, above {percent} %; {speed}",
+                    "{free}, and the plug leaves an open hole at {} % of the impact velocity, above {percent} %; {speed}",
                     significant(100.0 * plug, 3)
                 );
                 return (Outcome::Perforated, words);
@@ -212,7 +212,7 @@ impl Window {
 
 /// Whether pieces in free flight will meet within a time at one of the interfaces from a given one on.
 ///
-/// A target whose back face is held rings without end: there only layers that approach by a hundredth of the impact speed count.
+/// A target with a fixed rear face rings without end: there only layers that approach by a hundredth of the impact velocity count.
 fn approaches(state: &State, from: usize, horizon: f64, impact_velocity: f64) -> bool {
     let Some(tip) = state.tip_segment() else {
         return false;
@@ -225,7 +225,7 @@ fn approaches(state: &State, from: usize, horizon: f64, impact_velocity: f64) ->
             let gap =
                 state.nodes[ahead.first_node].position - state.nodes[behind.last_node].position;
             // A target that is held vibrates about its place; anything else flies at its mean speed.
-            let back_is_held = state.end != End::Free;
+            let back_is_held = state.end != BoundaryCondition::Free;
             let is_held = back_is_held || state.plug_is_held();
             if is_held && s > tip && behind.part == ahead.part {
                 return false;
@@ -250,8 +250,8 @@ fn approaches(state: &State, from: usize, horizon: f64, impact_velocity: f64) ->
 impl State {
     /// What ends a run at once; an error when the modelled part of a semi-infinite target is used up.
     ///
-    /// A crater floor that passes the back face ends a run only while border shear still acts on the column, which has left the plate then.
-    /// What nothing holds flies on until its pieces have parted for good.
+    /// A crater floor that passes the rear face ends a run only while border shear still acts on the column, which has left the plate then.
+    /// What nothing holds flies on until its pieces have separated finally.
     pub(super) fn event(&self, scenario: &Scenario) -> Result<Option<Termination>, f64> {
         let TargetBody::Layers { layers, .. } = &scenario.target else {
             let gone = self.tip_segment().is_none();
@@ -271,14 +271,14 @@ impl State {
         }
     }
 
-    /// Whether the crater floor has passed the original back face.
+    /// Whether the crater floor has passed the original rear face.
     fn passed_back_face(&self) -> bool {
         self.face_segment().is_none() || self.depth() >= self.back_position
     }
 
-    /// Whether neither a back face nor border shear holds any of the target.
+    /// Whether neither a rear face nor border shear holds any of the target.
     fn flies_free(&self) -> bool {
-        self.end == End::Free
+        self.end == BoundaryCondition::Free
             && !self.plug_is_held()
             && self.segments.iter().all(|segment| {
                 self.parts[segment.part].role == Role::Projectile

@@ -3,7 +3,7 @@
 use super::{
     interface::Interface,
     part::Role,
-    state::{End, Segment, State},
+    state::{BoundaryCondition, Segment, State},
 };
 
 /// Times the erosion strain that an element bears in a projectile that spreads on a floor that stands: as good as for ever, and soon
@@ -46,7 +46,7 @@ impl State {
         let half_friction = 0.5 * part.friction_per_length * self.elements[e].rest_length;
         self.accumulated.eroded_energy += self.elastic_energy(e, part);
         let left = e + segment.shift;
-        // The closure of Tate has a column: both halves are alike.
+        // the erosion criterion of Tate has a column: both halves are alike.
         let leaving = self.leave_tip(s, left, masses[0]);
         for (i, mass) in [left, left + 1].into_iter().zip(masses) {
             let velocity = match leaving {
@@ -91,14 +91,14 @@ impl State {
                     self.interfaces[contact] = Interface::OPEN;
                 }
                 if !lost_front && is_last {
-                    self.end = End::Free;
+                    self.end = BoundaryCondition::Free;
                 }
             }
             _ => {
                 // The whole segment is gone: its two contacts become one, open.
                 if is_last {
                     self.interfaces.pop();
-                    self.end = End::Free;
+                    self.end = BoundaryCondition::Free;
                 } else {
                     self.interfaces.remove(s);
                     if s > 0 {

@@ -1,16 +1,16 @@
-//! What the choices behind a depth are worth: runs beside the one that was asked for.
+//! Sensitivity of a depth to modelling choices: additional runs beside the one asked for.
 
 use super::expanding::{self, CavityRun};
 use crate::{
     Error,
-    options::{ErosionStrain, TargetClosure},
+    options::{ErosionStrain, TargetResistanceModel},
     outcome::{Band, BandQuantity, RunResult},
     scenario::Scenario,
     solver::Control,
     units::significant,
 };
 
-/// Difference of two depths that a user has to know of.
+/// Difference of two depths that is reported to the user.
 const NOTABLE_DIFFERENCE: f64 = 0.1;
 /// Erosion strain below which the rod would lose material that still presses on the target.
 const EARLIEST_EROSION: f64 = 1.0;
@@ -29,7 +29,7 @@ pub(crate) fn explain(
 ) -> Result<(), Error> {
     if let Some(reason) = &scenario.resistance_reason {
         let words = of_resistance(scenario, reason, result, control)?;
-        result.target_closure_choice = Some(words);
+        result.target_resistance_choice = Some(words);
     }
     if result.band.is_none() && super::is_expanding(scenario) {
         result.band = over_erosion(scenario, result, control)?;
@@ -68,10 +68,10 @@ fn of_resistance(
     if expanding::not_applicable(scenario).is_some() {
         return Ok(words);
     }
-    let cavity = TargetClosure::ExpandingCavity;
+    let cavity = TargetResistanceModel::ExpandingCavity;
     let found = beside(
         scenario,
-        |other| other.options.chain.target_closure = Some(cavity),
+        |other| other.options.chain.target_resistance = Some(cavity),
         control,
     )?;
     let by_cavity = found.and_then(|found| found.depth_of_penetration);

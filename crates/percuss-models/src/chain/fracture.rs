@@ -1,4 +1,4 @@
-//! Fracture: bodies and bonded interfaces that part where their failure law says so.
+//! Fracture of bodies and bonded interfaces by their failure laws.
 //!
 //! A body parts at a node, whose mass goes to its two elements: mass, momentum and energy stay what they are. The two ends touch
 //! until the next kick pulls them apart. An element parts from one of its neighbours only.
@@ -160,7 +160,7 @@ impl State {
 }
 
 impl Element {
-    /// Whether it has failed and not yet parted from a neighbour.
+    /// Whether it has failed and not yet separated from a neighbour.
     fn has_failed(&self) -> bool {
         self.damage >= 1.0 && !self.parted
     }

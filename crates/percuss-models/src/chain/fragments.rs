@@ -2,7 +2,7 @@
 
 use super::{
     part::Role,
-    state::{End, Segment, State},
+    state::{BoundaryCondition, Segment, State},
 };
 use crate::fragments::Fragment;
 
@@ -18,7 +18,7 @@ impl State {
                 None => pieces.push(vec![segment]),
             }
         }
-        if self.end != End::Free {
+        if self.end != BoundaryCondition::Free {
             pieces.pop();
         }
         let is_held = |segment: &Segment| {

@@ -5,14 +5,14 @@ use std::f64::consts::PI;
 use super::{
     cone::{Cone, Grading},
     interface::Interface,
-    part::{Part, Role},
+    part::{Role, Section},
     solver::LARGEST_STRAIN_STEP,
-    state::{Accumulators, Element, End, Node, Segment, State},
+    state::{Accumulators, BoundaryCondition, Element, Node, Segment, State},
 };
 use crate::{
     material::{FlowState, YieldPoint},
-    options::{ErosionClosure, Kinematics, TargetClosure, constraint_factor},
-    problem::{BackFace, LayerInterface},
+    options::{ErosionCriterion, Kinematics, TargetResistanceModel, constraint_factor},
+    problem::{LayerInterface, RearFaceCondition},
     scenario::{Plate, Scenario, TargetBody, modelled_thickness},
 };
 
@@ -37,7 +37,7 @@ fn layer_elements(plates: &[Plate], scenario: &Scenario, grading: Option<Grading
 /// The cone that stands for a target, and the sizes of its elements: at the mouth that of the projectile's.
 fn cone_and_grading(layers: &[Plate], scenario: &Scenario, mouth: f64) -> Option<(Cone, Grading)> {
     let options = &scenario.options.chain;
-    if options.target_closure() == TargetClosure::Column {
+    if options.target_resistance() == TargetResistanceModel::Column {
         return None;
     }
     let cone = Cone::under_disc(mouth, layers.first()?.material.poissons_ratio);
@@ -51,7 +51,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     let options = &scenario.options.chain;
     let rod = &scenario.projectile;
     let rod_elements = options.projectile_elements();
-    let mut projectile = Part::new(
+    let mut projectile = Section::new(
         Role::Projectile,
         &rod.material,
         rod.mass / (rod.material.density.si() * rod.length),
@@ -67,7 +67,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     let mut interfaces = vec![Before::TOUCHING];
     let mut cone = None;
     let mut struck_material = None;
-    let mut end = End::Free;
+    let mut end = BoundaryCondition::Free;
     match &scenario.target {
         TargetBody::Layers {
             layers,
@@ -76,9 +76,9 @@ pub(super) fn build(scenario: &Scenario) -> State {
             ..
         } => {
             let diameter = |plate: &Plate| plate.column_diameter.unwrap_or(*column_diameter);
-            let area = |plate: &Plate| match options.erosion_closure() {
-                ErosionClosure::Strain => PI * diameter(plate) * diameter(plate) / 4.0,
-                ErosionClosure::Tate => parts[0].area,
+            let area = |plate: &Plate| match options.erosion_criterion() {
+                ErosionCriterion::Strain => PI * diameter(plate) * diameter(plate) / 4.0,
+                ErosionCriterion::Tate => parts[0].area,
             };
             let areas: Vec<f64> = layers.iter().map(area).collect();
             struck_material = layers.first().map(|plate| &plate.material);
@@ -94,12 +94,13 @@ pub(super) fn build(scenario: &Scenario) -> State {
                     Some(_) => 1.0,
                     None => constraint_factor(options.constraint_factor(), material),
                 };
-                let mut part = Part::new(Role::Target, material, area, elements, factor, options);
+                let mut part =
+                    Section::new(Role::Target, material, area, elements, factor, options);
                 let flow_stress = material.strength.law().flow_stress_at_unit_strain(material);
                 part.friction_per_length =
                     options.border_shear() * PI * diameter(plate) * flow_stress.unwrap_or(0.0);
-                if options.erosion_closure() == ErosionClosure::Tate || cone.is_some() {
-                    // What holds the target ahead of the tip stands in the place of border shear; a cone widens instead.
+                if options.erosion_criterion() == ErosionCriterion::Tate || cone.is_some() {
+                    // What holds the target ahead of the tip stands instead of border shear; a cone widens instead.
                     part.friction_per_length = 0.0;
                 }
                 parts.push(part);
@@ -111,11 +112,11 @@ pub(super) fn build(scenario: &Scenario) -> State {
             }
             let area = areas.last().copied().unwrap_or_default();
             end = match (back_face, layers.last()) {
-                (BackFace::Fixed, _) => End::Fixed,
-                (BackFace::NonReflecting, Some(last)) => {
+                (RearFaceCondition::Fixed, _) => BoundaryCondition::Fixed,
+                (RearFaceCondition::NonReflecting, Some(last)) => {
                     let thickness = lengths[1..].iter().sum();
                     let behind = |cone: Cone| cone.area_at(thickness);
-                    End::Open {
+                    BoundaryCondition::Open {
                         impedance: last.material.bar_impedance()
                             * cone.map_or(area, |(cone, _)| behind(cone)),
                         stiffness: cone.map_or(0.0, |(cone, _)| {
@@ -123,14 +124,21 @@ pub(super) fn build(scenario: &Scenario) -> State {
                         }),
                     }
                 }
-                (BackFace::Free, _) | (_, None) => End::Free,
+                (RearFaceCondition::Free, _) | (_, None) => BoundaryCondition::Free,
             };
         }
         TargetBody::RigidWall => {
-            parts.push(Part::new(Role::Target, &rod.material, 0.0, 0, 1.0, options));
+            parts.push(Section::new(
+                Role::Target,
+                &rod.material,
+                0.0,
+                0,
+                1.0,
+                options,
+            ));
             interfaces.push(Before::TOUCHING);
             lengths.push(0.0);
-            end = End::Fixed;
+            end = BoundaryCondition::Fixed;
         }
         TargetBody::ConstantPressure(_) => {}
     }
@@ -139,10 +147,10 @@ pub(super) fn build(scenario: &Scenario) -> State {
         state.tip_friction = pressure * state.parts[0].area;
         state.nodes[rod_elements].friction = state.tip_friction;
     }
-    if options.erosion_closure() == ErosionClosure::Tate {
+    if options.erosion_criterion() == ErosionCriterion::Tate {
         state.add_tip(rod.diameter);
     }
-    if options.target_closure() == TargetClosure::DivergingPenetrable
+    if options.target_resistance() == TargetResistanceModel::DivergingPenetrable
         && let Some(material) = struck_material
     {
         state.let_penetrate(material);
@@ -151,7 +159,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     for node in &mut state.nodes[..=rod_elements] {
         node.velocity = scenario.impact_velocity;
     }
-    // At the first step the elements at the interface see the whole impact speed.
+    // At the first step the elements at the interface see the whole impact velocity.
     if state.parts[0].kinematics == Kinematics::Logarithmic {
         let lengths = state.elements.iter().map(|element| element.rest_length);
         let smallest = lengths.fold(f64::INFINITY, f64::min);
@@ -190,10 +198,10 @@ impl Before {
 
 /// Lines the parts up, the first one ending and the second one starting at 0.
 fn assemble(
-    parts: Vec<Part>,
+    parts: Vec<Section>,
     lengths: &[f64],
     before: &[Before],
-    end: End,
+    end: BoundaryCondition,
     cone: Option<(Cone, Grading)>,
 ) -> State {
     let elements: usize = parts.iter().map(|part| part.elements).sum();
@@ -299,7 +307,7 @@ fn assemble(
     }
     state.back_position = state.nodes[nodes - 1].position;
     // The boundary's own impedance stands for everything behind it, border shear included.
-    if let (End::Open { .. }, Some(last)) = (end, state.nodes.last_mut()) {
+    if let (BoundaryCondition::Open { .. }, Some(last)) = (end, state.nodes.last_mut()) {
         last.friction = 0.0;
     }
     state

@@ -24,7 +24,6 @@ mod adiabatic;
 mod band;
 mod band_law;
 mod batch;
-mod closure;
 mod column;
 mod cone;
 mod contact;
@@ -47,6 +46,7 @@ mod penetration;
 mod plate_section;
 mod plug;
 mod published;
+mod resistance_model;
 mod results;
 #[cfg(test)]
 mod separation_tests;
@@ -60,9 +60,9 @@ mod tate;
 mod tests;
 mod warnings;
 
-pub use closure::{choose_target_closure, closure_in_use};
 use column::ColumnRun;
 pub use published::Published;
+pub use resistance_model::{choose_target_resistance, resistance_model_in_use};
 
 use std::sync::atomic::AtomicBool;
 
@@ -70,12 +70,12 @@ pub use batch::Stopped;
 
 use crate::{
     Error, Refusal, Scenario,
-    guard::{FirstChoice, Guard, NoseKind, Range},
     material::MaterialClass,
-    options::{BorderShearLaw, Scheme, TargetClosure},
+    options::{BorderShearLaw, Scheme, TargetResistanceModel},
     outcome::RunResult,
     regime::{ProjectileRegime, TargetKind},
-    solver::{Control, Model},
+    solver::{Control, CostClass, Model},
+    validity::{FirstChoice, NoseKind, Range, ValidityDomain},
 };
 
 /// The 1-D discrete element model.
@@ -91,9 +91,9 @@ impl Model for Chain {
         "1-D discrete element model: point masses joined by normal springs"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 noses: &[NoseKind::Flat],
                 start_temperature: true,
                 separate_layers: true,
@@ -118,12 +118,16 @@ impl Model for Chain {
                      unless the case chooses otherwise: the depth is only as good as the theory of cavities",
                     "every other target is the column in line with the rod: the depth is only as good as the constraint factor and \
                      the border shear that close it",
-                    "a plate is perforated by a plug with `border_shear_law = \"shear-band\"`; without it a column can neither let go a \
+                    "a plate is perforated by a plug with `border_shear_law = \"shear-band\"`; without it a column models neither \
                      plug nor bend",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
+    }
+
+    fn cost(&self) -> CostClass {
+        CostClass::Seconds
     }
 
     fn has_fields(&self) -> bool {
@@ -137,9 +141,9 @@ impl Model for Chain {
             }
             _ if scenario.resistance.is_some() => Some(
                 Refusal::new(
-                    "a resistance law replaces the target's in the closure `expanding-cavity` only",
+                    "a resistance law replaces the target's in the target resistance model `expanding-cavity` only",
                 )
-                .with_remedy("set `chain.target_closure = \"expanding-cavity\"`"),
+                .with_remedy("set `chain.target_resistance = \"expanding-cavity\"`"),
             ),
             Scheme::Conservative => {
                 fracture::not_applicable(scenario).or_else(|| plug::band_laws(scenario).err())
@@ -183,18 +187,18 @@ impl Model for Chain {
 
 fn with_warning_of_thin_plate(scenario: &Scenario, mut result: RunResult) -> RunResult {
     if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction {
-        let thin = Range::COLUMN.finding(scenario);
+        let thin = Range::COLUMN.diagnostic(scenario);
         result.warnings.splice(0..0, thin);
     }
     result
 }
 
-/// Whether a shot is one of those that [`run_batch`] computes.
+/// Whether an impact is one of those that [`run_batch`] computes.
 pub fn is_for_batch(scenario: &Scenario) -> bool {
     batch::accepts(scenario)
 }
 
-/// What [`Chain`] says of shots that are for the batch, side by side, to the last bit.
+/// What [`Chain`] says of impacts that are for the batch, side by side, to the last bit.
 ///
 /// # Errors
 /// [`Stopped`]: `stop` has become true.
@@ -210,5 +214,5 @@ pub fn run_batch(
 }
 
 fn is_expanding(scenario: &Scenario) -> bool {
-    scenario.options.chain.target_closure() == TargetClosure::ExpandingCavity
+    scenario.options.chain.target_resistance() == TargetResistanceModel::ExpandingCavity
 }

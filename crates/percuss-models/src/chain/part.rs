@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::tate::USED_UP_STRAIN;
 use crate::{
     material::{Material, PreparedFailure, PreparedStrength},
-    options::{ChainOptions, ErosionClosure, Kinematics},
+    options::{ChainOptions, ErosionCriterion, Kinematics},
     units::Quantity,
 };
 
@@ -18,7 +18,7 @@ pub(super) enum Role {
 
 /// A projectile or a layer of the target.
 #[derive(Debug)]
-pub(super) struct Part {
+pub(super) struct Section {
     pub(super) role: Role,
     /// Number of elements; a rigid wall has none.
     pub(super) elements: usize,
@@ -46,7 +46,7 @@ pub(super) struct Part {
     pub(super) friction_per_length: f64,
 }
 
-impl Part {
+impl Section {
     /// A deformable part. `factor` multiplies its flow stress.
     pub(super) fn new(
         role: Role,
@@ -58,10 +58,10 @@ impl Part {
     ) -> Self {
         // What the constraint adds to the stress is work against the material around the column, not heat in it.
         let heating = heating(material, options, factor);
-        let factor = match options.erosion_closure() {
-            ErosionClosure::Strain => factor,
+        let factor = match options.erosion_criterion() {
+            ErosionCriterion::Strain => factor,
             // An element's force over the part of its length that is used up does the work of its flow stress over all of it.
-            ErosionClosure::Tate => factor / USED_UP_STRAIN,
+            ErosionCriterion::Tate => factor / USED_UP_STRAIN,
         };
         Self {
             role,

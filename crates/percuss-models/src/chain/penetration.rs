@@ -1,4 +1,4 @@
-//! Target closure `diverging-penetrable`: the tip goes through the target where the cone would push back harder than the target can.
+//! Target resistance model `diverging-penetrable`: the tip goes through the target where the cone would push back harder than the target can.
 //!
 //! A target resists slow penetration with the pressure p_s that expands a cavity in it, on the stream tube of the projectile. What the
 //! projectile has spread beyond its stream tube flows outwards and presses with its own flow stress. No more than the sum of both
@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    part::Part,
+    part::Section,
     state::{Element, State},
 };
 use crate::material::{Material, cavity_expansion_pressure};
@@ -96,7 +96,7 @@ impl State {
         }
     }
 
-    /// Lets the target that the tip went through in the last step push back on it.
+    /// Applies the resistance of the target that the tip penetrated in the last step.
     ///
     /// What it meets first piles up on it and moves with it from then on, until that is the added mass of the flow; the rest is
     /// turned aside.
@@ -160,7 +160,7 @@ impl Element {
     /// plastic work around the cavity between the half steps around the current time [J].
     pub(super) fn penetrate(
         &mut self,
-        part: &Part,
+        part: &Section,
         distance: f64,
         time_step: f64,
         limit: Limit,
@@ -173,7 +173,7 @@ impl Element {
         work
     }
 
-    fn advance_step_to(&self, part: &Part, distance: f64, time_step: f64, limit: Limit) -> f64 {
+    fn advance_step_to(&self, part: &Section, distance: f64, time_step: f64, limit: Limit) -> f64 {
         let excess = |step: f64| {
             let length = distance + self.advance + step;
             if length <= 0.0 {

@@ -62,7 +62,7 @@ pub(super) fn band_laws(scenario: &Scenario) -> Result<Option<Vec<BandLaw>>, Ref
 }
 
 impl State {
-    /// Puts bands in the place of friction, and the plate around them.
+    /// Puts bands instead of friction, and the plate around them.
     pub(super) fn constrain_plug(&mut self, scenario: &Scenario) {
         let (
             Ok(Some(laws)),

@@ -1,4 +1,4 @@
-//! What only the state of the chain can show of bodies that part and meet again.
+//! Separation and renewed contact of bodies, checked on the state of the chain.
 
 use super::{mesh, solver::StepControl, state::State};
 use crate::{
@@ -24,7 +24,7 @@ fn scenario(failure: &str, layers: &str, speed: f64) -> Scenario {
         "test",
         &format!(
             r#"
-            projectile = {{ material = "4340", length = "15 mm", diameter = "8 mm", velocity = "{speed} m/s" }}
+            projectile = {{ material = "4340", length = "15 mm", diameter = "8 mm", impact_velocity = "{speed} m/s" }}
             target = {{ layers = [{layers}], back_face = "free" }}
             [chain]
             border_shear = 0.0
@@ -50,7 +50,7 @@ const LAYERS: &str = r#"
     { material = "brittle", thickness = "3 mm", interface = "bonded" },
     { material = "copper", thickness = "6 mm", gap = "0.1 mm" }"#;
 
-/// How often ends had met, bodies had parted and elements had eroded when a time was over; the balances are checked in every step.
+/// How often ends had met, bodies had separated and elements had eroded when a time was over; the balances are checked in every step.
 fn run(scenario: &Scenario, control: &StepControl, until: f64) -> (State, usize) {
     let mut state = mesh::build(scenario);
     let mass: f64 = state.nodes.iter().map(|node| node.mass).sum();
@@ -102,7 +102,7 @@ fn run(scenario: &Scenario, control: &StepControl, until: f64) -> (State, usize)
 }
 
 #[test]
-fn the_books_close_through_partings_erosion_and_meetings() {
+fn the_balances_close_through_partings_erosion_and_meetings() {
     for (failure, speed) in [
         ("failure = { spall = { strength = \"0.6 GPa\" } }", 250.0),
         (
@@ -135,7 +135,7 @@ fn the_books_close_through_partings_erosion_and_meetings() {
 }
 
 #[test]
-fn local_damping_keeps_the_books() {
+fn local_damping_keeps_the_balances() {
     let control = StepControl {
         local_damping: 0.4,
         ..CONTROL

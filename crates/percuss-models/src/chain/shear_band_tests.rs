@@ -1,4 +1,4 @@
-//! One band that is driven by hand.
+//! Single shear band at a prescribed velocity.
 
 use super::{
     super::{adiabatic::Sheared, band_law::Failure, shear_zone::SQRT_3},
@@ -15,7 +15,7 @@ fn law(chain: &str) -> Result<BandLaw, Refusal> {
         "band",
         &format!(
             r#"
-            projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "{SPEED} m/s" }}
+            projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "{SPEED} m/s" }}
             target = {{ material = "weldox-460-e", thickness = "12 mm", back_face = "free" }}
             [chain]
             border_shear_law = "shear-band"
@@ -177,7 +177,7 @@ fn a_band_is_shared_where_the_plug_parts() {
     assert!((bands.elastic_energy() / energy - 1.0).abs() < 1e-12);
     assert!(energy > 0.0);
     assert!((bands.pull(&mut nodes) / force - 1.0).abs() < 1e-12);
-    // Nothing is let go that was not about to leave anyway.
+    // Nothing is ejected that was not about to leave anyway.
     bands.update(&nodes, 0.0, 1e-6, 3e-6);
     assert!(close(bands.bands[1].held + bands.bands[2].held, 0.0011));
     assert!(close(bands.bands[2].held, 0.0006));

@@ -26,7 +26,7 @@ const LEAST_EXPONENT: f64 = -30.0;
 const NARROWEST: f64 = 0.01;
 /// A zone narrower than this part of the radius is no result but the rings'.
 const LEAST_WIDTH: f64 = 1e-3;
-/// Strain at which a metal without a maximum is judged.
+/// Strain at which a metal without a maximum is evaluated.
 const UNIT_STRAIN: f64 = 1.0;
 /// Repetitions that settle the strain rate, which depends on the width itself, and the change that ends them.
 const MOST_ROUNDS: u32 = 20;
@@ -134,7 +134,7 @@ impl ShearZone {
     fn new(radius: f64, curve: &AdiabaticCurve, sensitivity: f64, extent: Extent) -> Self {
         let sensitivity = sensitivity.max(LEAST_SENSITIVITY);
         let mut rings = rings(radius);
-        let judged = curve
+        let classified = curve
             .instability()
             .unwrap_or_else(|| UNIT_STRAIN.min(curve.end()));
         let (mut widths, mut slip, mut mean_width) = (Vec::new(), 0.0, None);
@@ -149,7 +149,7 @@ impl ShearZone {
             }
             let width = further / STRAIN_STEP;
             slip += SQRT_3 * further;
-            if mean_width.is_none() && (rim >= judged || i == steps) {
+            if mean_width.is_none() && (rim >= classified || i == steps) {
                 mean_width = Some(slip / (SQRT_3 * rim));
             }
             widths.push(width);

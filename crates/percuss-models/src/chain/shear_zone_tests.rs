@@ -67,7 +67,7 @@ fn the_rate_alone_spreads_a_zone_of_known_width() {
     }
 }
 
-/// While it hardens, a metal that knows no rate shears as equilibrium says: `τ = τ_a a/r` and `τ_a r/a`, by a fine quadrature.
+/// While it hardens, a metal without rate dependence shears as equilibrium says: `τ = τ_a a/r` and `τ_a r/a`, by a fine quadrature.
 #[test]
 fn the_zone_before_the_maximum_is_that_of_equilibrium() {
     let metal = sheared(&SOFTENS);

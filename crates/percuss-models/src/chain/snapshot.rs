@@ -1,4 +1,4 @@
-//! What histories keep of a state.
+//! Snapshot of a state for histories.
 
 use std::f64::consts::PI;
 

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use super::{
     friction::dry_friction_one,
-    part::Part,
-    state::{Element, End, Node, Segment, State},
+    part::Section,
+    state::{BoundaryCondition, Element, Node, Segment, State},
 };
 use crate::{
     error::NumericalError,
@@ -89,7 +89,7 @@ impl StepControl {
     }
 
     /// Sets the viscous force of an element whose ends approach at a speed; returns the factor on its stable step.
-    pub(super) fn damp(&self, element: &mut Element, part: &Part, approach: f64) -> f64 {
+    pub(super) fn damp(&self, element: &mut Element, part: &Section, approach: f64) -> f64 {
         let ratio = self.viscous_ratio(approach, part.slowness);
         element.viscous_force =
             ratio * part.density * part.wave_speed * element.area(part) * approach;
@@ -191,7 +191,7 @@ impl State {
             } = self.segments[s];
             let from = first_node + usize::from(joined_ahead);
             let joined_behind = s < last_segment && self.interfaces[s].closed;
-            let is_boundary = s == last_segment && self.end != End::Free;
+            let is_boundary = s == last_segment && self.end != BoundaryCondition::Free;
             let to = last_node + 1 - usize::from(joined_behind || is_boundary);
             // A wall is one node that stands: it has none that are free.
             self.kick_inner(from..to.max(from), kick);
@@ -284,13 +284,13 @@ impl State {
 
     pub(super) fn kick_boundary(&mut self, i: usize, kick: f64) {
         match self.end {
-            End::Free => self.kick_free(i, kick),
-            End::Fixed => {
+            BoundaryCondition::Free => self.kick_free(i, kick),
+            BoundaryCondition::Fixed => {
                 self.nodes[i].velocity = 0.0;
                 self.accumulated.support_impulse += self.nodes[i].force * kick;
                 self.back_force = self.nodes[i].force;
             }
-            End::Open {
+            BoundaryCondition::Open {
                 impedance,
                 stiffness,
             } => {
@@ -309,11 +309,12 @@ impl State {
     }
 
     pub(super) fn is_boundary(&self, i: usize) -> bool {
-        self.end != End::Free && self.segments.last().is_some_and(|last| last.last_node == i)
+        self.end != BoundaryCondition::Free
+            && self.segments.last().is_some_and(|last| last.last_node == i)
     }
 
     pub(super) fn is_fixed(&self, i: usize) -> bool {
-        self.end == End::Fixed && self.is_boundary(i)
+        self.end == BoundaryCondition::Fixed && self.is_boundary(i)
     }
 }
 

@@ -10,7 +10,7 @@ use super::{
     dishing::Dishing,
     drift::YieldingElement,
     interface::Interface,
-    part::{Part, Role},
+    part::{Role, Section},
     penetration::Penetration,
     plug::PlugConstraint,
     shear_band::Bands,
@@ -23,9 +23,9 @@ use crate::{
     solver::archive::Archive,
 };
 
-/// What holds the last node of the chain.
+/// Boundary condition of the last node of the chain.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum End {
+pub(super) enum BoundaryCondition {
     Free,
     Fixed,
     /// Boundary that takes up a wave without reflecting it: a dashpot \[lysmer1969\], and behind a cone a spring beside it
@@ -105,14 +105,14 @@ pub(super) struct Element {
     pub(super) eroded: bool,
     /// Damage by the failure law; 1 is failed.
     pub(super) damage: f64,
-    /// Whether its failure has parted it from a neighbour.
+    /// Whether its failure has separated it from a neighbour.
     pub(super) parted: bool,
     /// Length of target that the tip has gone through [m], and its part in the last step.
     pub(super) advance: f64,
     pub(super) advance_step: f64,
 }
 
-/// A place where a body or a bonded interface has parted.
+/// A place where a body or a bonded interface has separated.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Parting {
     /// Initial position, struck face at 0 [m].
@@ -142,19 +142,19 @@ pub(super) struct Accumulators {
 /// Nodes, elements and accumulated work at one time. Node velocities stand half a step behind the positions.
 #[derive(Debug)]
 pub(super) struct State {
-    pub(super) parts: Vec<Part>,
+    pub(super) parts: Vec<Section>,
     /// From the projectile's tail to the target's back.
     pub(super) segments: Vec<Segment>,
     /// `interfaces[s]`: what is between segments `s` and `s + 1`.
     pub(super) interfaces: Vec<Interface>,
-    pub(super) end: End,
+    pub(super) end: BoundaryCondition,
     /// Force of a constant-pressure target on the projectile's tip [N]; 0 with any other target.
     pub(super) tip_friction: f64,
-    /// What moves with the tip under the erosion closure of Tate.
+    /// What moves with the tip under the erosion criterion of Tate.
     pub(super) tip: Option<Tip>,
     /// What the tip has to overcome to penetrate a cone.
     pub(super) penetration: Option<Penetration>,
-    /// What holds a plug, in the place of friction.
+    /// What holds a plug, instead of friction.
     pub(super) hold: Option<PlugConstraint>,
     /// Force of the target that is turned aside on the tip [N].
     pub(super) drag: f64,
@@ -173,7 +173,7 @@ pub(super) struct State {
     pub(super) time_step: f64,
     /// Largest stable time step of the current state.
     pub(super) stable_step: f64,
-    /// Places where bodies and bonded interfaces have parted, in the order of time.
+    /// Places where bodies and bonded interfaces have separated, in the order of time.
     pub(super) partings: Vec<Parting>,
     /// How often two ends have met.
     pub(super) meetings: u64,
@@ -241,7 +241,7 @@ impl State {
     /// A non-reflecting end has no static stiffness: the column that it holds drifts as a whole, and that drift is no crater.
     pub(super) fn depth(&self) -> f64 {
         match (self.face_segment(), self.tip_segment(), self.end) {
-            (Some(face), _, End::Open { stiffness: 0.0, .. }) => {
+            (Some(face), _, BoundaryCondition::Open { stiffness: 0.0, .. }) => {
                 let back = self.nodes[self.nodes.len() - 1].position - self.back_position;
                 self.nodes[self.segments[face].first_node].position - back
             }
@@ -264,7 +264,7 @@ impl State {
     }
 
     /// Elastic energy of an element between two steps: the form that central differences conserve.
-    pub(super) fn elastic_energy(&self, element: usize, part: &Part) -> f64 {
+    pub(super) fn elastic_energy(&self, element: usize, part: &Section) -> f64 {
         let element = &self.elements[element];
         element.volume * element.stress_before * element.stress / (2.0 * part.modulus)
     }

@@ -1,4 +1,4 @@
-//! Erosion closure `tate`: a tip that flows steadily as Alekseevskii and Tate have it.
+//! Erosion criterion `tate`: a tip that flows steadily as Alekseevskii and Tate have it.
 //!
 //! An element flows at constant area, so that its force is its flow stress times the rod's area, until its length is used up.
 //! Then half its mass leaves with the velocity behind it and half with the tip's: of the momentum flux `ρ w² A₀` that arrives at

@@ -18,9 +18,9 @@ fn scenario(projectile: &str, target: &str, velocity: f64, back_face: &str) -> S
         "test",
         &format!(
             r#"
-            projectile = {{ material = "{projectile}", length = "12.74 mm", diameter = "4.8 mm", velocity = "{velocity} m/s" }}
+            projectile = {{ material = "{projectile}", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "{velocity} m/s" }}
             target = {{ material = "{target}", thickness = "25 mm", back_face = "{back_face}" }}
-            chain.target_closure = "column"
+            chain.target_resistance = "column"
             "#
         ),
     )
@@ -69,7 +69,7 @@ fn mirror(mut state: State) -> State {
 }
 
 #[test]
-fn a_mirrored_shot_is_the_mirror_of_the_shot() {
+fn a_mirrored_impact_is_the_mirror_of_the_impact() {
     let materials: Vec<&str> = Library::built_in()
         .iter()
         .map(|entry| entry.id.as_str())
@@ -150,9 +150,9 @@ fn depth_closing_gaps(velocity: f64, close: fn(&mut State, usize, usize)) -> f64
         "test",
         &format!(
             r#"
-            projectile = {{ material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "{velocity} m/s" }}
+            projectile = {{ material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "{velocity} m/s" }}
             target = {{ material = "aluminium-2024-t351", thickness = "50 mm" }}
-            chain.target_closure = "column"
+            chain.target_resistance = "column"
             "#
         ),
     )

@@ -1,20 +1,20 @@
-//! What a user should know before relying on a result of the conservative scheme.
+//! Limitations of a result of the conservative scheme.
 
 use std::f64::consts::FRAC_PI_2;
 
 use super::plug;
 use crate::{
-    guard::fixed_rear_face_warning,
     material::{Material, Strength, cavity_expansion_pressure},
-    options::{BorderShearLaw, ErosionClosure, TargetClosure},
+    options::{BorderShearLaw, ErosionCriterion, TargetResistanceModel},
     outcome::{Outcome, RunResult},
-    problem::BackFace,
+    problem::RearFaceCondition,
     scenario::{Plate, Scenario, TargetBody, modelled_thickness},
     units::{StrainRate, Temperature, Velocity, significant},
+    validity::fixed_rear_face_warning,
 };
 
 const OUT_OF_TIME: &str =
-    "the run was ended before the shot was over: raise `chain.end_time` or `chain.max_steps`";
+    "the run was ended before the impact was over: raise `chain.end_time` or `chain.max_steps`";
 /// Part of the thickness of a plate that a crater may take before a support behind it matters.
 const FREE_OF_BACK_FACE: f64 = 0.5;
 /// Thickness in projectile diameters from which on dishing adds less than a tenth to the depth in the axisymmetric reference.
@@ -104,17 +104,17 @@ fn warning_of_rear_face(scenario: &Scenario, depth: f64) -> Option<String> {
         return None;
     };
     match back_face {
-        BackFace::Free if thickness < FREE_OF_DISHING * scenario.projectile.diameter => Some(
+        RearFaceCondition::Free if thickness < FREE_OF_DISHING * scenario.projectile.diameter => Some(
             "the depth is that of the crater alone: a plate below 3 projectile diameters with a free rear face also dishes and bulges, \
              which is not included"
                 .to_owned(),
         ),
-        BackFace::Fixed if depth >= thickness => Some(
+        RearFaceCondition::Fixed if depth >= thickness => Some(
             "perforation is not a result: the rear face is fixed (default) and the crater has reached it; set \
              `target.back_face = \"free\"`"
                 .to_owned(),
         ),
-        BackFace::Fixed | BackFace::NonReflecting if depth > FREE_OF_BACK_FACE * thickness => Some(
+        RearFaceCondition::Fixed | RearFaceCondition::NonReflecting if depth > FREE_OF_BACK_FACE * thickness => Some(
             "the crater is more than half as deep as the plate: the support behind it is not included in the resistance"
                 .to_owned(),
         ),
@@ -125,7 +125,7 @@ fn warning_of_rear_face(scenario: &Scenario, depth: f64) -> Option<String> {
 /// Part of the thickness beyond which a plate that dishes is more and more a membrane, which is left out.
 const LARGE_DISHING: f64 = 0.5;
 
-/// Whether a plate lets go a plug rests on the width and the failure of the shear band.
+/// Plugging depends on the width and the failure of the shear band.
 fn warn_of_plug(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<String>) {
     let detail = |name: &str| {
         let found = result.details.iter().find(|detail| detail.name == name);
@@ -148,7 +148,7 @@ fn warn_of_plug(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<Stri
     }
 }
 
-/// A column of target resists by its constraint factor and its border shear: both are closures, not results.
+/// A column of target resists by its constraint factor and its border shear: both are model assumptions, not results.
 fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<String>) {
     let (TargetBody::Layers { layers, .. }, Some(depth)) =
         (&scenario.target, result.depth_of_penetration)
@@ -167,19 +167,19 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
             significant(permanent.unwrap_or(0.0) * 1e3, 3)
         ));
     }
-    if scenario.options.chain.erosion_closure() == ErosionClosure::Tate {
+    if scenario.options.chain.erosion_criterion() == ErosionCriterion::Tate {
         warnings.push(
-            "the depth rests on the erosion closure `tate`: the resistance of the target is its flow stress times the constraint \
+            "the depth depends on the erosion criterion `tate`: the resistance of the target is its flow stress times the constraint \
              factor, on the rod's area"
                 .to_owned(),
         );
-    } else if scenario.options.chain.target_closure() != TargetClosure::Column {
+    } else if scenario.options.chain.target_resistance() != TargetResistanceModel::Column {
         warn_of_cone(scenario, layers, depth, warnings);
     } else if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction
         && scenario.options.chain.border_shear() > 0.0
     {
         warnings.push(format!(
-            "the depth rests on the target closure (constraint factor and border shear C = {}): `chain.border_shear = 0.0` \
+            "the depth depends on the target resistance model (constraint factor and border shear C = {}): `chain.border_shear = 0.0` \
              gives the other end of the range",
             significant(scenario.options.chain.border_shear(), 4)
         ));
@@ -200,29 +200,29 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
     }
 }
 
-/// Plastic strain at which a strength is judged: reached early in any impact that yields.
+/// Plastic strain at which a strength is evaluated: reached early in any impact that yields.
 const STRENGTH_STRAIN: f64 = 0.1;
 /// Factor on either side of the threshold of penetration within which the cones are at their weakest.
 const THRESHOLD_EDGE: f64 = 1.4;
-/// Part of the compliance of the cone that may lie behind a plate's back face.
+/// Part of the compliance of the cone that may lie behind a plate's rear face.
 const COMPLIANCE_BEHIND: f64 = 0.25;
 
-/// A cone knows nothing of a crater that is deep against its mouth, nor of a back face that comes near.
+/// A cone models neither a crater that is deep against its mouth nor a near rear face.
 fn warn_of_cone(scenario: &Scenario, layers: &[Plate], depth: f64, warnings: &mut Vec<String>) {
     let Some(struck) = layers.first().map(|plate| &plate.material) else {
         return;
     };
-    let closure = scenario.options.chain.target_closure();
+    let resistance = scenario.options.chain.target_resistance();
     let rod = &scenario.projectile;
     let radius = 0.5 * rod.diameter;
-    if closure == TargetClosure::Diverging && depth > radius {
+    if resistance == TargetResistanceModel::Diverging && depth > radius {
         warnings.push(format!(
             "the depth is more than a radius of the projectile: the crater floor has left the mouth of the cone, which resists more \
-             and more; compare with `chain.target_closure` = \"{}\"",
-            TargetClosure::DivergingPenetrable.name()
+             and more; compare with `chain.target_resistance` = \"{}\"",
+            TargetResistanceModel::DivergingPenetrable.name()
         ));
     }
-    if closure == TargetClosure::DivergingPenetrable
+    if resistance == TargetResistanceModel::DivergingPenetrable
         && let (Some(resistance), Some(strength)) = (
             cavity_expansion_pressure(struck),
             rod.material.flow_stress(STRENGTH_STRAIN),
@@ -245,7 +245,7 @@ fn warn_of_cone(scenario: &Scenario, layers: &[Plate], depth: f64, warnings: &mu
         && apex > COMPLIANCE_BEHIND * (apex + thickness - depth)
     {
         warnings.push(
-            "the back face is near: a cone does not bulge, bend or plug, and keeps its length as the crater deepens".to_owned(),
+            "the rear face is near: a cone does not bulge, bend or plug, and keeps its length as the crater deepens".to_owned(),
         );
     }
 }
@@ -257,7 +257,7 @@ fn warn_of_erosion(
     warnings: &mut Vec<String>,
 ) {
     let (projectile, target) = result.numerics().eroded_elements;
-    let by_strain = scenario.options.chain.erosion_closure() == ErosionClosure::Strain;
+    let by_strain = scenario.options.chain.erosion_criterion() == ErosionCriterion::Strain;
     if projectile + target > 0 && by_strain {
         warnings.push(format!(
             "{projectile} of {} projectile elements and {target} target elements eroded at strain {}, a numerical limit: \

@@ -1,4 +1,4 @@
-//! What both geometries check, and what a run of either reaches.
+//! Audits and limits that both geometries have in common.
 
 use super::grid::{Grid, Law, View};
 use crate::{
@@ -9,7 +9,7 @@ use crate::{
     },
 };
 
-/// Part of the impact speed below which a projectile counts as stopped.
+/// Part of the impact velocity below which a projectile counts as stopped.
 pub(super) const REST_FRACTION: f64 = 0.01;
 /// Part of the first time step below which cells are crushed to nothing: a strain of about 4.6.
 const COLLAPSED_STEP: f64 = 1e-2;

@@ -12,11 +12,11 @@ pub use planar::StateEquation;
 
 use crate::{
     Error, Refusal, Scenario,
-    guard::{Guard, NoseKind, Range, fixed_rear_face_warning},
     options::{ChainOptions, ErosionStrain},
     outcome::RunResult,
     regime::{ProjectileRegime, Regime},
-    solver::{Control, Model},
+    solver::{Control, CostClass, Model},
+    validity::{NoseKind, Range, ValidityDomain, fixed_rear_face_warning},
 };
 
 /// One-dimensional finite differences, as a rod or as a planar impact.
@@ -32,9 +32,9 @@ impl Model for Fdm {
         "1-D finite differences: a rod on a column of target, or a planar impact with shocks and spall"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 noses: &[NoseKind::Flat],
                 notes: &[
                     "normal impact of a flat-ended projectile",
@@ -46,9 +46,13 @@ impl Model for Fdm {
                     "geometry `planar`: the plateau of the interface stress is its mean over the second half of the time in which a \
                      wave crosses the thinner body; the peak force leaves out the first half",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
+    }
+
+    fn cost(&self) -> CostClass {
+        CostClass::Seconds
     }
 
     fn has_fields(&self) -> bool {
@@ -75,7 +79,7 @@ impl Model for Fdm {
         match scenario.options.fdm.geometry {
             Geometry::Rod => {
                 let mut result = rod::RodRun::new(scenario)?.run(control)?;
-                result.warnings.extend(Range::COLUMN.finding(scenario));
+                result.warnings.extend(Range::COLUMN.diagnostic(scenario));
                 result.warnings.extend(fixed_rear_face_warning(scenario));
                 Ok(result)
             }

@@ -1,4 +1,4 @@
-//! What a material reached beyond what its record was made for.
+//! Warnings of states beyond the range of a material record.
 
 use super::grid::View;
 use crate::{

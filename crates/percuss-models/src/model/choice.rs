@@ -1,6 +1,6 @@
 //! Default model of a run: the chain where it applies, otherwise the model that a comparison recommends.
 
-use super::{Control, Model, applicability_in, model, quick, recommend, run_in};
+use super::{Control, Model, applicability_in, fast_models, model, recommend, run_in};
 use crate::{Error, Scenario, outcome::RunResult, regime::Regime};
 
 /// Name of the model of a run that names none.
@@ -57,7 +57,7 @@ pub fn choose(name: Option<&str>, scenario: &Scenario) -> Result<ChosenModel, Er
 /// the first quick one that gives a result.
 ///
 /// # Errors
-/// [`Error::NoModelApplies`] with the reason of every quick model.
+/// [`Error::NoModelApplies`] with the reason of every fast model.
 pub fn default_model(scenario: &Scenario) -> Result<ChosenModel, Error> {
     let chain = model(DEFAULT_MODEL)?;
     let regime = Regime::of(scenario);
@@ -67,7 +67,7 @@ pub fn default_model(scenario: &Scenario) -> Result<ChosenModel, Error> {
             note: None,
         });
     };
-    let models = quick();
+    let models = fast_models();
     let results: Vec<Result<(), String>> = models
         .iter()
         .map(|model| gives_result(*model, scenario, &regime))
@@ -123,7 +123,7 @@ fn gives_result(
     regime: &Regime,
 ) -> Result<(), String> {
     applicability_in(model, scenario, regime).map_err(|refusal| refusal.to_string())?;
-    if model.guard().sees_back_face || scenario.target_thickness().is_none() {
+    if model.validity().sees_back_face || scenario.target_thickness().is_none() {
         return Ok(());
     }
     match run_in(model, scenario, regime, &mut Control::default()) {
@@ -145,12 +145,12 @@ mod tests {
     use super::*;
     use crate::{
         case,
-        compare::{Watch, compare},
+        compare::{Observer, compare},
     };
 
     fn scenario(projectile: &str, target: &str) -> Scenario {
         let text = format!(
-            "projectile = {{ material = '4340', length = '40 mm', diameter = '8 mm', velocity = '400 m/s'{projectile} }}\n\
+            "projectile = {{ material = '4340', length = '40 mm', diameter = '8 mm', impact_velocity = '400 m/s'{projectile} }}\n\
              target = {{ {target} }}"
         );
         case::load_str("case", &text).unwrap_or_else(|error| panic!("{error}"))
@@ -184,10 +184,10 @@ mod tests {
             let case = scenario(projectile, target);
             let chosen = default_model(&case).unwrap_or_else(|error| panic!("{target}: {error}"));
             let compared = compare(
-                &quick(),
+                &fast_models(),
                 &case,
                 &[case.impact_velocity],
-                &mut Watch::default(),
+                &mut Observer::default(),
             );
             let compared = compared.unwrap();
             let results = compared.results.iter().find(|result| result.is_result());
@@ -210,7 +210,7 @@ mod tests {
         let Error::NoModelApplies { reasons } = &error else {
             panic!("{error}");
         };
-        assert_eq!(reasons.len(), quick().len());
+        assert_eq!(reasons.len(), fast_models().len());
         assert!(
             error.to_string().contains("chain: it takes flat noses"),
             "{error}"

@@ -1,4 +1,4 @@
-//! Which of the models that gave a result to rely on.
+//! Recommended result among the models that gave one.
 
 use serde::Serialize;
 
@@ -11,11 +11,11 @@ use crate::{
 /// What to rely on at a speed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Recommendation {
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
     /// The models that are the first choice for this kind of case and gave a result; may be empty.
     pub models: Vec<Choice>,
-    /// What to know of the choice, if there is something.
+    /// Remarks on the choice, if there is something.
     pub note: Option<String>,
 }
 
@@ -31,7 +31,7 @@ pub struct Choice {
 impl Choice {
     /// The choice of a model for a case of a regime, if it is a first choice there.
     pub fn of(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> Option<Self> {
-        let mut choices = model.guard().first_choice.iter();
+        let mut choices = model.validity().first_choice.iter();
         let fitting = choices.find(|choice| choice.fits(scenario, regime))?;
         Some(Self {
             model: model.name(),
@@ -98,17 +98,17 @@ pub fn recommend(
         (false, None) => own.given,
         (false, Some((kind, choices))) => {
             notes.push(format!(
-                "the projectile may be {} as well, for which {} is the first choice: compare both",
-                kind.in_words(),
+                "the projectile may also be {}, for which {} is the first choice: compare both",
+                kind.describe(),
                 names(&choices)
             ));
             own.given
         }
         (true, Some((kind, choices))) => {
             notes.push(format!(
-                "no first choice for {} projectiles gives a result here; the projectile may be {} as well",
-                regime.projectile.in_words(),
-                kind.in_words()
+                "no first choice for {} projectiles gives a result here; the projectile may also be {}",
+                regime.projectile.describe(),
+                kind.describe()
             ));
             choices
         }

@@ -7,7 +7,7 @@ Examples
 --------
 >>> import percuss
 >>> case = percuss.Case(
-...     projectile={"material": "copper", "length": "12.74 mm", "diameter": "4.8 mm", "velocity": "230 m/s"},
+...     projectile={"material": "copper", "length": "12.74 mm", "diameter": "4.8 mm", "impact_velocity": "230 m/s"},
 ...     target={"material": "aluminium-2024-t351", "thickness": "25 mm"},
 ... )
 >>> result = percuss.run(case)

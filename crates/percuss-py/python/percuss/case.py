@@ -35,7 +35,7 @@ class Case:
     --------
     >>> import percuss
     >>> case = percuss.Case(
-    ...     projectile={"material": "copper", "length": "12.74 mm", "diameter": 4.8e-3, "velocity": 230.0},
+    ...     projectile={"material": "copper", "length": "12.74 mm", "diameter": 4.8e-3, "impact_velocity": 230.0},
     ...     target={"material": "aluminium-2024-t351", "thickness": 0.025},
     ... )
     >>> case.impact_velocity_m_s
@@ -80,7 +80,7 @@ class Case:
 
         Examples
         --------
-        >>> faster = percuss.load("cases/paper-table1/scenario.toml").replace({"projectile.velocity": "400 m/s"})
+        >>> faster = percuss.load("cases/paper-table1/scenario.toml").replace({"projectile.impact_velocity": "400 m/s"})
         >>> faster.impact_velocity_m_s
         400.0
         """

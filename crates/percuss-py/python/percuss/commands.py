@@ -173,7 +173,7 @@ def limit(
     model : str or sequence of str, optional
         Models to search with; all except those that may take minutes when not given.
     shots : path, optional
-        CSV file of tests with the columns ``velocity_m_s`` and ``perforated``.
+        CSV file of tests with the columns ``impact_velocity_m_s`` and ``perforated``.
     span : float or str, optional
         Largest span of the velocities that V50 is the mean of [m/s].
     out : path, optional

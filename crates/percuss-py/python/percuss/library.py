@@ -47,7 +47,7 @@ class Model(Record):
     ----------
     name, summary : str
         Name and description.
-    guard : Record
+    validity : Record
         Range of validity: ``projectile``, ``targets``, ``noses``, ``projectile_materials``, ``target_materials``, ``ranges``, ``notes``.
     options : list of str
         Keys of its table in a case.
@@ -57,15 +57,15 @@ class Model(Record):
 
     name: str
     summary: str
-    guard: Record
+    validity: Record
     options: list[str]
     page: str
 
     def _shown(self) -> list[tuple[str, str]]:
-        guard = self._data["guard"]
+        validity = self._data["validity"]
         names = ["projectile", "targets", "noses", "projectile_materials", "target_materials", "predicts"]
-        rows = [(name.replace("_", " "), ", ".join(guard[name]).replace("_", " ")) for name in names]
-        rows += [("note", note) for note in guard["notes"]]
+        rows = [(name.replace("_", " "), ", ".join(validity[name]).replace("_", " ")) for name in names]
+        rows += [("note", note) for note in validity["notes"]]
         return [*super()._shown(), *rows, ("options", ", ".join(self.options))]
 
 
@@ -142,7 +142,7 @@ def model(name: str) -> Model:
 
     Examples
     --------
-    >>> percuss.model("taylor").guard.predicts
+    >>> percuss.model("taylor").validity.predicts
     ['projectile_final_length_mm']
     """
     return Model(answer("models", name))

@@ -147,7 +147,7 @@ def v50(limits: Limits, ax: Axes | None) -> Axes:
     if limits.v50 is None or limits.shots is None:
         raise ValueError("no test results were given: `shots` names a file of them")
     ax = new_axes(ax)
-    speeds = [shot.velocity_m_s for shot in limits.shots]
+    speeds = [shot.impact_velocity_m_s for shot in limits.shots]
     margin = 0.15 * (max(speeds) - min(speeds))
     at = numpy.linspace(min(speeds) - margin, max(speeds) + margin, 200)
     for estimate in limits.v50.estimates:
@@ -159,7 +159,7 @@ def v50(limits: Limits, ax: Axes | None) -> Axes:
         if estimate.low_m_s is not None and estimate.high_m_s is not None:
             ax.hlines(0.5, estimate.low_m_s, estimate.high_m_s, color=line.get_color(), alpha=0.4, linewidth=5)
     for perforated, colour, words in ((True, "C3", "complete penetration"), (False, "C2", "partial penetration")):
-        chosen = [shot.velocity_m_s for shot in limits.shots if shot.perforated is perforated]
+        chosen = [shot.impact_velocity_m_s for shot in limits.shots if shot.perforated is perforated]
         ax.plot(chosen, [float(perforated)] * len(chosen), "o", color=colour, mfc="none", label=words)
     level = f"{100 * limits.v50.confidence:g} %"
     ax.set(xlabel="Impact velocity (m/s)", ylabel="Probability of perforation", title=f"V50 of {len(speeds)} tests, {level} intervals")
@@ -180,8 +180,8 @@ def convergence(study: Convergence, quantity: str | None, ax: Axes | None) -> Ax
     elements = [mesh.projectile_elements + mesh.target_elements for mesh in study.meshes]
     name = chosen.name.replace("_", " ")
     ax.plot(elements, chosen.values, marker="o", label=name)
-    if "richardson" in chosen.verdict:
-        ax.axhline(chosen.verdict.richardson, color="0.5", linestyle="--", label="Richardson extrapolation")
+    if "richardson" in chosen.status:
+        ax.axhline(chosen.status.richardson, color="0.5", linestyle="--", label="Richardson extrapolation")
     ax.set_xscale("log")
     ax.set_xticks(elements, [str(count) for count in elements])
     ax.set_xticks([], minor=True)

@@ -82,7 +82,7 @@ class RunResult(ResultValues, Result):
         rows = [[name, value] for name, value in self._shown()]
         if self.expected_error is not None:
             error = self.expected_error
-            ends = f"10th-90th percentile {100 * error.low:+.0f} % to {100 * error.high:+.0f} %, from {error.shots} similar benchmark cases"
+            ends = f"10th-90th percentile {100 * error.low:+.0f} % to {100 * error.high:+.0f} %, from {error.cases} similar benchmark cases"
             rows.append(["estimated model error of the depth", f"median {100 * error.median:+.0f} %, {ends}"])
         rows += [["warning", warning] for warning in self.warnings]
         return table_html(["", ""], rows, f"{self.case}, model {self.model}")
@@ -158,7 +158,7 @@ class Limits(Result):
         V50 of test results, when a file was given: ``estimates``, one entry per ``method`` with ``v50_m_s`` and the ends of
         its interval, ``low_m_s`` and ``high_m_s`` [m/s].
     shots : list of Record or None
-        These tests: ``velocity_m_s`` [m/s] and ``perforated``.
+        These tests: ``impact_velocity_m_s`` [m/s] and ``perforated``.
     """
 
     case: str
@@ -198,7 +198,7 @@ class Limits(Result):
         if self.v50 is not None:
             names = ["method", "v50_m_s", "low_m_s", "high_m_s", "standard_deviation_m_s", "reason"]
             rows = [[shown(estimate[name]).replace("_", " ") for name in names] for estimate in self.v50.estimates]
-            caption = f"V50 of {self.v50.shots} tests, {self.v50.perforated} complete penetrations"
+            caption = f"V50 of {self.v50.tests} tests, {self.v50.perforated} complete penetrations"
             text += table_html(names, rows, caption)
         return text
 
@@ -211,7 +211,7 @@ class Convergence(Result):
     meshes : list of Record
         ``projectile_elements``, ``target_elements`` and ``steps``, from coarse to fine.
     quantities : list of Record
-        ``name``, ``unit``, ``values`` on every mesh and the ``verdict`` of the finest three.
+        ``name``, ``unit``, ``values`` on every mesh and the ``status`` of the finest three.
     """
 
     meshes: list[Record]
@@ -232,8 +232,8 @@ class Convergence(Result):
         rows = self._rows()
         text = table_html(list(rows[0]), [[shown(value) for value in row.values()] for row in rows])
         names = ["kind", "order", "richardson", "index"]
-        verdicts = [[q.name, *(shown(q.verdict._data.get(name)) for name in names)] for q in self.quantities]
-        return text + table_html(["quantity", "verdict", "order", "extrapolated", "grid-convergence index"], verdicts)
+        statuses = [[q.name, *(shown(q.status._data.get(name)) for name in names)] for q in self.quantities]
+        return text + table_html(["quantity", "status", "order", "extrapolated", "grid-convergence index"], statuses)
 
 
 class Validation(Result):
@@ -243,7 +243,7 @@ class Validation(Result):
     ----------
     data, models : list of str
         Sources of the tests, and the models.
-    shots : int
+    tests : int
         Number of tests.
     statistics, coverage, predictions : list of Record
         Errors by group, number of tests per model, and every prediction with its measured value.
@@ -252,7 +252,7 @@ class Validation(Result):
     percuss_version: str
     data: list[str]
     models: list[str]
-    shots: int
+    tests: int
     statistics: list[Record]
     coverage: list[Record]
     predictions: list[Record]
@@ -272,4 +272,4 @@ class Validation(Result):
             if group.grouping == "all"
         ]
         head = ["model", "kind", "tests", *(f"{error.replace('_', ' ')} [%]" for error in errors)]
-        return table_html(head, rows, f"{self.shots} tests: {', '.join(self.data)}")
+        return table_html(head, rows, f"{self.tests} tests: {', '.join(self.data)}")

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 class Sample(_Columns):
     """One row per run, or per state of the posterior. Columns are read-only views of the memory of the result.
 
-    ``sample["projectile.velocity_m_s"]`` gives a column by its name; :meth:`names` lists all. Missing values
+    ``sample["projectile.impact_velocity_m_s"]`` gives a column by its name; :meth:`names` lists all. Missing values
     are NaN.
 
     Attributes

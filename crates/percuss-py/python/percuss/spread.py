@@ -26,7 +26,7 @@ class Uncertainty(Result):
     ----------
     case, model : str
         Names of the case and the model.
-    samples, shots : int
+    samples, runs : int
         Number of samples, and number of all runs.
     inputs : list of Record
         Uncertain parameters: ``key``, ``unit``, ``distribution``, and the percentiles 5, 50 and 95 as ``low``, ``median`` and ``high``.
@@ -35,7 +35,7 @@ class Uncertainty(Result):
     nominal : Record
         Run with every parameter at its median: ``outcome``, ``expected_error``, ``warnings``.
     failures : Record
-        Number of runs without a result (``shots``), which are left out, and the first few ``reasons``.
+        Number of ``runs`` without a result, which are left out, and the first few ``reasons``.
     perforation : Record or None
         ``probability`` of perforation with ``low`` and ``high``, the ends of its 95 % interval.
     quantities : list of Record
@@ -43,7 +43,7 @@ class Uncertainty(Result):
     no_indices : str or None
         Reason of missing Sobol' indices.
     bands : list of Record
-        The same statistics at each requested impact velocity ``velocity_m_s`` [m/s].
+        The same statistics at each requested impact velocity ``impact_velocity_m_s`` [m/s].
     warnings : list of str
         Warnings.
     """
@@ -53,7 +53,7 @@ class Uncertainty(Result):
     model: str
     samples: int
     seed: int
-    shots: int
+    runs: int
     inputs: list[Record]
     correlated: bool
     nominal: Record

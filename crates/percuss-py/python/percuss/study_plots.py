@@ -33,8 +33,8 @@ def short(key: str) -> str:
 
     Examples
     --------
-    >>> short("materials.rod.strength.power_law.coefficient"), short("projectile.velocity")
-    ('materials.rod … coefficient', 'projectile.velocity')
+    >>> short("materials.rod.strength.power_law.coefficient"), short("projectile.impact_velocity")
+    ('materials.rod … coefficient', 'projectile.impact_velocity')
     """
     parts = key.split(".")
     return key if len(parts) < 4 else f"{parts[0]}.{parts[1]} … {parts[-1]}"
@@ -102,7 +102,7 @@ def indices(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
 def bands(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
     name = found.quantity(quantity).quantity
     words = label(name)
-    at = [(band.velocity_m_s, q.statistics) for band in found.bands for q in band.quantities if q.quantity == name]
+    at = [(band.impact_velocity_m_s, q.statistics) for band in found.bands for q in band.quantities if q.quantity == name]
     given = [(speed, statistics) for speed, statistics in at if statistics is not None]
     if not given:
         raise ValueError("the study has no bands: give it a `velocity`")
@@ -118,7 +118,7 @@ def bands(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
 
 
 def perforation(found: Uncertainty, ax: Axes | None) -> Axes:
-    decided = [(band.velocity_m_s, band.perforation) for band in found.bands if band.perforation is not None]
+    decided = [(band.impact_velocity_m_s, band.perforation) for band in found.bands if band.perforation is not None]
     if not decided:
         raise ValueError("the study has no probabilities versus velocity: give it a `velocity`")
     ax = new_axes(ax)

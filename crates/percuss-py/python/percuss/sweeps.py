@@ -140,7 +140,7 @@ def sweep(
     ...         "base": percuss.load("cases/paper-table1/scenario.toml"),
     ...         "model": "chain",
     ...         "design": "grid",
-    ...         "parameter": [{"key": "projectile.velocity", "values": ["200 m/s", "230 m/s"]}],
+    ...         "parameter": [{"key": "projectile.impact_velocity", "values": ["200 m/s", "230 m/s"]}],
     ...     },
     ...     tempfile.mkdtemp(),
     ... )

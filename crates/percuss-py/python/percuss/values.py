@@ -17,8 +17,8 @@ class ResultValues:
     model: str
     scheme: str
     model_choice: str | None
-    target_closure: str | None
-    target_closure_choice: str | None
+    target_resistance: str | None
+    target_resistance_choice: str | None
     outcome: str
     criterion: str | None
     termination: str | None

@@ -78,7 +78,7 @@ fn prediction_columns() -> Vec<Column<Prediction>> {
             if p.held_out { "hold-out" } else { "training" }.to_owned()
         }),
         Column::text("quantity", |p: &Prediction| {
-            p.quantity.in_words().to_owned()
+            p.quantity.describe().to_owned()
         }),
         Column::text("unit", |p: &Prediction| p.unit.to_owned()),
         Column::float("impact_velocity_m_s", |p: &Prediction| {

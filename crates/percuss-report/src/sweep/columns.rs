@@ -1,9 +1,9 @@
 //! Columns of a sweep: inputs, outcome, scalar results, warnings and errors.
 
 use percuss::{
-    model_error::Expectation,
+    model_error::ModelErrorEstimate,
     summary::{ResultRecord, Role, result_numbers},
-    sweep::{Row, Sweep},
+    sweep::{Sweep, SweepRow},
 };
 use serde::Serialize;
 
@@ -13,12 +13,12 @@ use crate::column::Column;
 const BEFORE_RANGES: &str = "ballistic_limit_m_s";
 
 /// The columns of a sweep's rows. A number that a shot does not have is null, a text empty.
-pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
-    let mut columns = vec![Column::integer("shot", |row: &Row| row.index as i64)];
+pub(super) fn columns(sweep: &Sweep) -> Vec<Column<SweepRow>> {
+    let mut columns = vec![Column::integer("shot", |row: &SweepRow| row.index as i64)];
     for (i, axis) in sweep.axes.iter().enumerate() {
         columns.push(match axis.words() {
-            None => Column::float(axis.column(), move |row: &Row| row.inputs[i]),
-            Some(words) => Column::text(axis.column(), move |row: &Row| {
+            None => Column::float(axis.column(), move |row: &SweepRow| row.inputs[i]),
+            Some(words) => Column::text(axis.column(), move |row: &SweepRow| {
                 words[row.inputs[i] as usize].clone()
             }),
         });
@@ -26,7 +26,11 @@ pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
     columns.push(text("outcome", |r| word(&r.outcome), "failed"));
     columns.push(text("termination", |r| word(&r.termination), ""));
     columns.push(text("scheme", |r| r.scheme.to_owned(), ""));
-    columns.push(text("target_closure", |r| word(&r.target_closure), ""));
+    columns.push(text(
+        "target_resistance",
+        |r| word(&r.target_resistance),
+        "",
+    ));
     columns.push(text(
         "criterion",
         |r| r.criterion.clone().unwrap_or_default(),
@@ -49,7 +53,7 @@ pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
     columns.push(text("band_of", band, ""));
     columns.push(text("details", |r| json(&r.details), "[]"));
     columns.push(text("warnings", |r| r.warnings.join("\n"), ""));
-    columns.push(Column::text("error", |row: &Row| match &row.record {
+    columns.push(Column::text("error", |row: &SweepRow| match &row.record {
         Ok(record) => record.reason.clone().unwrap_or_default(),
         Err(reason) => reason.clone(),
     }));
@@ -57,8 +61,8 @@ pub(super) fn columns(sweep: &Sweep) -> Vec<Column<Row>> {
 }
 
 /// The ends of the range that a model gives, and the estimated error of the depth.
-fn ranges() -> [Column<Row>; 5] {
-    let error = |name, read: fn(&Expectation) -> f64| {
+fn ranges() -> [Column<SweepRow>; 5] {
+    let error = |name, read: fn(&ModelErrorEstimate) -> f64| {
         number(name, move |r| r.expected_error.as_ref().map(read))
     };
     [
@@ -71,8 +75,8 @@ fn ranges() -> [Column<Row>; 5] {
 }
 
 /// A number of the result, null where there is none.
-fn number(name: &str, read: impl Fn(&ResultRecord) -> Option<f64> + 'static) -> Column<Row> {
-    Column::optional(name, move |row: &Row| {
+fn number(name: &str, read: impl Fn(&ResultRecord) -> Option<f64> + 'static) -> Column<SweepRow> {
+    Column::optional(name, move |row: &SweepRow| {
         row.record.as_ref().ok().and_then(&read)
     })
 }
@@ -82,8 +86,8 @@ fn text(
     name: &str,
     read: impl Fn(&ResultRecord) -> String + 'static,
     without: &'static str,
-) -> Column<Row> {
-    Column::text(name, move |row: &Row| match &row.record {
+) -> Column<SweepRow> {
+    Column::text(name, move |row: &SweepRow| match &row.record {
         Ok(record) => read(record),
         Err(_) => without.to_owned(),
     })
@@ -111,7 +115,7 @@ mod tests {
 
     use super::columns;
 
-    const CASE: &str = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }\n\
+    const CASE: &str = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '230 m/s' }\n\
                         target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n";
 
     /// Results that are no number, and the columns that hold them.
@@ -121,8 +125,8 @@ mod tests {
         ("scheme", &["scheme"]),
         // A sweep names its model.
         ("model_choice", &[]),
-        ("target_closure", &["target_closure"]),
-        ("target_closure_choice", &[]),
+        ("target_resistance", &["target_resistance"]),
+        ("target_resistance_choice", &[]),
         ("outcome", &["outcome"]),
         ("criterion", &["criterion"]),
         ("termination", &["termination"]),
@@ -145,12 +149,12 @@ mod tests {
     #[test]
     fn columns_are_the_fields_of_a_result_and_nothing_else() {
         let file = "title = 'speeds'\nbase = 'case.toml'\nmodel = 'chain'\ndesign = 'grid'\n\
-                    [[parameter]]\nkey = 'projectile.velocity'\nvalues = ['200 m/s', '230 m/s']\n";
+                    [[parameter]]\nkey = 'projectile.impact_velocity'\nvalues = ['200 m/s', '230 m/s']\n";
         let (file, case) = (Document::new("sweep", file), Document::new("case", CASE));
         let sweep = Sweep::of(&file, &case).unwrap();
         let columns = columns(&sweep);
         let found: BTreeSet<&str> = columns.iter().map(|column| column.name()).collect();
-        let mut expected = BTreeSet::from(["shot", "projectile.velocity_m_s"]);
+        let mut expected = BTreeSet::from(["shot", "projectile.impact_velocity_m_s"]);
         for field in RESULT_FIELDS {
             let held = NO_NUMBERS.iter().find(|(name, _)| *name == field.name);
             match (&field.number, held) {

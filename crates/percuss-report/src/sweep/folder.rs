@@ -9,7 +9,7 @@ use std::{
 
 use bytes::Bytes;
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use percuss::sweep::{Kernel, Row, Sweep};
+use percuss::sweep::{Kernel, Sweep, SweepRow};
 use rayon::prelude::*;
 
 use super::{
@@ -133,7 +133,7 @@ impl SweepFolder {
         kernel: &dyn Kernel,
         blocks: &[u64],
         stop: &AtomicBool,
-        done: &(dyn Fn(&[Row]) + Sync),
+        done: &(dyn Fn(&[SweepRow]) + Sync),
     ) -> Result<bool, ReportError> {
         // One block at a time for each thread, in order, so that little is lost when the sweep is ended.
         let result = blocks
@@ -153,7 +153,7 @@ impl SweepFolder {
         kernel: &dyn Kernel,
         block: u64,
         stop: &AtomicBool,
-        done: &(dyn Fn(&[Row]) + Sync),
+        done: &(dyn Fn(&[SweepRow]) + Sync),
     ) -> Result<(), Option<ReportError>> {
         if stop.load(Ordering::Relaxed) {
             return Err(None);
@@ -197,7 +197,7 @@ pub struct Block {
     /// What its file holds: [`SweepFolder::put`] takes it.
     pub content: Vec<u8>,
     /// Its rows.
-    pub rows: Vec<Row>,
+    pub rows: Vec<SweepRow>,
 }
 
 impl Block {
@@ -211,7 +211,7 @@ impl Block {
         block: u64,
         stop: &AtomicBool,
     ) -> Result<Option<Self>, ReportError> {
-        let shots = sweep.block(block).map(|shot| sweep.shot(shot)).collect();
+        let shots = sweep.block(block).map(|shot| sweep.run(shot)).collect();
         let Ok(rows) = kernel.rows(shots, stop) else {
             return Ok(None);
         };

@@ -84,7 +84,7 @@ impl Manifest {
             model: sweep.model.name().to_owned(),
             design: sweep.design().name().to_owned(),
             seed: sweep.seed,
-            shots: sweep.shots(),
+            shots: sweep.runs(),
             block_size: sweep.block_size,
             sweep_hash: file,
             case_hash: case,

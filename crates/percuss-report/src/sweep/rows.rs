@@ -10,7 +10,7 @@ use parquet::{
 };
 use percuss::{
     outcome::Outcome,
-    sweep::{Row, Sweep},
+    sweep::{Sweep, SweepRow},
 };
 
 use super::{
@@ -60,11 +60,11 @@ impl Rows {
     }
 
     /// Takes rows that are in memory.
-    pub(super) fn of(sweep: &Sweep, rows: &[Row], quantity: &str) -> Self {
+    pub(super) fn of(sweep: &Sweep, rows: &[SweepRow], quantity: &str) -> Self {
         let columns = columns(sweep);
         let column = columns.iter().find(|column| column.name() == quantity);
-        let value = |row: &Row| column.and_then(|column| column.number(row));
-        let failed = |row: &Row| match &row.record {
+        let value = |row: &SweepRow| column.and_then(|column| column.number(row));
+        let failed = |row: &SweepRow| match &row.record {
             Ok(record) => record.outcome == Outcome::Failed,
             Err(_) => true,
         };

@@ -1,6 +1,6 @@
 //! Rows of a sweep as one table.
 
-use percuss::sweep::{Row, Sweep};
+use percuss::sweep::{Sweep, SweepRow};
 
 use super::columns::columns;
 use crate::{ReportError, column};
@@ -9,6 +9,6 @@ use crate::{ReportError, column};
 ///
 /// # Errors
 /// [`ReportError::Table`].
-pub fn rows_csv(sweep: &Sweep, rows: &[Row]) -> Result<Vec<u8>, ReportError> {
+pub fn rows_csv(sweep: &Sweep, rows: &[SweepRow]) -> Result<Vec<u8>, ReportError> {
     column::csv("rows.csv", &columns(sweep), rows)
 }

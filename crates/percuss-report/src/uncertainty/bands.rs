@@ -28,7 +28,7 @@ pub(super) fn bands(
     let points: Vec<(f64, Option<Statistics>)> = found
         .bands
         .iter()
-        .map(|band| (band.velocity_m_s, at(band)))
+        .map(|band| (band.impact_velocity_m_s, at(band)))
         .collect();
     points.iter().find(|(_, statistics)| statistics.is_some())?;
     let percentile = |percent: f64| {
@@ -117,7 +117,7 @@ pub(super) fn perforation(scenario: &Scenario, found: &Uncertainty) -> Option<Li
     let decided: Vec<_> = found
         .bands
         .iter()
-        .filter_map(|band| Some((band.velocity_m_s, band.perforation?)))
+        .filter_map(|band| Some((band.impact_velocity_m_s, band.perforation?)))
         .collect();
     decided.iter().find(|(_, p)| p.perforated > 0)?;
     let curve = decided

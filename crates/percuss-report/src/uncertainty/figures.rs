@@ -52,7 +52,7 @@ pub(super) fn histogram(
     .caption(format!(
         "{}; {} runs, model {}, standard deviation {}",
         caption(scenario, None),
-        statistics.shots,
+        statistics.runs,
         found.model,
         with_unit(statistics.standard_deviation, what.unit.symbol)
     ))

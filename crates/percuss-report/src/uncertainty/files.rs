@@ -62,7 +62,7 @@ pub fn uncertainty_files(found: &Uncertainty) -> Result<Vec<(&'static str, Vec<u
     if !found.bands.is_empty() {
         let of_band = found.bands.iter().flat_map(|band| {
             band.quantities.iter().map(|q| Spread {
-                speed: Some(band.velocity_m_s),
+                speed: Some(band.impact_velocity_m_s),
                 quantity: q.quantity,
                 statistics: q.statistics.clone(),
             })
@@ -94,7 +94,7 @@ fn sample_columns(found: &Uncertainty) -> Vec<Column<Draw>> {
         }));
     }
     columns.push(Column::text("outcome", |draw: &Draw| {
-        draw.outcome.in_words().to_owned()
+        draw.outcome.describe().to_owned()
     }));
     for (i, quantity) in quantities().enumerate() {
         if found.draws.iter().any(|draw| draw.values[i].is_some()) {
@@ -113,7 +113,7 @@ fn spread_columns() -> Vec<Column<Spread>> {
     };
     let mut columns = vec![
         Column::text("quantity", |s: &Spread| s.quantity.to_owned()),
-        number("shots", |s| s.shots as f64),
+        number("shots", |s| s.runs as f64),
         number("mean", |s| s.mean),
         number("standard_error", |s| s.standard_error),
         number("standard_deviation", |s| s.standard_deviation),

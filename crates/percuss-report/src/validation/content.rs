@@ -1,8 +1,8 @@
 //! Content of the validation report.
 
 use percuss::{
-    shots::{Kind, Shot, Split},
-    validate::{Grouping, Standing, Validation, statistics, without_shots},
+    experiments::{Experiment, Kind, Split},
+    validate::{Grouping, Standing, Validation, statistics, without_tests},
 };
 
 use super::{Origin, figures::ModelFigure, tables};
@@ -37,7 +37,7 @@ pub(super) fn page<'a>(
         ),
     ];
     for kind in Kind::ALL {
-        if validation.shots.iter().any(|shot| shot.kind == kind) {
+        if validation.tests.iter().any(|shot| shot.kind == kind) {
             page.extend(section(validation, kind, figures));
         }
     }
@@ -60,13 +60,13 @@ pub(super) fn page<'a>(
 }
 
 fn counts(validation: &Validation) -> Vec<String> {
-    let shots = &validation.shots;
-    let count = |of: &dyn Fn(&Shot) -> bool| shots.iter().filter(|&shot| of(shot)).count();
+    let shots = &validation.tests;
+    let count = |of: &dyn Fn(&Experiment) -> bool| shots.iter().filter(|&shot| of(shot)).count();
     let kinds: Vec<String> = Kind::ALL
         .into_iter()
         .map(|kind| (kind, count(&|shot| shot.kind == kind)))
         .filter(|(_, count)| *count > 0)
-        .map(|(kind, count)| format!("{count} {}", kind.in_words()))
+        .map(|(kind, count)| format!("{count} {}", kind.describe()))
         .collect();
     vec![
         format!("{} tests: {}", shots.len(), kinds.join(", ")),
@@ -78,7 +78,7 @@ fn counts(validation: &Validation) -> Vec<String> {
             count(&|shot| shot.unusable.is_none() && shot.obliquity_deg != 0.0)
         ),
         format!("models: {}", validation.models.join(", ")),
-        match without_shots(validation).as_slice() {
+        match without_tests(validation).as_slice() {
             [] => "every model has a counted test".to_owned(),
             models => format!(
                 "{} of {} models have no counted test yet: {}",
@@ -91,7 +91,7 @@ fn counts(validation: &Validation) -> Vec<String> {
 }
 
 fn heading(kind: Kind) -> String {
-    let words = kind.in_words();
+    let words = kind.describe();
     let first = words.chars().take(1).flat_map(char::to_uppercase);
     first.chain(words.chars().skip(1)).collect()
 }
@@ -138,7 +138,7 @@ fn breakdown<'a>(validation: &Validation, kind: Kind) -> Vec<Block<'a>> {
     };
     let mut blocks = Vec::new();
     for (i, &grouping) in groupings.iter().enumerate() {
-        let title = format!("By {}", grouping.in_words());
+        let title = format!("By {}", grouping.describe());
         let table = Block::Table(tables::groups(validation, kind, grouping));
         if i == 0 || grouping == Grouping::RecordAndSource {
             blocks.extend([Block::Subheading(title), table]);
@@ -152,7 +152,7 @@ fn breakdown<'a>(validation: &Validation, kind: Kind) -> Vec<Block<'a>> {
 /// Predictions that are not blind: one line for the data, and one per model and reason.
 fn not_blind(validation: &Validation) -> Vec<String> {
     let fitted = validation
-        .shots
+        .tests
         .iter()
         .filter(|shot| shot.split == Split::Calibration);
     let mut sources: Vec<&str> = fitted.map(|shot| shot.source.as_str()).collect();

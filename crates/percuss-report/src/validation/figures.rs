@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use percuss::{
-    shots::Kind,
+    experiments::Kind,
     validate::{Prediction, Standing, Validation},
 };
 
@@ -61,7 +61,7 @@ type Symbols = BTreeSet<String>;
 
 /// Group of a prediction: the material record of a Taylor rod, otherwise the projectile.
 fn group(validation: &Validation, prediction: &Prediction) -> Option<String> {
-    let shot = validation.shot(prediction);
+    let shot = validation.test(prediction);
     match prediction.standing {
         Standing::Flagged => Some(FLAGGED.to_owned()),
         Standing::Counted if shot.kind == Kind::Taylor => Some(prediction.record.clone()),
@@ -73,7 +73,7 @@ fn group(validation: &Validation, prediction: &Prediction) -> Option<String> {
 fn of_kind(validation: &Validation, kind: Kind) -> impl Iterator<Item = (String, &Prediction)> {
     let predictions = validation.predictions.iter();
     predictions
-        .filter(move |prediction| validation.shot(prediction).kind == kind)
+        .filter(move |prediction| validation.test(prediction).kind == kind)
         .filter_map(|prediction| Some((group(validation, prediction)?, prediction)))
 }
 
@@ -124,7 +124,7 @@ fn what(kind: Kind) -> (&'static str, &'static str) {
 
 /// Scale of a prediction: the initial length of a Taylor rod, otherwise 1.
 fn scale(validation: &Validation, prediction: &Prediction) -> f64 {
-    let shot = validation.shot(prediction);
+    let shot = validation.test(prediction);
     match (shot.kind, shot.length) {
         (Kind::Taylor, Some(length)) => shot.kind.shown(length),
         _ => 1.0,
@@ -205,7 +205,7 @@ fn residuals(
     .mark(Mark::horizontal("", -100.0 * BAND));
     let point = |p: &Prediction| {
         let error = p.relative_error.unwrap_or(f64::NAN);
-        (validation.shot(p).impact_velocity, 100.0 * error)
+        (validation.test(p).impact_velocity, 100.0 * error)
     };
     let chart = series(groups, symbols, point)
         .into_iter()

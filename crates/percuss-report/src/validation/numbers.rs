@@ -21,7 +21,7 @@ fn prediction_columns() -> Vec<Column<PredictionRecord>> {
     type Row = PredictionRecord;
     let or_empty = |text: &Option<String>| text.clone().unwrap_or_default();
     vec![
-        Column::text("shot", |p: &Row| p.shot.clone()),
+        Column::text("shot", |p: &Row| p.test.clone()),
         Column::text("source", |p: &Row| p.source.clone()),
         Column::text("citation", |p: &Row| p.citation.clone()),
         Column::text("read_at", |p: &Row| p.read_at.clone()),
@@ -48,7 +48,7 @@ fn prediction_columns() -> Vec<Column<PredictionRecord>> {
         Column::text("flag", move |p: &Row| or_empty(&p.flag)),
         Column::text("duplicate_of", move |p: &Row| or_empty(&p.duplicate_of)),
         Column::text("regime", |p: &Row| p.regime.clone()),
-        Column::text("outcome", |p: &Row| p.outcome.in_words().to_owned()),
+        Column::text("outcome", |p: &Row| p.outcome.describe().to_owned()),
         Column::integer("warnings", |p: &Row| p.warnings as i64),
     ]
 }

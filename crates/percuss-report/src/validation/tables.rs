@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use percuss::{
+    experiments::{Experiment, Kind},
     material::references,
-    shots::{Kind, Shot},
     units::significant,
     validate::{self, Errors, Group, Grouping, Prediction, SEPARATOR, Standing, Validation},
 };
@@ -48,7 +48,7 @@ pub fn models(validation: &Validation, kind: Kind) -> Table {
 /// Errors on tests of a kind by a property of the tests, one row per model and value of the property.
 pub fn by_property(validation: &Validation, kind: Kind, grouping: Grouping) -> Table {
     let groups = of_kind(validation, kind, grouping);
-    let heading = format!("by {}", grouping.in_words());
+    let heading = format!("by {}", grouping.describe());
     let rows = Table::of(&groups).words(heading, |group| group.value.clone());
     errors(rows, |group| &group.errors).table()
 }
@@ -109,8 +109,9 @@ pub(super) fn coverage(validation: &Validation, kind: Kind) -> Table {
 
 /// Suspect tests with the errors of the models.
 pub(super) fn suspects(validation: &Validation) -> Table {
-    let suspects = validation.shots.iter().enumerate();
-    let suspects: Vec<(usize, &Shot)> = suspects.filter(|(_, shot)| shot.flag.is_some()).collect();
+    let suspects = validation.tests.iter().enumerate();
+    let suspects: Vec<(usize, &Experiment)> =
+        suspects.filter(|(_, shot)| shot.flag.is_some()).collect();
     Table::of(&suspects)
         .words("test", |(_, shot)| shot.id.clone())
         .words("source", |(_, shot)| shot.source.clone())
@@ -130,7 +131,7 @@ fn answers(validation: &Validation, shot: usize) -> String {
     let of_shot = validation
         .predictions
         .iter()
-        .filter(|p| p.shot == shot && p.main_record);
+        .filter(|p| p.test == shot && p.main_record);
     let answer = |p: &Prediction| {
         let error = signed(p.relative_error?).replace('-', "\u{2212}");
         Some(format!("{} {error}", p.model))
@@ -140,12 +141,14 @@ fn answers(validation: &Validation, shot: usize) -> String {
 
 /// Sources of the tests.
 pub(super) fn sources(validation: &Validation) -> Table {
-    let mut groups: BTreeMap<&str, Vec<&Shot>> = BTreeMap::new();
-    for shot in &validation.shots {
+    let mut groups: BTreeMap<&str, Vec<&Experiment>> = BTreeMap::new();
+    for shot in &validation.tests {
         groups.entry(&shot.source).or_default().push(shot);
     }
-    let groups: Vec<(&str, Vec<&Shot>)> = groups.into_iter().collect();
-    let all = |shots: &[&Shot], of: fn(&Shot) -> &str| words(shots.iter().map(|shot| of(shot)));
+    let groups: Vec<(&str, Vec<&Experiment>)> = groups.into_iter().collect();
+    let all = |shots: &[&Experiment], of: fn(&Experiment) -> &str| {
+        words(shots.iter().map(|shot| of(shot)))
+    };
     Table::of(&groups)
         .words("source", |(source, _)| *source)
         .words("work", |(source, _)| {
@@ -177,7 +180,7 @@ pub(super) fn shots(validation: &Validation, kind: Kind) -> Table {
         validation
             .predictions
             .iter()
-            .any(|p| p.model == model && p.predicted.is_some() && validation.shot(p).kind == kind)
+            .any(|p| p.model == model && p.predicted.is_some() && validation.test(p).kind == kind)
     };
     let models: Vec<&str> = validation
         .models
@@ -187,15 +190,15 @@ pub(super) fn shots(validation: &Validation, kind: Kind) -> Table {
         .collect();
     let mut rows: BTreeMap<(usize, bool, &str), Vec<&Prediction>> = BTreeMap::new();
     for prediction in &validation.predictions {
-        if validation.shot(prediction).kind == kind {
+        if validation.test(prediction).kind == kind {
             let record = prediction.record.as_str();
-            let key = (prediction.shot, !prediction.main_record, record);
+            let key = (prediction.test, !prediction.main_record, record);
             rows.entry(key).or_default().push(prediction);
         }
     }
-    let rows: Vec<(&Shot, &str, Vec<&Prediction>)> = rows
+    let rows: Vec<(&Experiment, &str, Vec<&Prediction>)> = rows
         .into_iter()
-        .map(|((index, _, record), predictions)| (&validation.shots[index], record, predictions))
+        .map(|((index, _, record), predictions)| (&validation.tests[index], record, predictions))
         .collect();
     let unit = kind.unit();
     Table::of(&rows)

@@ -3,7 +3,7 @@
 use percuss::{
     Error, Scenario, case as case_file,
     model_error::{
-        Verdict,
+        ErrorRecord,
         design::{LENGTHS, SPEEDS},
     },
 };
@@ -37,7 +37,7 @@ pub struct BenchmarkCase {
 
 impl BenchmarkCase {
     /// Whether a benchmark result is of this case.
-    pub fn is_of(&self, verdict: &Verdict) -> bool {
+    pub fn is_of(&self, verdict: &ErrorRecord) -> bool {
         verdict.projectile == self.projectile
             && verdict.target == self.target
             && verdict.length_to_diameter == self.length_to_diameter
@@ -50,7 +50,7 @@ impl BenchmarkCase {
     /// [`Error::Input`] when the library has no such materials.
     pub fn scenario(&self) -> Result<Scenario, Error> {
         let text = format!(
-            "[projectile]\nmaterial = \"{}\"\nlength = \"{} mm\"\ndiameter = \"{} mm\"\nvelocity = \"{} m/s\"\n\
+            "[projectile]\nmaterial = \"{}\"\nlength = \"{} mm\"\ndiameter = \"{} mm\"\nimpact_velocity = \"{} m/s\"\n\
              [target]\nmaterial = \"{}\"\nthickness = \"semi-infinite\"\n",
             self.projectile,
             self.length_to_diameter * DIAMETER * 1e3,

@@ -3,30 +3,33 @@
 use percuss::{
     Error, Scenario,
     model::{self, Control},
-    model_error::{Contender, Verdict, contenders},
+    model_error::{Candidate, ErrorRecord, candidates},
     regime::Regime,
 };
 use rayon::prelude::*;
 
 use super::{case::BenchmarkCase, check_references, reference::Reference};
 
-/// Runs every contender on every case whose reference passes its check. Failed runs are left out.
+/// Runs every candidate on every case whose reference passes its check. Failed runs are left out.
 ///
 /// # Errors
 /// [`Error::Input`] when a case's materials are not in the library.
-pub fn compare(cases: &[BenchmarkCase], references: &[Reference]) -> Result<Vec<Verdict>, Error> {
-    let contenders = contenders();
+pub fn compare(
+    cases: &[BenchmarkCase],
+    references: &[Reference],
+) -> Result<Vec<ErrorRecord>, Error> {
+    let candidates = candidates();
     let checked = check_references(cases, references);
-    let compared: Result<Vec<Vec<Verdict>>, Error> = checked
+    let compared: Result<Vec<Vec<ErrorRecord>>, Error> = checked
         .par_iter()
         .filter_map(|entry| Some((&entry.case, entry.estimate.ok()?)))
         .map(|(case, reference)| {
             let scenario = case.scenario()?;
             let regime = Regime::of(&scenario).projectile;
-            let depths = contenders.iter().filter_map(|contender| {
-                let depth = depth(contender, &scenario)?;
-                Some(Verdict {
-                    contender: contender.name.to_owned(),
+            let depths = candidates.iter().filter_map(|candidate| {
+                let depth = depth(candidate, &scenario)?;
+                Some(ErrorRecord {
+                    candidate: candidate.name.to_owned(),
                     projectile: case.projectile.clone(),
                     target: case.target.clone(),
                     length_to_diameter: case.length_to_diameter,
@@ -47,7 +50,7 @@ pub fn compare(cases: &[BenchmarkCase], references: &[Reference]) -> Result<Vec<
 ///
 /// # Errors
 /// Those of the CSV writer.
-pub fn to_csv(verdicts: &[Verdict]) -> Result<Vec<u8>, csv::Error> {
+pub fn to_csv(verdicts: &[ErrorRecord]) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for verdict in verdicts {
         writer.serialize(verdict)?;
@@ -58,8 +61,8 @@ pub fn to_csv(verdicts: &[Verdict]) -> Result<Vec<u8>, csv::Error> {
 }
 
 /// Depth of penetration [m]; `None` where the model does not apply or fails.
-fn depth(contender: &Contender, scenario: &Scenario) -> Option<f64> {
-    let scenario = contender.scenario(scenario);
-    let result = model::run(contender.model, &scenario, &mut Control::default());
+fn depth(candidate: &Candidate, scenario: &Scenario) -> Option<f64> {
+    let scenario = candidate.scenario(scenario);
+    let result = model::run(candidate.model, &scenario, &mut Control::default());
     result.ok()?.depth_of_penetration
 }

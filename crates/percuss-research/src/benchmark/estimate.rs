@@ -51,7 +51,7 @@ pub enum Refusal {
 
 impl Refusal {
     /// The reason in words.
-    pub fn in_words(&self) -> String {
+    pub fn describe(&self) -> String {
         match *self {
             Self::TooFewMeshes => "fewer than three meshes".to_owned(),
             Self::NotConverged { trend, spread } => {
@@ -100,7 +100,7 @@ impl CheckedReference {
             target: self.case.target.clone(),
             length_to_diameter: self.case.length_to_diameter,
             impact_velocity_m_s: self.case.speed,
-            reason: refusal.in_words(),
+            reason: refusal.describe(),
         })
     }
 }

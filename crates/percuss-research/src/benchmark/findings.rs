@@ -2,7 +2,7 @@
 
 use percuss::{
     model_error::{
-        Contender, Verdict, contenders,
+        Candidate, ErrorRecord, candidates,
         design::{LENGTHS, SPEEDS},
     },
     regime::ProjectileRegime,
@@ -11,8 +11,8 @@ use percuss::{
 use super::{Errors, is_sharp, statistics::CLOSE};
 
 /// Whether a model solves equations of motion along the axis, unlike formulae and rigid rods.
-fn is_one_dimensional(contender: &Contender) -> bool {
-    matches!(contender.model.name(), "chain" | "fdm")
+fn is_one_dimensional(candidate: &Candidate) -> bool {
+    matches!(candidate.model.name(), "chain" | "fdm")
 }
 
 /// Target resistance model of the seed paper.
@@ -22,7 +22,7 @@ const NOT_BLIND: &str = "chain: expanding-cavity";
 
 /// Sentences on the accuracy of one-dimensional models: the most accurate one, that of the seed paper, and where the median absolute error
 /// is at most [`CLOSE`].
-pub fn findings(verdicts: &[Verdict]) -> Vec<String> {
+pub fn findings(verdicts: &[ErrorRecord]) -> Vec<String> {
     if verdicts.is_empty() {
         return vec!["There is no reference depth to compare with.".to_owned()];
     }
@@ -31,7 +31,7 @@ pub fn findings(verdicts: &[Verdict]) -> Vec<String> {
     let mut sentences = vec![format!(
         "{cases} cases have a reference that passes its convergence check on three meshes; the uncertainty of {sharp} is at most 10 %."
     )];
-    let all = |_: &Verdict| true;
+    let all = |_: &ErrorRecord| true;
     if let Some((closure, errors)) = best(verdicts, is_one_dimensional, cases, all) {
         sentences.push(format!(
             "Most accurate one-dimensional model: `{}`, {}.",
@@ -61,13 +61,13 @@ pub fn findings(verdicts: &[Verdict]) -> Vec<String> {
         ));
     }
     for &regime in ProjectileRegime::ALL {
-        let own = |verdict: &Verdict| verdict.regime == regime;
+        let own = |verdict: &ErrorRecord| verdict.regime == regime;
         let cases = count_cases(verdicts.iter().filter(|verdict| own(verdict)));
-        if let Some((contender, errors)) = best(verdicts, |_| true, cases, own) {
+        if let Some((candidate, errors)) = best(verdicts, |_| true, cases, own) {
             sentences.push(format!(
                 "Most accurate model for {} projectiles ({cases} cases): `{}`, {}.",
-                regime.in_words(),
-                contender.name,
+                regime.describe(),
+                candidate.name,
                 words(&errors)
             ));
         }
@@ -75,7 +75,7 @@ pub fn findings(verdicts: &[Verdict]) -> Vec<String> {
     sentences
 }
 
-fn count_cases<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> usize {
+fn count_cases<'a>(verdicts: impl IntoIterator<Item = &'a ErrorRecord>) -> usize {
     let mut cases: Vec<_> = verdicts
         .into_iter()
         .map(|v| {
@@ -92,27 +92,27 @@ fn count_cases<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> usize {
 }
 
 fn errors_of(
-    verdicts: &[Verdict],
-    contender: &str,
-    of: impl Fn(&Verdict) -> bool,
+    verdicts: &[ErrorRecord],
+    candidate: &str,
+    of: impl Fn(&ErrorRecord) -> bool,
 ) -> Option<Errors> {
     let own = verdicts
         .iter()
-        .filter(|verdict| verdict.contender == contender && of(verdict));
-    Errors::of(own.map(Verdict::error))
+        .filter(|verdict| verdict.candidate == candidate && of(verdict));
+    Errors::of(own.map(ErrorRecord::error))
 }
 
-/// Contender with the smallest median absolute error among those with results for at least half of the cases.
+/// Candidate with the smallest median absolute error among those with results for at least half of the cases.
 fn best(
-    verdicts: &[Verdict],
-    wanted: impl Fn(&Contender) -> bool,
+    verdicts: &[ErrorRecord],
+    wanted: impl Fn(&Candidate) -> bool,
     cases: usize,
-    of: impl Fn(&Verdict) -> bool,
-) -> Option<(&'static Contender, Errors)> {
-    contenders()
+    of: impl Fn(&ErrorRecord) -> bool,
+) -> Option<(&'static Candidate, Errors)> {
+    candidates()
         .iter()
-        .filter(|contender| wanted(contender))
-        .filter_map(|contender| Some((contender, errors_of(verdicts, contender.name, &of)?)))
+        .filter(|candidate| wanted(candidate))
+        .filter_map(|candidate| Some((candidate, errors_of(verdicts, candidate.name, &of)?)))
         .filter(|(_, errors)| 2 * errors.count >= cases)
         .min_by(|a, b| a.1.median_absolute.total_cmp(&b.1.median_absolute))
 }
@@ -133,16 +133,16 @@ fn words(errors: &Errors) -> String {
     )
 }
 
-/// Lengths and velocities at which the median absolute error of a contender is at most [`CLOSE`].
-fn where_close(verdicts: &[Verdict], contender: &str) -> String {
+/// Lengths and velocities at which the median absolute error of a candidate is at most [`CLOSE`].
+fn where_close(verdicts: &[ErrorRecord], candidate: &str) -> String {
     let (mut close, mut all) = (0, 0);
     let mut places = Vec::new();
     for &length in LENGTHS {
         let mut speeds = Vec::new();
         for &speed in SPEEDS {
             let here =
-                |v: &Verdict| v.length_to_diameter == length && v.impact_velocity_m_s == speed;
-            if let Some(errors) = errors_of(verdicts, contender, here) {
+                |v: &ErrorRecord| v.length_to_diameter == length && v.impact_velocity_m_s == speed;
+            if let Some(errors) = errors_of(verdicts, candidate, here) {
                 all += 1;
                 if errors.median_absolute <= CLOSE {
                     close += 1;

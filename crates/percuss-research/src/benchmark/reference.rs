@@ -121,7 +121,7 @@ pub fn compute(
 }
 
 fn words(outcome: Outcome) -> String {
-    outcome.in_words().to_owned()
+    outcome.describe().to_owned()
 }
 
 /// A case on a mesh.

@@ -1,8 +1,8 @@
-//! Error statistics of every contender by velocity, length, regime, materials and uncertainty of the reference.
+//! Error statistics of every candidate by velocity, length, regime, materials and uncertainty of the reference.
 
 use percuss::{
     model_error::{
-        Verdict, contenders,
+        ErrorRecord, candidates,
         design::{LENGTHS, SPEEDS},
     },
     regime::ProjectileRegime,
@@ -36,11 +36,11 @@ pub enum Grouping {
     Reference,
 }
 
-/// Errors of a contender in a group.
+/// Errors of a candidate in a group.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Group {
-    /// Name of the contender.
-    pub contender: &'static str,
+    /// Name of the candidate.
+    pub candidate: &'static str,
     /// Grouping property.
     pub grouping: Grouping,
     /// Value of the property.
@@ -99,7 +99,7 @@ impl Grouping {
     ];
 
     /// Name of the property.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::All => "all cases",
             Self::Speed => "impact velocity",
@@ -118,7 +118,7 @@ impl Grouping {
             Self::Length => LENGTHS.iter().map(|length| length_name(*length)).collect(),
             Self::Regime => ProjectileRegime::ALL
                 .iter()
-                .map(|regime| regime.in_words().to_owned())
+                .map(|regime| regime.describe().to_owned())
                 .collect(),
             Self::Pair => PAIRS
                 .iter()
@@ -129,12 +129,12 @@ impl Grouping {
     }
 
     /// The group of a verdict.
-    pub fn value(self, verdict: &Verdict) -> String {
+    pub fn value(self, verdict: &ErrorRecord) -> String {
         match self {
             Self::All => "all".to_owned(),
             Self::Speed => speed_name(verdict.impact_velocity_m_s),
             Self::Length => length_name(verdict.length_to_diameter),
-            Self::Regime => verdict.regime.in_words().to_owned(),
+            Self::Regime => verdict.regime.describe().to_owned(),
             Self::Pair => pair_name(&verdict.projectile, &verdict.target),
             Self::Reference => sharp_name(is_sharp(verdict)),
         }
@@ -142,7 +142,7 @@ impl Grouping {
 }
 
 /// Whether the reference of a case is known within [`SHARP`].
-pub fn is_sharp(verdict: &Verdict) -> bool {
+pub fn is_sharp(verdict: &ErrorRecord) -> bool {
     verdict.reference_uncertainty_mm <= SHARP * verdict.reference_depth_mm
 }
 
@@ -167,21 +167,21 @@ fn sharp_name(sharp: bool) -> String {
     }
 }
 
-/// Statistics of every contender by a grouping; contenders and groups in their order, those without a verdict left out.
-pub fn statistics(verdicts: &[Verdict], grouping: Grouping) -> Vec<Group> {
+/// Statistics of every candidate by a grouping; candidates and groups in their order, those without a verdict left out.
+pub fn statistics(verdicts: &[ErrorRecord], grouping: Grouping) -> Vec<Group> {
     let values = grouping.values();
-    contenders()
+    candidates()
         .iter()
-        .flat_map(|contender| {
+        .flat_map(|candidate| {
             let own: Vec<(String, f64)> = verdicts
                 .iter()
-                .filter(|verdict| verdict.contender == contender.name)
+                .filter(|verdict| verdict.candidate == candidate.name)
                 .map(|verdict| (grouping.value(verdict), verdict.error()))
                 .collect();
             let groups = values.iter().filter_map(|value| {
                 let errors = own.iter().filter(|(of, _)| of == value).map(|(_, e)| *e);
                 Some(Group {
-                    contender: contender.name,
+                    candidate: candidate.name,
                     grouping,
                     value: value.clone(),
                     errors: Errors::of(errors)?,

@@ -52,7 +52,7 @@ pub(super) fn page<'a>(
     page.extend(figures.maps.iter().map(Block::Figure));
     page.push(Block::Heading("Errors by property".to_owned()));
     for &grouping in Grouping::ALL {
-        let title = format!("By {}", grouping.in_words());
+        let title = format!("By {}", grouping.describe());
         let table = || Block::Table(tables::groups(verdicts, grouping));
         match grouping {
             Grouping::All => {}

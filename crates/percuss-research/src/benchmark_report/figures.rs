@@ -1,8 +1,8 @@
-//! Figures of the benchmark: one error map per contender, and depth versus impact velocity per pair of materials and length.
+//! Figures of the benchmark: one error map per candidate, and depth versus impact velocity per pair of materials and length.
 
 use percuss::{
     model_error::{
-        Verdict, contenders,
+        ErrorRecord, candidates,
         design::{LENGTHS, SPEEDS},
     },
     statistics::{quantile, sorted},
@@ -21,7 +21,7 @@ const MAP_HEIGHT: f64 = 330.0;
 
 /// All figures.
 pub(super) struct BenchmarkFigures {
-    /// Error maps, one per contender.
+    /// Error maps, one per candidate.
     pub(super) maps: Vec<Figure>,
     /// Depth versus impact velocity, for Markdown and HTML.
     pub(super) depths: Vec<Figure>,
@@ -31,7 +31,7 @@ pub(super) struct BenchmarkFigures {
 
 impl BenchmarkFigures {
     /// Draws all figures with results.
-    pub(super) fn of(verdicts: &[Verdict]) -> Self {
+    pub(super) fn of(verdicts: &[ErrorRecord]) -> Self {
         let of_length = |wanted: &dyn Fn(f64) -> bool| {
             let mut drawn = Vec::new();
             for (projectile, target) in PAIRS {
@@ -42,9 +42,9 @@ impl BenchmarkFigures {
             drawn
         };
         Self {
-            maps: contenders()
+            maps: candidates()
                 .iter()
-                .filter_map(|contender| map(verdicts, contender.name))
+                .filter_map(|candidate| map(verdicts, candidate.name))
                 .collect(),
             depths: of_length(&|length| length == SHOWN),
             more_depths: of_length(&|length| length != SHOWN),
@@ -63,14 +63,14 @@ fn stem(name: &str) -> String {
     words.join("-")
 }
 
-fn map(verdicts: &[Verdict], contender: &str) -> Option<Figure> {
+fn map(verdicts: &[ErrorRecord], candidate: &str) -> Option<Figure> {
     let median = |length: f64, speed: f64| {
         let here = verdicts.iter().filter(|v| {
-            v.contender == contender
+            v.candidate == candidate
                 && v.length_to_diameter == length
                 && v.impact_velocity_m_s == speed
         });
-        let errors = sorted(here.map(Verdict::error));
+        let errors = sorted(here.map(ErrorRecord::error));
         match errors.is_empty() {
             true => f64::NAN,
             false => quantile(&errors, 0.5),
@@ -100,8 +100,8 @@ fn map(verdicts: &[Verdict], contender: &str) -> Option<Figure> {
         .collect();
     let map = HeatMap::new(
         [
-            &format!("error-{}", stem(contender)),
-            &format!("Median error of {contender} against the axisymmetric reference"),
+            &format!("error-{}", stem(candidate)),
+            &format!("Median error of {candidate} against the axisymmetric reference"),
         ],
         [
             axis("Impact velocity (m/s)", SPEEDS),
@@ -120,14 +120,14 @@ fn map(verdicts: &[Verdict], contender: &str) -> Option<Figure> {
     )
 }
 
-fn depths(verdicts: &[Verdict], projectile: &str, target: &str, length: f64) -> Option<Figure> {
-    let own: Vec<&Verdict> = verdicts
+fn depths(verdicts: &[ErrorRecord], projectile: &str, target: &str, length: f64) -> Option<Figure> {
+    let own: Vec<&ErrorRecord> = verdicts
         .iter()
         .filter(|v| {
             v.projectile == projectile && v.target == target && v.length_to_diameter == length
         })
         .collect();
-    let reference: Vec<&Verdict> = SPEEDS
+    let reference: Vec<&ErrorRecord> = SPEEDS
         .iter()
         .filter_map(|&speed| own.iter().find(|v| v.impact_velocity_m_s == speed).copied())
         .collect();
@@ -144,19 +144,19 @@ fn depths(verdicts: &[Verdict], projectile: &str, target: &str, length: f64) -> 
         Axis::new("Depth of penetration (mm)").log(),
     )
     .caption("error bars: uncertainty of the reference due to the cell size");
-    let chart = contenders()
+    let chart = candidates()
         .iter()
         .enumerate()
-        .fold(chart, |chart, (i, contender)| {
+        .fold(chart, |chart, (i, candidate)| {
             let points = own
                 .iter()
-                .filter(|v| v.contender == contender.name)
+                .filter(|v| v.candidate == candidate.name)
                 .map(|v| (v.impact_velocity_m_s, v.depth_of_penetration_mm));
             let points: Vec<(f64, f64)> = points.collect();
             match points.is_empty() {
                 true => chart,
                 false => chart.series(
-                    Series::new(contender.name, points)
+                    Series::new(candidate.name, points)
                         .style(Style::LineAndMarkers)
                         .symbol(i),
                 ),

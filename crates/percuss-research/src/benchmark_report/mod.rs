@@ -7,7 +7,7 @@ pub mod tables;
 
 use std::path::{Path, PathBuf};
 
-use percuss::{Error, model_error::Verdict};
+use percuss::{Error, model_error::ErrorRecord};
 use percuss_report::{ReportError, page};
 
 use crate::{
@@ -23,8 +23,8 @@ use crate::{
 pub struct BenchmarkResults {
     /// The reference of every case on its meshes, checked.
     pub references: Vec<CheckedReference>,
-    /// Every contender on every case whose reference passes the check.
-    pub verdicts: Vec<Verdict>,
+    /// Every candidate on every case whose reference passes the check.
+    pub verdicts: Vec<ErrorRecord>,
     /// The paper's case by the reference.
     pub paper_case: Vec<PaperCaseRow>,
     /// The paper's case by one-dimensional variants.
@@ -41,7 +41,7 @@ pub struct Origin {
 }
 
 impl BenchmarkResults {
-    /// Compares all contenders with the references of the cases.
+    /// Compares all candidates with the references of the cases.
     ///
     /// # Errors
     /// [`Error::Input`] when a case's materials are not in the library.
@@ -63,9 +63,9 @@ impl BenchmarkResults {
 ///
 /// - `benchmark.html`: the whole report in one file;
 /// - `benchmark.md` with one PNG a figure: the same without the single cases and some of the figures;
-/// - `verdicts.csv`, `verdicts.parquet`: one row per contender and case; the first is the file that the library stores;
+/// - `verdicts.csv`, `verdicts.parquet`: one row per candidate and case; the first is the file that the library stores;
 /// - `references.csv`, `references.parquet`: a row per case, with the depth by the reference or why it does not count;
-/// - `statistics.csv`, `statistics.parquet`: one row per contender and group;
+/// - `statistics.csv`, `statistics.parquet`: one row per candidate and group;
 /// - `variants.csv`, `variants.parquet`: case of the seed paper by one-dimensional variants.
 ///
 /// # Errors

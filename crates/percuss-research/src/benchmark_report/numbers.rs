@@ -1,6 +1,6 @@
 //! Numbers of the benchmark report as CSV and Parquet.
 
-use percuss::model_error::Verdict;
+use percuss::model_error::ErrorRecord;
 use percuss_report::{
     ReportError,
     column::{self, Column},
@@ -43,15 +43,15 @@ pub(super) fn files(
     Ok(files)
 }
 
-fn verdict_columns() -> Vec<Column<Verdict>> {
-    type Row = Verdict;
+fn verdict_columns() -> Vec<Column<ErrorRecord>> {
+    type Row = ErrorRecord;
     vec![
-        Column::text("contender", |v: &Row| v.contender.clone()),
+        Column::text("candidate", |v: &Row| v.candidate.clone()),
         Column::text("projectile", |v: &Row| v.projectile.clone()),
         Column::text("target", |v: &Row| v.target.clone()),
         Column::float("length_to_diameter", |v: &Row| v.length_to_diameter),
         Column::float("impact_velocity_m_s", |v: &Row| v.impact_velocity_m_s),
-        Column::text("regime", |v: &Row| v.regime.in_words().to_owned()),
+        Column::text("regime", |v: &Row| v.regime.describe().to_owned()),
         Column::float("depth_of_penetration_mm", |v: &Row| {
             v.depth_of_penetration_mm
         }),
@@ -86,15 +86,15 @@ fn reference_columns() -> Vec<Column<CheckedReference>> {
         Column::text("refused", |r: &Row| {
             r.estimate
                 .err()
-                .map_or_else(String::new, |refusal| refusal.in_words())
+                .map_or_else(String::new, |refusal| refusal.describe())
         }),
     ]
 }
 
 fn group_columns() -> Vec<Column<Group>> {
     vec![
-        Column::text("contender", |g: &Group| g.contender.to_owned()),
-        Column::text("grouping", |g: &Group| g.grouping.in_words().to_owned()),
+        Column::text("candidate", |g: &Group| g.candidate.to_owned()),
+        Column::text("grouping", |g: &Group| g.grouping.describe().to_owned()),
         Column::text("value", |g: &Group| g.value.clone()),
         Column::integer("count", |g: &Group| g.errors.count as i64),
         Column::float("median", |g: &Group| g.errors.median),

@@ -1,7 +1,7 @@
 //! Tables of the benchmark report.
 
 use percuss::{
-    model_error::{Verdict, contenders},
+    model_error::{ErrorRecord, candidates},
     units::significant,
 };
 use percuss_report::table::{Rows, Table, number};
@@ -34,8 +34,8 @@ fn errors<R>(rows: Rows<'_, R>, of: impl Fn(&R) -> &Errors) -> Rows<'_, R> {
         })
 }
 
-/// One row per contender and group, sorted by groups.
-pub(super) fn groups(verdicts: &[Verdict], grouping: Grouping) -> Table {
+/// One row per candidate and group, sorted by groups.
+pub(super) fn groups(verdicts: &[ErrorRecord], grouping: Grouping) -> Table {
     let groups = benchmark::statistics(verdicts, grouping);
     let mut rows: Vec<(String, &Group)> = Vec::new();
     for value in grouping.values() {
@@ -46,9 +46,9 @@ pub(super) fn groups(verdicts: &[Verdict], grouping: Grouping) -> Table {
     }
     let rows = Table::of(&rows)
         .when(grouping != Grouping::All, |rows| {
-            rows.words(grouping.in_words(), |(name, _)| name.clone())
+            rows.words(grouping.describe(), |(name, _)| name.clone())
         })
-        .words("model", |(_, group)| group.contender);
+        .words("model", |(_, group)| group.candidate);
     errors(rows, |(_, group)| &group.errors).table()
 }
 
@@ -110,7 +110,7 @@ pub(super) fn paper_case_rows(rows: &[PaperCaseRow]) -> Table {
         .table()
 }
 
-/// Every case with the reference on all meshes, its extrapolation, and the depth of every contender with its error.
+/// Every case with the reference on all meshes, its extrapolation, and the depth of every candidate with its error.
 pub(super) fn every_case(compared: &BenchmarkResults) -> Table {
     let entries: Vec<&CheckedReference> = compared.references.iter().collect();
     cases(&entries)
@@ -120,15 +120,16 @@ pub(super) fn every_case(compared: &BenchmarkResults) -> Table {
                 significant(estimate.depth_mm, 4),
                 significant(estimate.uncertainty_mm, 2)
             ),
-            Err(refusal) => format!("refused: {}", refusal.in_words()),
+            Err(refusal) => format!("refused: {}", refusal.describe()),
         })
-        .each(contenders(), |rows, contender| {
+        .each(candidates(), |rows, candidate| {
             let of = |case: &BenchmarkCase| {
-                let is_own =
-                    |verdict: &&Verdict| verdict.contender == contender.name && case.is_of(verdict);
+                let is_own = |verdict: &&ErrorRecord| {
+                    verdict.candidate == candidate.name && case.is_of(verdict)
+                };
                 compared.verdicts.iter().find(is_own)
             };
-            rows.numbers(format!("{} [mm] (%)", contender.name), "", |entry| {
+            rows.numbers(format!("{} [mm] (%)", candidate.name), "", |entry| {
                 of(&entry.case).map_or_else(
                     || number(None, 0),
                     |verdict| {
@@ -167,7 +168,7 @@ pub(super) fn refused(references: &[CheckedReference]) -> Table {
         .collect();
     cases(&refused)
         .words("reason of the refusal", |entry| match &entry.estimate {
-            Err(refusal) => refusal.in_words(),
+            Err(refusal) => refusal.describe(),
             Ok(_) => String::new(),
         })
         .table()

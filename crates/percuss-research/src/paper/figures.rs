@@ -117,7 +117,7 @@ fn figure_8(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
     let doubled = [(40, 80), (80, 160), (160, 320), (320, 640)];
     for way in WAYS {
         let values = doubled.map(|mesh| runs.depth_on(way, PAPER_SPEED, mesh));
-        let Some(verdict) = converge::Verdict::of(&values) else {
+        let Some(verdict) = converge::ConvergenceStatus::of(&values) else {
             continue;
         };
         let none = || "none".to_owned();
@@ -125,10 +125,12 @@ fn figure_8(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
             .order()
             .map_or_else(none, |order| format!("{order:.2}"));
         let limit = match verdict {
-            converge::Verdict::Converging { richardson, .. } => format!("{richardson:.4} mm"),
+            converge::ConvergenceStatus::Converging { richardson, .. } => {
+                format!("{richardson:.4} mm")
+            }
             _ => none(),
         };
-        let words = verdict.in_words();
+        let words = verdict.describe();
         items.push(Item {
             place: "Fig. 8",
             statement: format!("40–80 elements are converged ({})", way.name()),

@@ -34,9 +34,9 @@ pub(super) const PAPER_MESH: (u32, u32) = (40, 80);
 
 /// Table 1 as a case file, with the target resistance model of the paper.
 const TABLE_1: &str = r#"
-projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "230 m/s" }
+projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
 target = { material = "aluminium-2024-t351", thickness = "25 mm" }
-chain.target_closure = "column"
+chain.target_resistance = "column"
 "#;
 
 /// A scheme with its reading.
@@ -104,28 +104,16 @@ fn scenario(base: &Scenario, key: Key) -> Scenario {
     scenario.options.chain.projectile_elements = Some(key.mesh.0);
     scenario.options.chain.target_elements = Some(key.mesh.1);
     scenario.options.chain.border_shear = Some(key.shear);
-    let published = PublishedOptions {
-        // With the printed mass the time step comes out as printed.
-        target_mass: Some(Mass::new(1.22e-3)),
-        ..PublishedOptions::default()
-    };
+    let mut published = PublishedOptions::default();
+    // With the printed mass the time step comes out as printed.
+    published.target_mass = Some(Mass::new(1.22e-3));
     match key.way {
-        Way::Conservative => {}
-        Way::Chain => {
-            scenario.options.chain.scheme = Scheme::Published;
-            scenario.options.chain.published = Some(PublishedOptions {
-                small_strain: SmallStrainStiffness::Elastic,
-                ..published
-            });
-        }
-        Way::Joined => {
-            scenario.options.chain.scheme = Scheme::Published;
-            scenario.options.chain.published = Some(PublishedOptions {
-                interface: Interface::Joined,
-                ..published
-            });
-        }
+        Way::Conservative => return scenario,
+        Way::Chain => published.small_strain = SmallStrainStiffness::Elastic,
+        Way::Joined => published.interface = Interface::Joined,
     }
+    scenario.options.chain.scheme = Scheme::Published;
+    scenario.options.chain.published = Some(published);
     scenario
 }
 

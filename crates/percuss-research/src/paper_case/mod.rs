@@ -72,7 +72,7 @@ pub struct PaperCaseRow {
 /// [`Error::Input`].
 pub fn scenario(speed: f64, options: &str) -> Result<Scenario, Error> {
     let text = format!(
-        "[projectile]\nmaterial = \"copper-woodward\"\nlength = \"12.74 mm\"\ndiameter = \"4.8 mm\"\nvelocity = \"{speed} m/s\"\n\
+        "[projectile]\nmaterial = \"copper-woodward\"\nlength = \"12.74 mm\"\ndiameter = \"4.8 mm\"\nimpact_velocity = \"{speed} m/s\"\n\
          [target]\nmaterial = \"aluminium-2024-t351-woodward\"\nthickness = \"25 mm\"\nback_face = \"fixed\"\n{options}"
     );
     case::load_str("case of the seed paper", &text)

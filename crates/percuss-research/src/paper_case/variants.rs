@@ -27,37 +27,37 @@ const VARIANTS: &[Variant] = &[
     Variant {
         name: "column, small strain",
         change: "closed energy balance and plastic unloading; elements erode at a strain of 0.9, before they invert",
-        options: "[chain]\ntarget_closure = \"column\"\nkinematics = \"small-strain\"\nerosion_strain = 0.9\n",
+        options: "[chain]\ntarget_resistance = \"column\"\nkinematics = \"small-strain\"\nerosion_strain = 0.9\n",
     },
     Variant {
         name: "column",
         change: "large strain: elements thicken as they shorten and erode at a strain of 2",
-        options: "[chain]\ntarget_closure = \"column\"\n",
+        options: "[chain]\ntarget_resistance = \"column\"\n",
     },
     Variant {
         name: "column, no border shear",
         change: "no shear on the border of the column",
-        options: "[chain]\ntarget_closure = \"column\"\nborder_shear = 0.0\n",
+        options: "[chain]\ntarget_resistance = \"column\"\nborder_shear = 0.0\n",
     },
     Variant {
         name: "column, no border shear, factor 1",
         change: "no constraint factor: one-dimensional column without any confinement",
-        options: "[chain]\ntarget_closure = \"column\"\nborder_shear = 0.0\nconstraint_factor = 1.0\n",
+        options: "[chain]\ntarget_resistance = \"column\"\nborder_shear = 0.0\nconstraint_factor = 1.0\n",
     },
     Variant {
         name: "diverging",
         change: "the target widens as a cone of the half-space's stiffness",
-        options: "[chain]\ntarget_closure = \"diverging\"\n",
+        options: "[chain]\ntarget_resistance = \"diverging\"\n",
     },
     Variant {
         name: "diverging-penetrable",
         change: "the tip penetrates the cone",
-        options: "[chain]\ntarget_closure = \"diverging-penetrable\"\n",
+        options: "[chain]\ntarget_resistance = \"diverging-penetrable\"\n",
     },
     Variant {
         name: "expanding-cavity",
         change: "the crater floor advances against an expanding cavity, under a rod that takes time to widen",
-        options: "[chain]\ntarget_closure = \"expanding-cavity\"\n",
+        options: "[chain]\ntarget_resistance = \"expanding-cavity\"\n",
     },
 ];
 

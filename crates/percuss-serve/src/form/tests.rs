@@ -36,7 +36,7 @@ fn fields_follow_from_the_schema() {
         choices.contains(&"{ ogive = { crh = 1.0 } }".to_owned()),
         "{choices:?}"
     );
-    let Kind::Choice { choices } = field("chain.target_closure").kind else {
+    let Kind::Choice { choices } = field("chain.target_resistance").kind else {
         panic!("no choice");
     };
     assert!(choices.contains(&"\"expanding-cavity\"".to_owned()));

@@ -24,15 +24,15 @@ pub(super) fn compared(job: &Job<'_>) -> Result<Study, Problem> {
         let words = format!("{} of {} runs", now.finished, now.total);
         job.go_on(now.fraction, &words)
     };
-    let mut watch = compare::Watch {
+    let mut watch = compare::Observer {
         progress: Some(&mut report),
     };
-    let comparison = compare::compare(&model::quick(), &scenario, &speeds, &mut watch)
+    let comparison = compare::compare(&model::fast_models(), &scenario, &speeds, &mut watch)
         .map_err(|error| job.stop.problem(error))?;
     let regimes: Vec<String> = comparison
         .regime
         .iter()
-        .map(|at| at.regime.in_words(&scenario))
+        .map(|at| at.regime.describe(&scenario))
         .collect();
     let quantities: Vec<Value> = comparison
         .quantities
@@ -65,7 +65,7 @@ fn quantity_record(comparison: &Comparison, quantity: BandQuantity, speed: f64) 
     let measured = comparison.measured(quantity, speed);
     json!({
         "key": quantity,
-        "words": quantity.in_words(),
+        "words": quantity.describe(),
         "unit": quantity.unit(),
         "measured": measured.map(|(value, _)| value),
     })

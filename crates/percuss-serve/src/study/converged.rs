@@ -43,7 +43,7 @@ pub(super) fn converged(job: &Job<'_>) -> Result<Study, Problem> {
     let words: Vec<String> = study
         .quantities
         .iter()
-        .map(|quantity| quantity.verdict.in_words())
+        .map(|quantity| quantity.status.describe())
         .collect();
     let files = [("convergence.json".to_owned(), pretty(&study))];
     let record = json!({ "study": study, "words": words });

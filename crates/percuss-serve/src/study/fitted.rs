@@ -33,7 +33,7 @@ pub(super) fn fitted(job: &Job<'_>) -> Result<Study, Problem> {
     let asked = job.asked;
     let case = job.read()?;
     let model = job.model(&case.scenario)?;
-    if model.is_slow() {
+    if model.cost() == percuss::model::CostClass::Minutes {
         return Err(Problem::refused(
             format!(
                 "the model `{}` takes too long for the many runs of a calibration",
@@ -74,7 +74,7 @@ pub(super) fn fitted(job: &Job<'_>) -> Result<Study, Problem> {
     let ended = Arc::new(AtomicBool::new(false));
     let hear = |stage: Stage, part: f64, runs: u64| {
         job.events
-            .progress(stage.of_whole(part, steps.is_some()), &stage.in_words(runs));
+            .progress(stage.of_whole(part, steps.is_some()), &stage.describe(runs));
         match ended.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),

@@ -14,21 +14,26 @@ pub(super) fn limits(job: &Job<'_>) -> Result<Study, Problem> {
     let scenario = job.scenario()?;
     let mut report =
         |now: limit::Progress| job.go_on(now.fraction, &format!("{} runs", now.finished));
-    let mut watch = limit::Watch {
+    let mut watch = limit::Observer {
         progress: Some(&mut report),
     };
-    let limits = limit::limits(&model::quick(), &scenario, &Search::default(), &mut watch)
-        .map_err(|error| job.stop.problem(error))?;
+    let limits = limit::limits(
+        &model::fast_models(),
+        &scenario,
+        &Search::default(),
+        &mut watch,
+    )
+    .map_err(|error| job.stop.problem(error))?;
     let chart = limit_chart(&scenario, &limits);
     let outcomes: Vec<&str> = limits
         .results
         .iter()
-        .map(|limit| limit.outcome.in_words())
+        .map(|limit| limit.outcome.describe())
         .collect();
     let expected: Vec<Option<String>> = limits
         .results
         .iter()
-        .map(|limit| Some(limit.expected_error.as_ref()?.in_words()))
+        .map(|limit| Some(limit.expected_error.as_ref()?.describe()))
         .collect();
     let files: Vec<_> = csv_files(limit_files(&limits)?)
         .chain([("limit.json".to_owned(), pretty(&limits))])
@@ -37,7 +42,7 @@ pub(super) fn limits(job: &Job<'_>) -> Result<Study, Problem> {
         "measured": limits.measured().map(|(value, _)| value),
         "limits": limits,
         "outcomes": outcomes,
-        "rear_face": limits.rear_face.and_then(RearFace::in_words),
+        "rear_face": limits.rear_face.and_then(RearFace::describe),
         "expected": expected,
     });
     Ok(Study::new(record, chart.as_slice(), files))

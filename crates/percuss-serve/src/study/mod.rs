@@ -165,7 +165,7 @@ impl Job<'_> {
     /// The case, small enough for every model that answers at once.
     fn scenario(&self) -> Result<Scenario, Problem> {
         let scenario = self.read()?.scenario;
-        for model in model::quick() {
+        for model in model::fast_models() {
             self.bounds.check(model, &scenario)?;
         }
         Ok(scenario)

@@ -8,7 +8,7 @@ use std::{
 
 use percuss::{
     model::Model,
-    sweep::{BatchKernel, Kernel, Row, Shot, Stopped, Watch},
+    sweep::{BatchKernel, Kernel, Observer, Stopped, SweepRow, SweepRun},
 };
 
 use super::Job;
@@ -36,13 +36,13 @@ pub(super) fn watched<T>(job: &Job<'_>, ended: &AtomicBool, work: impl FnOnce() 
 }
 
 /// Computes shots while somebody waits, and tells how many are done.
-pub(super) fn followed<T>(job: &Job<'_>, compute: impl FnOnce(&Watch<'_>) -> T) -> T {
+pub(super) fn followed<T>(job: &Job<'_>, compute: impl FnOnce(&Observer<'_>) -> T) -> T {
     let ended = AtomicBool::new(false);
     let progress = |finished: u64, total: u64| {
         let words = format!("{finished} of {total} shots");
         job.events.progress(finished as f64 / total as f64, &words);
     };
-    let watch = Watch {
+    let watch = Observer {
         stop: &ended,
         progress: &progress,
     };
@@ -77,7 +77,7 @@ impl<'a> Bounded<'a> {
 }
 
 impl Kernel for Bounded<'_> {
-    fn rows(&self, mut shots: Vec<Shot>, stop: &AtomicBool) -> Result<Vec<Row>, Stopped> {
+    fn rows(&self, mut shots: Vec<SweepRun>, stop: &AtomicBool) -> Result<Vec<SweepRow>, Stopped> {
         for shot in &mut shots {
             let scenario = shot.scenario.as_ref().ok();
             if let Some(Err(problem)) = scenario.map(|s| self.bounds.check(self.model, s)) {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use percuss::{
     case::Document,
     outcome::Outcome,
-    sweep::{Axis, Row, Sweep},
+    sweep::{Axis, Sweep, SweepRow},
 };
 use percuss_report::sweep::{PlotStyle, charts, numbers, parallel_figure, rows_csv};
 use serde_json::{Value, json};
@@ -30,9 +30,9 @@ pub(super) fn swept(job: &Job<'_>) -> Result<Study, Problem> {
     let case = job.read()?;
     let file = Document::new("sweep.toml", asked.sweep.as_str());
     let sweep = Sweep::of(&file, &Document::new(asked.name(), case.text.as_str()))?;
-    if sweep.shots() > MOST_SHOTS {
+    if sweep.runs() > MOST_SHOTS {
         return Err(Problem::refused(
-            format!("the sweep has {} runs", sweep.shots()),
+            format!("the sweep has {} runs", sweep.runs()),
             format!("the page allows up to {MOST_SHOTS}; use `percuss sweep` for more"),
         ));
     }
@@ -68,7 +68,7 @@ pub(super) fn swept(job: &Job<'_>) -> Result<Study, Problem> {
     let record = json!({
         "model": sweep.model.name(),
         "design": sweep.design().name(),
-        "shots": sweep.shots(),
+        "shots": sweep.runs(),
         "parameters": sweep.axes.iter().map(parameter).collect::<Vec<_>>(),
         "outcomes": outcomes(&rows),
         "reasons": reasons(&rows),
@@ -85,7 +85,7 @@ fn parameter(axis: &Axis) -> Value {
 }
 
 /// The numbers that come of the shots, with the values of the rows that are shown.
-fn table(sweep: &Sweep, rows: &[Row]) -> Vec<Value> {
+fn table(sweep: &Sweep, rows: &[SweepRow]) -> Vec<Value> {
     let number = |number: percuss_report::sweep::SweepNumber| {
         let shown = number.values.iter().take(SHOWN).collect::<Vec<_>>();
         json!({ "quantity": number.quantity, "label": number.label, "values": shown })
@@ -93,26 +93,26 @@ fn table(sweep: &Sweep, rows: &[Row]) -> Vec<Value> {
     numbers(sweep, rows).into_iter().map(number).collect()
 }
 
-fn row(row: &Row) -> Value {
+fn row(row: &SweepRow) -> Value {
     let (outcome, reason) = match &row.record {
         Ok(record) => (record.outcome, record.reason.clone().unwrap_or_default()),
         Err(reason) => (Outcome::Failed, reason.clone()),
     };
-    json!({ "inputs": row.inputs, "outcome": outcome.in_words(), "reason": reason })
+    json!({ "inputs": row.inputs, "outcome": outcome.describe(), "reason": reason })
 }
 
 /// How often each outcome is there.
-fn outcomes(rows: &[Row]) -> BTreeMap<&'static str, u64> {
+fn outcomes(rows: &[SweepRow]) -> BTreeMap<&'static str, u64> {
     let mut outcomes = BTreeMap::new();
     for row in rows {
         let outcome = row.record.as_ref().map_or(Outcome::Failed, |r| r.outcome);
-        *outcomes.entry(outcome.in_words()).or_default() += 1;
+        *outcomes.entry(outcome.describe()).or_default() += 1;
     }
     outcomes
 }
 
 /// Why shots have no result: each reason once, and no more than a few.
-fn reasons(rows: &[Row]) -> Vec<&str> {
+fn reasons(rows: &[SweepRow]) -> Vec<&str> {
     let mut reasons: Vec<&str> = Vec::new();
     for row in rows {
         let reason = match &row.record {

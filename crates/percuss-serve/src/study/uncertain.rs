@@ -57,7 +57,7 @@ pub(super) fn uncertain(job: &Job<'_>) -> Result<Study, Problem> {
         "uncertainty": found,
         "quantities": quantities,
         "labels": labels,
-        "nominal": found.nominal.outcome.in_words(),
+        "nominal": found.nominal.outcome.describe(),
         "caution": found.caution(),
     });
     Ok(Study::new(record, &charts, files))

@@ -21,11 +21,11 @@ pub(super) fn with_example(text: &str, scenario: &Scenario) -> String {
     let mut add = |key: &str, distribution: &str| {
         example += &format!("[[uncertainty.parameter]]\nkey = \"{key}\"\n{distribution}\n\n");
     };
-    if let Some((speed, unit)) = said("projectile.velocity").and_then(quantity) {
+    if let Some((speed, unit)) = said("projectile.impact_velocity").and_then(quantity) {
         let deviation = significant(0.01 * speed, 3);
         let mean = significant(speed, 6);
         add(
-            "projectile.velocity",
+            "projectile.impact_velocity",
             &format!(
                 "normal = {{ mean = \"{mean} {unit}\", standard_deviation = \"{deviation} {unit}\" }} # 1 %"
             ),
@@ -84,7 +84,7 @@ mod tests {
             assert!(text.starts_with(case.text().trim_end()), "{name}");
             let study = Study::of(&Document::new(name, text)).unwrap();
             let keys: Vec<&str> = study.axes.iter().map(|axis| axis.key.as_str()).collect();
-            assert_eq!(keys[0], "projectile.velocity", "{name}");
+            assert_eq!(keys[0], "projectile.impact_velocity", "{name}");
             if name == "paper-table1" {
                 assert_eq!(keys[1], "projectile.diameter");
                 assert_eq!(keys[2], "materials.copper.strength.power_law.coefficient");

@@ -48,7 +48,7 @@ fn a_mesh_has_a_size() {
     assert_eq!(last["problem"]["message"], "the mesh has 960 elements");
     let layers = "{ material = \"copper\", thickness = \"1 mm\" },".repeat(500);
     let layered = format!(
-        "projectile = {{ material = \"copper\", length = \"10 mm\", diameter = \"5 mm\", velocity = \"300 m/s\" }}\ntarget.layers = [{layers}]"
+        "projectile = {{ material = \"copper\", length = \"10 mm\", diameter = \"5 mm\", impact_velocity = \"300 m/s\" }}\ntarget.layers = [{layers}]"
     );
     let answer = served.post("/api/answer", &json!({ "case": layered, "model": "chain" }));
     assert_eq!(answer.status, 422);
@@ -74,7 +74,7 @@ fn a_run_has_a_time() {
     // Of an analysis no shot needs to come to its end.
     let fine = PAPER.replace("= 40", "= 500").replace("= 80", "= 1400");
     let uncertain = format!(
-        "{fine}\n[[uncertainty.parameter]]\nkey = \"projectile.velocity\"\nuniform = {{ from = \"200 m/s\", to = \"300 m/s\" }}\n"
+        "{fine}\n[[uncertainty.parameter]]\nkey = \"projectile.impact_velocity\"\nuniform = {{ from = \"200 m/s\", to = \"300 m/s\" }}\n"
     );
     let asked = json!({ "case": uncertain, "uncertainty": { "samples": 16_384 } });
     let last = outcome(&served, "uncertainty", &asked);
@@ -124,10 +124,7 @@ fn an_analysis_of_uncertainty_has_its_bounds() {
         "{last}"
     );
     let last = elements("20, 9000");
-    assert_eq!(
-        last["done"]["uncertainty"]["failures"]["shots"], 8,
-        "{last}"
-    );
+    assert_eq!(last["done"]["uncertainty"]["failures"]["runs"], 8, "{last}");
     let last = outcome(&served, "uncertainty", &json!({ "case": PAPER }));
     let said = "the case says nothing of what is uncertain";
     assert_eq!(last["problem"]["message"], said);

@@ -48,7 +48,7 @@ fn the_numbers_are_those_of_the_library() {
 #[test]
 fn a_case_that_the_chain_does_not_take_is_answered_by_the_recommended_model() {
     let served = Served::new(Options::default());
-    let sharp = "projectile = { material = '4340', length = '60 mm', diameter = '8 mm', nose = { ogive = { crh = 3.0 } }, velocity = '400 m/s' }\n\
+    let sharp = "projectile = { material = '4340', length = '60 mm', diameter = '8 mm', nose = { ogive = { crh = 3.0 } }, impact_velocity = '400 m/s' }\n\
                  target = { material = '6061-t6', thickness = 'semi-infinite' }\n";
     let chosen = model::default_model(&case::load_str("shot", sharp).unwrap()).unwrap();
     assert_ne!(chosen.model.name(), "chain");
@@ -67,7 +67,7 @@ fn a_case_that_the_chain_does_not_take_is_answered_by_the_recommended_model() {
 fn edits_of_the_form_are_edits_of_the_text() {
     let served = Served::new(Options::default());
     let edits = json!([
-        { "key": "projectile.velocity", "value": "\"400 m/s\"" },
+        { "key": "projectile.impact_velocity", "value": "\"400 m/s\"" },
         { "key": "chain.target_elements", "value": null },
     ]);
     let body = json!({ "name": "shot", "case": PAPER, "edits": edits, "model": "chain" });
@@ -76,7 +76,7 @@ fn edits_of_the_form_are_edits_of_the_text() {
         .replace("230 m/s\"\n\n[target]", "400 m/s\"\n\n[target]")
         .replace("target_elements = 80\n", "");
     assert_eq!(answer["case"], text);
-    assert_eq!(answer["values"]["projectile.velocity"], "400 m/s");
+    assert_eq!(answer["values"]["projectile.impact_velocity"], "400 m/s");
     assert_eq!(answer["results"], by_library("shot", &text, "chain"));
 }
 

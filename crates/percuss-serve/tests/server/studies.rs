@@ -7,7 +7,7 @@ use percuss::{
     compare, limit,
     model::{self, model},
     sweep::BatchKernel,
-    uncertainty::{self, Settings, Study, Watch},
+    uncertainty::{self, Observer, Settings, Study},
 };
 use percuss_serve::Options;
 use serde_json::{Value, json};
@@ -23,8 +23,9 @@ fn studies_end_with_what_the_library_says() {
     );
     let last = answer.lines().pop().unwrap();
     let scenario = case::load_str("shot", PAPER).unwrap();
-    let mut watch = compare::Watch::default();
-    let comparison = compare::compare(&model::quick(), &scenario, &[230.0], &mut watch).unwrap();
+    let mut watch = compare::Observer::default();
+    let comparison =
+        compare::compare(&model::fast_models(), &scenario, &[230.0], &mut watch).unwrap();
     let printed = serde_json::to_string(&comparison).unwrap();
     let expected: Value = serde_json::from_str(&printed).unwrap();
     assert_eq!(last["done"]["comparison"], expected);
@@ -72,7 +73,7 @@ fn uncertainty_is_that_of_the_library() {
         indices: true,
         speeds: Vec::new(),
     };
-    let watch = Watch {
+    let watch = Observer {
         stop: &AtomicBool::new(false),
         progress: &|_, _| {},
     };
@@ -126,7 +127,7 @@ fn a_draft_has_the_charts_in_view_and_the_same_numbers() {
 #[test]
 fn limits_are_those_of_the_library_and_say_what_they_rest_on() {
     let served = Served::new(Options::default());
-    let text = "projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', velocity = '300 m/s' }\n\
+    let text = "projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', impact_velocity = '300 m/s' }\n\
                 target = { material = 'aluminium-2024-t351', thickness = '12 mm' }\n\
                 chain = { projectile_elements = 8, target_elements = 6 }\n\
                 fdm = { projectile_elements = 8, target_elements = 6 }\n";
@@ -134,10 +135,10 @@ fn limits_are_those_of_the_library_and_say_what_they_rest_on() {
     let done = answer.lines().pop().unwrap()["done"].clone();
     let scenario = case::load_str("shot", text).unwrap();
     let found = limit::limits(
-        &model::quick(),
+        &model::fast_models(),
         &scenario,
         &limit::Search::default(),
-        &mut limit::Watch::default(),
+        &mut limit::Observer::default(),
     );
     let printed = serde_json::to_string(&found.unwrap()).unwrap();
     let expected: Value = serde_json::from_str(&printed).unwrap();

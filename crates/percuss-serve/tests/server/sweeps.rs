@@ -26,7 +26,7 @@ base = 'scenario.toml'
 model = 'chain'
 design = 'grid'
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 linear = { from = '150 m/s', to = '600 m/s', count = 7 }
 [[parameter]]
 key = 'target.thickness'
@@ -97,7 +97,7 @@ fn the_files_of_the_page_give_its_rows_on_the_command_line() {
     }
     assert_eq!((count, &done["shots"]), (21, &json!(21)));
     let csv = done["files"]["rows.csv"].as_str().unwrap();
-    assert!(csv.starts_with("shot,projectile.velocity_m_s,target.thickness_mm,outcome,"));
+    assert!(csv.starts_with("shot,projectile.impact_velocity_m_s,target.thickness_mm,outcome,"));
 
     // A curve a thickness, and a map of both.
     let figure = plot(&[at("rows")], &PlotRequest::default()).unwrap();
@@ -119,7 +119,8 @@ fn the_files_of_the_page_give_its_rows_on_the_command_line() {
 #[test]
 fn more_than_two_parameters_are_drawn_side_by_side() {
     let served = Served::new(Options::default());
-    let options = "[[parameter]]\nkey = 'chain.target_closure'\nvalues = ['column', 'diverging']\n";
+    let options =
+        "[[parameter]]\nkey = 'chain.target_resistance'\nvalues = ['column', 'diverging']\n";
     let three = format!("{GRID}{options}").replace("count = 7", "count = 2");
     let lines = served.post("/api/study/sweep", &asked(&three)).lines();
     let done = &lines[lines.len() - 1]["done"];
@@ -133,7 +134,7 @@ fn more_than_two_parameters_are_drawn_side_by_side() {
         json!(["column", "diverging"])
     );
 
-    let two = GRID.replace("projectile.velocity", "projectile.length") + options;
+    let two = GRID.replace("projectile.impact_velocity", "projectile.length") + options;
     let words = two.replace(
         "linear = { from = '150 m/s', to = '600 m/s', count = 7 }",
         "values = ['10 mm']",

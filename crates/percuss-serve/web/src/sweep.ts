@@ -11,7 +11,7 @@ export function sweep(page: Page, numbers: Numbers): Kind {
     title: "sweep",
     steps: true,
     most: 2,
-    first: /^projectile\.velocity$/,
+    first: /^projectile\.impact_velocity$/,
     around: [0.8, 1.2],
     head: () => `base = "scenario.toml"\nmodel = ${JSON.stringify(page.request().model)}\ndesign = "grid"\n`,
   }, numbers);

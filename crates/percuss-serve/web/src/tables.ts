@@ -46,12 +46,12 @@ export function convergence({ study, words }: Convergence): HTMLElement[] {
     String(mesh.steps),
     ...study.quantities.map((quantity) => number(quantity.values[i], 5)),
   ]);
-  const verdicts: [string, (v: Convergence["study"]["quantities"][number]["verdict"]) => string][] = [
+  const statuses: [string, (v: Convergence["study"]["quantities"][number]["status"]) => string][] = [
     ["order", (v) => number(v.order, 3)],
     ["Richardson", (v) => number(v.richardson, 5)],
     ["GCI [%]", (v) => number(v.index === undefined ? null : 100 * v.index, 3)],
   ];
-  for (const [name, read] of verdicts) lines.push([name, "", ...study.quantities.map((quantity) => read(quantity.verdict))]);
+  for (const [name, read] of statuses) lines.push([name, "", ...study.quantities.map((quantity) => read(quantity.status))]);
   const said = study.quantities.map((quantity, i) =>
     make("li", {}, make("b", {}, `${quantity.name.replaceAll("_", " ")}: `), words[i] ?? ""));
   return [table(head, lines), make("ul", {}, ...said)];

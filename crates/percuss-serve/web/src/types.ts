@@ -130,7 +130,7 @@ export interface Convergence extends Study {
       name: string;
       unit: string;
       values: number[];
-      verdict: { kind: string; order?: number; richardson?: number; index?: number };
+      status: { kind: string; order?: number; richardson?: number; index?: number };
     }[];
   };
 }
@@ -167,14 +167,14 @@ export interface Spread extends Study {
     model: string;
     samples: number;
     seed: number;
-    shots: number;
+    runs: number;
     inputs: { key: string; distribution: string }[];
     nominal: { reason: string | null; warnings: string[] };
-    failures: { shots: number; reasons: string[] };
+    failures: { runs: number; reasons: string[] };
     perforation: Perforation | null;
     quantities: {
       nominal: number | null;
-      statistics: { shots: number; mean: number; standard_error: number; standard_deviation: number; percentiles: { percent: number; value: number }[] };
+      statistics: { runs: number; mean: number; standard_error: number; standard_deviation: number; percentiles: { percent: number; value: number }[] };
       tornado: { key: string; at_low: number | null; at_high: number | null }[];
       indices: { parameters: { key: string; first_order: Estimate; total: Estimate }[] } | null;
       no_indices: string | null;

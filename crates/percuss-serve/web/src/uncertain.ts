@@ -31,9 +31,9 @@ export function uncertainty(page: Page): Kind {
 function spread(done: Spread): HTMLElement[] {
   const found = done.uncertainty;
   const perforation = found.perforation;
-  const failed = found.failures.shots;
+  const failed = found.failures.runs;
   const said = [
-    `Model ${found.model}, ${found.samples} samples, seed ${found.seed}, ${found.shots} runs in total. Outcome at median inputs: ${done.nominal}.`,
+    `Model ${found.model}, ${found.samples} samples, seed ${found.seed}, ${found.runs} runs in total. Outcome at median inputs: ${done.nominal}.`,
     perforation ? `Probability of perforation: ${percent(perforation.probability)} % (${percent(perforation.low)} … ${percent(perforation.high)} %), ${perforation.perforated} of ${perforation.perforated + perforation.stopped} runs.` : "",
     failed ? `${failed} of ${found.samples} runs have no result.` : "",
   ];
@@ -61,7 +61,7 @@ function statistics(done: Spread): HTMLElement {
     ["5th percentile", (q) => number(at(q, 5))],
     ["median", (q) => number(at(q, 50))],
     ["95th percentile", (q) => number(at(q, 95))],
-    ["runs", (q) => String(q.statistics.shots)],
+    ["runs", (q) => String(q.statistics.runs)],
   ];
   const head = ["", ...done.quantities.map((q) => `${q.words} [${q.unit}]`)];
   return table(head, rows.map(([name, read]) => [name, ...found.map(read)]));

@@ -13,10 +13,10 @@ test("everything is reached by keyboard and has a name", async () => {
   assert.deepEqual(nameless, []);
   await page.keyboard.press("Tab");
   assert.equal(await page.evaluate(() => document.activeElement.className), "skip");
-  await page.locator("#field-projectile-velocity-slider").focus();
+  await page.locator("#field-projectile-impact_velocity-slider").focus();
   await page.keyboard.press("ArrowRight");
   await answered(page, 2);
-  assert.notEqual(await page.locator("#field-projectile-velocity").inputValue(), "230");
+  assert.notEqual(await page.locator("#field-projectile-impact_velocity").inputValue(), "230");
   await page.context().close();
 });
 
@@ -39,7 +39,7 @@ test("the tabulator goes through the page in the order of its parts", async () =
   const parts = seen.map((at) => at.part).filter((part) => part !== undefined);
   const order = parts.filter((part, i) => part !== parts[i - 1]);
   assert.deepEqual(order, ["header", "#form", "#text-box", "#charts", "#comparison", "#studies"]);
-  for (const id of ["cases", "models", "link", "field-projectile-velocity", "field-projectile-velocity-slider", "text"]) {
+  for (const id of ["cases", "models", "link", "field-projectile-impact_velocity", "field-projectile-impact_velocity-slider", "text"]) {
     assert.ok(seen.some((at) => at.id === id), id);
   }
   await page.context().close();

@@ -30,7 +30,7 @@ test("a chart is zoomed by a rectangle, and a double click shows all of it again
   await reset.waitFor();
   const zoomed = await redrawn(page, "depth-time", whole);
   // A new answer leaves the part that is shown.
-  await page.locator("#field-projectile-velocity").fill("240");
+  await page.locator("#field-projectile-impact_velocity").fill("240");
   await answered(page, 2);
   await redrawn(page, "depth-time", zoomed);
   assert.ok(await reset.isVisible());
@@ -70,7 +70,7 @@ test("what was measured stands in the chart against time, with its error and its
   const measured = chart.series.at(-1);
   assert.deepEqual(measured.band.map((ends) => ends.map((end) => Math.round(100 * end) / 100)), [[16.71, 16.91], [16.71, 16.91]]);
   // At another speed nothing was measured.
-  await page.locator("#field-projectile-velocity").fill("200");
+  await page.locator("#field-projectile-impact_velocity").fill("200");
   await legend.getByText("measured").waitFor({ state: "detached" });
   await page.context().close();
 });

@@ -36,7 +36,7 @@ test("the numbers are those of the command line, to the last bit", async () => {
 test("curves and text follow a slider while it moves", async () => {
   const page = await open();
   const before = await pixels(page, "depth-time");
-  const slider = page.locator("#field-projectile-velocity-slider");
+  const slider = page.locator("#field-projectile-impact_velocity-slider");
   const box = await slider.boundingBox();
   const y = box.y + box.height / 2;
   await page.mouse.move(box.x + box.width * 0.16, y);
@@ -49,13 +49,13 @@ test("curves and text follow a slider while it moves", async () => {
   await page.mouse.up();
   // The text has the last place of the slider when its numbers are there.
   await page.waitForFunction(() => {
-    const speed = document.getElementById("field-projectile-velocity").value;
-    return document.getElementById("text").value.includes(`velocity = "${speed} m/s"`);
+    const speed = document.getElementById("field-projectile-impact_velocity").value;
+    return document.getElementById("text").value.includes(`impact_velocity = "${speed} m/s"`);
   });
   assert.notEqual(await pixels(page, "depth-time"), before);
-  const speed = await page.locator("#field-projectile-velocity").inputValue();
+  const speed = await page.locator("#field-projectile-impact_velocity").inputValue();
   assert.ok(Number(speed) > 500, speed);
-  assert.match(await page.locator("#text").inputValue(), new RegExp(`velocity = "${speed} m/s"`));
+  assert.match(await page.locator("#text").inputValue(), new RegExp(`impact_velocity = "${speed} m/s"`));
   // Comments and order of the text stay.
   assert.match(await page.locator("#text").inputValue(), /^# The seed paper's own case/);
 
@@ -73,12 +73,12 @@ test("the form follows the text", async () => {
   const text = await page.locator("#text").inputValue();
   await page.locator("#text").fill(text.replace('"230 m/s"', '"1000 ft/s"').replace('"25 mm"', '"semi-infinite"').replace('back_face = "fixed"\n', ""));
   await answered(page, 2);
-  assert.equal(await page.locator("#field-projectile-velocity").inputValue(), "1000");
-  assert.equal(await page.locator("#field-projectile-velocity + select").inputValue(), "ft/s");
+  assert.equal(await page.locator("#field-projectile-impact_velocity").inputValue(), "1000");
+  assert.equal(await page.locator("#field-projectile-impact_velocity + select").inputValue(), "ft/s");
   assert.equal(await page.locator("#field-target-thickness + select").inputValue(), "semi-infinite");
   // Another unit is the same speed.
-  await page.locator("#field-projectile-velocity + select").selectOption("m/s");
-  await page.waitForFunction(() => document.getElementById("text").value.includes('velocity = "304.8 m/s"'));
+  await page.locator("#field-projectile-impact_velocity + select").selectOption("m/s");
+  await page.waitForFunction(() => document.getElementById("text").value.includes('impact_velocity = "304.8 m/s"'));
   await page.context().close();
 });
 
@@ -112,7 +112,7 @@ test("a model that is chosen while an answer is computed stays chosen", async ()
     await page.waitForTimeout(150);
     await route.continue();
   });
-  await page.locator("#field-projectile-velocity").fill("231");
+  await page.locator("#field-projectile-impact_velocity").fill("231");
   await page.locator("#models").selectOption("fdm");
   await answered(page, 3);
   assert.equal(await page.locator("#models").inputValue(), "fdm");
@@ -136,11 +136,11 @@ test("the address restores the page", async () => {
   const page = await open();
   await page.waitForFunction(() => location.hash.startsWith("#s="));
   const first = new URL(page.url()).hash;
-  await page.locator("#field-projectile-velocity").fill("400");
+  await page.locator("#field-projectile-impact_velocity").fill("400");
   await page.waitForFunction((hash) => location.hash !== hash, first);
   const [link, depth] = [page.url(), await number(page, "depth of penetration")];
   const other = await open(new URL(link).pathname + new URL(link).hash);
-  await other.waitForFunction(() => document.querySelector("#field-projectile-velocity")?.value === "400");
+  await other.waitForFunction(() => document.querySelector("#field-projectile-impact_velocity")?.value === "400");
   await answered(other, 2);
   assert.equal(await number(other, "depth of penetration"), depth);
   await page.context().close();

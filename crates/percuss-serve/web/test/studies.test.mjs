@@ -20,7 +20,7 @@ test("a study shows its progress and can be cancelled", async () => {
   await convergence.getByRole("button", { name: "Cancel" }).click();
   await convergence.getByText("cancelled").waitFor();
   // The only place to compute in is free again.
-  await page.locator("#field-projectile-velocity").fill("231");
+  await page.locator("#field-projectile-impact_velocity").fill("231");
   await answered(page, 3);
   await page.context().close();
   alone.child.kill();
@@ -80,7 +80,7 @@ test("a case that says nothing of uncertainty is given an example", async () => 
   const of = await analysis(page, "the case says nothing of what is uncertain");
   await of.getByRole("button", { name: "Put an example into the case" }).click();
   await answered(page, 2);
-  assert.match(await page.locator("#text").inputValue(), /\[\[uncertainty\.parameter\]\]\nkey = "projectile\.velocity"/);
+  assert.match(await page.locator("#text").inputValue(), /\[\[uncertainty\.parameter\]\]\nkey = "projectile\.impact_velocity"/);
   assert.ok(await page.locator("#problem").isHidden());
   await of.getByLabel("samples").selectOption("64");
   await of.getByLabel("Sobol' indices").uncheck();

@@ -64,12 +64,12 @@ test("a sweep of two numbers shows curves, a map, rows and files that the comman
   const [sweepName, sweep] = await take(page, of, "sweep.toml");
   const [caseName, scenario] = await take(page, of, "scenario.toml");
   assert.deepEqual([sweepName, caseName], ["sweep.toml", "scenario.toml"]);
-  assert.match((await take(page, of, "rows.csv"))[1], /^shot,projectile\.velocity_m_s,chain\.constraint_factor,outcome/);
+  assert.match((await take(page, of, "rows.csv"))[1], /^shot,projectile\.impact_velocity_m_s,chain\.constraint_factor,outcome/);
   const files = { "sweep.toml": sweep, "scenario.toml": scenario };
   assert.equal(command("swept", files, "sweep", "sweep.toml", "--out", "rows", "--quiet").status, 0);
   // The figure has the same numbers, and so the same text.
   const [, svg] = await take(page, of, /Download the figure/);
-  const words = ["sweep", "plot", "rows", "--quantity", "peak_force_kn", "--style", "map", "--x", "projectile.velocity"];
+  const words = ["sweep", "plot", "rows", "--quantity", "peak_force_kn", "--style", "map", "--x", "projectile.impact_velocity"];
   assert.equal(command("swept", files, ...words).status, 0);
   // Above stands the name of the case, which is that of the folder.
   const drawn = (text) => text.slice(text.indexOf("<g transform"));
@@ -102,7 +102,7 @@ test("a sweep is cancelled, and bad input is answered in the words of the comman
   assert.match(await problem.innerText(), /line 7/);
 
   // By hand it is put right, with words in place of numbers.
-  await of.getByLabel("File of the sweep", { exact: true }).fill(text.replace(/linear = .*/, 'values = ["200 m/s"]') + '\n[[parameter]]\nkey = "chain.target_closure"\nvalues = ["column", "diverging"]\n');
+  await of.getByLabel("File of the sweep", { exact: true }).fill(text.replace(/linear = .*/, 'values = ["200 m/s"]') + '\n[[parameter]]\nkey = "chain.target_resistance"\nvalues = ["column", "diverging"]\n');
   await start(of, "Sweep");
   await of.getByText("2 runs:").waitFor({ timeout: 60_000 });
   await page.context().close();

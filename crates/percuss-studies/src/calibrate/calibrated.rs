@@ -1,8 +1,11 @@
-//! What comes of a calibration.
+//! Results of a calibration.
 
 use serde::{Serialize, Serializer};
 
-use super::{Calibration, Problem, Record, Settings, Watch, problem::refuse, record::records, run};
+use super::{
+    CalibratedRecord, Calibration, Observer, Problem, Settings, problem::refuse, record::records,
+    run,
+};
 use crate::Error;
 
 /// A calibration with the materials that come of it.
@@ -13,10 +16,10 @@ pub struct Calibrated {
     pub calibration: Calibration,
     /// The materials, by their ids.
     #[serde(rename = "materials", serialize_with = "as_table")]
-    pub records: Vec<Record>,
+    pub records: Vec<CalibratedRecord>,
 }
 
-fn as_table<S: Serializer>(records: &[Record], serializer: S) -> Result<S::Ok, S::Error> {
+fn as_table<S: Serializer>(records: &[CalibratedRecord], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(records.iter().map(|record| (&record.id, &record.material)))
 }
 
@@ -29,9 +32,9 @@ impl Calibrated {
         problem: &Problem,
         settings: &Settings,
         name: Option<&str>,
-        watch: Watch<'_>,
+        observer: Observer<'_>,
     ) -> Result<Self, Error> {
-        let calibration = run(problem, settings, watch)?;
+        let calibration = run(problem, settings, observer)?;
         let records = records(problem, &calibration, name).map_err(|reason| {
             refuse(
                 format!("the best values make no material: {reason}"),
@@ -46,7 +49,7 @@ impl Calibrated {
 
     /// The materials as a file that cases and commands take; `None` where no constant of a material was fitted.
     pub fn toml(&self) -> Option<String> {
-        let text: String = self.records.iter().map(Record::toml).collect();
+        let text: String = self.records.iter().map(CalibratedRecord::toml).collect();
         (!self.records.is_empty()).then_some(text)
     }
 }

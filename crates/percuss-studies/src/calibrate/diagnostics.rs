@@ -1,4 +1,4 @@
-//! Whether a sample can be relied on: R-hat and effective sample sizes of ranks in place of values \[vehtari2021\].
+//! Convergence of a sample: R-hat and effective sample sizes of ranks instead of values \[vehtari2021\].
 //!
 //! Chains are lists of equal length. Ranks do not care about heavy tails, nor about the scale a parameter is measured on.
 
@@ -32,8 +32,8 @@ pub fn bulk_effective_size(chains: &[Vec<f64>], together: usize) -> f64 {
 /// \[vehtari2021\]. The rest as for [`bulk_effective_size`].
 pub fn tail_effective_size(chains: &[Vec<f64>], together: usize) -> f64 {
     let all = sorted(chains.concat());
-    let of = |chance| {
-        let end = quantile(&all, chance);
+    let of = |probability| {
+        let end = quantile(&all, probability);
         let is_below = map(chains, |value| f64::from(u8::from(value <= end)));
         effective_size(&is_below, together)
     };

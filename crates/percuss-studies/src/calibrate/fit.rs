@@ -1,4 +1,4 @@
-//! The best values, with the scatter that goes with them and what the derivatives say of their uncertainty.
+//! Least-squares estimate with its scatter and the standard errors of the derivatives.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::{
-    Counter, Noise, Observation, Problem, Stage, Watch, cancelled, heard,
+    Counter, Noise, Observation, Observer, Problem, Stage, cancelled, heard,
     least_squares::{Minimum, Unable, jacobian, minimise},
     noise::{SCATTER, scatter_of},
     problem::refuse,
@@ -41,11 +41,15 @@ pub(super) struct Fit {
 }
 
 /// Finds the values with the smallest sum of squares, from several starts.
-pub(super) fn least_squares(problem: &Problem, seed: u64, watch: Watch<'_>) -> Result<Fit, Error> {
+pub(super) fn least_squares(
+    problem: &Problem,
+    seed: u64,
+    observer: Observer<'_>,
+) -> Result<Fit, Error> {
     let count = problem.fitted.len();
     let report = |part: f64| {
         let runs = problem.runs.load(Ordering::Relaxed);
-        heard(problem, watch(Stage::LeastSquares, part, runs));
+        heard(problem, observer(Stage::LeastSquares, part, runs));
     };
     // A dozen steps from each start, and the rounds after them: a guess, for the time left.
     let counter = Counter {
@@ -125,25 +129,25 @@ impl Solver<'_> {
     /// The middle of the priors and points of a Latin hypercube, the best of them first, as many as are tried from.
     fn starts(&self, seed: u64, scatter: f64) -> Vec<Vec<f64>> {
         let tried = TRIED * self.problem.fitted.len();
-        let point = |shot: usize| {
+        let point = |test: usize| {
             let value = |(dimension, parameter): (usize, &super::Fitted)| {
                 let stream = sweep::stream(seed, START, dimension);
-                let stratum = sweep::permuted(stream, shot as u64, tried as u64);
+                let stratum = sweep::permuted(stream, test as u64, tried as u64);
                 parameter.quantile((stratum as f64 + 0.5) / tried as f64)
             };
             self.problem.fitted.iter().enumerate().map(value).collect()
         };
         let mut points: Vec<Vec<f64>> = vec![self.problem.middle()];
         points.extend((0..tried).map(point));
-        let mut judged: Vec<(f64, Vec<f64>)> = points
+        let mut ranked: Vec<(f64, Vec<f64>)> = points
             .into_par_iter()
             .filter_map(|point| {
                 let residuals = self.residuals(&point, scatter).ok()?;
                 Some((residuals.iter().map(|r| r * r).sum(), point))
             })
             .collect();
-        judged.sort_by(|a, b| a.0.total_cmp(&b.0));
-        judged.into_iter().take(STARTS).map(|(_, p)| p).collect()
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ranked.into_iter().take(STARTS).map(|(_, p)| p).collect()
     }
 
     /// Scatter of the measured values about the model.

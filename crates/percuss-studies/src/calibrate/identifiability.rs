@@ -1,4 +1,4 @@
-//! Which parameters the data say something about.
+//! Identifiability of the parameters.
 
 use nalgebra::{DMatrix, SVD};
 use serde::Serialize;
@@ -30,7 +30,7 @@ pub enum Weakness {
 
 /// Parameters that the data do not determine, and why.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Finding {
+pub struct Unidentified {
     /// What is wrong.
     pub weakness: Weakness,
     /// Keys of the parameters.
@@ -41,13 +41,13 @@ pub struct Finding {
 
 /// Parameters of which nothing, or only a combination, can be found from the derivatives of what the model gives.
 ///
-/// `slopes` has a row a measured value over its standard deviation and a column a parameter over the standard deviation of its prior.
-pub(super) fn of_rank(keys: &[&str], slopes: &DMatrix<f64>) -> Vec<Finding> {
+/// `slopes` has one row per measured value over its standard deviation and one column per parameter over the standard deviation of its prior.
+pub(super) fn of_rank(keys: &[&str], slopes: &DMatrix<f64>) -> Vec<Unidentified> {
     let largest = slopes.column_iter().map(|c| c.norm()).fold(0.0, f64::max);
     let silent = |i: usize| slopes.column(i).norm() <= RANK * largest;
-    let mut findings: Vec<Finding> = (0..keys.len())
+    let mut findings: Vec<Unidentified> = (0..keys.len())
         .filter(|&i| silent(i))
-        .map(|i| Finding {
+        .map(|i| Unidentified {
             weakness: Weakness::NoInfluence,
             parameters: vec![keys[i].to_owned()],
             words: format!("no measured value depends on {}", keys[i]),
@@ -86,7 +86,7 @@ pub(super) fn of_rank(keys: &[&str], slopes: &DMatrix<f64>) -> Vec<Finding> {
             .filter(|(_, part)| part.abs() > PART)
             .map(|(&i, _)| keys[i].to_owned())
             .collect();
-        findings.push(Finding {
+        findings.push(Unidentified {
             weakness: Weakness::Combination,
             words: format!(
                 "{} act together only: they can change against each other without any change of what the model gives",
@@ -104,8 +104,8 @@ pub(super) fn of_posterior(
     keys: &[&str],
     widths: &[f64],
     correlations: &DMatrix<f64>,
-    known: &[Finding],
-) -> Vec<Finding> {
+    known: &[Unidentified],
+) -> Vec<Unidentified> {
     let named = |names: &[&str]| {
         known.iter().any(|finding| {
             names
@@ -116,7 +116,7 @@ pub(super) fn of_posterior(
     let mut findings = Vec::new();
     for i in 0..keys.len() {
         if widths[i] > WIDE && !named(&[keys[i]]) {
-            findings.push(Finding {
+            findings.push(Unidentified {
                 weakness: Weakness::AsWideAsPrior,
                 parameters: vec![keys[i].to_owned()],
                 words: format!(
@@ -129,7 +129,7 @@ pub(super) fn of_posterior(
         for (j, other) in keys[..i].iter().enumerate() {
             let correlation = correlations[(i, j)];
             if correlation.abs() > CORRELATED && !named(&[keys[i], other]) {
-                findings.push(Finding {
+                findings.push(Unidentified {
                     weakness: Weakness::Correlated,
                     parameters: vec![(*other).to_owned(), keys[i].to_owned()],
                     words: format!(
@@ -144,8 +144,8 @@ pub(super) fn of_posterior(
 }
 
 /// A parameter whose best value is at the end of its range.
-pub(super) fn at_bound(key: &str, end: &str) -> Finding {
-    Finding {
+pub(super) fn at_bound(key: &str, end: &str) -> Unidentified {
+    Unidentified {
         weakness: Weakness::AtBound,
         parameters: vec![key.to_owned()],
         words: format!(

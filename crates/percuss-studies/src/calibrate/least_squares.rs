@@ -86,7 +86,7 @@ pub(super) fn minimise(
     })
 }
 
-/// Derivatives of the residuals with respect to the values, a row a residual.
+/// Derivatives of the residuals with respect to the values, one row per residual.
 ///
 /// # Errors
 /// Those of the residuals, at values so close that the model should not fail there.

@@ -1,16 +1,16 @@
 //! Calibration: parameters of cases fitted to what was measured, by least squares and by sampling the posterior.
 //!
-//! Measured values come from the `[[experiments]]` of case files and from published shots; a parameter is any number of the cases by
+//! Measured values come from the `[[experiments]]` of case files and from published tests; a parameter is any number of the cases by
 //! its dotted key, constants of library materials included. What is calibrated on a source is no blind test of it: the record that
 //! comes out says so, and validation heeds it.
 //!
 //! ```
 //! use std::ops::ControlFlow;
-//! use percuss::{calibrate::{self, Fitted, Noise, Observations, Problem, Settings}, material::Library, model::model, shots};
+//! use percuss::{calibrate::{self, Fitted, Noise, Observations, Problem, Settings}, material::Library, model::model, tests};
 //!
 //! let fitted = Fitted::read("materials.ofhc-copper-johnson-cook.strength.johnson_cook.a=20..300 MPa")?;
 //! let mut observations = Observations::default();
-//! observations.add_shots(shots::built_in(), Library::built_in(), &fitted)?;
+//! observations.add_tests(experiments::built_in(), Library::built_in(), &fitted)?;
 //! let problem = Problem::new(model("wilkins_guinan")?, fitted, observations, Noise::Estimated)?;
 //! let settings = Settings { sampling: None, seed: 0 };
 //! let found = calibrate::run(&problem, &settings, &|_, _, _| ControlFlow::Continue(()))?;
@@ -47,14 +47,14 @@ use serde::Serialize;
 
 pub use calibrated::Calibrated;
 pub use diagnostics::{bulk_effective_size, r_hat, tail_effective_size};
-pub use identifiability::{Finding, Weakness};
+pub use identifiability::{Unidentified, Weakness};
 pub use noise::Noise;
 pub use observation::{LeftOut, Observation, Observations};
 pub use parameter::Fitted;
 pub use posterior::Marginal;
 pub use predictive::{Prediction, Quality};
 pub use problem::Problem;
-pub use record::{Record, records};
+pub use record::{CalibratedRecord, records};
 pub use sampler::{Sample, Sampling};
 pub use stage::Stage;
 
@@ -71,7 +71,7 @@ pub struct Settings {
 
 /// Hears the stage, the part of it that is done (0 to 1) and the runs so far, from several threads; [`ControlFlow::Break`] ends the
 /// calibration.
-pub type Watch<'a> = &'a (dyn Fn(Stage, f64, u64) -> ControlFlow<()> + Sync);
+pub type Observer<'a> = &'a (dyn Fn(Stage, f64, u64) -> ControlFlow<()> + Sync);
 
 /// A fitted parameter. Values are in its unit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -129,14 +129,14 @@ pub struct Calibration {
     /// Correlations of the parameters, in their order: of the sample, or by the derivatives.
     pub correlations: Vec<Vec<f64>>,
     /// Parameters that the data do not determine.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<Unidentified>,
     /// How the values that were fitted to are met.
     pub training: Quality,
     /// How those that were kept out are met.
     pub hold_out: Option<Quality>,
     /// How the posterior was sampled.
     pub sampling: Option<SamplingRecord>,
-    /// What to know before relying on the numbers.
+    /// Limitations of the numbers.
     pub warnings: Vec<String>,
     /// What the calibrated model says of each value.
     pub predictions: Vec<Prediction>,
@@ -151,8 +151,12 @@ pub struct Calibration {
 ///
 /// # Errors
 /// [`Error::Cancelled`] when the caller ends it, [`Error::Calibration`] when no values are found that the model works with.
-pub fn run(problem: &Problem, settings: &Settings, watch: Watch<'_>) -> Result<Calibration, Error> {
-    let fit = fit::least_squares(problem, settings.seed, watch)?;
+pub fn run(
+    problem: &Problem,
+    settings: &Settings,
+    observer: Observer<'_>,
+) -> Result<Calibration, Error> {
+    let fit = fit::least_squares(problem, settings.seed, observer)?;
     let keys: Vec<&str> = problem.fitted.iter().map(Fitted::key).collect();
     let mut findings = identifiability::of_rank(&keys, &fit.slopes);
     let sample = match settings.sampling {
@@ -161,7 +165,7 @@ pub fn run(problem: &Problem, settings: &Settings, watch: Watch<'_>) -> Result<C
             &fit,
             sampling,
             settings.seed,
-            watch,
+            observer,
         )?),
         None => None,
     };
@@ -182,7 +186,7 @@ pub fn run(problem: &Problem, settings: &Settings, watch: Watch<'_>) -> Result<C
     }
     let predictions = predictive::predictions(problem, &fit.values, sample.as_ref(), &|part| {
         let runs = problem.runs.load(Ordering::Relaxed);
-        heard(problem, watch(Stage::Predicting, part, runs))
+        heard(problem, observer(Stage::Predicting, part, runs))
     });
     if problem.stop.load(Ordering::Relaxed) {
         return Err(cancelled(problem));
@@ -203,7 +207,7 @@ pub fn run(problem: &Problem, settings: &Settings, watch: Watch<'_>) -> Result<C
         .map(|(i, parameter)| ParameterRecord {
             key: parameter.key().to_owned(),
             unit: parameter.unit().to_owned(),
-            prior: predictive::CHANCES.map(|chance| parameter.quantile(chance)),
+            prior: predictive::PROBABILITIES.map(|probability| parameter.quantile(probability)),
             best: fit.values[i],
             standard_error: fit.standard_error(i),
             posterior: marginal(i),
@@ -252,7 +256,7 @@ fn not_blind(problem: &Problem) -> Option<String> {
     let held_out = problem.observations.iter().filter(|o| o.held_out);
     let mut known: Vec<&str> = held_out
         .flat_map(|observation| &observation.sources)
-        .filter(|source| problem.model.guard().is_fitted_to(source))
+        .filter(|source| problem.model.validity().is_fitted_to(source))
         .map(String::as_str)
         .collect();
     known.dedup();

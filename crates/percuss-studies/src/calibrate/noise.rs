@@ -1,4 +1,4 @@
-//! How far a measured value may be from what the model gives.
+//! Standard deviation of a measured value about the model.
 
 use std::str::FromStr;
 
@@ -9,7 +9,7 @@ use super::Observation;
 /// Scatter of measured values about the model, Gaussian and independent.
 ///
 /// The variance of a value is `u² + (s c)²`: u is its stated standard deviation, 0 where there is none; s is a relative scatter that
-/// stands for test and model alike; c is the measured value, or the impact speed for a speed behind the target.
+/// stands for test and model alike; c is the measured value, or the impact velocity for a residual velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Noise {

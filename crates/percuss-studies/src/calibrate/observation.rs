@@ -1,4 +1,4 @@
-//! What was measured: entries `[[experiments]]` of case files, and published shots.
+//! Measured values: entries `[[experiments]]` of case files, and published tests.
 
 use serde::Serialize;
 
@@ -6,22 +6,22 @@ use super::{Fitted, problem::refuse};
 use crate::{
     Error, Scenario,
     case::{self, Document, Template},
-    check::Finding,
+    check::Diagnostic,
+    experiments::{Experiment, Struck},
     material::{Library, MaterialEntry},
     outcome::BandQuantity,
-    shots::{Shot, Struck},
 };
 
 /// A measured value and the case that has to give it.
 #[derive(Debug, Clone)]
 pub struct Observation {
-    /// Id of the shot, or name of the case with the number of its entry.
+    /// Id of the test, or name of the case with the number of its entry.
     pub id: String,
     /// Bibliography keys, or whatever words the data give.
     pub sources: Vec<String>,
     /// What was measured.
     pub quantity: BandQuantity,
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity: f64,
     /// The measured value [m or m/s].
     pub measured: f64,
@@ -35,7 +35,7 @@ pub struct Observation {
 /// A measured value that is not used.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct LeftOut {
-    /// Id of the shot, or name of the case with the number of its entry.
+    /// Id of the test, or name of the case with the number of its entry.
     pub id: String,
     /// Why.
     pub reason: String,
@@ -59,9 +59,9 @@ impl Observations {
         let template = Template::of(document)?;
         let scenario = case::scenario(document)?;
         if scenario.experiments.is_empty() {
-            let help = "add [[experiments]] with velocity, a measured quantity and source";
-            let finding = Finding::whole("the case has no measured value", help);
-            return Err(document.place(finding).into());
+            let help = "add [[experiments]] with impact_velocity, a measured quantity and source";
+            let diagnostic = Diagnostic::whole("the case has no measured value", help);
+            return Err(document.place(diagnostic).into());
         }
         for (i, experiment) in scenario.experiments.iter().enumerate() {
             self.used.push(Observation {
@@ -80,14 +80,14 @@ impl Observations {
         Ok(())
     }
 
-    /// Adds published shots. Where constants of materials are fitted, only shots whose projectile or target is one of them are
+    /// Adds published tests. Where constants of materials are fitted, only tests whose projectile or target is one of them are
     /// taken, and that record stands for the projectile. Suspect and repeated rows are left out.
     ///
     /// # Errors
     /// [`Error::Input`] when a material does not exist.
-    pub fn add_shots(
+    pub fn add_tests(
         &mut self,
-        shots: &[Shot],
+        tests: &[Experiment],
         library: &Library,
         fitted: &[Fitted],
     ) -> Result<(), Error> {
@@ -102,31 +102,31 @@ impl Observations {
                 fitted_materials.push(entry);
             }
         }
-        for shot in shots {
-            let Some(record) = record_for(shot, library, &fitted_materials) else {
+        for test in tests {
+            let Some(record) = record_for(test, library, &fitted_materials) else {
                 continue;
             };
-            let reason = match (&shot.flag, &shot.duplicate_of) {
+            let reason = match (&test.flag, &test.duplicate_of) {
                 (Some(flag), _) => Some(format!("suspect: {flag}")),
                 (_, Some(first)) => Some(format!("repeats {first}")),
-                _ => shot.no_case(),
+                _ => test.no_case(),
             };
             if let Some(reason) = reason {
                 self.left_out.push(LeftOut {
-                    id: shot.id.clone(),
+                    id: test.id.clone(),
                     reason,
                 });
                 continue;
             }
             self.used.push(Observation {
-                id: shot.id.clone(),
-                sources: vec![shot.source.clone()],
-                quantity: shot.kind.quantity(),
-                impact_velocity: shot.impact_velocity,
-                measured: shot.measured,
-                uncertainty: shot.uncertainty,
+                id: test.id.clone(),
+                sources: vec![test.source.clone()],
+                quantity: test.kind.quantity(),
+                impact_velocity: test.impact_velocity,
+                measured: test.measured,
+                uncertainty: test.uncertainty,
                 held_out: false,
-                template: Template::of_case(&shot.id, &shot.case(&record, library), library)?,
+                template: Template::of_case(&test.id, &test.case(&record, library), library)?,
             });
         }
         Ok(())
@@ -181,21 +181,21 @@ impl Observations {
 }
 
 impl Observation {
-    /// The case with its impact speed and with values for what is fitted; otherwise why there is none.
+    /// The case with its impact velocity and with values for what is fitted; otherwise why there is none.
     pub(super) fn scenario(&self, fitted: &[Fitted], values: &[f64]) -> Result<Scenario, String> {
         let changes: Vec<(&str, toml::Value)> = fitted
             .iter()
             .zip(values)
             .map(|(parameter, value)| parameter.change(*value))
             .collect();
-        let scenario = self.template.scenario(&changes).map_err(|findings| {
-            let words = findings.into_iter().map(|finding| finding.message);
+        let scenario = self.template.scenario(&changes).map_err(|diagnostics| {
+            let words = diagnostics.into_iter().map(|diagnostic| diagnostic.message);
             words.collect::<Vec<_>>().join("; ")
         })?;
         Ok(scenario.at_speed(self.impact_velocity))
     }
 
-    /// What a relative scatter is a part of: the measured value, or the impact speed for a speed behind the target, which may be 0.
+    /// What a relative scatter is a part of: the measured value, or the impact velocity for a residual velocity, which may be 0.
     pub(super) fn scale(&self) -> f64 {
         match self.quantity {
             BandQuantity::ResidualVelocity => self.impact_velocity,
@@ -204,15 +204,15 @@ impl Observation {
     }
 }
 
-/// The record that stands for a shot's projectile, if the shot has to do with the materials that are fitted.
-fn record_for(shot: &Shot, library: &Library, fitted: &[&MaterialEntry]) -> Option<String> {
-    let main = shot.projectile_materials.first();
+/// The record that stands for a test's projectile, if the test has to do with the materials that are fitted.
+fn record_for(test: &Experiment, library: &Library, fitted: &[&MaterialEntry]) -> Option<String> {
+    let main = test.projectile_materials.first();
     if fitted.is_empty() {
         return main.cloned();
     }
     let entry = |name: &str| library.find(name);
     for wanted in fitted {
-        let named = shot
+        let named = test
             .projectile_materials
             .iter()
             .filter_map(|name| entry(name))
@@ -228,7 +228,7 @@ fn record_for(shot: &Shot, library: &Library, fitted: &[&MaterialEntry]) -> Opti
         material,
         properties: None,
         ..
-    } = &shot.target
+    } = &test.target
     else {
         return None;
     };

@@ -1,4 +1,4 @@
-//! What is fitted: a number of the cases by its dotted key, and what is known of it beforehand.
+//! Fitted parameter: a number of the cases by its dotted key, with its prior.
 
 use std::path::Path;
 
@@ -8,9 +8,9 @@ use toml::Value;
 use super::least_squares::Bounds;
 use crate::{
     case::{Document, Template},
-    check::{Check, Finding},
+    check::{Check, Diagnostic},
     error::{Error, InputError, Subject},
-    sweep::{Amount, Axis, Design, Distribution, Parameter, Uniform, Values},
+    sweep::{Axis, Design, Distribution, Parameter, QuantityLiteral, Uniform, Values},
     units::split_number,
 };
 
@@ -97,7 +97,7 @@ impl Fitted {
         if !(low.is_finite() && high.is_finite()) {
             return refuse(range, "an end of the range is not finite", EXAMPLE);
         }
-        let amount = |value: f64| Amount {
+        let amount = |value: f64| QuantityLiteral {
             value,
             unit: unit.to_owned(),
             whole: false,
@@ -127,8 +127,8 @@ impl Fitted {
         if file.parameter.is_empty() {
             let help =
                 "write a [[parameter]] table with key and uniform, normal, lognormal or triangular";
-            let finding = Finding::whole("the file names nothing to fit", help);
-            return Err(document.place(finding).into());
+            let diagnostic = Diagnostic::whole("the file names nothing to fit", help);
+            return Err(document.place(diagnostic).into());
         }
         let of = |(i, parameter): (usize, &Parameter)| {
             let place = Place {
@@ -141,8 +141,8 @@ impl Fitted {
     }
 
     fn of(parameter: &Parameter, place: Place) -> Result<Self, Error> {
-        let mut findings = Vec::new();
-        let mut check = Check::new(&mut findings);
+        let mut diagnostics = Vec::new();
+        let mut check = Check::new(&mut diagnostics);
         let axis = parameter.resolve(&mut check, Design::LatinHypercube);
         if let Some(Axis {
             values: Values::List(_),
@@ -155,9 +155,9 @@ impl Fitted {
                 "what is fitted has a prior: give uniform, normal, lognormal or triangular",
             );
         }
-        let axis = match (findings.into_iter().next(), axis) {
+        let axis = match (diagnostics.into_iter().next(), axis) {
             (None, Some(axis)) => axis,
-            (finding, _) => return Err(place.error(finding, &parameter.key).into()),
+            (diagnostic, _) => return Err(place.error(diagnostic, &parameter.key).into()),
         };
         let Values::Distribution(prior) = axis.values.clone() else {
             return Err(place.error(None, &parameter.key).into());
@@ -175,7 +175,7 @@ impl Fitted {
         &self.axis.unit
     }
 
-    /// Value that the number is below with a chance of `u` before anything was measured.
+    /// Value that the number is below with a probability of `u` before anything was measured.
     pub(super) fn quantile(&self, u: f64) -> f64 {
         self.prior.quantile(u)
     }
@@ -205,60 +205,61 @@ impl Fitted {
     pub(super) fn check(&self, template: &Template) -> Result<(), Error> {
         for (written_at, value) in &self.axis.samples {
             let (key, written) = self.change(*value);
-            let Err(findings) = template.scenario(&[(key, written.clone())]) else {
+            let Err(diagnostics) = template.scenario(&[(key, written.clone())]) else {
                 continue;
             };
-            let finding = findings.into_iter().next().map(|finding| {
-                let of = match finding.key.as_str() {
+            let diagnostic = diagnostics.into_iter().next().map(|diagnostic| {
+                let of = match diagnostic.key.as_str() {
                     "" => key,
                     found => found,
                 };
-                Finding {
+                Diagnostic {
                     message: format!(
                         "with {key} = {written} the case `{}` is not valid: `{of}`: {}",
                         template.name(),
-                        finding.message
+                        diagnostic.message
                     ),
                     key: written_at.clone(),
-                    ..finding
+                    ..diagnostic
                 }
             });
-            return Err(self.place.error(finding, key).into());
+            return Err(self.place.error(diagnostic, key).into());
         }
         Ok(())
     }
 
     /// An error at the place where the number is written.
     pub(super) fn error(&self, message: &str, help: &str) -> Error {
-        let finding = Finding::at("key", message, help);
-        self.place.error(Some(finding), self.key()).into()
+        let diagnostic = Diagnostic::at("key", message, help);
+        self.place.error(Some(diagnostic), self.key()).into()
     }
 
     /// An error at its key, which names a material that does not exist.
     pub(super) fn no_material(&self, message: &str, help: &str) -> Error {
-        let finding = Finding::at("key", message, help).of_material();
-        self.place.error(Some(finding), self.key()).into()
+        let diagnostic = Diagnostic::at("key", message, help).of_material();
+        self.place.error(Some(diagnostic), self.key()).into()
     }
 }
 
 impl Place {
-    fn error(&self, finding: Option<Finding>, key: &str) -> InputError {
-        let finding = finding.unwrap_or_else(|| Finding::whole("it cannot be fitted", EXAMPLE));
+    fn error(&self, diagnostic: Option<Diagnostic>, key: &str) -> InputError {
+        let diagnostic =
+            diagnostic.unwrap_or_else(|| Diagnostic::whole("it cannot be fitted", EXAMPLE));
         if self.table.is_empty() {
             let text = self.document.text();
-            let part = match finding.key.as_str() {
+            let part = match diagnostic.key.as_str() {
                 "key" | "" => key,
                 _ => text.split_once('=').map_or("", |(_, range)| range),
             };
             return InputError {
-                subject: finding.subject,
-                ..inline_error(text, part, &finding.message, &finding.help)
+                subject: diagnostic.subject,
+                ..inline_error(text, part, &diagnostic.message, &diagnostic.help)
             };
         }
-        let key = [self.table.as_str(), finding.key.as_str()].join(".");
-        self.document.place(Finding {
+        let key = [self.table.as_str(), diagnostic.key.as_str()].join(".");
+        self.document.place(Diagnostic {
             key: key.trim_end_matches('.').to_owned(),
-            ..finding
+            ..diagnostic
         })
     }
 }

@@ -1,4 +1,4 @@
-//! The posterior: sampling it from around the best values, and what the sample says.
+//! Posterior: a sample from around the best values, and its statistics.
 
 use std::sync::atomic::Ordering;
 
@@ -6,8 +6,8 @@ use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
 use super::{
-    Noise, ParameterRecord, Problem, Sample, Sampling, ScatterRecord, Stage, Watch, cancelled,
-    fit::Fit, heard, noise::SCATTER, predictive::CHANCES, sampler,
+    Noise, Observer, ParameterRecord, Problem, Sample, Sampling, ScatterRecord, Stage, cancelled,
+    fit::Fit, heard, noise::SCATTER, predictive::PROBABILITIES, sampler,
 };
 use crate::{
     Error,
@@ -47,7 +47,7 @@ impl Marginal {
         Self {
             mean: mean(&values),
             standard_deviation: variance(&values).sqrt(),
-            quantiles: CHANCES.map(|chance| quantile(&sorted, chance)),
+            quantiles: PROBABILITIES.map(|probability| quantile(&sorted, probability)),
             r_hat: sample.r_hat(parameter),
             bulk_effective_size: sample.bulk_effective_size(parameter),
             tail_effective_size: sample.tail_effective_size(parameter),
@@ -73,12 +73,12 @@ pub(super) fn sample(
     fit: &Fit,
     sampling: Sampling,
     seed: u64,
-    watch: Watch<'_>,
+    observer: Observer<'_>,
 ) -> Result<Sample, Error> {
     let steps = sampling.ensembles * (sampling.burn_in + sampling.steps);
     let progress = |done: usize| {
         let runs = problem.runs.load(Ordering::Relaxed);
-        let answer = watch(Stage::Sampling, done as f64 / steps as f64, runs);
+        let answer = observer(Stage::Sampling, done as f64 / steps as f64, runs);
         heard(problem, answer);
         answer
     };

@@ -1,4 +1,4 @@
-//! What the calibrated model says of each measured value, and how well that fits.
+//! Predictions of the calibrated model for each measured value, and their agreement.
 
 use std::sync::atomic::AtomicUsize;
 
@@ -14,12 +14,12 @@ use crate::{
 /// Most states of the posterior that are put through the model.
 const DRAWS: usize = 400;
 /// Chances between which 95 % lie, and the middle.
-pub(super) const CHANCES: [f64; 3] = [0.025, 0.5, 0.975];
+pub(super) const PROBABILITIES: [f64; 3] = [0.025, 0.5, 0.975];
 
 /// A measured value and what the calibrated model says of it, in the unit of the quantity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Prediction {
-    /// Id of the shot, or name of the case with the number of its entry.
+    /// Id of the test, or name of the case with the number of its entry.
     pub id: String,
     /// Where it comes from.
     pub sources: Vec<String>,
@@ -29,7 +29,7 @@ pub struct Prediction {
     pub quantity: BandQuantity,
     /// Unit of the values.
     pub unit: &'static str,
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
     /// The measured value.
     pub measured: f64,
@@ -39,11 +39,11 @@ pub struct Prediction {
     pub before: Option<f64>,
     /// What it gives with the best values.
     pub best: Option<f64>,
-    /// `(best − measured)/measured`, relative to the impact speed for a speed behind the target.
+    /// `(best − measured)/measured`, relative to the impact velocity for a residual velocity.
     pub relative_error: Option<f64>,
-    /// Where the model's value lies with a chance of 95 %, the parameters being uncertain.
+    /// Where the model's value lies with a probability of 95 %, the parameters being uncertain.
     pub model_band: Option<[f64; 2]>,
-    /// Where a measured value would lie with a chance of 95 %, the scatter included.
+    /// Where a measured value would lie with a probability of 95 %, the scatter included.
     pub predictive_band: Option<[f64; 2]>,
     /// Median of such a value.
     pub predictive_median: Option<f64>,
@@ -134,8 +134,10 @@ pub(super) fn predictions(
         counter.count();
         let banded = !drawn.is_empty();
         let model = sorted(drawn.iter().map(|(value, _)| *value));
-        let band = |of: &dyn Fn(f64) -> f64| banded.then(|| CHANCES.map(|chance| unit(of(chance))));
-        let predictive = band(&|chance| mixture_quantile(&drawn, chance));
+        let band = |of: &dyn Fn(f64) -> f64| {
+            banded.then(|| PROBABILITIES.map(|probability| unit(of(probability))))
+        };
+        let predictive = band(&|probability| mixture_quantile(&drawn, probability));
         Prediction {
             id: observation.id.clone(),
             sources: observation.sources.clone(),
@@ -148,7 +150,8 @@ pub(super) fn predictions(
             before: problem.as_written(observation).map(unit),
             best: found.map(unit),
             relative_error: found.map(|value| (value - observation.measured) / observation.scale()),
-            model_band: band(&|chance| quantile(&model, chance)).map(|[low, _, high]| [low, high]),
+            model_band: band(&|probability| quantile(&model, probability))
+                .map(|[low, _, high]| [low, high]),
             predictive_band: predictive.map(|[low, _, high]| [low, high]),
             predictive_median: predictive.map(|[_, median, _]| median),
         }
@@ -157,7 +160,7 @@ pub(super) fn predictions(
 }
 
 /// Quantile of normal distributions, given as means and standard deviations, that are equally likely.
-fn mixture_quantile(parts: &[(f64, f64)], chance: f64) -> f64 {
+fn mixture_quantile(parts: &[(f64, f64)], probability: f64) -> f64 {
     let below = |y: f64| {
         let part = |(mean, deviation): &(f64, f64)| {
             0.5 * libm::erfc((mean - y) / deviation * std::f64::consts::FRAC_1_SQRT_2)
@@ -173,7 +176,7 @@ fn mixture_quantile(parts: &[(f64, f64)], chance: f64) -> f64 {
     let mut high = ends(1.0).fold(f64::NEG_INFINITY, f64::max);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        if below(middle) < chance {
+        if below(middle) < probability {
             low = middle;
         } else {
             high = middle;

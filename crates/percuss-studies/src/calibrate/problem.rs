@@ -1,4 +1,4 @@
-//! What is fitted to what, by which model.
+//! Calibration problem: parameters, measured values and model.
 
 use std::{
     ops::ControlFlow,
@@ -103,7 +103,7 @@ impl Problem {
                 "there is no measured value to fit to".to_owned(),
                 match problem.left_out.last() {
                     Some(left) => format!("`{}`, for example, is left out: {}", left.id, left.reason),
-                    None => "give cases with [[experiments]], or --data with shots of the material that is fitted".to_owned(),
+                    None => "give cases with [[experiments]], or --data with tests of the material that is fitted".to_owned(),
                 },
             ));
         }
@@ -198,17 +198,17 @@ impl Problem {
     }
 
     fn compute(&self, scenario: &Scenario, quantity: BandQuantity) -> Result<f64, Silent> {
-        let mut watch = |_| match self.stop.load(Ordering::Relaxed) {
+        let mut observer = |_| match self.stop.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         };
         let mut control = Control {
             record: false,
-            progress: Some(&mut watch),
+            progress: Some(&mut observer),
             ..Control::default()
         };
         self.runs.fetch_add(1, Ordering::Relaxed);
-        if !self.model.guard().predicts.contains(&quantity) {
+        if !self.model.validity().predicts.contains(&quantity) {
             return Err(Silent::Always(gives_no(self.model.name(), quantity)));
         }
         let result = match model::run(self.model, scenario, &mut control) {
@@ -220,12 +220,12 @@ impl Problem {
             Err(error) => return Err(Silent::Here(error.to_string())),
         };
         if result.outcome == Outcome::OutOfTime {
-            return Err(Silent::Here("the run ended before the shot did".to_owned()));
+            return Err(Silent::Here("the run ended before the test did".to_owned()));
         }
         match result.measurable(quantity) {
             None => Err(Silent::Always(gives_no(self.model.name(), quantity))),
             Some(value) if !value.is_finite() => Err(Silent::Here(format!("it gives {value}"))),
-            // A projectile that is stopped or thrown back has no speed behind the target.
+            // A projectile that is stopped or thrown back has no residual velocity.
             Some(value) if quantity == BandQuantity::ResidualVelocity => Ok(value.max(0.0)),
             Some(value) => Ok(value),
         }
@@ -303,7 +303,7 @@ impl Problem {
 }
 
 fn gives_no(model: &str, quantity: BandQuantity) -> String {
-    format!("the model `{model}` gives no {}", quantity.in_words())
+    format!("the model `{model}` gives no {}", quantity.describe())
 }
 
 pub(super) fn refuse(reason: String, remedy: String) -> Error {

@@ -19,9 +19,9 @@ const NO_SAMPLE: Settings = Settings {
 fn a_problem_that_is_stopped_computes_nothing() {
     let stop = Arc::new(AtomicBool::new(false));
     let set_up = || {
-        let text = "projectile = { material = 'copper', length = '20 mm', diameter = '8 mm', velocity = '200 m/s' }
+        let text = "projectile = { material = 'copper', length = '20 mm', diameter = '8 mm', impact_velocity = '200 m/s' }
             target = { rigid_wall = true }
-            experiments = [{ velocity = '200 m/s', projectile_final_length = '15 mm', source = 'test' }]";
+            experiments = [{ impact_velocity = '200 m/s', projectile_final_length = '15 mm', source = 'test' }]";
         let mut observations = Observations::default();
         let case = Document::new("rod", text);
         observations.add_case(&case).unwrap();

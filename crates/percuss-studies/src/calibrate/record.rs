@@ -13,14 +13,14 @@ const DIGITS: usize = 6;
 
 /// A material with calibrated constants.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Record {
+pub struct CalibratedRecord {
     /// Name of its table.
     pub id: String,
     /// The record.
     pub material: Material,
 }
 
-impl Record {
+impl CalibratedRecord {
     /// The record as a file of materials, which `material_files` of a case and `--materials` of commands take; the same table under
     /// `[materials]` of a case does as well.
     pub fn toml(&self) -> String {
@@ -39,7 +39,7 @@ pub fn records(
     problem: &Problem,
     calibration: &Calibration,
     name: Option<&str>,
-) -> Result<Vec<Record>, String> {
+) -> Result<Vec<CalibratedRecord>, String> {
     let mut ids: Vec<&str> = Vec::new();
     for (id, _) in problem.fitted.iter().filter_map(Fitted::material) {
         if !ids.contains(&id) {
@@ -78,7 +78,7 @@ pub fn records(
             Some(name) => format!("{name}{suffix}"),
             None => format!("{id}-calibrated"),
         };
-        Ok(Record {
+        Ok(CalibratedRecord {
             material: stamped(problem, calibration, id, material),
             id: new_id,
         })
@@ -94,7 +94,7 @@ fn stamped(problem: &Problem, calibration: &Calibration, id: &str, material: Mat
             sources.push(source.clone());
         }
     }
-    let shots: Vec<String> = problem.training().map(|o| o.id.clone()).collect();
+    let tests: Vec<String> = problem.training().map(|o| o.id.clone()).collect();
     let own = problem
         .fitted
         .iter()
@@ -138,7 +138,7 @@ fn stamped(problem: &Problem, calibration: &Calibration, id: &str, material: Mat
     let note = format!(
         "Calibrated from {} of {} with the model `{}` (percuss {}, seed {}): {}. RMS relative error {:.1} %.{determined} \
          The other constants are those of `{id}`{others}",
-        counted(shots.len()),
+        counted(tests.len()),
         sources.join(", "),
         calibration.model,
         calibration.percuss_version,
@@ -165,7 +165,7 @@ fn stamped(problem: &Problem, calibration: &Calibration, id: &str, material: Mat
             from: id.to_owned(),
             model: calibration.model.to_owned(),
             sources,
-            shots,
+            shots: tests,
             percuss_version: calibration.percuss_version.to_owned(),
             seed: calibration.seed,
         }),

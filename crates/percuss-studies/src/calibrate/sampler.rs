@@ -20,7 +20,7 @@ use crate::{Error, sweep};
 /// How a density is sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Sampling {
-    /// Ensembles that know nothing of each other.
+    /// Independent ensembles.
     pub ensembles: usize,
     /// Walkers of an ensemble: an even number, at least twice the number of parameters.
     pub walkers: usize,

@@ -1,4 +1,4 @@
-//! How far a calibration has come.
+//! Stages of a calibration.
 
 /// What a calibration is doing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,7 +31,7 @@ impl Stage {
     }
 
     /// It in words, with the runs so far.
-    pub fn in_words(self, runs: u64) -> String {
+    pub fn describe(self, runs: u64) -> String {
         let what = match self {
             Self::LeastSquares => "least squares",
             Self::Sampling => "sampling",

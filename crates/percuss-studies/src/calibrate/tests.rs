@@ -3,9 +3,9 @@ use std::ops::ControlFlow;
 use super::*;
 use crate::{
     case::{self, load_str},
+    experiments::{self, Experiment, Kind},
     material::{Library, MaterialTable},
     model::{self, Control, model},
-    shots::{self, Kind, Shot},
     validate,
 };
 
@@ -31,7 +31,7 @@ poissons_ratio = 0.33
 strength.perfectly_plastic = { flow_stress = '300 MPa' }
 ";
 
-const GO_ON: Watch<'static> = &|_, _, _| ControlFlow::Continue(());
+const GO_ON: Observer<'static> = &|_, _, _| ControlFlow::Continue(());
 
 fn library() -> Library {
     let mut library = Library::built_in().clone();
@@ -40,8 +40,8 @@ fn library() -> Library {
     library
 }
 
-/// Shots with what a model gives for them as the measured value, times one more than `scatter`.
-fn synthetic(kind: Kind, model_name: &str, options: &str, scatter: &[f64]) -> Vec<Shot> {
+/// Tests with what a model gives for them as the measured value, times one more than `scatter`.
+fn synthetic(kind: Kind, model_name: &str, options: &str, scatter: &[f64]) -> Vec<Experiment> {
     let (rod, target, thickness, nose) = match kind {
         Kind::Taylor => ("rod", "rigid-wall", "", "flat"),
         _ => ("dart", "block", "semi-infinite", "hemisphere"),
@@ -55,7 +55,7 @@ fn synthetic(kind: Kind, model_name: &str, options: &str, scatter: &[f64]) -> Ve
             _ => "material = 'block', thickness = 'semi-infinite'",
         };
         let text = format!(
-            "projectile = {{ material = '{rod}', length = '25 mm', diameter = '7 mm', nose = '{nose}', velocity = '{speed} m/s' }}\n\
+            "projectile = {{ material = '{rod}', length = '25 mm', diameter = '7 mm', nose = '{nose}', impact_velocity = '{speed} m/s' }}\n\
              target = {{ {target_text} }}\n{options}\n{}",
             MATERIALS.replace("\n[", "\n[materials.")
         );
@@ -73,16 +73,16 @@ fn synthetic(kind: Kind, model_name: &str, options: &str, scatter: &[f64]) -> Ve
             value * (1.0 + scatter)
         );
     }
-    shots::read_str("synthetic.csv", &rows, &library()).unwrap()
+    experiments::read_str("synthetic.csv", &rows, &library()).unwrap()
 }
 
-fn problem(model_name: &str, shots: &[Shot], fitted: &[&str], noise: Noise) -> Problem {
+fn problem(model_name: &str, tests: &[Experiment], fitted: &[&str], noise: Noise) -> Problem {
     let fitted: Vec<Fitted> = fitted
         .iter()
         .flat_map(|text| Fitted::read(text).unwrap())
         .collect();
     let mut observations = Observations::default();
-    observations.add_shots(shots, &library(), &fitted).unwrap();
+    observations.add_tests(tests, &library(), &fitted).unwrap();
     Problem::new(model(model_name).unwrap(), fitted, observations, noise).unwrap()
 }
 
@@ -95,9 +95,9 @@ const PONCELET: [&str; 2] = ["poncelet.resistance=0.2..5 GPa", "poncelet.drag=0.
 
 #[test]
 fn the_yield_stress_of_taylor_tests_is_recovered() {
-    let shots = synthetic(Kind::Taylor, "wilkins_guinan", "", &[0.0; 4]);
+    let tests = synthetic(Kind::Taylor, "wilkins_guinan", "", &[0.0; 4]);
     let key = "materials.rod.strength.perfectly_plastic.flow_stress=50..2000 MPa";
-    let problem = problem("wilkins_guinan", &shots, &[key], Noise::Relative(0.01));
+    let problem = problem("wilkins_guinan", &tests, &[key], Noise::Relative(0.01));
     let found = run(&problem, &NO_SAMPLE, GO_ON).unwrap();
     let stress = found.parameters[0].best;
     assert!((stress / 350.0 - 1.0).abs() < 1e-6, "{stress}");
@@ -111,8 +111,8 @@ fn the_yield_stress_of_taylor_tests_is_recovered() {
 #[test]
 fn the_constants_of_poncelet_are_recovered() {
     let options = "poncelet = { resistance = '1.3 GPa', drag = 0.4 }";
-    let shots = synthetic(Kind::Depth, "poncelet", options, &[0.0; 8]);
-    let problem = problem("poncelet", &shots, &PONCELET, Noise::Relative(0.01));
+    let tests = synthetic(Kind::Depth, "poncelet", options, &[0.0; 8]);
+    let problem = problem("poncelet", &tests, &PONCELET, Noise::Relative(0.01));
     let found = run(&problem, &NO_SAMPLE, GO_ON).unwrap();
     for (parameter, exact) in found.parameters.iter().zip([1.3, 0.4]) {
         assert!((parameter.best / exact - 1.0).abs() < 1e-6, "{parameter:?}");
@@ -128,8 +128,8 @@ fn intervals_cover_the_truth_and_the_hold_out() {
     ];
     let scatter = scores.map(|score| 0.02 * score);
     let options = "poncelet = { resistance = '1.3 GPa', drag = 0.4 }";
-    let shots = synthetic(Kind::Depth, "poncelet", options, &scatter);
-    let mut problem = problem("poncelet", &shots, &PONCELET, Noise::Relative(0.02));
+    let tests = synthetic(Kind::Depth, "poncelet", options, &scatter);
+    let mut problem = problem("poncelet", &tests, &PONCELET, Noise::Relative(0.02));
     for observation in &mut problem.observations {
         observation.held_out = observation.sources[0] == "second";
     }
@@ -163,9 +163,9 @@ fn intervals_cover_the_truth_and_the_hold_out() {
 #[test]
 fn an_estimated_scatter_is_the_one_of_the_residuals() {
     let scatter = [0.03, -0.03, 0.03, -0.03, 0.03, -0.03, 0.03, -0.03];
-    let shots = synthetic(Kind::Taylor, "wilkins_guinan", "", &scatter);
+    let tests = synthetic(Kind::Taylor, "wilkins_guinan", "", &scatter);
     let key = "materials.rod.strength.perfectly_plastic.flow_stress=50..2000 MPa";
-    let problem = problem("wilkins_guinan", &shots, &[key], Noise::Estimated);
+    let problem = problem("wilkins_guinan", &tests, &[key], Noise::Estimated);
     let found = run(&problem, &NO_SAMPLE, GO_ON).unwrap();
     let errors = found.predictions.iter().map(|p| p.relative_error.unwrap());
     let exact = (errors.map(|e| e * e).sum::<f64>() / 7.0).sqrt();
@@ -177,19 +177,19 @@ fn an_estimated_scatter_is_the_one_of_the_residuals() {
 #[test]
 fn parameters_that_enter_as_a_product_are_named() {
     let options = "poncelet = { resistance = '1.3 GPa', drag = 0.4 }";
-    let shots = synthetic(Kind::Depth, "poncelet", options, &[0.0; 6]);
+    let tests = synthetic(Kind::Depth, "poncelet", options, &[0.0; 6]);
     let keys = [
         "poncelet.resistance=1..2 GPa",
         "poncelet.drag=0.2..0.8",
         "materials.block.density=2000..3500 kg/m3",
         "materials.block.poissons_ratio=0.2..0.4",
     ];
-    let problem = problem("poncelet", &shots, &keys, Noise::Relative(0.01));
+    let problem = problem("poncelet", &tests, &keys, Noise::Relative(0.01));
     let found = run(&problem, &NO_SAMPLE, GO_ON).unwrap();
     let named = |weakness| {
         let mut findings = found.findings.iter();
-        let finding = findings.find(|finding| finding.weakness == weakness);
-        finding
+        let diagnostic = findings.find(|diagnostic| diagnostic.weakness == weakness);
+        diagnostic
             .unwrap_or_else(|| panic!("{:?}", found.findings))
             .parameters
             .clone()
@@ -214,9 +214,9 @@ fn parameters_that_enter_as_a_product_are_named() {
 
 #[test]
 fn a_record_is_taken_back_and_is_no_blind_test_of_its_source() {
-    let mut shots = synthetic(Kind::Taylor, "wilkins_guinan", "", &[0.0; 4]);
+    let mut tests = synthetic(Kind::Taylor, "wilkins_guinan", "", &[0.0; 4]);
     let key = "materials.rod.strength.perfectly_plastic.flow_stress=50..2000 MPa";
-    let mut problem = problem("wilkins_guinan", &shots, &[key], Noise::Relative(0.01));
+    let mut problem = problem("wilkins_guinan", &tests, &[key], Noise::Relative(0.01));
     for observation in &mut problem.observations {
         observation.held_out = observation.sources[0] == "second";
     }
@@ -238,45 +238,45 @@ fn a_record_is_taken_back_and_is_no_blind_test_of_its_source() {
 
     let mut library = library();
     library.add(&table, "material.toml");
-    for shot in &mut shots {
-        shot.projectile_materials = vec!["new-rod".to_owned()];
+    for test in &mut tests {
+        test.projectile_materials = vec!["new-rod".to_owned()];
     }
     let validation = validate::run(
         &[model("wilkins_guinan").unwrap()],
-        &shots,
+        &tests,
         &library,
         &|_| ControlFlow::Continue(()),
     )
     .unwrap();
-    for (prediction, shot) in validation.predictions.iter().zip(&shots) {
+    for (prediction, test) in validation.predictions.iter().zip(&tests) {
         assert!(prediction.relative_error.unwrap().abs() < 1e-5);
-        let blind = shot.source == "second";
+        let blind = test.source == "second";
         assert_eq!(
-            prediction.split == shots::Split::Blind,
+            prediction.split == experiments::Split::Blind,
             blind,
             "{}",
-            shot.id
+            test.id
         );
     }
 }
 
 /// A case that went through TOML is the case that it was.
 #[test]
-fn shots_become_the_same_scenarios_as_elsewhere() {
+fn tests_become_the_same_scenarios_as_elsewhere() {
     let library = Library::built_in();
     let mut observations = Observations::default();
     observations
-        .add_shots(shots::built_in(), library, &[])
+        .add_tests(experiments::built_in(), library, &[])
         .unwrap();
     assert!(observations.used.len() > 1000);
     for observation in observations.used.iter().step_by(7) {
-        let mut shots = shots::built_in().iter();
-        let shot = shots.find(|shot| shot.id == observation.id).unwrap();
-        let exact = shot
-            .scenario(&shot.projectile_materials[0], library)
+        let mut tests = experiments::built_in().iter();
+        let test = tests.find(|test| test.id == observation.id).unwrap();
+        let exact = test
+            .scenario(&test.projectile_materials[0], library)
             .unwrap();
         let found = observation.scenario(&[], &[]).unwrap();
-        let close = |a: f64, b: f64| assert!((a - b).abs() <= 1e-14 * b.abs(), "{}", shot.id);
+        let close = |a: f64, b: f64| assert!((a - b).abs() <= 1e-14 * b.abs(), "{}", test.id);
         close(found.projectile.mass, exact.projectile.mass);
         close(found.projectile.length, exact.projectile.length);
         close(found.projectile.diameter, exact.projectile.diameter);
@@ -286,12 +286,16 @@ fn shots_become_the_same_scenarios_as_elsewhere() {
 }
 
 #[test]
-fn constants_of_a_material_take_its_shots_alone() {
+fn constants_of_a_material_take_its_tests_alone() {
     let fitted =
         Fitted::read("materials.ofhc-copper-johnson-cook.strength.johnson_cook.a=20..300 MPa");
     let mut observations = Observations::default();
     observations
-        .add_shots(shots::built_in(), Library::built_in(), &fitted.unwrap())
+        .add_tests(
+            experiments::built_in(),
+            Library::built_in(),
+            &fitted.unwrap(),
+        )
         .unwrap();
     let sources = observations.sources();
     assert_eq!(
@@ -323,11 +327,11 @@ fn constants_of_a_material_take_its_shots_alone() {
 
 /// What is said of a parameter, and the text that it points at.
 fn refused(text: &str) -> (String, String) {
-    let shots = synthetic(Kind::Depth, "poncelet", "", &[0.0; 2]);
+    let tests = synthetic(Kind::Depth, "poncelet", "", &[0.0; 2]);
     let error = Fitted::read(text)
         .and_then(|fitted| {
             let mut observations = Observations::default();
-            observations.add_shots(&shots, &library(), &fitted)?;
+            observations.add_tests(&tests, &library(), &fitted)?;
             Problem::new(
                 model("poncelet")?,
                 fitted,
@@ -375,8 +379,8 @@ fn a_wrong_key_unit_or_range_is_placed() {
 
 #[test]
 fn it_ends_when_the_caller_wants_so() {
-    let shots = synthetic(Kind::Depth, "poncelet", "", &[0.0; 6]);
-    let problem = problem("poncelet", &shots, &PONCELET, Noise::Relative(0.01));
+    let tests = synthetic(Kind::Depth, "poncelet", "", &[0.0; 6]);
+    let problem = problem("poncelet", &tests, &PONCELET, Noise::Relative(0.01));
     let settings = Settings {
         sampling: Some(Sampling {
             ensembles: 2,

@@ -27,19 +27,19 @@ pub struct Progress {
 
 /// What a caller wants of a comparison: progress and a way to stop it.
 #[derive(Default)]
-pub struct Watch<'a> {
+pub struct Observer<'a> {
     /// Called now and then from any thread, never from two at once; [`ControlFlow::Break`] ends the comparison.
     pub progress: Option<&'a mut (dyn FnMut(Progress) -> ControlFlow<()> + Send)>,
 }
 
-impl std::fmt::Debug for Watch<'_> {
+impl std::fmt::Debug for Observer<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Watch").finish_non_exhaustive()
+        f.debug_struct("Observer").finish_non_exhaustive()
     }
 }
 
-/// The case at each speed, with its regime.
-pub(super) fn shots(scenario: &Scenario, speeds: &[f64]) -> Vec<(Scenario, Regime)> {
+/// The case at each impact velocity, with its regime.
+pub(super) fn scenarios(scenario: &Scenario, speeds: &[f64]) -> Vec<(Scenario, Regime)> {
     speeds
         .par_iter()
         .map(|&speed| {
@@ -50,24 +50,24 @@ pub(super) fn shots(scenario: &Scenario, speeds: &[f64]) -> Vec<(Scenario, Regim
         .collect()
 }
 
-/// Runs every model on every shot; the entries of a shot stand together.
+/// Runs every model at every velocity; the results of one velocity are consecutive.
 pub(super) fn run(
     models: &[&dyn Model],
-    shots: &[(Scenario, Regime)],
-    watch: &mut Watch<'_>,
+    runs: &[(Scenario, Regime)],
+    observer: &mut Observer<'_>,
 ) -> Result<Vec<ResultRecord>, Error> {
-    let total = models.len() * shots.len();
+    let total = models.len() * runs.len();
     let board = Mutex::new(Board {
         fractions: vec![0.0; total],
         sum: 0.0,
         finished: 0,
         stopped: false,
-        watch,
+        observer,
     });
     (0..total)
         .into_par_iter()
         .map(|job| {
-            let (scenario, regime) = &shots[job / models.len()];
+            let (scenario, regime) = &runs[job / models.len()];
             run_one(models[job % models.len()], scenario, regime, |fraction| {
                 // A caller whose callback has panicked gets its panic anyway.
                 let mut board = board.lock().unwrap_or_else(PoisonError::into_inner);
@@ -115,7 +115,7 @@ struct Board<'a, 'b> {
     sum: f64,
     finished: usize,
     stopped: bool,
-    watch: &'a mut Watch<'b>,
+    observer: &'a mut Observer<'b>,
 }
 
 impl Board<'_, '_> {
@@ -134,7 +134,7 @@ impl Board<'_, '_> {
             total,
             fraction: self.sum / total as f64,
         };
-        let flow = match &mut self.watch.progress {
+        let flow = match &mut self.observer.progress {
             Some(callback) => callback(progress),
             None => ControlFlow::Continue(()),
         };

@@ -1,14 +1,14 @@
-//! Every model on one case, at one or many impact speeds, and which of them to rely on.
+//! Every model on one case, at one or many impact velocities, and which of them to rely on.
 //!
 //! ```
-//! use percuss::{case, compare::{compare, Watch}, model::quick};
+//! use percuss::{case, compare::{compare, Observer}, model::quick};
 //!
 //! let scenario = case::load_str("taylor", r#"
-//!     projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "183 m/s" }
+//!     projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", impact_velocity = "183 m/s" }
 //!     target = { rigid_wall = true }
 //! "#)?;
-//! let comparison = compare(&quick(), &scenario, &[89.0, 183.0], &mut Watch::default())?;
-//! assert_eq!(comparison.results.len(), 2 * quick().len());
+//! let comparison = compare(&fast_models(), &scenario, &[89.0, 183.0], &mut Observer::default())?;
+//! assert_eq!(comparison.results.len(), 2 * fast_models().len());
 //! assert!(comparison.has_results());
 //! # Ok::<(), percuss::Error>(())
 //! ```
@@ -30,7 +30,7 @@ use crate::{
 };
 
 pub use crate::model::{Choice, Recommendation};
-pub use jobs::{Progress, Watch};
+pub use jobs::{Observer, Progress};
 
 /// What every model says of a case. The names are stable; those of `percuss run --json` have the same meaning.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -39,9 +39,9 @@ pub struct Comparison {
     pub case: String,
     /// Version of the program.
     pub percuss_version: &'static str,
-    /// The recognised regime, one entry a speed.
+    /// The recognised regime, one entry per impact velocity.
     pub regime: Vec<SpeedRegime>,
-    /// What to rely on, one entry a speed.
+    /// What to rely on, one entry per impact velocity.
     pub recommended: Vec<Recommendation>,
     /// Quantities that tell most of this case, the leading one first.
     pub quantities: Vec<BandQuantity>,
@@ -54,7 +54,7 @@ pub struct Comparison {
 /// The regime at a speed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SpeedRegime {
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
     /// The regime.
     #[serde(flatten)]
@@ -66,7 +66,7 @@ pub struct SpeedRegime {
 pub struct ExperimentRecord {
     /// What was measured.
     pub quantity: BandQuantity,
-    /// Impact speed [m/s]; null for a ballistic limit without one.
+    /// Impact velocity [m/s]; null for a ballistic limit without one.
     pub impact_velocity_m_s: Option<f64>,
     /// The value.
     pub value: f64,
@@ -74,12 +74,12 @@ pub struct ExperimentRecord {
     pub uncertainty: Option<f64>,
     /// Bibliography keys.
     pub sources: Vec<String>,
-    /// What a user should know of it.
+    /// Remarks on it.
     pub note: String,
 }
 
 impl ExperimentRecord {
-    /// What was measured on shots of a case.
+    /// What was measured on runs of a case.
     pub(crate) fn all(scenario: &Scenario) -> Vec<Self> {
         let record = |measured: &Measurement| Self {
             quantity: measured.quantity,
@@ -93,22 +93,22 @@ impl ExperimentRecord {
     }
 }
 
-/// Runs models on a case at each of these impact speeds [m/s], on all cores.
+/// Runs models on a case at each of these impact velocities [m/s], on all cores.
 ///
 /// A model that does not apply or that fails leaves the reason in its entry and never stops the others. The order of the
 /// entries does not depend on the order in which runs end.
 ///
 /// # Errors
-/// [`Error::Cancelled`] when `watch` says so.
+/// [`Error::Cancelled`] when `observer` says so.
 pub fn compare(
     models: &[&dyn Model],
     scenario: &Scenario,
     speeds: &[f64],
-    watch: &mut Watch<'_>,
+    observer: &mut Observer<'_>,
 ) -> Result<Comparison, Error> {
-    let shots: Vec<(Scenario, Regime)> = jobs::shots(scenario, speeds);
-    let results = jobs::run(models, &shots, watch)?;
-    let recommended = shots
+    let runs: Vec<(Scenario, Regime)> = jobs::scenarios(scenario, speeds);
+    let results = jobs::run(models, &runs, observer)?;
+    let recommended = runs
         .iter()
         .zip(results.chunks(models.len().max(1)))
         .map(|((scenario, regime), results)| {
@@ -123,7 +123,7 @@ pub fn compare(
         quantities: quantities::leading(scenario, &results),
         experiments: ExperimentRecord::all(scenario),
         results,
-        regime: shots
+        regime: runs
             .into_iter()
             .map(|(scenario, regime)| SpeedRegime {
                 impact_velocity_m_s: scenario.impact_velocity,
@@ -133,7 +133,7 @@ pub fn compare(
     })
 }
 
-/// Part of an impact speed by which a shot may differ from a measured one and still be the same.
+/// Part of an impact velocity by which a run may differ from a measured one and still be the same.
 const SAME_SPEED: f64 = 1e-3;
 
 fn same_speed(measured: f64, speed: f64) -> bool {
@@ -141,7 +141,7 @@ fn same_speed(measured: f64, speed: f64) -> bool {
 }
 
 impl Comparison {
-    /// Impact speeds [m/s].
+    /// Impact velocities [m/s].
     pub fn speeds(&self) -> Vec<f64> {
         self.regime
             .iter()

@@ -1,4 +1,4 @@
-//! Which numbers tell most of a case.
+//! Most informative quantities of a case.
 
 use crate::{
     outcome::{BandQuantity, Outcome},

@@ -2,15 +2,15 @@
 
 use std::{ops::ControlFlow, sync::Mutex};
 
-use super::{Watch, compare};
+use super::{Observer, compare};
 use crate::{
     Error, NumericalError, Scenario, case,
-    guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
     made_up::MadeUp,
     material::MaterialClass,
     model::{self, Control, Model},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
+    validity::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 
 fn result(outcome: Outcome, depth: f64, residual: f64) -> RunResult {
@@ -57,7 +57,7 @@ const fn first_choice(projectile: ProjectileRegime) -> FirstChoice {
     }
 }
 
-const SLOW: Guard = Guard {
+const SLOW: ValidityDomain = ValidityDomain {
     ranges: &[Range {
         measure: Measure::ImpactSpeed,
         min: 0.0,
@@ -65,21 +65,21 @@ const SLOW: Guard = Guard {
         outside: Outside::NotApplicable,
         because: "it is slow",
     }],
-    ..Guard::OPEN
+    ..ValidityDomain::OPEN
 };
 
 const OPEN: MadeUp = MadeUp {
     name: "open",
-    guard: Guard::OPEN,
+    validity: ValidityDomain::OPEN,
     result: deep,
 };
 
 /// A copper rod of 5 mm on a target: deforming below some 300 m/s, eroding above.
 fn scenario(target: &str, more: &str) -> Scenario {
     case::load_str(
-        "shot",
+        "run",
         &format!(
-            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', velocity = '200 m/s' }}\n\
+            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '200 m/s' }}\n\
              target = {{ {target} }}\n{more}"
         ),
     )
@@ -97,7 +97,7 @@ fn entries_stand_in_order_and_a_failure_stops_nothing() {
     };
     let slow = MadeUp {
         name: "slow",
-        guard: SLOW,
+        validity: SLOW,
         ..OPEN
     };
     let models: [&dyn Model; 3] = [&failing, &slow, &OPEN];
@@ -106,7 +106,7 @@ fn entries_stand_in_order_and_a_failure_stops_nothing() {
         &models,
         &scenario(SEMI_INFINITE, ""),
         &speeds,
-        &mut Watch::default(),
+        &mut Observer::default(),
     )
     .unwrap();
     assert_eq!(comparison.speeds(), speeds);
@@ -135,7 +135,7 @@ fn entries_stand_in_order_and_a_failure_stops_nothing() {
         &models[..1],
         &scenario(SEMI_INFINITE, ""),
         &[100.0],
-        &mut Watch::default(),
+        &mut Observer::default(),
     );
     assert!(!none.unwrap().has_results());
 }
@@ -144,8 +144,20 @@ fn entries_stand_in_order_and_a_failure_stops_nothing() {
 fn a_comparison_is_the_same_every_time() {
     let speeds = [100.0, 200.0, 400.0];
     let scenario = scenario(SEMI_INFINITE, "");
-    let one = compare(&model::quick(), &scenario, &speeds, &mut Watch::default()).unwrap();
-    let two = compare(&model::quick(), &scenario, &speeds, &mut Watch::default()).unwrap();
+    let one = compare(
+        &model::fast_models(),
+        &scenario,
+        &speeds,
+        &mut Observer::default(),
+    )
+    .unwrap();
+    let two = compare(
+        &model::fast_models(),
+        &scenario,
+        &speeds,
+        &mut Observer::default(),
+    )
+    .unwrap();
     assert_eq!(one, two);
     let alone = model::run(
         model::model("chain").unwrap(),
@@ -169,7 +181,7 @@ fn the_leading_quantity_follows_from_the_target() {
             &[model],
             &scenario(target, ""),
             &[200.0],
-            &mut Watch::default(),
+            &mut Observer::default(),
         )
         .unwrap()
         .quantities
@@ -189,7 +201,7 @@ fn the_leading_quantity_follows_from_the_target() {
         &[chain],
         &scenario("rigid_wall = true", ""),
         &[90.0],
-        &mut Watch::default(),
+        &mut Observer::default(),
     );
     assert_eq!(
         wall.unwrap().quantities,
@@ -201,28 +213,28 @@ fn the_leading_quantity_follows_from_the_target() {
 fn a_first_choice_is_recommended_if_it_gives_a_result() {
     const DEFORMING: &[FirstChoice] = &[first_choice(ProjectileRegime::Deforming)];
     const ERODING: &[FirstChoice] = &[first_choice(ProjectileRegime::Eroding)];
-    let guard = |first_choice| Guard {
+    let validity = |first_choice| ValidityDomain {
         first_choice,
-        ..Guard::OPEN
+        ..ValidityDomain::OPEN
     };
     let deforming = MadeUp {
         name: "deforming",
-        guard: guard(DEFORMING),
+        validity: validity(DEFORMING),
         ..OPEN
     };
     let eroding = MadeUp {
         name: "eroding",
-        guard: guard(ERODING),
+        validity: validity(ERODING),
         ..OPEN
     };
     let failing = MadeUp {
         name: "failing",
-        guard: guard(ERODING),
+        validity: validity(ERODING),
         result: fails,
     };
     let at = |models: &[&dyn Model], speed: f64| {
         let scenario = scenario(SEMI_INFINITE, "");
-        let comparison = compare(models, &scenario, &[speed], &mut Watch::default()).unwrap();
+        let comparison = compare(models, &scenario, &[speed], &mut Observer::default()).unwrap();
         let recommendation = comparison.recommended[0].clone();
         let names: Vec<&str> = recommendation
             .models
@@ -259,28 +271,28 @@ fn a_neighbouring_regime_is_named() {
     const DEFORMING: &[FirstChoice] = &[first_choice(ProjectileRegime::Deforming)];
     let rigid = MadeUp {
         name: "rigid",
-        guard: Guard {
+        validity: ValidityDomain {
             first_choice: RIGID,
-            ..Guard::OPEN
+            ..ValidityDomain::OPEN
         },
         ..OPEN
     };
     let soft = MadeUp {
         name: "soft",
-        guard: Guard {
+        validity: ValidityDomain {
             first_choice: DEFORMING,
-            ..Guard::OPEN
+            ..ValidityDomain::OPEN
         },
         ..OPEN
     };
     // A perfectly plastic rod of 400 MPa against 500 MPa: it deforms, and 500 is within 1.5 × 400.
-    let text = "projectile = { material = 'm', length = '20 mm', diameter = '5 mm', velocity = '100 m/s' }\n\
+    let text = "projectile = { material = 'm', length = '20 mm', diameter = '5 mm', impact_velocity = '100 m/s' }\n\
                 target = { constant_pressure = '500 MPa' }\n\
                 [materials.m]\nname = 'm'\ndensity = '8000 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\n\
                 strength.perfectly_plastic.flow_stress = '400 MPa'";
     let scenario = case::load_str("edge", text).unwrap();
     let recommend = |models: &[&dyn Model]| {
-        let comparison = compare(models, &scenario, &[100.0], &mut Watch::default()).unwrap();
+        let comparison = compare(models, &scenario, &[100.0], &mut Observer::default()).unwrap();
         let recommendation = comparison.recommended[0].clone();
         (recommendation.models[0].model, recommendation.note.unwrap())
     };
@@ -288,7 +300,7 @@ fn a_neighbouring_regime_is_named() {
     assert_eq!(model, "soft");
     assert_eq!(
         note,
-        "the projectile may be rigid as well, for which `rigid` is the first choice: compare both"
+        "the projectile may also be rigid, for which `rigid` is the first choice: compare both"
     );
     let (model, note) = recommend(&[&rigid]);
     assert_eq!(model, "rigid");
@@ -300,10 +312,16 @@ fn a_neighbouring_regime_is_named() {
 
 #[test]
 fn measured_values_are_found_by_their_speed() {
-    let more = "[[experiments]]\nvelocity = '200 m/s'\ndepth_of_penetration = '4 mm'\nsource = 'a'\n\
-                [[experiments]]\nvelocity = '200.1 m/s'\ndepth_of_penetration = '5 mm'\nuncertainty = '1 mm'\nsource = 'a'\n";
+    let more = "[[experiments]]\nimpact_velocity = '200 m/s'\ndepth_of_penetration = '4 mm'\nsource = 'a'\n\
+                [[experiments]]\nimpact_velocity = '200.1 m/s'\ndepth_of_penetration = '5 mm'\nuncertainty = '1 mm'\nsource = 'a'\n";
     let scenario = scenario(SEMI_INFINITE, more);
-    let comparison = compare(&[&OPEN], &scenario, &[200.0, 300.0], &mut Watch::default()).unwrap();
+    let comparison = compare(
+        &[&OPEN],
+        &scenario,
+        &[200.0, 300.0],
+        &mut Observer::default(),
+    )
+    .unwrap();
     let depth = BandQuantity::DepthOfPenetration;
     assert_eq!(comparison.measured(depth, 200.0), Some((4.5, 2)));
     assert_eq!(comparison.measured(depth, 300.0), None);
@@ -321,11 +339,11 @@ fn progress_grows_to_the_end_and_can_stop_everything() {
         seen.lock().unwrap().push(now);
         ControlFlow::Continue(())
     };
-    let mut watch = Watch {
+    let mut observer = Observer {
         progress: Some(&mut note),
     };
     let scenario = scenario(SEMI_INFINITE, "");
-    compare(&[&OPEN, &OPEN], &scenario, &[100.0, 200.0], &mut watch).unwrap();
+    compare(&[&OPEN, &OPEN], &scenario, &[100.0, 200.0], &mut observer).unwrap();
     let seen = seen.into_inner().unwrap();
     assert!(
         seen.windows(2)
@@ -339,9 +357,9 @@ fn progress_grows_to_the_end_and_can_stop_everything() {
         0 => ControlFlow::Continue(()),
         _ => ControlFlow::Break(()),
     };
-    let mut watch = Watch {
+    let mut observer = Observer {
         progress: Some(&mut stop),
     };
-    let stopped = compare(&[&OPEN, &OPEN], &scenario, &[100.0, 200.0], &mut watch);
+    let stopped = compare(&[&OPEN, &OPEN], &scenario, &[100.0, 200.0], &mut observer);
     assert!(matches!(stopped, Err(Error::Cancelled { .. })));
 }

@@ -6,15 +6,15 @@ use serde::Serialize;
 
 use crate::{
     Scenario,
-    guard::NoseKind,
+    experiments::{self, Kind, Split},
     material::{Library, Material},
-    model::{Model, quick},
-    model_error::Expectation,
+    model::{Model, fast_models},
+    model_error::ModelErrorEstimate,
     outcome::BandQuantity,
     regime::{ProjectileRegime, Regime, TargetKind},
     scenario::TargetBody,
-    shots::{self, Kind, Split},
     validate::{self, Standing},
+    validity::NoseKind,
 };
 
 /// Fewest published limits that an expected error rests on.
@@ -27,7 +27,7 @@ const SAME_METAL: f64 = 1.3;
 pub struct ExpectedLimitError {
     /// Median and 10th and 90th percentile of the errors, and how many there are.
     #[serde(flatten)]
-    pub errors: Expectation,
+    pub errors: ModelErrorEstimate,
     /// Errors on limits that the model was neither fitted to nor chosen on.
     pub blind: usize,
     /// What the published limits have in common with the case.
@@ -36,8 +36,8 @@ pub struct ExpectedLimitError {
 
 impl ExpectedLimitError {
     /// The error and its basis in words.
-    pub fn in_words(&self) -> String {
-        let count = self.errors.shots;
+    pub fn describe(&self) -> String {
+        let count = self.errors.cases;
         let blind = match self.blind {
             0 => "; not blind: the model was fitted to or chosen on them".to_owned(),
             blind if blind < count => format!("; {blind} of them blind"),
@@ -45,7 +45,7 @@ impl ExpectedLimitError {
         };
         format!(
             "{}, from {count} published limits of {}{blind}",
-            self.errors.in_words(),
+            self.errors.describe(),
             self.kind
         )
     }
@@ -104,21 +104,21 @@ struct LimitError {
     error: f64,
 }
 
-/// Errors of every quick model that predicts limits, on every published limit that counts.
+/// Errors of every fast model that predicts limits, on every published limit that counts.
 static ERRORS: LazyLock<Vec<LimitError>> = LazyLock::new(|| {
-    let mut models = quick();
+    let mut models = fast_models();
     models.retain(|model| {
-        let predicts = model.guard().predicts;
+        let predicts = model.validity().predicts;
         predicts.contains(&BandQuantity::BallisticLimit)
     });
-    let limits = shots::built_in().iter().enumerate();
-    let limits = limits.filter(|(_, shot)| shot.kind == Kind::BallisticLimit);
+    let limits = experiments::built_in().iter().enumerate();
+    let limits = limits.filter(|(_, test)| test.kind == Kind::BallisticLimit);
     validate::with_main_records(&models, limits, Library::built_in())
         .filter(|(prediction, _)| prediction.standing == Standing::Counted)
         .filter_map(|(prediction, scenario)| {
             Some(LimitError {
                 model: prediction.model,
-                source: shots::built_in()[prediction.shot].source.clone(),
+                source: experiments::built_in()[prediction.test].source.clone(),
                 is_blind: prediction.split == Split::Blind,
                 plate: Plate::of(&scenario)?,
                 error: prediction.relative_error?,
@@ -134,7 +134,7 @@ pub(super) fn expected_error(
     scenario: &Scenario,
     limit: f64,
 ) -> Option<ExpectedLimitError> {
-    let predicts = model.guard().predicts;
+    let predicts = model.validity().predicts;
     if !predicts.contains(&BandQuantity::BallisticLimit) {
         return None;
     }
@@ -158,13 +158,13 @@ fn expected_among(errors: &[&LimitError], plate: &Plate) -> Option<ExpectedLimit
     let metal = move |other: &Plate| other.is_flat == plate.is_flat && plate.is_of_metal(other);
     let thickness = move |other: &Plate| metal(other) && other.target == plate.target;
     let regime = move |other: &Plate| thickness(other) && other.projectile == plate.projectile;
-    let (shape, kind) = (plate.nose(), plate.target.in_words());
+    let (shape, kind) = (plate.nose(), plate.target.describe());
     let levels: [Level<'_>; 3] = [
         (
             Box::new(regime),
             format!(
                 "{} projectiles with {shape} noses on {kind} of such a metal",
-                plate.projectile.in_words()
+                plate.projectile.describe()
             ),
         ),
         (
@@ -182,7 +182,7 @@ fn expected_among(errors: &[&LimitError], plate: &Plate) -> Option<ExpectedLimit
             return None;
         }
         Some(ExpectedLimitError {
-            errors: Expectation::of(alike.iter().map(|error| error.error)),
+            errors: ModelErrorEstimate::of(alike.iter().map(|error| error.error)),
             blind: alike.iter().filter(|error| error.is_blind).count(),
             kind,
         })
@@ -219,19 +219,19 @@ mod tests {
         let errors: Vec<&LimitError> = all.iter().collect();
         let of = |plate: &Plate| expected_among(&errors, plate).unwrap();
         let medium = of(&all[0].plate);
-        assert_eq!((medium.errors.shots, medium.blind), (5, 1));
+        assert_eq!((medium.errors.cases, medium.blind), (5, 1));
         assert!((medium.errors.median + 0.1).abs() < 1e-12);
         assert!(medium.kind.contains("rigid projectiles"), "{}", medium.kind);
         // Four thin steel plates are too few: all of steel are taken.
         let thin = of(&all[5].plate);
-        assert_eq!(thin.errors.shots, 9);
+        assert_eq!(thin.errors.cases, 9);
         assert!(thin.kind.contains("of any thickness"), "{}", thin.kind);
         let copper = Plate {
             density: 8960.0,
             youngs_modulus: 124e9,
             ..all[0].plate.clone()
         };
-        // Errors on one metal are no expectation for another one.
+        // Errors on one metal give no estimate for another one.
         assert_eq!(expected_among(&errors, &copper), None);
         let sharp = Plate {
             is_flat: false,
@@ -245,9 +245,9 @@ mod tests {
     fn errors_are_those_of_the_validation() {
         for name in ["plugging", "awerbuch_bodner", "plate_cavity"] {
             let model = model::model(name).unwrap();
-            let limits: Vec<shots::Shot> = shots::built_in()
+            let limits: Vec<experiments::Experiment> = experiments::built_in()
                 .iter()
-                .filter(|shot| shot.kind == Kind::BallisticLimit)
+                .filter(|test| test.kind == Kind::BallisticLimit)
                 .cloned()
                 .collect();
             let go_on = |_| std::ops::ControlFlow::Continue(());
@@ -269,10 +269,10 @@ mod tests {
     }
 
     #[test]
-    fn a_limit_of_its_own_source_is_no_expectation() {
+    fn a_limit_of_its_own_source_gives_no_estimate() {
         let of = |plate: &str, name: &str, more: &str| {
             let text = format!(
-                "projectile = {{ material = 'tool-steel-hrc53', mass = '50 g', diameter = '20 mm', velocity = '300 m/s' }}\n\
+                "projectile = {{ material = 'tool-steel-hrc53', mass = '50 g', diameter = '20 mm', impact_velocity = '300 m/s' }}\n\
                  target = {{ material = '{plate}', thickness = '24 mm' }}\n{more}"
             );
             let scenario = case::load_str("blunt", &text).unwrap();
@@ -283,8 +283,8 @@ mod tests {
         let light = "aluminium-2024-t351";
         let all = of(light, "plugging", "").unwrap();
         let others = of(light, "plugging", own).unwrap();
-        assert!(others.errors.shots < all.errors.shots, "{others:?} {all:?}");
-        assert!(all.blind == all.errors.shots && all.in_words().contains("published limits"));
+        assert!(others.errors.cases < all.errors.cases, "{others:?} {all:?}");
+        assert!(all.blind == all.errors.cases && all.describe().contains("published limits"));
         // Four published limits of flat noses on steel are too few; limits of the chain have not been compared.
         assert_eq!(of("weldox-460-e", "plugging", ""), None);
         assert_eq!(of(light, "chain", ""), None);

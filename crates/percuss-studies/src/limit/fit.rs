@@ -27,7 +27,7 @@ const ITERATIONS: usize = 500;
 const CONVERGED: f64 = 1e-15;
 
 impl LambertJonasFit {
-    /// Residual velocity at an impact speed [m/s].
+    /// Residual velocity at an impact velocity [m/s].
     pub fn at(&self, speed: f64) -> f64 {
         if speed <= self.ballistic_limit_m_s {
             return 0.0;

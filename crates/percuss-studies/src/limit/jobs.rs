@@ -8,8 +8,8 @@ use std::{
 use rayon::prelude::*;
 
 use super::{
-    ModelLimit, Progress, Search, Watch,
-    findings::{self, Shot},
+    ModelLimit, Observer, Progress, Search,
+    run_results::{self, LimitRun},
     search::{INTERVALS, Passage, Sample, search},
 };
 use crate::{
@@ -27,14 +27,14 @@ pub(super) fn run(
     models: &[&dyn Model],
     scenario: &Scenario,
     search: &Search,
-    watch: &mut Watch<'_>,
+    observer: &mut Observer<'_>,
 ) -> Result<Vec<ModelLimit>, Error> {
     let planned = planned_runs(search);
     let board = Mutex::new(Board {
         planned,
         models: vec![(0, 0.0); models.len()],
         stopped: false,
-        watch,
+        observer,
     });
     (0..models.len())
         .into_par_iter()
@@ -72,24 +72,28 @@ struct Job<'a, 'b, 'c> {
 
 impl Job<'_, '_, '_> {
     fn entry(&self) -> Result<ModelLimit, Error> {
-        if let Some((outcome, reason)) = findings::unsuited(self.model, self.scenario) {
-            return Ok(findings::without_limit(self.model.name(), outcome, reason));
+        if let Some((outcome, reason)) = run_results::unsuited(self.model, self.scenario) {
+            return Ok(run_results::without_limit(
+                self.model.name(),
+                outcome,
+                reason,
+            ));
         }
         if let Some(input) = self.input_limit() {
-            let shots = self.curve_above(input.ballistic_limit_m_s)?;
-            return Ok(findings::input_entry(self.model.name(), input, &shots));
+            let runs = self.curve_above(input.ballistic_limit_m_s)?;
+            return Ok(run_results::input_entry(self.model.name(), input, &runs));
         }
         let mut samples = search(self.search.range, self.search.tolerance, &|speed| {
             self.shoot(speed)
         })?;
-        let shots = match findings::limit_of(&samples) {
+        let runs = match run_results::limit_of(&samples) {
             Some(limit) => self.curve_above(limit)?,
             None => Vec::new(),
         };
-        let residuals = findings::curve(&shots);
-        samples.extend(shots);
+        let residuals = run_results::curve(&runs);
+        samples.extend(runs);
         samples.sort_by(|a, b| a.speed.total_cmp(&b.speed));
-        Ok(findings::entry(self.model.name(), &samples, residuals))
+        Ok(run_results::entry(self.model.name(), &samples, residuals))
     }
 
     /// The limit that the model starts from. A limit by another model needs a speed at which that model applies: its own limit, which
@@ -101,8 +105,8 @@ impl Job<'_, '_, '_> {
         Some(at(first.ballistic_limit_m_s).unwrap_or(first))
     }
 
-    /// Shots at the speeds of the curve above a limit.
-    fn curve_above(&self, limit: f64) -> Result<Vec<Sample<Shot>>, Error> {
+    /// Runs at the speeds of the curve above a limit.
+    fn curve_above(&self, limit: f64) -> Result<Vec<Sample<LimitRun>>, Error> {
         let most = self.search.range.to.min((1.0 + BEYOND) * limit);
         self.curve_speeds(limit, most)
             .par_iter()
@@ -122,12 +126,12 @@ impl Job<'_, '_, '_> {
             .collect()
     }
 
-    /// A shot at a speed. What a model cannot say there is no error.
-    fn shoot(&self, speed: f64) -> Result<Sample<Shot>, Error> {
-        let sample = |passage, shot| Sample {
+    /// A run at a speed. What a model cannot say there is no error.
+    fn shoot(&self, speed: f64) -> Result<Sample<LimitRun>, Error> {
+        let sample = |passage, run| Sample {
             speed,
             passage,
-            shot,
+            run,
         };
         if speed == 0.0 {
             return Ok(sample(Passage::Stopped, None));
@@ -150,11 +154,14 @@ impl Job<'_, '_, '_> {
         let result = model::run_in(self.model, &scenario, &regime, &mut control);
         self.tell(|(runs, part)| (runs + 1, part + 1.0 - told))?;
         match result {
-            Ok(result) => Ok(sample(findings::passage(&result), Some(Shot::of(result)))),
+            Ok(result) => Ok(sample(
+                run_results::passage(&result),
+                Some(LimitRun::of(result)),
+            )),
             Err(stop @ Error::Cancelled { .. }) => Err(stop),
             Err(error) => Ok(sample(
-                Passage::Undecided(findings::reason(&error)),
-                Some(Shot::failed(&error)),
+                Passage::Undecided(run_results::reason(&error)),
+                Some(LimitRun::failed(&error)),
             )),
         }
     }
@@ -181,7 +188,7 @@ struct Board<'a, 'b> {
     /// Of each model, the runs that have ended and the runs done in parts.
     models: Vec<(usize, f64)>,
     stopped: bool,
-    watch: &'a mut Watch<'b>,
+    observer: &'a mut Observer<'b>,
 }
 
 impl Board<'_, '_> {
@@ -197,7 +204,7 @@ impl Board<'_, '_> {
             fraction: self.models.iter().map(|(_, done)| part(*done)).sum::<f64>()
                 / self.models.len() as f64,
         };
-        if let Some(callback) = &mut self.watch.progress {
+        if let Some(callback) = &mut self.observer.progress {
             self.stopped = callback(progress).is_break();
         }
         match self.stopped {

@@ -1,13 +1,13 @@
-//! The ballistic limit of a case by every model that says whether the target is perforated, and speeds behind the target.
+//! Ballistic limit of a case by every model that predicts perforation, and residual velocities.
 //!
 //! ```
-//! use percuss::{case, limit::{limits, LimitOutcome, Search, Watch}, model::quick};
+//! use percuss::{case, limit::{limits, LimitOutcome, Search, Observer}, model::quick};
 //!
 //! let scenario = case::load_str("plate", r#"
-//!     projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "300 m/s" }
+//!     projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "300 m/s" }
 //!     target = { material = "weldox-460-e", thickness = "12 mm" }
 //! "#)?;
-//! let limits = limits(&quick(), &scenario, &Search::default(), &mut Watch::default())?;
+//! let limits = limits(&fast_models(), &scenario, &Search::default(), &mut Observer::default())?;
 //! let plugging = limits.results.iter().find(|limit| limit.model == "plugging").unwrap();
 //! assert_eq!(plugging.outcome, LimitOutcome::Found);
 //! assert!((plugging.ballistic_limit_m_s.unwrap() - 131.43).abs() < 0.01);
@@ -15,11 +15,11 @@
 //! ```
 
 mod expected;
-mod findings;
 mod fit;
 mod jobs;
 mod rear_face;
 mod recommended;
+mod run_results;
 mod search;
 #[cfg(test)]
 mod study_tests;
@@ -37,12 +37,12 @@ use crate::{
     outcome::BandQuantity,
 };
 
-pub use crate::compare::{Progress, Watch};
+pub use crate::compare::{Observer, Progress};
 pub use expected::ExpectedLimitError;
 pub use fit::{LambertJonasFit, fit_lambert_jonas};
 pub use rear_face::{RearFace, with_free_rear_face};
 
-/// Range of impact speeds [m/s], ends included.
+/// Range of impact velocities [m/s], ends included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
     /// Lowest.
@@ -80,7 +80,7 @@ impl Tolerance {
 /// Where and how closely to search, and how many residual velocities to compute.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
-    /// Range of impact speeds.
+    /// Range of impact velocities.
     pub range: Range,
     /// How narrow the bracket is to be.
     pub tolerance: Tolerance,
@@ -113,7 +113,7 @@ pub enum LimitOutcome {
     NeverPerforates,
     /// Everything in the range perforates.
     AlwaysPerforates,
-    /// The shots do not say.
+    /// The runs do not say.
     Undecided,
     /// The model does not apply.
     NotApplicable,
@@ -123,7 +123,7 @@ pub enum LimitOutcome {
 
 impl LimitOutcome {
     /// The outcome in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::Found => "found",
             Self::Input => "limit is an input",
@@ -136,19 +136,19 @@ impl LimitOutcome {
     }
 }
 
-/// The two shots that enclose a limit.
+/// The two runs that enclose a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bracket {
-    /// Highest impact speed below the limit that was stopped [m/s].
+    /// Highest impact velocity below the limit that was stopped [m/s].
     pub stopped_m_s: f64,
-    /// Lowest impact speed above it that perforated [m/s].
+    /// Lowest impact velocity above it that perforated [m/s].
     pub perforated_m_s: f64,
 }
 
-/// A speed behind the target.
+/// A residual velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CurvePoint {
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
     /// Residual velocity [m/s].
     pub residual_velocity_m_s: f64,
@@ -175,13 +175,13 @@ pub struct ModelLimit {
     pub expected_error: Option<ExpectedLimitError>,
     /// The bracket.
     pub bracket: Option<Bracket>,
-    /// Shots that were computed, those of the curve included.
+    /// Runs that were computed, those of the curve included.
     pub runs: usize,
     /// Residual velocities above the limit.
     pub curve: Vec<CurvePoint>,
     /// The curve of Lambert and Jonas through them.
     pub fit: Option<LambertJonasFit>,
-    /// What a user should know before relying on the numbers.
+    /// Limitations of the numbers.
     pub warnings: Vec<String>,
 }
 
@@ -192,13 +192,13 @@ pub struct Limits {
     pub case: String,
     /// Version of the program.
     pub percuss_version: &'static str,
-    /// Lowest and highest impact speed of the search [m/s].
+    /// Lowest and highest impact velocity of the search [m/s].
     pub searched_m_s: (f64, f64),
     /// Rear face of the target; null where it has none.
     pub rear_face: Option<RearFace>,
     /// The models that are the first choice at their own limit and predict limits; may be empty.
     pub recommended: Vec<Choice>,
-    /// What to know of that choice, if there is something.
+    /// Remarks on that choice, if there is something.
     pub note: Option<String>,
     /// Range of the limits that models predict; null where none does.
     pub range: Option<LimitRange>,
@@ -225,16 +225,16 @@ pub struct LimitRange {
 /// does not apply, fails or finds none leaves the reason in its entry and never stops the others.
 ///
 /// # Errors
-/// [`Error::Cancelled`] when `watch` says so.
+/// [`Error::Cancelled`] when `observer` says so.
 pub fn limits(
     models: &[&dyn Model],
     scenario: &Scenario,
     search: &Search,
-    watch: &mut Watch<'_>,
+    observer: &mut Observer<'_>,
 ) -> Result<Limits, Error> {
     let free = with_free_rear_face(scenario);
     let scenario = free.as_ref().unwrap_or(scenario);
-    let mut results = jobs::run(models, scenario, search, watch)?;
+    let mut results = jobs::run(models, scenario, search, observer)?;
     for (model, entry) in models.iter().zip(&mut results) {
         let limit = entry.ballistic_limit_m_s;
         let expected = limit.map(|limit| expected::expected_error(*model, scenario, limit));

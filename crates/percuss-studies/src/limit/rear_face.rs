@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::{
     chain,
-    problem::BackFace,
+    problem::RearFaceCondition,
     scenario::{Scenario, TargetBody},
 };
 
@@ -12,7 +12,7 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct RearFace {
     /// What holds it.
-    pub condition: BackFace,
+    pub condition: RearFaceCondition,
     /// Whether it is assumed because the case gives none.
     pub assumed: bool,
 }
@@ -32,14 +32,14 @@ impl RearFace {
 
     /// Why nothing can leave through it, if so.
     pub(super) fn impossible(self) -> Option<String> {
-        (self.condition == BackFace::Fixed).then(|| {
+        (self.condition == RearFaceCondition::Fixed).then(|| {
             "perforation is impossible: the case fixes the rear face (`target.back_face = \"fixed\"`). Give \"free\", or remove the key"
                 .to_owned()
         })
     }
 
-    /// What a reader of a limit has to know of it; `None` where the case gives a free one.
-    pub fn in_words(self) -> Option<String> {
+    /// Remark on the limit; `None` where the case gives a free one.
+    pub fn describe(self) -> Option<String> {
         match (self.assumed, self.impossible()) {
             (_, Some(impossible)) => Some(impossible),
             (true, None) => Some(
@@ -64,7 +64,7 @@ pub fn with_free_rear_face(scenario: &Scenario) -> Option<Scenario> {
     if scenario.given.rear_face || layers.last()?.thickness.is_none() {
         return None;
     }
-    *back_face = BackFace::Free;
-    chain::choose_target_closure(&mut free);
+    *back_face = RearFaceCondition::Free;
+    chain::choose_target_resistance(&mut free);
     Some(free)
 }

@@ -3,7 +3,7 @@
 use super::{LimitOutcome, ModelLimit};
 use crate::{Scenario, compare::Choice, model::Model, outcome::BandQuantity, regime::Regime};
 
-/// The first choices among the models that predict limits, each judged at its own limit, and what to know of them.
+/// The first choices among the models that predict limits, each classified at its own limit, and what to know of them.
 ///
 /// A first choice that predicts depths alone has not been compared with measured limits: it is named, not recommended.
 pub(super) fn recommended(
@@ -65,7 +65,7 @@ pub(super) fn recommended(
 /// Choices of models that predict limits, and the others.
 fn by_quantity(choices: Vec<(&dyn Model, Choice)>) -> (Vec<Choice>, Vec<Choice>) {
     let (limits, others): (Vec<_>, Vec<_>) = choices.into_iter().partition(|(model, _)| {
-        let predicts = model.guard().predicts;
+        let predicts = model.validity().predicts;
         predicts.contains(&BandQuantity::BallisticLimit)
     });
     let only = |choices: Vec<(&dyn Model, Choice)>| choices.into_iter().map(|(_, c)| c).collect();

@@ -1,38 +1,38 @@
-//! Search for the speed at which stopping ends and perforation begins, over anything that says which of them a shot does.
+//! Search for the impact velocity at which perforation begins.
 
 use rayon::prelude::*;
 
 use super::{Range, Tolerance};
 use crate::Error;
 
-/// Intervals of the range at whose ends shots are tried before the bracket is narrowed.
+/// Intervals of the range at whose ends runs are tried before the bracket is narrowed.
 pub(super) const INTERVALS: u32 = 16;
-/// Bound on the shots that narrow a bracket: twice what the precision of a speed can ask for.
-const MOST_SHOTS: usize = 100;
+/// Bound on the runs that narrow a bracket: twice what the precision of a speed can ask for.
+const MOST_RUNS: usize = 100;
 
-/// What becomes of a shot.
+/// What becomes of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Passage {
     /// The target stops it.
     Stopped,
-    /// It goes through.
+    /// Perforated.
     Perforated,
     /// Neither is known, for this reason.
     Undecided(String),
 }
 
-/// A shot at a speed.
+/// A run at a speed.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Sample<T> {
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub speed: f64,
     /// What became of it.
     pub passage: Passage,
     /// What else is known of it.
-    pub shot: Option<T>,
+    pub run: Option<T>,
 }
 
-/// Shots in the order of their speeds.
+/// Runs in the order of their speeds.
 pub(super) type Samples<T> = Vec<Sample<T>>;
 
 /// Tries the ends of equal intervals of a range, then narrows the lowest change from stopped to perforated.
@@ -48,7 +48,7 @@ pub(super) fn search<T: Send>(
         .into_par_iter()
         .map(|i| shoot(range.at(f64::from(i) / f64::from(INTERVALS))))
         .collect::<Result<_, _>>()?;
-    for _ in 0..MOST_SHOTS {
+    for _ in 0..MOST_RUNS {
         let Some(speed) = next_speed(&samples, tolerance) else {
             break;
         };
@@ -58,7 +58,7 @@ pub(super) fn search<T: Send>(
     Ok(samples)
 }
 
-/// Indices of the lowest pair of a stopped and a perforated shot with none that is decided between them.
+/// Indices of the lowest pair of a stopped and a perforated run with none that is decided between them.
 pub(super) fn bracket<T>(samples: &[Sample<T>]) -> Option<(usize, usize)> {
     let mut stopped = None;
     for (i, sample) in samples.iter().enumerate() {
@@ -71,7 +71,7 @@ pub(super) fn bracket<T>(samples: &[Sample<T>]) -> Option<(usize, usize)> {
     None
 }
 
-/// Middle of the interval to narrow, unless that is narrow enough. Where undecided shots lie in the bracket, the intervals at its
+/// Middle of the interval to narrow, unless that is narrow enough. Where undecided runs lie in the bracket, the intervals at its
 /// two ends are narrowed.
 fn next_speed<T>(samples: &[Sample<T>], tolerance: Tolerance) -> Option<f64> {
     let (below, above) = bracket(samples)?;
@@ -89,7 +89,7 @@ fn next_speed<T>(samples: &[Sample<T>], tolerance: Tolerance) -> Option<f64> {
 mod tests {
     use super::*;
 
-    fn shots(passage: impl Fn(f64) -> Passage + Sync) -> Samples<()> {
+    fn searched(passage: impl Fn(f64) -> Passage + Sync) -> Samples<()> {
         let range = Range {
             from: 0.0,
             to: 1600.0,
@@ -98,7 +98,7 @@ mod tests {
             Ok(Sample {
                 speed,
                 passage: passage(speed),
-                shot: None,
+                run: None,
             })
         })
         .unwrap()
@@ -118,7 +118,7 @@ mod tests {
     #[test]
     fn the_bracket_holds_the_limit_and_is_as_narrow_as_was_asked() {
         for limit in [0.0, 0.1, 184.5, 700.0, 1599.9] {
-            let samples = shots(over(limit));
+            let samples = searched(over(limit));
             let (low, high) = speeds(&samples).unwrap();
             assert!(low <= limit && limit < high, "{limit}: {low} to {high}");
             assert!(high - low <= 0.5);
@@ -138,7 +138,7 @@ mod tests {
             Ok(Sample {
                 speed,
                 passage: over(400.0)(speed),
-                shot: None::<()>,
+                run: None::<()>,
             })
         };
         let samples = search(range, Tolerance::Relative(0.01), &shoot).unwrap();
@@ -148,7 +148,10 @@ mod tests {
 
     #[test]
     fn without_a_change_nothing_is_narrowed() {
-        for samples in [shots(|_| Passage::Stopped), shots(|_| Passage::Perforated)] {
+        for samples in [
+            searched(|_| Passage::Stopped),
+            searched(|_| Passage::Perforated),
+        ] {
             assert_eq!((samples.len(), speeds(&samples)), (17, None));
         }
     }
@@ -161,7 +164,7 @@ mod tests {
             ..=1210.0 => Passage::Stopped,
             _ => Passage::Perforated,
         };
-        let (low, high) = speeds(&shots(gap)).unwrap();
+        let (low, high) = speeds(&searched(gap)).unwrap();
         assert!(low <= 350.0 && 350.0 < high && high - low <= 0.5);
     }
 
@@ -172,7 +175,7 @@ mod tests {
             ..=777.0 => Passage::Undecided("not known".to_owned()),
             _ => Passage::Perforated,
         };
-        let (low, high) = speeds(&shots(zone)).unwrap();
+        let (low, high) = speeds(&searched(zone)).unwrap();
         assert!((332.5..=333.0).contains(&low), "{low}");
         assert!((777.0..=777.5).contains(&high), "{high}");
     }

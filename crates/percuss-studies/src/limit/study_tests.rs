@@ -6,16 +6,16 @@ use super::{
 };
 use crate::{
     analytic::{AwerbuchBodner, LambertJonas, Plugging, RechtIpson},
-    case::BackFace,
+    case::RearFaceCondition,
     chain::Chain,
     scenario::TargetBody,
 };
 
 const FREE: &str = "back_face = \"free\"";
 const FIXED: &str = "back_face = \"fixed\"";
-/// A plate that a column of material lets a fast rod through.
+/// A plate whose column is perforated by a fast rod.
 const SHEET: &str = r#"
-    projectile = { material = "copper", length = "20 mm", diameter = "5 mm", velocity = "300 m/s" }
+    projectile = { material = "copper", length = "20 mm", diameter = "5 mm", impact_velocity = "300 m/s" }
     target = { material = "aluminium-2024-t351", thickness = "5 mm"BACK }
     chain = { projectile_elements = 10, target_elements = 8 }
 "#;
@@ -32,13 +32,14 @@ fn sheet(back: &str) -> Scenario {
 #[test]
 fn a_rear_face_that_is_not_given_is_free() {
     let search = search(0.0, 1500.0, 3);
-    let of = |back: &str| limits(&[&Chain], &sheet(back), &search, &mut Watch::default()).unwrap();
+    let of =
+        |back: &str| limits(&[&Chain], &sheet(back), &search, &mut Observer::default()).unwrap();
     let (open, free) = (of(""), of(FREE));
     assert_eq!(open.results[0].outcome, LimitOutcome::Found, "{open:?}");
     assert_eq!(open.results, free.results);
     let assumed = |assumed| {
         Some(RearFace {
-            condition: BackFace::Free,
+            condition: RearFaceCondition::Free,
             assumed,
         })
     };
@@ -49,16 +50,16 @@ fn a_rear_face_that_is_not_given_is_free() {
     assert!(
         open.rear_face
             .unwrap()
-            .in_words()
+            .describe()
             .unwrap()
             .contains("taken as free")
     );
-    assert_eq!(free.rear_face.unwrap().in_words(), None);
+    assert_eq!(free.rear_face.unwrap().describe(), None);
     // A run of the same case keeps its own default.
     let TargetBody::Layers { back_face, .. } = sheet("").target else {
         panic!("a plate has layers");
     };
-    assert_eq!(back_face, BackFace::Fixed);
+    assert_eq!(back_face, RearFaceCondition::Fixed);
 }
 
 /// The target resistance model of a case that gives none is chosen again for the free rear face.
@@ -66,7 +67,7 @@ fn a_rear_face_that_is_not_given_is_free() {
 fn a_free_rear_face_is_the_one_that_a_case_would_write_down() {
     let thick = |back: &str| {
         scenario(&format!(
-            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', velocity = '300 m/s' }}\n\
+            "projectile = {{ material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '300 m/s' }}\n\
              target = {{ material = 'aluminium-2024-t351', thickness = '26 mm'{back} }}"
         ))
     };
@@ -77,7 +78,7 @@ fn a_free_rear_face_is_the_one_that_a_case_would_write_down() {
         (&written.target, &written.options)
     );
     assert_eq!(with_free_rear_face(&written), None);
-    let semi_infinite = "projectile = { material = 'copper', length = '20 mm', diameter = '5 mm', velocity = '300 m/s' }\n\
+    let semi_infinite = "projectile = { material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '300 m/s' }\n\
                          target = { material = 'copper', thickness = 'semi-infinite' }";
     assert_eq!(with_free_rear_face(&scenario(semi_infinite)), None);
 }
@@ -89,7 +90,7 @@ fn nothing_leaves_through_a_fixed_rear_face() {
         &models,
         &sheet(FIXED),
         &search(0.0, 1500.0, 3),
-        &mut Watch::default(),
+        &mut Observer::default(),
     );
     let found = found.unwrap();
     for entry in &found.results {
@@ -100,7 +101,7 @@ fn nothing_leaves_through_a_fixed_rear_face() {
         let reason = entry.reason.as_deref().unwrap();
         assert!(reason.starts_with("perforation is impossible"), "{reason}");
     }
-    let said = found.rear_face.unwrap().in_words().unwrap();
+    let said = found.rear_face.unwrap().describe().unwrap();
     assert!(said.contains("fixes the rear face"), "{said}");
 }
 
@@ -114,7 +115,7 @@ fn a_limit_that_is_an_input_is_none() {
         &models,
         &blunt,
         &search(0.0, 800.0, 6),
-        &mut Watch::default(),
+        &mut Observer::default(),
     )
     .unwrap();
     let [plugging, recht_ipson, lambert_jonas] = found.results.as_slice() else {
@@ -149,7 +150,7 @@ fn the_first_choice_at_its_own_limit_is_recommended() {
             models,
             scenario,
             &search(0.0, 1600.0, 0),
-            &mut Watch::default(),
+            &mut Observer::default(),
         )
         .unwrap()
     };

@@ -5,17 +5,17 @@ use crate::{
     analytic::{AwerbuchBodner, PlateCavity, Plugging, RechtIpson},
     case,
     chain::Chain,
-    guard::Guard,
     model::Control,
     outcome::{Outcome, RunResult, Termination},
+    validity::ValidityDomain,
 };
 
 pub(super) const BLUNT: &str = r#"
-    projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "300 m/s" }
+    projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "300 m/s" }
     target = { material = "weldox-460-e", thickness = "12 mm" }
 "#;
 const OGIVE: &str = r#"
-    projectile = { material = "rigid", mass = "197 g", diameter = "20 mm", nose = { ogive = { crh = 3.0 } }, velocity = "300 m/s" }
+    projectile = { material = "rigid", mass = "197 g", diameter = "20 mm", nose = { ogive = { crh = 3.0 } }, impact_velocity = "300 m/s" }
     target = { material = "aluminium-2024-t351", thickness = "26 mm" }
     materials.rigid = { name = "rigid", density = "7850 kg/m3", youngs_modulus = "210 GPa", poissons_ratio = 0.3, strength = { elastic = {} } }
 "#;
@@ -33,11 +33,11 @@ pub(super) fn search(from: f64, to: f64, points: usize) -> Search {
 }
 
 fn one(model: &dyn Model, scenario: &Scenario, search: &Search) -> ModelLimit {
-    let mut found = limits(&[model], scenario, search, &mut Watch::default()).unwrap();
+    let mut found = limits(&[model], scenario, search, &mut Observer::default()).unwrap();
     found.results.remove(0)
 }
 
-/// A model whose shots end as a function of the speed says.
+/// A model whose runs end as a function of the speed says.
 struct Made {
     outcome: fn(f64) -> Outcome,
     stated: Option<f64>,
@@ -50,8 +50,8 @@ impl Model for Made {
     fn summary(&self) -> &'static str {
         "made for tests"
     }
-    fn guard(&self) -> &'static Guard {
-        &Guard::OPEN
+    fn validity(&self) -> &'static ValidityDomain {
+        &ValidityDomain::OPEN
     }
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
         let speed = scenario.impact_velocity;
@@ -82,7 +82,7 @@ fn over(speed: f64, limit: f64) -> Outcome {
     }
 }
 
-/// The closed form of a model and the change of its own shots are found apart from each other and have to agree.
+/// The closed form of a model and the change of its own runs are found apart from each other and have to agree.
 #[test]
 fn bracketing_agrees_with_every_limit_in_closed_form() {
     let blunt = scenario(BLUNT);
@@ -249,7 +249,7 @@ fn a_curve_that_jumps_at_the_limit_is_said_to_start_elsewhere() {
 }
 
 #[test]
-fn a_stated_limit_that_shots_contradict_is_not_believed() {
+fn a_stated_limit_that_runs_contradict_is_not_believed() {
     let model = Made {
         outcome: |speed| over(speed, 300.0),
         stated: Some(250.0),
@@ -263,14 +263,14 @@ fn a_stated_limit_that_shots_contradict_is_not_believed() {
 #[test]
 fn what_has_no_back_or_says_nothing_of_perforation_is_not_applicable() {
     let wall = scenario(
-        "projectile = { material = \"copper\", length = \"20 mm\", diameter = \"7 mm\", velocity = \"200 m/s\" }\ntarget = { rigid_wall = true }",
+        "projectile = { material = \"copper\", length = \"20 mm\", diameter = \"7 mm\", impact_velocity = \"200 m/s\" }\ntarget = { rigid_wall = true }",
     );
     let found = one(&Chain, &wall, &Search::default());
     assert_eq!(
         (found.outcome, found.runs),
         (LimitOutcome::NotApplicable, 0)
     );
-    assert!(found.reason.unwrap().contains("no back face"));
+    assert!(found.reason.unwrap().contains("no rear face"));
     let poncelet = one(
         &crate::analytic::Poncelet,
         &scenario(OGIVE),
@@ -290,11 +290,11 @@ fn a_caller_can_stop_it() {
             false => ControlFlow::Break(()),
         }
     };
-    let mut watch = Watch {
+    let mut observer = Observer {
         progress: Some(&mut stop),
     };
     let models: [&dyn Model; 2] = [&Plugging, &AwerbuchBodner];
-    let stopped = limits(&models, &scenario(BLUNT), &Search::default(), &mut watch);
+    let stopped = limits(&models, &scenario(BLUNT), &Search::default(), &mut observer);
     assert!(matches!(stopped, Err(Error::Cancelled { .. })));
 }
 
@@ -304,7 +304,7 @@ fn the_chain_finds_the_limit_of_a_plug() {
     let blunt = |chain: &str| {
         scenario(&format!(
             r#"
-            projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", velocity = "300 m/s" }}
+            projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "300 m/s" }}
             target = {{ material = "weldox-460-e", thickness = "12 mm", back_face = "free", plate_diameter = "500 mm" }}
             chain = {{ projectile_elements = 20, target_elements = 12{chain} }}
             "#

@@ -1,14 +1,14 @@
-//! What a user should know before relying on a limit that was searched for.
+//! Limitations of a limit that was searched for.
 
 use super::{
     Bracket, LambertJonasFit,
-    findings::{Shot, speed},
+    run_results::{LimitRun, speed},
     search::{Passage, Sample, bracket},
 };
 use crate::units::significant;
 
-/// Says that shots inside the bracket are neither stopped nor perforated.
-pub(super) fn undecided_inside(bracket: &[Sample<Shot>]) -> Option<String> {
+/// Says that runs inside the bracket are neither stopped nor perforated.
+pub(super) fn undecided_inside(bracket: &[Sample<LimitRun>]) -> Option<String> {
     let inside = bracket.get(1..bracket.len() - 1)?;
     let (first, last) = (inside.first()?, inside.last()?);
     let Passage::Undecided(reason) = &first.passage else {
@@ -21,13 +21,13 @@ pub(super) fn undecided_inside(bracket: &[Sample<Shot>]) -> Option<String> {
     ))
 }
 
-/// Says that a model's own limit is not where its shots change.
+/// Says that a model's own limit is not where its runs change.
 pub(super) fn stated_outside(stated: Option<f64>, found: Bracket) -> Option<String> {
     let stated = stated?;
     let inside = (found.stopped_m_s..=found.perforated_m_s).contains(&stated);
     (!inside).then(|| {
         format!(
-            "the model states a limit of {} m/s, but its shots change between {} and {} m/s",
+            "the model states a limit of {} m/s, but its runs change between {} and {} m/s",
             significant(stated, 4),
             significant(found.stopped_m_s, 4),
             significant(found.perforated_m_s, 4)
@@ -54,16 +54,16 @@ pub(super) fn curve_starts_elsewhere(
     })
 }
 
-/// Says that faster shots are stopped, or that slower ones perforate.
-pub(super) fn not_monotone(samples: &[Sample<Shot>], above: usize) -> Option<String> {
+/// Says that faster runs are stopped, or that slower ones perforate.
+pub(super) fn not_monotone(samples: &[Sample<LimitRun>], above: usize) -> Option<String> {
     let (low, high) = samples.split_at(above);
     let through = low.iter().find(|s| s.passage == Passage::Perforated);
     let faster = || high.iter().filter(|s| s.passage == Passage::Stopped);
     let (from, to) = (faster().next(), faster().next_back());
     let words = match (through, from.zip(to)) {
-        (Some(slow), _) => format!("a shot at {} m/s perforates", speed(slow)),
+        (Some(slow), _) => format!("a run at {} m/s perforates", speed(slow)),
         (None, Some((from, to))) => format!(
-            "shots that are faster are stopped again, at {}",
+            "runs that are faster are stopped again, at {}",
             match from.speed == to.speed {
                 true => format!("{} m/s", speed(from)),
                 false => format!("{} to {} m/s", speed(from), speed(to)),
@@ -77,10 +77,10 @@ pub(super) fn not_monotone(samples: &[Sample<Shot>], above: usize) -> Option<Str
 }
 
 /// Says at which speeds, outside the bracket or without one, the model gave no answer.
-pub(super) fn speeds_without_answer(samples: &[Sample<Shot>]) -> Option<String> {
+pub(super) fn speeds_without_answer(samples: &[Sample<LimitRun>]) -> Option<String> {
     let bracket = bracket(samples);
     let outside = |i: usize| bracket.is_none_or(|(low, high)| i < low || i > high);
-    let silent: Vec<(&Sample<Shot>, &String)> = samples
+    let silent: Vec<(&Sample<LimitRun>, &String)> = samples
         .iter()
         .enumerate()
         .filter(|(i, _)| outside(*i))
@@ -89,7 +89,7 @@ pub(super) fn speeds_without_answer(samples: &[Sample<Shot>]) -> Option<String> 
             _ => None,
         })
         .collect();
-    let decided = silent.len() < samples.iter().filter(|s| s.shot.is_some()).count();
+    let decided = silent.len() < samples.iter().filter(|s| s.run.is_some()).count();
     let ((first, reason), (last, _)) = (silent.first()?, silent.last()?);
     let range = match first.speed == last.speed {
         true => format!("at {} m/s", speed(first)),

@@ -1,12 +1,12 @@
 //! Estimate of the model error of a depth of penetration, from stored benchmark results.
 
-mod contender;
+mod candidate;
 pub mod design;
-mod expectation;
+mod error_record;
+mod estimate;
 mod result;
-mod verdict;
 
-pub use contender::{Contender, contenders};
-pub use expectation::{Expectation, expectation, verdicts};
+pub use candidate::{Candidate, candidates};
+pub use error_record::ErrorRecord;
+pub use estimate::{ModelErrorEstimate, estimate_error, records};
 pub(crate) use result::expected_error;
-pub use verdict::Verdict;

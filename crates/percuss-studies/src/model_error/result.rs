@@ -1,6 +1,6 @@
 //! Model error to expect of a result. A run consults no benchmark: whoever shows a result adds it.
 
-use super::{Expectation, expectation};
+use super::{ModelErrorEstimate, estimate_error};
 use crate::{
     Scenario,
     model::model,
@@ -14,11 +14,11 @@ pub(crate) fn expected_error(
     scenario: &Scenario,
     regime: &Regime,
     result: &RunResult,
-) -> Option<Expectation> {
+) -> Option<ModelErrorEstimate> {
     let is_depth_of_crater =
         result.depth_of_penetration.is_some() && result.outcome != Outcome::Perforated;
     if !is_depth_of_crater || scenario.resistance.is_some() {
         return None;
     }
-    expectation(model(result.model).ok()?, scenario, regime)
+    estimate_error(model(result.model).ok()?, scenario, regime)
 }

@@ -9,10 +9,10 @@ use serde::Serialize;
 
 use crate::{
     Error,
-    chain::closure_in_use,
+    chain::resistance_model_in_use,
     fragments::FragmentRecord,
     model_error::expected_error,
-    options::TargetClosure,
+    options::TargetResistanceModel,
     outcome::{Outcome, RunResult},
     regime::Regime,
     scenario::Scenario,
@@ -56,8 +56,8 @@ impl ResultRecord {
             model: result.model,
             scheme: result.scheme,
             model_choice: result.model_choice.clone(),
-            target_closure: target_closure(scenario, result.model),
-            target_closure_choice: result.target_closure_choice.clone(),
+            target_resistance: target_resistance(scenario, result.model),
+            target_resistance_choice: result.target_resistance_choice.clone(),
             outcome: result.outcome,
             criterion: (!result.criterion.is_empty()).then(|| result.criterion.clone()),
             termination: Some(result.termination),
@@ -80,7 +80,7 @@ impl ResultRecord {
         };
         Self {
             model,
-            target_closure: target_closure(scenario, model),
+            target_resistance: target_resistance(scenario, model),
             outcome,
             reason: Some(reason),
             ..Self::of_numbers(scenario, None)
@@ -88,9 +88,9 @@ impl ResultRecord {
     }
 }
 
-fn target_closure(scenario: &Scenario, model: &str) -> Option<&'static str> {
-    let closure = closure_in_use(scenario).filter(|_| model == "chain");
-    closure.map(TargetClosure::name)
+fn target_resistance(scenario: &Scenario, model: &str) -> Option<&'static str> {
+    let resistance = resistance_model_in_use(scenario).filter(|_| model == "chain");
+    resistance.map(TargetResistanceModel::name)
 }
 
 impl CaseResults {

@@ -3,7 +3,7 @@
 use super::ResultRecord;
 use crate::{
     fragments::FragmentRecord,
-    model_error::Expectation,
+    model_error::ModelErrorEstimate,
     outcome::{Band, Detail, Outcome, RunResult, Termination},
     scenario::Scenario,
     units::ResultUnit,
@@ -167,7 +167,7 @@ pub enum FieldKind {
 
 impl FieldKind {
     /// The kind in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::Text => "text",
             Self::OptionalText => "text or null",
@@ -207,7 +207,7 @@ field_types! {
     Option<u64> => OptionalCount;
     Option<usize> => OptionalCount;
     Option<Band> => OptionalTable;
-    Option<Expectation> => OptionalTable;
+    Option<ModelErrorEstimate> => OptionalTable;
     Vec<Detail> => Tables;
     Vec<FragmentRecord> => Tables;
 }

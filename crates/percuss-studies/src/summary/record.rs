@@ -10,7 +10,7 @@ use super::number::{
 };
 use crate::{
     fragments::FragmentRecord,
-    model_error::Expectation,
+    model_error::ModelErrorEstimate,
     outcome::{Band, Detail as ModelDetail, Outcome, RunResult, Termination},
     scenario::Scenario,
     units::ResultUnit as Unit,
@@ -77,6 +77,7 @@ fn numerics(run: Option<&RunResult>) -> Option<&crate::outcome::Numerics> {
 result_record! {
     /// Results of one model. The names are stable; a number that the model does not give is null.
     #[derive(Debug, Clone, PartialEq, Serialize)]
+    #[non_exhaustive]
     pub struct ResultRecord {
         /// Name of the model.
         model: &'static str;
@@ -84,11 +85,11 @@ result_record! {
         scheme: &'static str;
         /// Reason why it is this model and not the default one, where the run names none; null otherwise.
         model_choice: Option<String>;
-        /// Target resistance model (`chain.target_closure`), where there is a choice of it.
-        target_closure: Option<&'static str>;
+        /// Target resistance model (`chain.target_resistance`), where there is a choice of it.
+        target_resistance: Option<&'static str>;
         /// Reason why that is not the usual one, where the case names none, with the depth by the usual one if it differs by more than a tenth;
         /// null otherwise.
-        target_closure_choice: Option<String>;
+        target_resistance_choice: Option<String>;
         /// Outcome of the run.
         outcome: Outcome;
         /// Criterion of the outcome, in words; null where it is the termination alone.
@@ -107,7 +108,7 @@ result_record! {
             = number("depth of penetration", Unit::MM, Main).in_statistics(NotPerforated), |_, run| run?.depth_of_penetration;
 
         /// Estimated error of that depth against the axisymmetric reference, where similar cases are in the benchmark.
-        expected_error: Option<Expectation>;
+        expected_error: Option<ModelErrorEstimate>;
 
         /// Largest depth at any time, elastic deflection included.
         largest_depth_mm: Option<f64>
@@ -216,7 +217,7 @@ result_record! {
         fragments: Vec<FragmentRecord>;
         /// Numbers that this model alone has.
         details: Vec<ModelDetail>;
-        /// Warnings: what to know before relying on the numbers.
+        /// Warnings: Limitations of the numbers.
         warnings: Vec<String>;
     }
 }

@@ -9,7 +9,7 @@ use crate::{
     units::ResultUnit,
 };
 
-const CASE: &str = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }\n\
+const CASE: &str = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '230 m/s' }\n\
                     target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n";
 
 fn run() -> (Scenario, RunResult) {

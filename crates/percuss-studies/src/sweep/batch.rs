@@ -1,10 +1,10 @@
-//! Shots of the chain model computed side by side.
+//! Runs of the chain model computed side by side.
 
 use std::sync::atomic::AtomicBool;
 
 use super::{
-    caught::caught,
-    kernel::{Kernel, Row, ScalarKernel, Shot, Stopped},
+    kernel::{Kernel, ScalarKernel, Stopped, SweepRow, SweepRun},
+    panic_guard::catch_panic,
 };
 use crate::{
     Scenario, chain,
@@ -13,7 +13,7 @@ use crate::{
     summary::ResultRecord,
 };
 
-/// Computes shots of the chain model side by side, as many at once as the processor's registers are wide, and all others one after
+/// Computes runs of the chain model side by side, as many at once as the processor's registers are wide, and all others one after
 /// the other. The rows are those of [`ScalarKernel`].
 #[derive(Clone, Copy)]
 pub struct BatchKernel {
@@ -30,12 +30,12 @@ impl BatchKernel {
         }
     }
 
-    /// Whether shots like this one are computed side by side.
+    /// Whether runs like this one are computed side by side.
     pub(super) fn takes(model: &dyn Model, scenario: &Scenario) -> bool {
         model.name() == chain::Chain.name() && chain::is_for_batch(scenario)
     }
 
-    /// What is known of a shot before it is computed, if it can be computed beside others.
+    /// What is known of a run before it is computed, if it can be computed beside others.
     fn prepare(&self, scenario: &Scenario) -> Option<(Regime, Vec<String>)> {
         if !Self::takes(self.model, scenario) {
             return None;
@@ -47,29 +47,29 @@ impl BatchKernel {
 }
 
 impl Kernel for BatchKernel {
-    fn rows(&self, shots: Vec<Shot>, stop: &AtomicBool) -> Result<Vec<Row>, Stopped> {
-        let prepared: Vec<_> = shots
+    fn rows(&self, runs: Vec<SweepRun>, stop: &AtomicBool) -> Result<Vec<SweepRow>, Stopped> {
+        let prepared: Vec<_> = runs
             .iter()
-            .map(|shot| self.prepare(shot.scenario.as_ref().ok()?))
+            .map(|run| self.prepare(run.scenario.as_ref().ok()?))
             .collect();
-        let together: Vec<&Scenario> = shots
+        let together: Vec<&Scenario> = runs
             .iter()
             .zip(&prepared)
             .filter(|(_, prepared)| prepared.is_some())
-            .filter_map(|(shot, _)| shot.scenario.as_ref().ok())
+            .filter_map(|(run, _)| run.scenario.as_ref().ok())
             .collect();
-        // A panic costs the bundle no more than the time: one after the other, its shot alone is at fault.
-        let Ok(results) = caught(|| chain::run_batch(&together, stop)) else {
-            return self.scalar.rows(shots, stop);
+        // A panic costs the bundle no more than the time: one after the other, its run alone is at fault.
+        let Ok(results) = catch_panic(|| chain::run_batch(&together, stop)) else {
+            return self.scalar.rows(runs, stop);
         };
         let mut results = results.map_err(|chain::Stopped| Stopped)?.into_iter();
-        let mut records = Vec::with_capacity(shots.len());
-        for (shot, prepared) in shots.iter().zip(prepared) {
-            let record = match (&shot.scenario, prepared) {
+        let mut records = Vec::with_capacity(runs.len());
+        for (run, prepared) in runs.iter().zip(prepared) {
+            let record = match (&run.scenario, prepared) {
                 (Err(reason), _) => Err(reason.clone()),
                 (Ok(scenario), None) => Ok(self.scalar.record(scenario, stop)?),
                 (Ok(scenario), Some((regime, warnings))) => {
-                    // There is a result for every shot that was prepared.
+                    // There is a result for every run that was prepared.
                     let Some(result) = results.next() else { break };
                     let result = result
                         .and_then(|result| model::complete(self.model, scenario, warnings, result));
@@ -83,9 +83,9 @@ impl Kernel for BatchKernel {
             };
             records.push(record);
         }
-        let rows = shots.into_iter().zip(records).map(|(shot, record)| Row {
-            index: shot.index,
-            inputs: shot.inputs,
+        let rows = runs.into_iter().zip(records).map(|(run, record)| SweepRow {
+            index: run.index,
+            inputs: run.inputs,
             record,
         });
         Ok(rows.collect())

@@ -1,4 +1,4 @@
-//! Computing many shots in blocks, in parallel, for callers that keep what comes of them in memory.
+//! Parallel computation of many runs in blocks, with all results in memory.
 
 use std::{
     ops::Range,
@@ -7,17 +7,17 @@ use std::{
 
 use rayon::prelude::*;
 
-use super::{Kernel, Row, Stopped, Sweep};
+use super::{Kernel, Stopped, Sweep, SweepRow};
 
-/// What a caller wants of many shots: progress and a way to stop them.
-pub struct Watch<'a> {
+/// What a caller wants of many runs: progress and a way to stop them.
+pub struct Observer<'a> {
     /// Ends them when it becomes true.
     pub stop: &'a AtomicBool,
-    /// Called now and then from any thread with the shots that are done and all of them.
+    /// Called now and then from any thread with the runs that are done and all of them.
     pub progress: &'a (dyn Fn(u64, u64) + Sync),
 }
 
-/// What comes of `count` shots in blocks of `size`, in the order of the shots.
+/// Results of `count` runs in blocks of `size`, in the order of the runs.
 pub(crate) fn in_blocks<T: Send>(
     count: u64,
     size: u64,
@@ -31,18 +31,22 @@ pub(crate) fn in_blocks<T: Send>(
 }
 
 impl Sweep {
-    /// All rows, in the order of the shots. They take memory: a folder of `percuss-report` takes sweeps of any size.
+    /// All rows, in the order of the runs. They take memory: a folder of `percuss-report` takes sweeps of any size.
     ///
     /// # Errors
     /// [`Stopped`].
-    pub fn rows(&self, kernel: &dyn Kernel, watch: &Watch<'_>) -> Result<Vec<Row>, Stopped> {
-        let (done, total) = (AtomicU64::new(0), self.shots());
+    pub fn rows(
+        &self,
+        kernel: &dyn Kernel,
+        observer: &Observer<'_>,
+    ) -> Result<Vec<SweepRow>, Stopped> {
+        let (done, total) = (AtomicU64::new(0), self.runs());
         in_blocks(total, self.block_size, |block| {
-            let shots = block.map(|shot| self.shot(shot)).collect();
-            let rows = kernel.rows(shots, watch.stop)?;
+            let runs = block.map(|run| self.run(run)).collect();
+            let rows = kernel.rows(runs, observer.stop)?;
             let of_block = rows.len() as u64;
             let done = done.fetch_add(of_block, Ordering::Relaxed) + of_block;
-            (watch.progress)(done, total);
+            (observer.progress)(done, total);
             Ok(rows)
         })
     }

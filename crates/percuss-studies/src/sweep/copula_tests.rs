@@ -4,7 +4,7 @@ use super::{Copula, Sweep, tests::sweep};
 
 const NORMALS: &str = "
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 normal = { mean = '230 m/s', standard_deviation = '4 m/s' }
 [[parameter]]
 key = 'target.thickness'
@@ -15,7 +15,7 @@ normal = { mean = 2.7, standard_deviation = 0.2 }
 ";
 const SHAPES: &str = "
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 uniform = { from = '200 m/s', to = '260 m/s' }
 [[parameter]]
 key = 'target.thickness'
@@ -34,7 +34,7 @@ fn correlation() -> String {
     let [a, b, c] = MATRIX;
     format!(
         "[correlation]
-parameters = ['projectile.velocity', 'target.thickness', 'chain.constraint_factor']
+parameters = ['projectile.impact_velocity', 'target.thickness', 'chain.constraint_factor']
 matrix = [{a:?}, {b:?}, {c:?}]"
     )
 }
@@ -46,7 +46,7 @@ fn design(kind: &str, samples: u64) -> String {
 /// All values of a sweep, a list an axis.
 fn columns(sweep: &Sweep) -> Vec<Vec<f64>> {
     let mut columns = vec![Vec::new(); sweep.axes.len()];
-    for i in 0..sweep.shots() {
+    for i in 0..sweep.runs() {
         let values = sweep.points.values(&sweep.axes, sweep.copula.as_ref(), i);
         for (column, value) in columns.iter_mut().zip(values) {
             column.push(value);
@@ -63,7 +63,7 @@ fn covariance(a: &[f64], b: &[f64]) -> f64 {
     products.sum::<f64>() / count
 }
 
-/// Places in the order of size, over the count: chances by the sample itself.
+/// Places in the order of size, over the count: probabilities by the sample itself.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
@@ -132,8 +132,8 @@ fn marginals_stay_and_ranks_correlate_as_the_copula_says() {
         assert!((a / b - 1.0).abs() < 1e-12);
     }
     assert_eq!(joined[3], alone[3]);
-    // Kolmogorov's distance of the chances of each value from even ones.
-    let chances: [Box<dyn Fn(f64) -> f64>; 3] = [
+    // Kolmogorov's distance of the probabilities of each value from even ones.
+    let probabilities: [Box<dyn Fn(f64) -> f64>; 3] = [
         Box::new(|v| (v - 200.0) / 60.0),
         Box::new(|h| match h < 22.0 {
             true => (h - 20.0).powi(2) / 20.0,
@@ -141,11 +141,11 @@ fn marginals_stay_and_ranks_correlate_as_the_copula_says() {
         }),
         Box::new(|f: f64| 0.5 * libm::erfc(-(f / 2.7).ln() / 0.1 / 2.0_f64.sqrt())),
     ];
-    for (column, chance) in joined.iter().zip(&chances) {
+    for (column, probability) in joined.iter().zip(&probabilities) {
         let distances = column
             .iter()
             .zip(ranks(column))
-            .map(|(v, rank)| (chance(*v) - rank).abs());
+            .map(|(v, rank)| (probability(*v) - rank).abs());
         let largest = distances.fold(0.0, f64::max);
         assert!(largest < 0.004, "{largest}");
     }
@@ -165,7 +165,7 @@ fn marginals_stay_and_ranks_correlate_as_the_copula_says() {
 fn covariances_say_the_same_as_correlations() {
     let with = |matrix: &str| {
         let text = format!(
-            "{NORMALS}[correlation]\nparameters = ['target.thickness', 'projectile.velocity']\n{matrix}"
+            "{NORMALS}[correlation]\nparameters = ['target.thickness', 'projectile.impact_velocity']\n{matrix}"
         );
         columns(&sweep("two-ways", &design("sobol", 64), &text))
     };

@@ -17,10 +17,10 @@ pub(super) struct SweepFile {
     pub(super) base: PathBuf,
     pub(super) model: String,
     pub(super) design: Design,
-    /// Number of shots; a grid has as many as its lists make.
+    /// Number of runs; a grid has as many as its lists make.
     pub(super) samples: Option<u64>,
     pub(super) seed: Option<u64>,
-    /// Shots in one file of the result.
+    /// Runs in one file of the result.
     pub(super) block_size: Option<u64>,
     #[serde(default)]
     pub(super) parameter: Vec<Parameter>,

@@ -1,23 +1,23 @@
-//! What computes blocks of shots.
+//! Kernels: computation of blocks of runs.
 
 use std::{
     ops::ControlFlow,
     sync::atomic::{AtomicBool, Ordering},
 };
 
-use super::{Axis, caught::caught};
+use super::{Axis, panic_guard::catch_panic};
 use crate::{
     Error, Scenario,
     case::Template,
-    check::Finding,
+    check::Diagnostic,
     model::{self, Control, Model},
     regime::Regime,
     summary::ResultRecord,
 };
 
-/// A shot of a sweep.
+/// A run of a sweep.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shot {
+pub struct SweepRun {
     /// Its number, counted from 0.
     pub index: u64,
     /// Its values, in the order and the units of the axes.
@@ -26,7 +26,7 @@ pub struct Shot {
     pub scenario: Result<Scenario, String>,
 }
 
-impl Shot {
+impl SweepRun {
     /// A case with some of its numbers changed: those of the axes, then `more` under their keys.
     pub(crate) fn new(
         template: &Template,
@@ -40,17 +40,17 @@ impl Shot {
             .map(|(axis, value)| (axis.key.as_str(), axis.written(*value)))
             .chain(more.iter().cloned())
             .collect();
-        let made = caught(|| template.scenario(&changes));
+        let made = catch_panic(|| template.scenario(&changes));
         let scenario = made.and_then(|made| {
-            made.map_err(|findings| {
-                let words = |finding: &Finding| {
-                    let mut text = format!("{}: {}", finding.key, finding.message);
-                    if !finding.help.is_empty() {
-                        text += &format!(" ({})", finding.help);
+            made.map_err(|diagnostics| {
+                let words = |diagnostic: &Diagnostic| {
+                    let mut text = format!("{}: {}", diagnostic.key, diagnostic.message);
+                    if !diagnostic.help.is_empty() {
+                        text += &format!(" ({})", diagnostic.help);
                     }
                     text.trim_start_matches(": ").to_owned()
                 };
-                findings.iter().map(words).collect::<Vec<_>>().join("; ")
+                diagnostics.iter().map(words).collect::<Vec<_>>().join("; ")
             })
         });
         Self {
@@ -61,10 +61,10 @@ impl Shot {
     }
 }
 
-/// A shot and what became of it.
+/// A run and what became of it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
-    /// Number of the shot, counted from 0.
+pub struct SweepRow {
+    /// Number of the run, counted from 0.
     pub index: u64,
     /// Its values, in the order and the units of the axes.
     pub inputs: Vec<f64>,
@@ -76,16 +76,16 @@ pub struct Row {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stopped;
 
-/// A way to compute a block of shots: the place for one that advances many shots at once.
+/// A way to compute a block of runs: the place for one that advances many runs at once.
 pub trait Kernel: Sync {
-    /// A row for each shot, in their order. Rows depend on their own shot only. Ends early when `stop` becomes true.
+    /// A row for each run, in their order. Rows depend on their own run only. Ends early when `stop` becomes true.
     ///
     /// # Errors
     /// [`Stopped`].
-    fn rows(&self, shots: Vec<Shot>, stop: &AtomicBool) -> Result<Vec<Row>, Stopped>;
+    fn rows(&self, runs: Vec<SweepRun>, stop: &AtomicBool) -> Result<Vec<SweepRow>, Stopped>;
 }
 
-/// Computes shots one after the other by a model.
+/// Computes runs one after the other by a model.
 #[derive(Clone, Copy)]
 pub struct ScalarKernel {
     model: &'static dyn Model,
@@ -102,16 +102,16 @@ impl ScalarKernel {
         scenario: &Scenario,
         stop: &AtomicBool,
     ) -> Result<ResultRecord, Stopped> {
-        let mut watch = |_: model::Progress| match stop.load(Ordering::Relaxed) {
+        let mut observer = |_: model::Progress| match stop.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         };
         let mut control = Control {
-            progress: Some(&mut watch),
+            progress: Some(&mut observer),
             ..Control::default()
         };
-        // One shot is what a panic may cost: the other shots of the block, the block and the sweep go on.
-        let result = caught(|| {
+        // One run is what a panic may cost: the other runs of the block, the block and the sweep go on.
+        let result = catch_panic(|| {
             let regime = Regime::of(scenario);
             let result = model::run_in(self.model, scenario, &regime, &mut control)?;
             Ok(ResultRecord::in_regime(scenario, &regime, &result))
@@ -130,21 +130,21 @@ impl ScalarKernel {
 }
 
 impl Kernel for ScalarKernel {
-    fn rows(&self, shots: Vec<Shot>, stop: &AtomicBool) -> Result<Vec<Row>, Stopped> {
-        let row = |shot: Shot| {
+    fn rows(&self, runs: Vec<SweepRun>, stop: &AtomicBool) -> Result<Vec<SweepRow>, Stopped> {
+        let row = |run: SweepRun| {
             if stop.load(Ordering::Relaxed) {
                 return Err(Stopped);
             }
-            let record = match shot.scenario {
+            let record = match run.scenario {
                 Ok(scenario) => Ok(self.record(&scenario, stop)?),
                 Err(reason) => Err(reason),
             };
-            Ok(Row {
-                index: shot.index,
-                inputs: shot.inputs,
+            Ok(SweepRow {
+                index: run.index,
+                inputs: run.inputs,
                 record,
             })
         };
-        shots.into_iter().map(row).collect()
+        runs.into_iter().map(row).collect()
     }
 }

@@ -1,28 +1,28 @@
-//! Reading a sweep file.
+//! Sweep files.
 
 use std::path::Path;
 
 use super::{
     BatchKernel, Sweep,
     file::SweepFile,
-    points::{MAX_SHOTS, Points},
+    points::{MAX_RUNS, Points},
     sobol::MAX_DIMENSIONS,
     written_values::check_values,
 };
 use crate::{
     Error,
     case::{Document, Template},
-    check::{Check, Finding},
+    check::{Check, Diagnostic},
     error::nearest,
     inputs::{Axis, Design, resolve},
     model::{MODELS, model},
 };
 
-/// Most shots in a block that is chosen by itself: one file of the result holds a block.
+/// Most runs in a block that is chosen by itself: one file of the result holds a block.
 const LARGEST_BLOCK: u64 = 1024;
-/// Blocks that there are at least, where there are as many shots: they are what threads share.
+/// Blocks that there are at least, where there are as many runs: they are what threads share.
 const BLOCKS: u64 = 64;
-/// Shots that a block of shots computed side by side has at least, where there are as many: fewer leave lanes empty.
+/// Runs that a block of runs computed side by side has at least, where there are as many: fewer leave lanes empty.
 const SIDE_BY_SIDE: u64 = 64;
 
 pub(super) fn load(path: &Path) -> Result<Sweep, Error> {
@@ -40,17 +40,17 @@ pub(super) fn read(
     open: impl FnOnce(&Path) -> Result<Document, Error>,
 ) -> Result<Sweep, Error> {
     let file: SweepFile = document.parse()?;
-    let mut findings = Vec::new();
-    let mut check = Check::new(&mut findings);
+    let mut diagnostics = Vec::new();
+    let mut check = Check::new(&mut diagnostics);
     check_model(&file, &mut check);
     if file.parameter.is_empty() {
-        let help = "write one under [[parameter]]: key = \"projectile.velocity\" and values = [\"200 m/s\", \"230 m/s\"]";
+        let help = "write one under [[parameter]]: key = \"projectile.impact_velocity\" and values = [\"200 m/s\", \"230 m/s\"]";
         check.fail("parameter", "the sweep varies nothing", help);
     }
     let correlation = file.correlation.as_ref();
     let (axes, copula) = resolve(&file.parameter, correlation, file.design, &mut check);
-    let shots = check_design(&file, &axes, &mut check);
-    document.report(findings)?;
+    let runs = check_design(&file, &axes, &mut check);
+    document.report(diagnostics)?;
 
     let base = open(&file.base).and_then(|case| Template::of(&case));
     let template = base.map_err(|error| match error {
@@ -62,20 +62,20 @@ pub(super) fn read(
                 "" => help.to_owned(),
                 remedy => format!("{remedy}; {help}"),
             };
-            document.place(Finding::at("base", message, help)).into()
+            document.place(Diagnostic::at("base", message, help)).into()
         }
         other => other,
     })?;
-    let mut findings = Vec::new();
-    check_values(&axes, &template, &mut Check::new(&mut findings));
-    document.report(findings)?;
+    let mut diagnostics = Vec::new();
+    check_values(&axes, &template, &mut Check::new(&mut diagnostics));
+    document.report(diagnostics)?;
 
     let canonical: toml::Table = document.parse()?;
     let mut sweep = Sweep {
         title: file.title,
         base: file.base,
         model: model(&file.model)?,
-        points: Points::new(file.design, shots, file.seed.unwrap_or(0), axes.len()),
+        points: Points::new(file.design, runs, file.seed.unwrap_or(0), axes.len()),
         seed: file.seed.unwrap_or(0),
         block_size: 1,
         content: canonical.to_string(),
@@ -87,16 +87,16 @@ pub(super) fn read(
     Ok(sweep)
 }
 
-/// Shots in a block where the file does not say: the file and the case alone decide, so that every machine has the same blocks.
+/// Runs in a block where the file does not say: the file and the case alone decide, so that every machine has the same blocks.
 fn block_size(sweep: &Sweep) -> u64 {
-    let shots = sweep.shots();
-    let first = sweep.shot(0).scenario;
+    let runs = sweep.runs();
+    let first = sweep.run(0).scenario;
     let least = match first.is_ok_and(|first| BatchKernel::takes(sweep.model, &first)) {
         true => SIDE_BY_SIDE,
         false => 1,
     };
-    let blocks = (shots / least).clamp(1, BLOCKS);
-    shots.div_ceil(blocks).min(LARGEST_BLOCK)
+    let blocks = (runs / least).clamp(1, BLOCKS);
+    runs.div_ceil(blocks).min(LARGEST_BLOCK)
 }
 
 fn check_model(file: &SweepFile, check: &mut Check<'_>) {
@@ -112,32 +112,32 @@ fn check_model(file: &SweepFile, check: &mut Check<'_>) {
     }
 }
 
-/// Checks how the shots are chosen; returns their number.
+/// Checks how the runs are chosen; returns their number.
 fn check_design(file: &SweepFile, axes: &[Axis], check: &mut Check<'_>) -> u64 {
-    let mut shots = file.samples.unwrap_or(1);
+    let mut runs = file.samples.unwrap_or(1);
     match (file.design, file.samples) {
         (Design::Grid, Some(_)) => check.fail(
             "samples",
-            "a grid has as many shots as its lists make",
+            "a grid has as many runs as its lists make",
             "remove samples, or use design = \"latin-hypercube\" or \"sobol\"",
         ),
         (Design::Grid, None) => {
             let counts = axes.iter().filter_map(Axis::count);
-            shots = counts.fold(1, u64::saturating_mul);
-            if shots > MAX_SHOTS {
-                let message = format!("the grid has more than {MAX_SHOTS} shots");
+            runs = counts.fold(1, u64::saturating_mul);
+            if runs > MAX_RUNS {
+                let message = format!("the grid has more than {MAX_RUNS} runs");
                 check.fail("design", message, "give fewer values");
             }
         }
         (_, None) => check.fail(
             "samples",
-            "the number of shots is missing",
+            "the number of runs is missing",
             "add samples = 1024, or as many as you want",
         ),
-        (_, Some(samples)) if !(1..=MAX_SHOTS).contains(&samples) => check.fail(
+        (_, Some(samples)) if !(1..=MAX_RUNS).contains(&samples) => check.fail(
             "samples",
             format!("{samples} is out of range"),
-            format!("allowed: 1 to {MAX_SHOTS}"),
+            format!("allowed: 1 to {MAX_RUNS}"),
         ),
         _ => {}
     }
@@ -164,5 +164,5 @@ fn check_design(file: &SweepFile, axes: &[Axis], check: &mut Check<'_>) -> u64 {
             "allowed: 1 to 1048576",
         );
     }
-    shots
+    runs
 }

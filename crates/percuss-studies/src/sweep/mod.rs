@@ -1,18 +1,18 @@
 //! Sweeps: one case with some of its numbers varied, computed in blocks.
 //!
-//! Shot i of a sweep is a pure function of the sweep file, the base case and i, and so is its row: which thread, process or
+//! SweepRun i of a sweep is a pure function of the sweep file, the base case and i, and so is its row: which thread, process or
 //! machine computes it, and when, makes no difference.
 
 mod batch;
 #[cfg(test)]
 mod block_tests;
-mod caught;
 mod compute;
 #[cfg(test)]
 mod copula_tests;
 mod file;
 mod kernel;
 mod load;
+mod panic_guard;
 mod points;
 mod random;
 mod sobol;
@@ -26,17 +26,17 @@ use std::{
 };
 
 pub use batch::BatchKernel;
-pub use compute::Watch;
+pub use compute::Observer;
 pub(crate) use compute::in_blocks;
-pub use kernel::{Kernel, Row, ScalarKernel, Shot, Stopped};
+pub use kernel::{Kernel, ScalarKernel, Stopped, SweepRow, SweepRun};
 pub(crate) use points::Points;
 pub(crate) use random::{bits, permuted, stream};
 pub(crate) use sobol::MAX_DIMENSIONS;
 pub(crate) use written_values::check_values;
 
 pub use crate::inputs::{
-    Amount, Axis, Correlation, Design, Entry, Lognormal, Normal, Parameter, Steps, Triangular,
-    UncertainInputs, Uniform,
+    Axis, Correlation, Design, ListValue, Lognormal, Normal, Parameter, QuantityLiteral, Steps,
+    Triangular, UncertainInputs, Uniform,
 };
 pub(crate) use crate::inputs::{Copula, Distribution, Values, score, values};
 
@@ -58,7 +58,7 @@ pub struct Sweep {
     pub axes: Vec<Axis>,
     /// What decides over everything drawn at random.
     pub seed: u64,
-    /// Shots in a block; the last block may have fewer.
+    /// Runs in a block; the last block may have fewer.
     pub block_size: u64,
     points: Points,
     copula: Option<Copula>,
@@ -75,7 +75,7 @@ impl Sweep {
         load::load(path.as_ref())
     }
 
-    /// Reads a sweep from a text, with the case of another text in the place of the file that it names.
+    /// Reads a sweep from a text, with the case of another text instead of the file that it names.
     ///
     /// # Errors
     /// [`Error::Input`], as [`Sweep::load`].
@@ -88,25 +88,25 @@ impl Sweep {
         self.template.name()
     }
 
-    /// How its shots are chosen.
+    /// How its runs are chosen.
     pub fn design(&self) -> Design {
         self.points.design
     }
 
-    /// Number of shots.
-    pub fn shots(&self) -> u64 {
-        self.points.shots
+    /// Number of runs.
+    pub fn runs(&self) -> u64 {
+        self.points.runs
     }
 
     /// Number of blocks.
     pub fn blocks(&self) -> u64 {
-        self.shots().div_ceil(self.block_size)
+        self.runs().div_ceil(self.block_size)
     }
 
-    /// The shots of a block.
+    /// The runs of a block.
     pub fn block(&self, block: u64) -> Range<u64> {
         let start = block * self.block_size;
-        start..(start + self.block_size).min(self.shots())
+        start..(start + self.block_size).min(self.runs())
     }
 
     /// What the results rest on besides the program: sweep file, case and its material files, without comments.
@@ -114,10 +114,10 @@ impl Sweep {
         [&self.content, &self.template.content]
     }
 
-    /// A shot, counted from 0.
-    pub fn shot(&self, index: u64) -> Shot {
+    /// A run, counted from 0.
+    pub fn run(&self, index: u64) -> SweepRun {
         let inputs = self.points.values(&self.axes, self.copula.as_ref(), index);
-        Shot::new(&self.template, &self.axes, index, inputs, &[])
+        SweepRun::new(&self.template, &self.axes, index, inputs, &[])
     }
 }
 

@@ -1,4 +1,4 @@
-//! Random numbers that are pure functions of a seed and an index: no state, so that any shot can be made at any time.
+//! Random numbers that are pure functions of a seed and an index: no state, so that any run can be made at any time.
 
 /// The finaliser of the generator SplitMix64 (Steele, Lea and Flood 2014): every bit of the result depends on every bit of `z`.
 fn mix(z: u64) -> u64 {

@@ -4,9 +4,9 @@ use std::{
 
 use super::*;
 use crate::{
-    guard::Guard,
     made_up::MadeUp,
     outcome::{Outcome, RunResult, Termination},
+    validity::ValidityDomain,
 };
 
 /// Loads a sweep written into a folder of its own, beside the case that it names.
@@ -29,7 +29,7 @@ pub(super) fn sweep(name: &str, head: &str, parameters: &str) -> Sweep {
 
 const LISTS: &str = "
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 values = ['150 m/s', '200 m/s', '400 m/s']
 [[parameter]]
 key = 'chain.target_elements'
@@ -41,7 +41,7 @@ log = { from = '1 mm', to = '100 mm', count = 3 }
 
 const DISTRIBUTIONS: &str = "
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 uniform = { from = '100 m/s', to = '400 m/s' }
 [[parameter]]
 key = 'chain.constraint_factor'
@@ -54,8 +54,8 @@ uniform = { from = 0, to = 1 }
 #[test]
 fn a_grid_has_every_combination_and_its_last_parameter_varies_fastest() {
     let sweep = sweep("grid", "design = 'grid'", LISTS);
-    assert_eq!(sweep.shots(), 27);
-    let at = |i: u64| sweep.shot(i).inputs;
+    assert_eq!(sweep.runs(), 27);
+    let at = |i: u64| sweep.run(i).inputs;
     assert_eq!(at(0), [150.0, 40.0, 1.0]);
     assert!((at(1)[2] - 10.0).abs() < 1e-13);
     assert_eq!(at(2), [150.0, 40.0, 100.0]);
@@ -64,7 +64,7 @@ fn a_grid_has_every_combination_and_its_last_parameter_varies_fastest() {
     assert_eq!(at(26), [400.0, 80.0, 100.0]);
     let all: BTreeSet<String> = (0..27).map(|i| format!("{:?}", at(i))).collect();
     assert_eq!(all.len(), 27);
-    let scenario = sweep.shot(12).scenario.unwrap();
+    let scenario = sweep.run(12).scenario.unwrap();
     assert_eq!(scenario.impact_velocity, 200.0);
     assert_eq!(scenario.options.chain.target_elements, Some(60));
     assert_eq!(scenario.projectile.length, 1e-3);
@@ -72,7 +72,7 @@ fn a_grid_has_every_combination_and_its_last_parameter_varies_fastest() {
     assert_eq!(
         columns,
         [
-            "projectile.velocity_m_s",
+            "projectile.impact_velocity_m_s",
             "chain.target_elements",
             "projectile.length_mm"
         ]
@@ -83,26 +83,26 @@ fn a_grid_has_every_combination_and_its_last_parameter_varies_fastest() {
 fn the_longest_list_leaves_room_for_others() {
     let million = "
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 linear = { from = '150 m/s', to = '400 m/s', count = 1000000 }
 [[parameter]]
 key = 'chain.constraint_factor'
 values = [2.7]
 ";
     assert_eq!(
-        sweep("million", "design = 'grid'", million).shots(),
+        sweep("million", "design = 'grid'", million).runs(),
         1_000_000
     );
 }
 
 #[test]
-fn a_latin_hypercube_has_one_shot_in_every_interval_of_every_margin() {
+fn a_latin_hypercube_has_one_run_in_every_interval_of_every_margin() {
     for samples in [1_u64, 2, 37, 1000] {
         let head = format!("design = 'latin-hypercube'\nsamples = {samples}\nseed = 4");
         let sweep = sweep("lhs", &head, DISTRIBUTIONS);
         for (dimension, (from, to)) in [(100.0, 400.0), (1.0, 3.0), (0.0, 1.0)].iter().enumerate() {
             let interval = |i: u64| {
-                let part = (sweep.shot(i).inputs[dimension] - from) / (to - from);
+                let part = (sweep.run(i).inputs[dimension] - from) / (to - from);
                 (part * samples as f64) as u64
             };
             let seen: BTreeSet<u64> = (0..samples).map(interval).collect();
@@ -112,12 +112,12 @@ fn a_latin_hypercube_has_one_shot_in_every_interval_of_every_margin() {
 }
 
 #[test]
-fn a_seed_gives_the_same_shots_and_another_seed_others() {
+fn a_seed_gives_the_same_runs_and_another_seed_others() {
     for design in ["latin-hypercube", "sobol"] {
         let with = |seed: u64| {
             let head = format!("design = '{design}'\nsamples = 64\nseed = {seed}");
             let sweep = sweep(&format!("seed-{design}"), &head, DISTRIBUTIONS);
-            (0..64).map(|i| sweep.shot(i).inputs).collect::<Vec<_>>()
+            (0..64).map(|i| sweep.run(i).inputs).collect::<Vec<_>>()
         };
         assert_eq!(with(1), with(1), "{design}");
         assert_ne!(with(1), with(2), "{design}");
@@ -134,34 +134,34 @@ fn a_seed_gives_the_same_shots_and_another_seed_others() {
 }
 
 #[test]
-fn sobol_shots_fill_the_strata_of_their_margins() {
+fn sobol_runs_fill_the_strata_of_their_margins() {
     let head = "design = 'sobol'\nsamples = 256\nseed = 9";
     let sweep = sweep("sobol", head, DISTRIBUTIONS);
-    let stratum = |i: u64| ((sweep.shot(i).inputs[0] - 100.0) / 300.0 * 256.0) as u64;
+    let stratum = |i: u64| ((sweep.run(i).inputs[0] - 100.0) / 300.0 * 256.0) as u64;
     let seen: BTreeSet<u64> = (0..256).map(stratum).collect();
     assert_eq!(seen.len(), 256);
 }
 
 #[test]
-fn a_shot_that_fails_is_a_row_with_its_error() {
+fn a_run_that_fails_is_a_row_with_its_error() {
     let text = "
 [[parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 normal = { mean = '100 m/s', standard_deviation = '200 m/s' }
 ";
-    let sweep = sweep("bad-shot", "design = 'sobol'\nsamples = 32", text);
-    let shots = (0..32).map(|i| sweep.shot(i)).collect();
+    let sweep = sweep("bad-run", "design = 'sobol'\nsamples = 32", text);
+    let runs = (0..32).map(|i| sweep.run(i)).collect();
     let rows = ScalarKernel::new(crate::model::model("poncelet").unwrap())
-        .rows(shots, &AtomicBool::new(false))
+        .rows(runs, &AtomicBool::new(false))
         .unwrap();
     assert_eq!(rows.len(), 32);
-    let bad: Vec<&Row> = rows.iter().filter(|row| row.record.is_err()).collect();
+    let bad: Vec<&SweepRow> = rows.iter().filter(|row| row.record.is_err()).collect();
     let negative = rows.iter().filter(|row| row.inputs[0] < 0.0).count();
     assert!(negative > 3 && negative < 20, "{negative}");
     assert_eq!(bad.len(), negative);
     let reason = bad[0].record.as_ref().unwrap_err();
     assert!(
-        reason.contains("projectile.velocity") && reason.contains("out of range"),
+        reason.contains("projectile.impact_velocity") && reason.contains("out of range"),
         "{reason}"
     );
 }
@@ -169,7 +169,7 @@ normal = { mean = '100 m/s', standard_deviation = '200 m/s' }
 /// A model with a fault above 300 m/s.
 const FAULTY: MadeUp = MadeUp {
     name: "faulty",
-    guard: Guard::OPEN,
+    validity: ValidityDomain::OPEN,
     result: |scenario| {
         assert!(scenario.impact_velocity < 300.0, "a wrong {}", "index");
         let end = Termination::ClosedForm;
@@ -180,9 +180,9 @@ const FAULTY: MadeUp = MadeUp {
 #[test]
 fn a_model_that_panics_costs_one_row() {
     let sweep = sweep("panic", "design = 'grid'", LISTS);
-    let shots = (0..27).map(|i| sweep.shot(i)).collect();
+    let runs = (0..27).map(|i| sweep.run(i)).collect();
     let stop = AtomicBool::new(false);
-    let rows = ScalarKernel::new(&FAULTY).rows(shots, &stop).unwrap();
+    let rows = ScalarKernel::new(&FAULTY).rows(runs, &stop).unwrap();
     assert_eq!(rows.len(), 27);
     for row in rows {
         let record = row.record.unwrap();
@@ -196,7 +196,7 @@ fn a_model_that_panics_costs_one_row() {
         }
     }
     // Any other panic says so as ever; the next test sees it.
-    let elsewhere = thread::spawn(|| panic!("not in a shot")).join();
+    let elsewhere = thread::spawn(|| panic!("not in a run")).join();
     assert!(elsewhere.is_err());
 }
 
@@ -209,7 +209,7 @@ fn a_model_that_panics_prints_nothing() {
         .unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(output.status.success(), "{said}");
-    assert!(said.contains("not in a shot"), "{said}");
+    assert!(said.contains("not in a run"), "{said}");
     assert!(!said.contains("wrong index"), "{said}");
 }
 
@@ -223,17 +223,17 @@ values = ['copper', '4340-johnson-cook']
 key = 'chain.rate_effects'
 values = [true, false]
 [[parameter]]
-key = 'chain.target_closure'
+key = 'chain.target_resistance'
 values = ['column', 'diverging', 'expanding-cavity']
 ";
     let grid = sweep("words", "design = 'grid'", text);
-    assert_eq!(grid.shots(), 12);
-    assert_eq!(grid.shot(11).inputs, [1.0, 1.0, 2.0]);
-    let scenario = grid.shot(8).scenario.unwrap();
+    assert_eq!(grid.runs(), 12);
+    assert_eq!(grid.run(11).inputs, [1.0, 1.0, 2.0]);
+    let scenario = grid.run(8).scenario.unwrap();
     assert!(scenario.projectile.material.name.contains("4340"));
     assert_eq!(scenario.options.chain.rate_effects, Some(true));
     assert_eq!(
-        scenario.options.chain.target_closure.unwrap().name(),
+        scenario.options.chain.target_resistance.unwrap().name(),
         "expanding-cavity"
     );
     let words: Vec<_> = grid.axes.iter().filter_map(Axis::words).collect();
@@ -246,7 +246,7 @@ values = ['column', 'diverging', 'expanding-cavity']
         text,
     );
     for word in 0..3 {
-        let count = (0..48).filter(|i| drawn.shot(*i).inputs[2] == f64::from(word));
+        let count = (0..48).filter(|i| drawn.run(*i).inputs[2] == f64::from(word));
         assert_eq!(count.count(), 16);
     }
 }
@@ -255,13 +255,13 @@ values = ['column', 'diverging', 'expanding-cavity']
 fn a_stopped_sweep_gives_no_rows() {
     let sweep = sweep("stop", "design = 'grid'", LISTS);
     let kernel = ScalarKernel::new(sweep.model);
-    let shots = || sweep.block(0).map(|i| sweep.shot(i)).collect();
-    assert_eq!(kernel.rows(shots(), &AtomicBool::new(true)), Err(Stopped));
-    assert!(kernel.rows(shots(), &AtomicBool::new(false)).is_ok());
+    let runs = || sweep.block(0).map(|i| sweep.run(i)).collect();
+    assert_eq!(kernel.rows(runs(), &AtomicBool::new(true)), Err(Stopped));
+    assert!(kernel.rows(runs(), &AtomicBool::new(false)).is_ok());
 }
 
 #[test]
-fn blocks_cover_all_shots() {
+fn blocks_cover_all_runs() {
     let sweep = sweep("blocks", "design = 'grid'\nblock_size = 4", LISTS);
     let all: Vec<u64> = (0..sweep.blocks()).flat_map(|b| sweep.block(b)).collect();
     assert_eq!((sweep.blocks(), all), (7, (0..27).collect()));
@@ -272,26 +272,26 @@ fn rows_do_not_depend_on_the_kernel_nor_on_the_blocks() {
     // Columns ride side by side, expanding cavities are left to the single run.
     let head = "base = 'scenario.toml'\nmodel = 'chain'\ndesign = 'grid'";
     let mesh = "[[parameter]]\nkey = 'chain.projectile_elements'\nvalues = [8, 10]\n[[parameter]]\nkey = 'chain.target_elements'\nvalues = [16]";
-    let speeds = "[[parameter]]\nkey = 'projectile.velocity'\nlinear = { from = '60 m/s', to = '400 m/s', count = 5 }";
+    let speeds = "[[parameter]]\nkey = 'projectile.impact_velocity'\nlinear = { from = '60 m/s', to = '400 m/s', count = 5 }";
     let shear = "[[parameter]]\nkey = 'chain.border_shear'\nvalues = [0.0, 0.577]";
     for (name, parameters) in [
         ("columns", format!("{speeds}\n{shear}\n{mesh}")),
         ("cavities", format!("{speeds}\n{mesh}")),
     ] {
         let sweep = load(name, &format!("{head}\n{parameters}")).unwrap();
-        let shots = |from, to| (from..to).map(|i| sweep.shot(i)).collect::<Vec<Shot>>();
+        let runs = |from, to| (from..to).map(|i| sweep.run(i)).collect::<Vec<SweepRun>>();
         let stop = AtomicBool::new(false);
-        let count = sweep.shots();
-        let expected = ScalarKernel::new(sweep.model).rows(shots(0, count), &stop);
+        let count = sweep.runs();
+        let expected = ScalarKernel::new(sweep.model).rows(runs(0, count), &stop);
         let kernel = BatchKernel::new(sweep.model);
-        assert_eq!(kernel.rows(shots(0, count), &stop), expected, "{name}");
+        assert_eq!(kernel.rows(runs(0, count), &stop), expected, "{name}");
         let expected = expected.unwrap();
         for size in [1, 7] {
             let mut rows = Vec::new();
             for from in (0..count).step_by(size as usize) {
                 rows.extend(
                     kernel
-                        .rows(shots(from, count.min(from + size)), &stop)
+                        .rows(runs(from, count.min(from + size)), &stop)
                         .unwrap(),
                 );
             }

@@ -7,19 +7,19 @@ pub(crate) fn check_values(axes: &[Axis], template: &Template, check: &mut Check
     for (i, axis) in axes.iter().enumerate() {
         for (key, value) in &axis.samples {
             let written = axis.written(*value);
-            let Err(findings) = template.scenario(&[(&axis.key, written.clone())]) else {
+            let Err(diagnostics) = template.scenario(&[(&axis.key, written.clone())]) else {
                 continue;
             };
-            if let Some(finding) = findings.into_iter().next() {
-                let of = match finding.key.as_str() {
+            if let Some(diagnostic) = diagnostics.into_iter().next() {
+                let of = match diagnostic.key.as_str() {
                     "" => axis.key.clone(),
                     key => key.to_owned(),
                 };
                 let message = format!(
                     "with {} = {written} the case is not valid: `{of}`: {}",
-                    axis.key, finding.message
+                    axis.key, diagnostic.message
                 );
-                check.fail(&format!("parameter.{i}.{key}"), message, finding.help);
+                check.fail(&format!("parameter.{i}.{key}"), message, diagnostic.help);
                 return;
             }
         }

@@ -1,4 +1,4 @@
-//! An analysis from its shots to what they say.
+//! Uncertainty analysis: runs, statistics, sensitivities.
 
 use std::sync::atomic::AtomicU64;
 
@@ -19,12 +19,12 @@ use crate::{
     model::Model,
     outcome::Outcome,
     summary::{InStatistics, ResultNumber, Role},
-    sweep::{Axis, Kernel, Shot, Stopped, Watch, values},
+    sweep::{Axis, Kernel, Observer, Stopped, SweepRun, values},
 };
 
 /// Longest key that is not shortened.
 const LONGEST_LABEL: usize = 30;
-/// Most reasons of failed shots that are kept.
+/// Most reasons of failed runs that are kept.
 const REASONS: usize = 3;
 
 /// Computes a study by a kernel, which has to compute by `model`.
@@ -37,7 +37,7 @@ pub fn analyse(
     model: &dyn Model,
     kernel: &dyn Kernel,
     settings: &Settings,
-    watch: &Watch<'_>,
+    observer: &Observer<'_>,
 ) -> Result<Uncertainty, Error> {
     let cancelled = |_: Stopped| Error::Cancelled {
         step: 0,
@@ -49,16 +49,16 @@ pub fn analyse(
         None => rows.width(),
         Some(_) => 1,
     };
-    let at_speeds = settings.speeds.len() as u64 * settings.samples.min(bands::SHOTS);
+    let at_speeds = settings.speeds.len() as u64 * settings.samples.min(bands::RUNS);
     let runner = Runner {
         study,
         kernel,
-        watch,
+        observer,
         total: 2 * study.axes.len() as u64 + settings.samples * width + at_speeds,
         done: AtomicU64::new(0),
     };
-    let (nominal, nominal_draw) = nominal(study, model, kernel, watch, &cancelled)?;
-    let lows_and_highs = tornado::shots(&runner).map_err(cancelled)?;
+    let (nominal, nominal_draw) = nominal(study, model, kernel, observer, &cancelled)?;
+    let lows_and_highs = tornado::runs(&runner).map_err(cancelled)?;
     let copula = study.copula.as_ref();
     let inputs = |i: u64| {
         let point = match width {
@@ -70,8 +70,8 @@ pub fn analyse(
     let mixed = runner
         .run(settings.samples * width, &inputs, None)
         .map_err(cancelled)?;
-    let at_speeds =
-        bands::shots(&runner, &settings.speeds, &rows, settings.samples).map_err(cancelled)?;
+    let at_speeds = bands::at_velocities(&runner, &settings.speeds, &rows, settings.samples)
+        .map_err(cancelled)?;
 
     let draws: Vec<Draw> = mixed.iter().step_by(width as usize).cloned().collect();
     let quantities = chosen(settings, &draws);
@@ -92,7 +92,7 @@ pub fn analyse(
         Some(QuantityResult {
             quantity: quantity.name,
             nominal: nominal_draw.value(quantity),
-            without_value: draws.len() - failed - statistics.shots,
+            without_value: draws.len() - failed - statistics.runs,
             statistics,
             tornado: tornado::bars(&runner, &lows_and_highs, quantity),
             indices,
@@ -105,7 +105,7 @@ pub fn analyse(
         model: model.name(),
         samples: settings.samples,
         seed: settings.seed,
-        shots: runner.total + 1,
+        runs: runner.total + 1,
         inputs: inputs_of(&study.axes),
         correlated: study.is_correlated(),
         nominal,
@@ -115,7 +115,7 @@ pub fn analyse(
         no_indices,
         bands: at_speeds
             .iter()
-            .map(|(speed, shots)| bands::band(*speed, shots, &quantities))
+            .map(|(speed, runs)| bands::band(*speed, runs, &quantities))
             .collect(),
         warnings: Vec::new(),
         draws,
@@ -140,16 +140,16 @@ fn no_indices(study: &Study, settings: &Settings) -> Option<String> {
     }
 }
 
-/// The shot at the medians, and what is kept of it.
+/// The run at the medians, and what is kept of it.
 fn nominal(
     study: &Study,
     model: &dyn Model,
     kernel: &dyn Kernel,
-    watch: &Watch<'_>,
+    observer: &Observer<'_>,
     cancelled: &dyn Fn(Stopped) -> Error,
 ) -> Result<(Nominal, Draw), Error> {
-    let shot = Shot::new(&study.template, &study.axes, 0, study.medians(), &[]);
-    let rows = kernel.rows(vec![shot], watch.stop).map_err(cancelled)?;
+    let run = SweepRun::new(&study.template, &study.axes, 0, study.medians(), &[]);
+    let rows = kernel.rows(vec![run], observer.stop).map_err(cancelled)?;
     let mut nominal = Nominal {
         outcome: Outcome::Failed,
         reason: None,
@@ -179,7 +179,7 @@ fn nominal(
     Ok((nominal, Draw::of(row)))
 }
 
-/// The quantities asked for; otherwise the main ones that the model gives, without those that are the same in all shots.
+/// The quantities asked for; otherwise the main ones that the model gives, without those that are the same in all runs.
 fn chosen(settings: &Settings, draws: &[Draw]) -> Vec<&'static ResultNumber> {
     if !settings.quantities.is_empty() {
         return settings.quantities.clone();
@@ -197,10 +197,10 @@ fn chosen(settings: &Settings, draws: &[Draw]) -> Vec<&'static ResultNumber> {
     }
 }
 
-/// Values of the rows in which no shot lacks one.
-fn complete_rows(shots: &[Draw], width: usize, quantity: &ResultNumber) -> Vec<Vec<f64>> {
-    let row = |row: &[Draw]| row.iter().map(|shot| shot.value(quantity)).collect();
-    shots.chunks(width).filter_map(row).collect()
+/// Values of the rows in which no run lacks one.
+fn complete_rows(runs: &[Draw], width: usize, quantity: &ResultNumber) -> Vec<Vec<f64>> {
+    let row = |row: &[Draw]| row.iter().map(|run| run.value(quantity)).collect();
+    runs.chunks(width).filter_map(row).collect()
 }
 
 fn inputs_of(axes: &[Axis]) -> Vec<Input> {
@@ -215,7 +215,7 @@ fn inputs_of(axes: &[Axis]) -> Vec<Input> {
     let input = |axis: &Axis| Input {
         key: axis.key.clone(),
         unit: axis.unit.clone(),
-        distribution: axis.in_words(),
+        distribution: axis.describe(),
         low: axis.at(ENDS[0]),
         median: axis.at(0.5),
         high: axis.at(ENDS[1]),
@@ -245,17 +245,17 @@ fn failures(draws: &[Draw]) -> Failures {
         }
     }
     Failures {
-        shots: failed().count(),
+        runs: failed().count(),
         reasons,
     }
 }
 
 fn warnings(found: &Uncertainty) -> Vec<String> {
     let mut warnings = Vec::new();
-    let failed = found.failures.shots;
+    let failed = found.failures.runs;
     if failed > 0 {
         warnings.push(format!(
-            "{failed} of {} shots have no result and are left out of all statistics, which speak of the others only; the first reason: {}",
+            "{failed} of {} runs have no result and are left out of all statistics, which speak of the others only; the first reason: {}",
             found.samples, found.failures.reasons[0]
         ));
     }
@@ -267,7 +267,7 @@ fn warnings(found: &Uncertainty) -> Vec<String> {
             _ => "",
         };
         warnings.push(format!(
-            "{} of {} shots have no {}{why}: its statistics are those of the others",
+            "{} of {} runs have no {}{why}: its statistics are those of the others",
             quantity.without_value,
             found.samples,
             quantity.what().label

@@ -1,4 +1,4 @@
-//! What a study says over a range of impact speeds.
+//! Percentile bands over a range of impact velocities.
 
 use super::{
     design::Rows,
@@ -12,11 +12,11 @@ use crate::{
     sweep::{Stopped, values},
 };
 
-/// Most shots at one speed.
-pub(super) const SHOTS: u64 = 256;
+/// Most runs at one speed.
+pub(super) const RUNS: u64 = 256;
 
-/// The shots at each speed. Speed by speed the other parameters take the same values, so that curves are smooth.
-pub(super) fn shots(
+/// The runs at each speed. Speed by speed the other parameters take the same values, so that curves are smooth.
+pub(super) fn at_velocities(
     runner: &Runner<'_>,
     speeds: &[f64],
     rows: &Rows,
@@ -26,21 +26,21 @@ pub(super) fn shots(
     let inputs = |i: u64| values(&study.axes, study.copula.as_ref(), &rows.first(i));
     speeds
         .iter()
-        .map(|&speed| Ok((speed, runner.run(samples.min(SHOTS), &inputs, Some(speed))?)))
+        .map(|&speed| Ok((speed, runner.run(samples.min(RUNS), &inputs, Some(speed))?)))
         .collect()
 }
 
-/// What the shots at a speed come to.
-pub(super) fn band(speed: f64, shots: &[Draw], quantities: &[&'static ResultNumber]) -> Band {
+/// What the runs at a speed come to.
+pub(super) fn band(speed: f64, runs: &[Draw], quantities: &[&'static ResultNumber]) -> Band {
     let spread = |quantity: &&'static ResultNumber| QuantitySpread {
         quantity: quantity.name,
-        statistics: Statistics::of(shots.iter().filter_map(|shot| shot.value(quantity))),
+        statistics: Statistics::of(runs.iter().filter_map(|run| run.value(quantity))),
     };
     Band {
-        velocity_m_s: speed,
-        shots: shots.len(),
-        failed: shots.iter().filter(|shot| shot.is_failed()).count(),
-        perforation: Perforation::of(shots.iter().map(|shot| shot.outcome)),
+        impact_velocity_m_s: speed,
+        runs: runs.len(),
+        failed: runs.iter().filter(|run| run.is_failed()).count(),
+        perforation: Perforation::of(runs.iter().map(|run| run.outcome)),
         quantities: quantities.iter().map(spread).collect(),
     }
 }

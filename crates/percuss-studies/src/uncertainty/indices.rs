@@ -24,7 +24,7 @@ const ROUNDING: f64 = 1e-20;
 /// Sobol' indices of a quantity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SobolIndices {
-    /// Rows of the design that they rest on: those in which no shot lacks a value.
+    /// Rows of the design that they rest on: those in which no run lacks a value.
     pub rows: usize,
     /// One a parameter, in the order of the case.
     pub parameters: Vec<Index>,
@@ -48,7 +48,7 @@ pub struct Index {
 pub(super) fn indices(rows: &[Vec<f64>], keys: &[&str], seed: u64) -> Result<SobolIndices, String> {
     if rows.len() < FEWEST {
         return Err(format!(
-            "only {} of the rows of points have values in all their shots",
+            "only {} of the rows of points have values in all their runs",
             rows.len()
         ));
     }
@@ -62,7 +62,7 @@ pub(super) fn indices(rows: &[Vec<f64>], keys: &[&str], seed: u64) -> Result<Sob
         .fold(0.0_f64, |size, v| size.max(v.abs()));
     let spread = variance(&sums(&terms, 0..rows.len()));
     if spread.is_nan() || spread <= ROUNDING * size * size {
-        return Err("the value is the same in all shots".to_owned());
+        return Err("the value is the same in all runs".to_owned());
     }
     let resampled: Vec<Vec<f64>> = (0..RESAMPLES)
         .into_par_iter()

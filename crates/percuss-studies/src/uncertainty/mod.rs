@@ -1,4 +1,4 @@
-//! What the uncertainty of a case's numbers does to its results: statistics, sensitivity, chances of perforation.
+//! Propagation of uncertain inputs: statistics, sensitivities, probability of perforation.
 //!
 //! A [`Study`] is a case with its table `uncertainty`; [`analyse`] computes it by a [`Kernel`](crate::sweep::Kernel). The spread
 //! that it finds is that of the inputs alone: the error of the model itself is not in it.
@@ -27,4 +27,4 @@ pub use result::{
 pub use statistics::{Estimate, PERCENTS, Percentile, Statistics};
 pub use study::{MAX_SAMPLES, MIN_SAMPLES, Settings, Study};
 
-pub use crate::sweep::Watch;
+pub use crate::sweep::Observer;

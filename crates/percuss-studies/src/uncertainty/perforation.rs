@@ -1,20 +1,20 @@
-//! Chance of perforation.
+//! Probability of perforation.
 
 use serde::Serialize;
 
 use super::statistics::SCORE_95;
 use crate::outcome::Outcome;
 
-/// How many shots went through, and the chance that one does.
+/// Number of perforations, and the probability of perforation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Perforation {
-    /// Shots that went through.
+    /// Runs with perforation.
     pub perforated: usize,
-    /// Shots that were stopped.
+    /// Runs that were stopped.
     pub stopped: usize,
-    /// Shots of which it cannot be said: those that failed among them.
+    /// Runs of which it cannot be said: those that failed among them.
     pub undecided: usize,
-    /// Part of the decided shots that went through.
+    /// Part of the decided runs with perforation.
     pub probability: f64,
     /// Lower end of its 95 % interval.
     pub low: f64,
@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn only_decided_shots_count() {
+    fn only_decided_runs_count() {
         use Outcome::{AtRest, Failed, NotApplicable, OutOfTime, Perforated, Rebounded};
         let outcomes = [
             Perforated,

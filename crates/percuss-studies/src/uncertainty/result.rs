@@ -1,4 +1,4 @@
-//! What an analysis of uncertainty says. The names are stable.
+//! Result of an uncertainty analysis. The names are stable.
 
 use serde::Serialize;
 
@@ -8,7 +8,9 @@ use super::{
     quantity::{quantities, quantity},
     statistics::Statistics,
 };
-use crate::{model_error::Expectation, outcome::Outcome, summary::ResultNumber, sweep::Row};
+use crate::{
+    model_error::ModelErrorEstimate, outcome::Outcome, summary::ResultNumber, sweep::SweepRow,
+};
 
 /// What the uncertainty of a case's numbers does to its results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -19,31 +21,31 @@ pub struct Uncertainty {
     pub percuss_version: &'static str,
     /// Name of the model.
     pub model: &'static str,
-    /// Shots that the statistics rest on.
+    /// Runs that the statistics rest on.
     pub samples: u64,
     /// What decided over everything drawn at random.
     pub seed: u64,
-    /// All shots that were computed.
-    pub shots: u64,
+    /// All runs that were computed.
+    pub runs: u64,
     /// The uncertain numbers.
     pub inputs: Vec<Input>,
     /// Whether they depend on each other.
     pub correlated: bool,
-    /// The shot with every uncertain number at its median.
+    /// The run with every uncertain number at its median.
     pub nominal: Nominal,
-    /// Shots of the sample without a result.
+    /// Runs of the sample without a result.
     pub failures: Failures,
-    /// Chance of perforation; null when no shot decides it.
+    /// Probability of perforation; null when no run decides it.
     pub perforation: Option<Perforation>,
     /// Each quantity that was looked at.
     pub quantities: Vec<QuantityResult>,
     /// Why there are no Sobol' indices, if there are none at all.
     pub no_indices: Option<String>,
-    /// Spread at each impact speed, where speeds were asked for.
+    /// Spread at each impact velocity, where speeds were asked for.
     pub bands: Vec<Band>,
-    /// What to know before relying on the numbers.
+    /// Limitations of the numbers.
     pub warnings: Vec<String>,
-    /// The shots of the sample; not in JSON.
+    /// The runs of the sample; not in JSON.
     #[serde(skip)]
     pub draws: Vec<Draw>,
 }
@@ -71,7 +73,7 @@ pub struct Input {
     pub column: String,
 }
 
-/// The shot with every uncertain number at its median.
+/// The run with every uncertain number at its median.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Nominal {
     /// How it ended.
@@ -79,16 +81,16 @@ pub struct Nominal {
     /// Why it has no result, if it has none.
     pub reason: Option<String>,
     /// Error to expect of its depth, which comes on top of the spread.
-    pub expected_error: Option<Expectation>,
+    pub expected_error: Option<ModelErrorEstimate>,
     /// What the model warns of.
     pub warnings: Vec<String>,
 }
 
-/// Shots without a result: they are left out of all statistics.
+/// Runs without a result: they are left out of all statistics.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Failures {
     /// How many.
-    pub shots: usize,
+    pub runs: usize,
     /// The first few reasons.
     pub reasons: Vec<String>,
 }
@@ -98,9 +100,9 @@ pub struct Failures {
 pub struct QuantityResult {
     /// Its name in results, with the unit.
     pub quantity: &'static str,
-    /// Its value in the nominal shot.
+    /// Its value in the nominal run.
     pub nominal: Option<f64>,
-    /// Shots with a result that lack a value of it.
+    /// Runs with a result that lack a value of it.
     pub without_value: usize,
     /// Its statistics.
     pub statistics: Statistics,
@@ -124,9 +126,9 @@ impl Uncertainty {
         const SPREAD: &str = "The spread is that of the inputs. The model's own error comes on top";
         match &self.nominal.expected_error {
             Some(expected) => format!(
-                "{SPREAD}: {} of the depth against the axisymmetric reference, over the {} most similar shots of the judgement.",
-                expected.in_words(),
-                expected.shots
+                "{SPREAD}: {} of the depth against the axisymmetric reference, over the {} most similar benchmark cases.",
+                expected.describe(),
+                expected.cases
             ),
             None => format!("{SPREAD}."),
         }
@@ -164,31 +166,31 @@ impl TornadoBar {
     }
 }
 
-/// Spread at one impact speed.
+/// Spread at one impact velocity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Band {
-    /// Impact speed [m/s].
-    pub velocity_m_s: f64,
-    /// Shots at this speed.
-    pub shots: usize,
-    /// Shots without a result among them.
+    /// Impact velocity [m/s].
+    pub impact_velocity_m_s: f64,
+    /// Runs at this speed.
+    pub runs: usize,
+    /// Runs without a result among them.
     pub failed: usize,
-    /// Chance of perforation.
+    /// Probability of perforation.
     pub perforation: Option<Perforation>,
     /// Each quantity that was looked at.
     pub quantities: Vec<QuantitySpread>,
 }
 
-/// Spread of a quantity at one impact speed.
+/// Spread of a quantity at one impact velocity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct QuantitySpread {
     /// Its name in results, with the unit.
     pub quantity: &'static str,
-    /// Its statistics; null where no shot has a value.
+    /// Its statistics; null where no run has a value.
     pub statistics: Option<Statistics>,
 }
 
-/// A shot of the sample.
+/// A run of the sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draw {
     /// Values of the uncertain numbers.
@@ -203,7 +205,7 @@ pub struct Draw {
 
 impl Draw {
     /// What is kept of a row.
-    pub(super) fn of(row: Row) -> Self {
+    pub(super) fn of(row: SweepRow) -> Self {
         match row.record {
             Ok(record) => Self {
                 inputs: row.inputs,

@@ -1,28 +1,28 @@
-//! Computing many shots of a study.
+//! Computing many runs of a study.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{result::Draw, study::Study};
-use crate::sweep::{Kernel, Shot, Stopped, Watch, in_blocks};
+use crate::sweep::{Kernel, Observer, Stopped, SweepRun, in_blocks};
 
-/// Blocks that there are at least, where there are as many shots: they are what threads share.
+/// Blocks that there are at least, where there are as many runs: they are what threads share.
 const BLOCKS: u64 = 64;
-/// Most shots in a block.
+/// Most runs in a block.
 const LARGEST_BLOCK: u64 = 256;
-/// Key of the impact speed.
-pub(super) const SPEED: &str = "projectile.velocity";
+/// Key of the impact velocity.
+pub(super) const SPEED: &str = "projectile.impact_velocity";
 
-/// Computes shots in blocks, in parallel.
+/// Computes runs in blocks, in parallel.
 pub(super) struct Runner<'a> {
     pub(super) study: &'a Study,
     pub(super) kernel: &'a dyn Kernel,
-    pub(super) watch: &'a Watch<'a>,
+    pub(super) observer: &'a Observer<'a>,
     pub(super) total: u64,
     pub(super) done: AtomicU64,
 }
 
 impl Runner<'_> {
-    /// Shots whose values are given by their number, at the case's own speed or at another one.
+    /// Runs whose values are given by their number, at the case's own speed or at another one.
     pub(super) fn run(
         &self,
         count: u64,
@@ -35,12 +35,13 @@ impl Runner<'_> {
             .into_iter()
             .collect();
         in_blocks(count, size, |range| {
-            let shots = range
-                .map(|i| Shot::new(&self.study.template, &self.study.axes, i, inputs(i), &more));
-            let rows = self.kernel.rows(shots.collect(), self.watch.stop)?;
+            let runs = range.map(|i| {
+                SweepRun::new(&self.study.template, &self.study.axes, i, inputs(i), &more)
+            });
+            let rows = self.kernel.rows(runs.collect(), self.observer.stop)?;
             let of_block = rows.len() as u64;
             let done = self.done.fetch_add(of_block, Ordering::Relaxed) + of_block;
-            (self.watch.progress)(done, self.total);
+            (self.observer.progress)(done, self.total);
             Ok(rows.into_iter().map(Draw::of).collect())
         })
     }

@@ -6,7 +6,7 @@ use crate::statistics::{quantile, sorted};
 
 /// Percentiles that are given of everything.
 pub const PERCENTS: [f64; 7] = [1.0, 5.0, 25.0, 50.0, 75.0, 95.0, 99.0];
-/// Score within which a normal variable lies with a chance of 95 %.
+/// Score within which a normal variable lies with a probability of 95 %.
 pub(super) const SCORE_95: f64 = 1.959_963_984_540_054;
 
 /// A number with its 95 % interval.
@@ -23,7 +23,7 @@ pub struct Estimate {
 /// A percentile with its 95 % interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Percentile {
-    /// Which one: 95 lies above 95 % of the shots.
+    /// Which one: 95 lies above 95 % of the runs.
     pub percent: f64,
     /// Its value, straight between neighbours of the sample.
     pub value: f64,
@@ -33,11 +33,11 @@ pub struct Percentile {
     pub high: Option<f64>,
 }
 
-/// Statistics of the shots that have a value. Intervals are those of independent draws; scrambled Sobol' points err less.
+/// Statistics of the runs that have a value. Intervals are those of independent draws; scrambled Sobol' points err less.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Statistics {
-    /// Shots with a value.
-    pub shots: usize,
+    /// Runs with a value.
+    pub runs: usize,
     /// Mean.
     pub mean: f64,
     /// Standard error of the mean.
@@ -63,7 +63,7 @@ impl Statistics {
         // A single value has no spread that could be told.
         let deviation = (squares / (count - 1.0).max(1.0)).sqrt();
         Some(Self {
-            shots: sorted.len(),
+            runs: sorted.len(),
             mean,
             standard_error: deviation / count.sqrt(),
             standard_deviation: deviation,
@@ -105,7 +105,7 @@ mod tests {
     #[test]
     fn statistics_of_whole_numbers_are_exact() {
         let found = Statistics::of((0..=1000).rev().map(f64::from)).unwrap();
-        assert_eq!((found.shots, found.mean), (1001, 500.0));
+        assert_eq!((found.runs, found.mean), (1001, 500.0));
         // Of 0 to n: n (n + 2) / 12, with n - 1 degrees of freedom.
         let variance = 1001.0 * 1002.0 / 12.0_f64;
         assert!((found.standard_deviation - variance.sqrt()).abs() < 1e-10);

@@ -5,17 +5,17 @@ use std::path::Path;
 use crate::{
     Error, Scenario,
     case::{self, Case, Document, Template},
-    check::{Check, Finding},
+    check::{Check, Diagnostic},
     summary::ResultNumber,
     sweep::{Axis, Copula, MAX_DIMENSIONS, check_values},
 };
 
-/// Fewest and most shots of a sample.
+/// Fewest and most runs of a sample.
 pub const MIN_SAMPLES: u64 = 16;
-/// Most shots of a sample.
+/// Most runs of a sample.
 pub const MAX_SAMPLES: u64 = 1 << 20;
 
-const EXAMPLE: &str = "add [[uncertainty.parameter]] with key = \"projectile.velocity\" and \
+const EXAMPLE: &str = "add [[uncertainty.parameter]] with key = \"projectile.impact_velocity\" and \
                        normal = { mean = \"230 m/s\", standard_deviation = \"3 m/s\" }, and one for every other number that is uncertain";
 
 /// A case that was read and checked, with the distributions of its uncertain numbers.
@@ -31,7 +31,7 @@ pub struct Study {
 /// What is to be computed of a study.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Shots that the statistics rest on: [`MIN_SAMPLES`] to [`MAX_SAMPLES`]; a power of two serves best.
+    /// Runs that the statistics rest on: [`MIN_SAMPLES`] to [`MAX_SAMPLES`]; a power of two serves best.
     pub samples: u64,
     /// Decides over everything drawn at random.
     pub seed: u64,
@@ -39,7 +39,7 @@ pub struct Settings {
     pub quantities: Vec<&'static ResultNumber>,
     /// Whether to estimate Sobol' indices.
     pub indices: bool,
-    /// Impact speeds of the bands [m/s], rising.
+    /// Impact velocities of the bands [m/s], rising.
     pub speeds: Vec<f64>,
 }
 
@@ -60,11 +60,12 @@ impl Study {
         let template = Template::of(document)?;
         let case: Case = document.parse()?;
         let Some(inputs) = case.uncertainty else {
-            let finding = Finding::whole("the case says nothing of what is uncertain", EXAMPLE);
-            return Err(document.place(finding).into());
+            let diagnostic =
+                Diagnostic::whole("the case says nothing of what is uncertain", EXAMPLE);
+            return Err(document.place(diagnostic).into());
         };
-        let mut findings = Vec::new();
-        let mut check = Check::new(&mut findings);
+        let mut diagnostics = Vec::new();
+        let mut check = Check::new(&mut diagnostics);
         let mut check = check.within("uncertainty");
         let (axes, copula) = inputs.resolve(&mut check);
         if axes.len() > MAX_DIMENSIONS {
@@ -78,7 +79,7 @@ impl Study {
             );
         }
         check_values(&axes, &template, &mut check);
-        document.report(findings)?;
+        document.report(diagnostics)?;
         Ok(Self {
             scenario: case::scenario(document)?,
             axes,

@@ -1,4 +1,4 @@
-//! One parameter at a time, low and high.
+//! One-at-a-time sensitivities (tornado).
 
 use super::{
     result::{Draw, TornadoBar},
@@ -9,8 +9,8 @@ use crate::{summary::ResultNumber, sweep::Stopped};
 /// Chances at which a parameter is low and high.
 pub(super) const ENDS: [f64; 2] = [0.05, 0.95];
 
-/// Shots with each parameter low and high and all others at their medians, two a parameter.
-pub(super) fn shots(runner: &Runner<'_>) -> Result<Vec<Draw>, Stopped> {
+/// Runs with each parameter low and high and all others at their medians, two a parameter.
+pub(super) fn runs(runner: &Runner<'_>) -> Result<Vec<Draw>, Stopped> {
     let axes = &runner.study.axes;
     let medians = runner.study.medians();
     let inputs = |i: u64| {
@@ -23,13 +23,9 @@ pub(super) fn shots(runner: &Runner<'_>) -> Result<Vec<Draw>, Stopped> {
 }
 
 /// The bars of a quantity, the longest first.
-pub(super) fn bars(
-    runner: &Runner<'_>,
-    shots: &[Draw],
-    quantity: &ResultNumber,
-) -> Vec<TornadoBar> {
+pub(super) fn bars(runner: &Runner<'_>, runs: &[Draw], quantity: &ResultNumber) -> Vec<TornadoBar> {
     let bar = |(i, axis): (usize, &crate::sweep::Axis)| {
-        let [low, high] = [&shots[2 * i], &shots[2 * i + 1]];
+        let [low, high] = [&runs[2 * i], &runs[2 * i + 1]];
         TornadoBar {
             key: axis.key.clone(),
             at_low: low.value(quantity),

@@ -1,6 +1,6 @@
 //! Maximum likelihood of the two numbers of a distribution.
 
-use super::{Estimate, Pattern, Shot, interval::interval, link::Link, speeds};
+use super::{Estimate, Pattern, Test, interval::interval, link::Link, speeds};
 use crate::units::significant;
 
 const ITERATIONS: usize = 200;
@@ -15,14 +15,14 @@ struct Line {
 }
 
 /// The estimate of maximum likelihood, or why there is none.
-pub(super) fn likeliest(link: Link, shots: &[Shot], pattern: Pattern) -> Estimate {
+pub(super) fn likeliest(link: Link, tests: &[Test], pattern: Pattern) -> Estimate {
     let none = |reason: String| Estimate::none(link.method(), reason);
     match pattern {
         Pattern::Mixed => {}
         Pattern::Separated => {
             // Silvapulle's condition fails: the likelihood rises to 1 as the scatter shrinks to nothing.
-            let (stopped, through) = gap(shots);
-            let (low, high) = interval(link, shots, 0.5 * (stopped + through), 0.0);
+            let (stopped, through) = gap(tests);
+            let (low, high) = interval(link, tests, 0.5 * (stopped + through), 0.0);
             return Estimate {
                 low_m_s: low,
                 high_m_s: high,
@@ -30,30 +30,28 @@ pub(super) fn likeliest(link: Link, shots: &[Shot], pattern: Pattern) -> Estimat
             };
         }
         Pattern::Reversed => {
-            return none(
-                "the faster shots were stopped and the slower ones went through".to_owned(),
-            );
+            return none("the partial penetrations are faster than the complete ones".to_owned());
         }
-        Pattern::AllStopped => return none("no shot went through".to_owned()),
-        Pattern::AllPerforated => return none("no shot was stopped".to_owned()),
+        Pattern::AllStopped => return none("there is no complete penetration".to_owned()),
+        Pattern::AllPerforated => return none("no test was stopped".to_owned()),
     }
-    let count = shots.len() as f64;
-    let mean = shots.iter().map(|shot| shot.speed).sum::<f64>() / count;
-    let square = |shot: &Shot| (shot.speed - mean).powi(2);
-    let unit = (shots.iter().map(square).sum::<f64>() / count).sqrt();
-    let scaled: Vec<(f64, f64)> = shots
+    let count = tests.len() as f64;
+    let mean = tests.iter().map(|test| test.impact_velocity).sum::<f64>() / count;
+    let square = |test: &Test| (test.impact_velocity - mean).powi(2);
+    let unit = (tests.iter().map(square).sum::<f64>() / count).sqrt();
+    let scaled: Vec<(f64, f64)> = tests
         .iter()
-        .map(|shot| ((shot.speed - mean) / unit, sign(shot)))
+        .map(|test| ((test.impact_velocity - mean) / unit, sign(test)))
         .collect();
     let (line, log_likelihood) = climb(link, &scaled);
     if line.beta <= 0.0 {
         return none(
-            "by these shots faster ones go through no more often than slower ones".to_owned(),
+            "by these tests faster ones go through no more often than slower ones".to_owned(),
         );
     }
     let x50 = -line.alpha / line.beta;
     let v50 = mean + unit * x50;
-    let (low, high) = interval(link, shots, v50, log_likelihood);
+    let (low, high) = interval(link, tests, v50, log_likelihood);
     Estimate {
         v50_m_s: Some(v50),
         standard_deviation_m_s: Some(unit / line.beta * link.standard_deviation()),
@@ -65,32 +63,32 @@ pub(super) fn likeliest(link: Link, shots: &[Shot], pattern: Pattern) -> Estimat
     }
 }
 
-/// Speeds of the fastest shot that was stopped and of the slowest that went through [m/s].
-fn gap(shots: &[Shot]) -> (f64, f64) {
+/// Impact velocities of the fastest partial and of the slowest complete penetration [m/s].
+fn gap(tests: &[Test]) -> (f64, f64) {
     (
-        speeds(shots, false).fold(f64::MIN, f64::max),
-        speeds(shots, true).fold(f64::MAX, f64::min),
+        speeds(tests, false).fold(f64::MIN, f64::max),
+        speeds(tests, true).fold(f64::MAX, f64::min),
     )
 }
 
 fn separated(stopped: f64, through: f64) -> String {
     let (stopped, through) = (significant(stopped, 6), significant(through, 6));
     format!(
-        "no zone of mixed results: every shot up to {stopped} m/s was stopped and every one from {through} m/s went through; \
+        "no zone of mixed results: all tests up to {stopped} m/s are partial penetrations and all from {through} m/s are complete; \
          any V50 between them with a scatter of zero is equally likely"
     )
 }
 
-/// 1 for a shot that went through, −1 for one that was stopped.
-pub(super) fn sign(shot: &Shot) -> f64 {
-    match shot.perforated {
+/// 1 for a complete penetration, −1 for a partial one.
+pub(super) fn sign(test: &Test) -> f64 {
+    match test.perforated {
         true => 1.0,
         false => -1.0,
     }
 }
 
 fn log_likelihood(link: Link, scaled: &[(f64, f64)], line: Line) -> f64 {
-    let log = |(x, sign): &(f64, f64)| link.log_chance(sign * (line.alpha + line.beta * x));
+    let log = |(x, sign): &(f64, f64)| link.log_probability(sign * (line.alpha + line.beta * x));
     scaled.iter().map(log).sum()
 }
 

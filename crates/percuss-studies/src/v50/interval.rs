@@ -1,8 +1,8 @@
-//! Interval of the likelihood ratio: every V50 at which the shots are not much less likely than at the best one.
+//! Interval of the likelihood ratio: every V50 at which the tests are not much less likely than at the best one.
 
-use super::{Shot, fit::sign, link::Link};
+use super::{Test, fit::sign, link::Link};
 
-/// Value that a chi-square variable of one degree of freedom stays below with a chance of 0.95.
+/// Value that a chi-square variable of one degree of freedom stays below with a probability of 0.95.
 const CHI_SQUARE: f64 = 3.841_458_820_694_124;
 /// Spreads of the speeds beyond which an end is looked for no further.
 const FARTHEST: f64 = 1e4;
@@ -13,13 +13,19 @@ const HALVINGS: usize = 45;
 /// does not exist. The profile rises to that V50 and falls beyond it, for the likelihood is concave in the line that it belongs to.
 pub(super) fn interval(
     link: Link,
-    shots: &[Shot],
+    tests: &[Test],
     best: f64,
     highest: f64,
 ) -> (Option<f64>, Option<f64>) {
-    let outside = |v50: f64| 2.0 * (highest - profile(link, shots, v50)) > CHI_SQUARE;
-    let slowest = shots.iter().map(|s| s.speed).fold(f64::MAX, f64::min);
-    let fastest = shots.iter().map(|s| s.speed).fold(f64::MIN, f64::max);
+    let outside = |v50: f64| 2.0 * (highest - profile(link, tests, v50)) > CHI_SQUARE;
+    let slowest = tests
+        .iter()
+        .map(|s| s.impact_velocity)
+        .fold(f64::MAX, f64::min);
+    let fastest = tests
+        .iter()
+        .map(|s| s.impact_velocity)
+        .fold(f64::MIN, f64::max);
     let spread = fastest - slowest;
     let end = |direction: f64| {
         let mut step = 1e-3 * spread;
@@ -50,22 +56,24 @@ fn between(mut inside: f64, mut far: f64, outside: &dyn Fn(f64) -> bool) -> f64 
 }
 
 /// Largest logarithm of the likelihood at this V50 [m/s], over all scatters.
-fn profile(link: Link, shots: &[Shot], v50: f64) -> f64 {
-    let distances: Vec<f64> = shots
+fn profile(link: Link, tests: &[Test], v50: f64) -> f64 {
+    let distances: Vec<f64> = tests
         .iter()
-        .map(|shot| sign(shot) * (shot.speed - v50))
+        .map(|test| sign(test) * (test.impact_velocity - v50))
         .collect();
     let at = |steepness: f64| -> f64 {
-        let logs = distances.iter().map(|d| link.log_chance(steepness * d));
+        let logs = distances
+            .iter()
+            .map(|d| link.log_probability(steepness * d));
         logs.sum()
     };
     if distances.iter().all(|distance| *distance >= 0.0) {
-        // No scatter at all is best; shots at this very speed go either way.
+        // No scatter at all is best; tests at this very speed go either way.
         let even = distances
             .iter()
             .filter(|distance| **distance == 0.0)
             .count();
-        return even as f64 * link.log_chance(0.0);
+        return even as f64 * link.log_probability(0.0);
     }
     let slope = |steepness: f64| -> f64 {
         let slopes = distances.iter().map(|d| d * link.slopes(steepness * d).0);

@@ -1,4 +1,4 @@
-//! The two distributions of the speed that a shot needs.
+//! The two distributions of the speed that a test needs.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
@@ -33,7 +33,7 @@ impl Link {
     }
 
     /// F(z).
-    pub(super) fn chance(self, z: f64) -> f64 {
+    pub(super) fn probability(self, z: f64) -> f64 {
         match self {
             Self::Probit => 0.5 * libm::erfc(-z * FRAC_1_SQRT_2),
             Self::Logit => 1.0 / (1.0 + (-z).exp()),
@@ -41,12 +41,12 @@ impl Link {
     }
 
     /// ln F(z).
-    pub(super) fn log_chance(self, z: f64) -> f64 {
+    pub(super) fn log_probability(self, z: f64) -> f64 {
         match self {
             Self::Probit if z < FAR => {
                 -0.5 * z * z - (-z).ln() - 0.5 * (2.0 * PI).ln() + tail(z).ln()
             }
-            Self::Probit => self.chance(z).ln(),
+            Self::Probit => self.probability(z).ln(),
             Self::Logit if z < 0.0 => z - z.exp().ln_1p(),
             Self::Logit => -(-z).exp().ln_1p(),
         }
@@ -59,13 +59,13 @@ impl Link {
                 let slope = if z < FAR {
                     -z / tail(z)
                 } else {
-                    (-0.5 * z * z).exp() / (2.0 * PI).sqrt() / self.chance(z)
+                    (-0.5 * z * z).exp() / (2.0 * PI).sqrt() / self.probability(z)
                 };
                 (slope, slope * (slope + z))
             }
             Self::Logit => {
-                let rest = self.chance(-z);
-                (rest, rest * self.chance(z))
+                let rest = self.probability(-z);
+                (rest, rest * self.probability(z))
             }
         }
     }
@@ -86,7 +86,7 @@ mod tests {
         for link in [Link::Probit, Link::Logit] {
             for z in [-30.0, -20.5, -19.5, -8.0, -1.0, 0.0, 0.3, 2.0, 6.0] {
                 let h = 1e-4;
-                let at = |z| link.log_chance(z);
+                let at = |z| link.log_probability(z);
                 let (slope, curvature) = link.slopes(z);
                 let numeric = (at(z + h) - at(z - h)) / (2.0 * h);
                 assert!(
@@ -104,9 +104,10 @@ mod tests {
 
     #[test]
     fn known_values_are_met_and_the_tail_joins() {
-        assert!((Link::Probit.chance(1.959_963_985) - 0.975).abs() < 1e-9);
-        assert!((Link::Logit.chance(3.0_f64.ln()) - 0.75).abs() < 1e-15);
-        let joint = |link: Link| link.log_chance(FAR - 1e-9) - link.log_chance(FAR + 1e-9);
+        assert!((Link::Probit.probability(1.959_963_985) - 0.975).abs() < 1e-9);
+        assert!((Link::Logit.probability(3.0_f64.ln()) - 0.75).abs() < 1e-15);
+        let joint =
+            |link: Link| link.log_probability(FAR - 1e-9) - link.log_probability(FAR + 1e-9);
         assert!(joint(Link::Probit).abs() < 1e-6);
     }
 }

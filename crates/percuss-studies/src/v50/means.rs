@@ -1,21 +1,21 @@
-//! V50 as the mean of equal numbers of the fastest stopped shots and the slowest that went through \[milstd662f\].
+//! V50 as the mean of equal numbers of the fastest partial and the slowest complete penetrations \[milstd662f\].
 
-use super::{Estimate, Method, Shot, speeds};
+use super::{Estimate, Method, Test, speeds};
 use crate::{statistics::sorted, units::significant};
 
-/// Fewest shots of either kind.
+/// Fewest tests of either kind.
 const FEWEST: usize = 2;
 
-/// The mean over as many shots as lie within a span [m/s].
-pub(super) fn of_extremes(shots: &[Shot], span: f64) -> Estimate {
-    let [mut stopped, perforated] = [false, true].map(|of| sorted(speeds(shots, of)));
+/// The mean over as many tests as lie within a span [m/s].
+pub(super) fn of_extremes(tests: &[Test], span: f64) -> Estimate {
+    let [mut stopped, perforated] = [false, true].map(|of| sorted(speeds(tests, of)));
     stopped.reverse();
     let method = Method::MeanOfExtremes;
     let most = stopped.len().min(perforated.len());
     if most < FEWEST {
         return Estimate::none(
             method,
-            format!("it takes {FEWEST} shots of either kind or more"),
+            format!("it takes {FEWEST} tests of either kind or more"),
         );
     }
     let used = |count: usize| stopped[..count].iter().chain(&perforated[..count]).copied();
@@ -31,7 +31,7 @@ pub(super) fn of_extremes(shots: &[Shot], span: f64) -> Estimate {
         return Estimate::none(
             method,
             format!(
-                "the {FEWEST} fastest stopped shots and the {FEWEST} slowest that went through span {} m/s, more than {} m/s",
+                "the {FEWEST} fastest partial and the {FEWEST} slowest complete penetrations span {} m/s, more than {} m/s",
                 significant(span_of(FEWEST), 4),
                 significant(span, 4)
             ),
@@ -39,7 +39,7 @@ pub(super) fn of_extremes(shots: &[Shot], span: f64) -> Estimate {
     };
     Estimate {
         v50_m_s: Some(used(count).sum::<f64>() / (2 * count) as f64),
-        shots_used: Some(2 * count),
+        tests_used: Some(2 * count),
         span_m_s: Some(span_of(count)),
         ..Estimate::empty(method)
     }

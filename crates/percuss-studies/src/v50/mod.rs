@@ -1,17 +1,17 @@
-//! V50, the speed at which half of the shots go through, from shots that were stopped or went through.
+//! V50, the impact velocity with a probability of complete penetration of one half, from partial and complete penetrations.
 //!
-//! Shots scatter: near the limit some are stopped that are faster than others that go through. The chance of going through is taken
+//! Tests scatter: near the limit some partial penetrations are faster than some complete ones. The probability of complete penetration is taken
 //! as `F((v − V50)/s)` with the normal distribution (probit) or the logistic one (logit) for F, and V50 and s by maximum
 //! likelihood \[mckaig1983\]. The interval is that of the likelihood ratio \[neyer1992\].
 //!
 //! ```
-//! use percuss::v50::{Shot, estimate};
+//! use percuss::v50::{Test, estimate};
 //!
-//! let shot = |speed, perforated| Shot { speed, perforated };
-//! let shots = [
-//!     shot(180.0, false), shot(184.0, false), shot(186.0, true), shot(188.0, false), shot(190.0, true), shot(194.0, true),
+//! let test = |impact_velocity, perforated| Test { impact_velocity, perforated };
+//! let tests = [
+//!     test(180.0, false), test(184.0, false), test(186.0, true), test(188.0, false), test(190.0, true), test(194.0, true),
 //! ];
-//! let v50 = estimate(&shots, 38.1);
+//! let v50 = estimate(&tests, 38.1);
 //! assert!((v50.estimates[0].v50_m_s.unwrap() - 187.0).abs() < 1e-6);
 //! ```
 
@@ -29,35 +29,35 @@ use link::Link;
 
 pub use read::{COLUMNS, read, read_str};
 
-/// A shot at a target that was stopped or went through.
+/// A test with a partial or a complete penetration.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Shot {
-    /// Impact speed [m/s].
-    #[serde(rename = "velocity_m_s")]
-    pub speed: f64,
-    /// Whether it went through.
+pub struct Test {
+    /// Impact velocity [m/s].
+    #[serde(rename = "impact_velocity_m_s")]
+    pub impact_velocity: f64,
+    /// Whether the penetration was complete.
     pub perforated: bool,
 }
 
 /// Level of the intervals.
 pub const CONFIDENCE: f64 = 0.95;
 
-/// Widest span of the shots that V50 is the mean of [m/s]: 125 ft/s \[milstd662f\].
+/// Widest span of the tests that V50 is the mean of [m/s]: 125 ft/s \[milstd662f\].
 pub const SPAN: f64 = 38.1;
 
-/// How stopped shots and those that went through lie to each other.
+/// Pattern of partial and complete penetrations over the impact velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Pattern {
-    /// Some stopped shots are faster than some that went through: there is a zone of mixed results.
+    /// Some partial penetrations are faster than some complete ones: a zone of mixed results.
     Mixed,
-    /// All stopped shots are slower than all that went through, or as fast as the slowest of them.
+    /// All partial penetrations are slower than all complete ones, or as fast as the slowest: complete separation.
     Separated,
-    /// All stopped shots are faster than all that went through, or as fast as the fastest of them.
+    /// All partial penetrations are faster than all complete ones, or as fast as the fastest.
     Reversed,
-    /// All were stopped.
+    /// All are partial penetrations.
     AllStopped,
-    /// All went through.
+    /// All are complete penetrations.
     AllPerforated,
 }
 
@@ -69,13 +69,13 @@ pub enum Method {
     Probit,
     /// Maximum likelihood with the logistic distribution.
     Logit,
-    /// Mean of equal numbers of the fastest stopped shots and the slowest that went through.
+    /// Mean of equal numbers of the fastest partial and the slowest complete penetrations.
     MeanOfExtremes,
 }
 
 impl Method {
     /// The method in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::Probit => "probit",
             Self::Logit => "logit",
@@ -84,7 +84,7 @@ impl Method {
     }
 }
 
-/// V50 by one method. The names are stable; what the shots do not give is null.
+/// V50 by one method. The names are stable; what the tests do not give is null.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Estimate {
     /// The method.
@@ -93,7 +93,7 @@ pub struct Estimate {
     pub v50_m_s: Option<f64>,
     /// Why there is none.
     pub reason: Option<String>,
-    /// Standard deviation of the distribution, which is the scatter of the shots [m/s].
+    /// Standard deviation of the distribution, which is the scatter of the tests [m/s].
     pub standard_deviation_m_s: Option<f64>,
     /// Standard error of V50 from the observed information [m/s].
     pub standard_error_m_s: Option<f64>,
@@ -103,8 +103,8 @@ pub struct Estimate {
     pub high_m_s: Option<f64>,
     /// Logarithm of the likelihood.
     pub log_likelihood: Option<f64>,
-    /// Shots that V50 is the mean of.
-    pub shots_used: Option<usize>,
+    /// Tests that V50 is the mean of.
+    pub tests_used: Option<usize>,
     /// Difference between the fastest and the slowest of them [m/s].
     pub span_m_s: Option<f64>,
 }
@@ -127,28 +127,28 @@ impl Estimate {
             low_m_s: None,
             high_m_s: None,
             log_likelihood: None,
-            shots_used: None,
+            tests_used: None,
             span_m_s: None,
         }
     }
 }
 
-/// What shots say of V50. The names are stable.
+/// What tests say of V50. The names are stable.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct V50 {
-    /// Number of shots.
-    pub shots: usize,
-    /// How many went through.
+    /// Number of tests.
+    pub tests: usize,
+    /// Number of complete penetrations.
     pub perforated: usize,
-    /// Fastest shot that was stopped [m/s].
+    /// Fastest partial penetration [m/s].
     pub highest_stopped_m_s: Option<f64>,
-    /// Slowest shot that went through [m/s].
+    /// Slowest complete penetration [m/s].
     pub lowest_perforated_m_s: Option<f64>,
     /// How the two kinds lie to each other.
     pub pattern: Pattern,
     /// Level of the intervals.
     pub confidence: f64,
-    /// One entry a method.
+    /// One entry per method.
     pub estimates: Vec<Estimate>,
 }
 
@@ -159,15 +159,15 @@ impl V50 {
     }
 }
 
-/// Speeds of the shots that were stopped, or of those that went through.
-fn speeds(shots: &[Shot], perforated: bool) -> impl Iterator<Item = f64> + Clone {
-    let kind = shots.iter().filter(move |s| s.perforated == perforated);
-    kind.map(|shot| shot.speed)
+/// Impact velocities of the partial penetrations, or of the complete ones.
+fn speeds(tests: &[Test], perforated: bool) -> impl Iterator<Item = f64> + Clone {
+    let kind = tests.iter().filter(move |s| s.perforated == perforated);
+    kind.map(|test| test.impact_velocity)
 }
 
-fn pattern(shots: &[Shot]) -> Pattern {
+fn pattern(tests: &[Test]) -> Pattern {
     let extremes = |perforated| {
-        let speeds = speeds(shots, perforated);
+        let speeds = speeds(tests, perforated);
         let low = speeds.clone().reduce(f64::min);
         low.zip(speeds.reduce(f64::max))
     };
@@ -186,31 +186,31 @@ fn pattern(shots: &[Shot]) -> Pattern {
     }
 }
 
-/// V50 of shots by every method; `span` is the widest one of the shots that it may be the mean of [m/s].
-pub fn estimate(shots: &[Shot], span: f64) -> V50 {
-    let pattern = pattern(shots);
+/// V50 of tests by every method; `span` is the widest one of the tests that it may be the mean of [m/s].
+pub fn estimate(tests: &[Test], span: f64) -> V50 {
+    let pattern = pattern(tests);
     V50 {
-        shots: shots.len(),
-        perforated: speeds(shots, true).count(),
-        highest_stopped_m_s: speeds(shots, false).reduce(f64::max),
-        lowest_perforated_m_s: speeds(shots, true).reduce(f64::min),
+        tests: tests.len(),
+        perforated: speeds(tests, true).count(),
+        highest_stopped_m_s: speeds(tests, false).reduce(f64::max),
+        lowest_perforated_m_s: speeds(tests, true).reduce(f64::min),
         pattern,
         confidence: CONFIDENCE,
         estimates: vec![
-            fit::likeliest(Link::Probit, shots, pattern),
-            fit::likeliest(Link::Logit, shots, pattern),
-            means::of_extremes(shots, span),
+            fit::likeliest(Link::Probit, tests, pattern),
+            fit::likeliest(Link::Logit, tests, pattern),
+            means::of_extremes(tests, span),
         ],
     }
 }
 
-/// Chance that a shot of this speed [m/s] goes through, by an estimate of maximum likelihood.
-pub fn chance(estimate: &Estimate, speed: f64) -> Option<f64> {
+/// Probability of complete penetration at an impact velocity [m/s], by an estimate of maximum likelihood.
+pub fn probability(estimate: &Estimate, speed: f64) -> Option<f64> {
     let link = match estimate.method {
         Method::Probit => Link::Probit,
         Method::Logit => Link::Logit,
         Method::MeanOfExtremes => return None,
     };
     let scale = estimate.standard_deviation_m_s? / link.standard_deviation();
-    Some(link.chance((speed - estimate.v50_m_s?) / scale))
+    Some(link.probability((speed - estimate.v50_m_s?) / scale))
 }

@@ -1,54 +1,54 @@
-//! Reading a file of shots that were stopped or went through.
+//! Files of partial and complete penetrations.
 
 use std::path::Path;
 
-use super::Shot;
+use super::Test;
 use crate::{
     check::limits::IMPACT_SPEED,
-    document::read_text,
+    document::{Renamed, read_text},
     error::{Error, InputError, nearest},
-    shots::row::{Row, Table, field_span},
+    experiments::row::{CsvRow, CsvTable, field_span},
     units::{Velocity, shorten},
 };
 
-const VELOCITY: &str = "velocity_m_s";
+const VELOCITY: &str = "impact_velocity_m_s";
 const PERFORATED: &str = "perforated";
 
-/// Columns of a file: the impact speed [m/s], `yes` or `no`, and a note that nothing reads.
+/// Columns of a file: the impact velocity [m/s], `yes` or `no`, and a note that nothing reads.
 pub const COLUMNS: [&str; 3] = [VELOCITY, PERFORATED, "note"];
 
-/// Reads a file of shots: comma-separated values with the columns [`COLUMNS`], of which the first two are required.
+/// Reads a file of tests: comma-separated values with the columns [`COLUMNS`], of which the first two are required.
 ///
 /// # Errors
 /// [`Error::Read`] when it cannot be read, [`Error::Input`] with the place when its content is not valid.
-pub fn read(path: impl AsRef<Path>) -> Result<Vec<Shot>, Error> {
+pub fn read(path: impl AsRef<Path>) -> Result<Vec<Test>, Error> {
     let path = path.as_ref();
     read_str(&path.display().to_string(), &read_text(path)?)
 }
 
-/// Reads shots from a text; `name` stands for the file in messages.
+/// Reads tests from a text; `name` stands for the file in messages.
 ///
 /// # Errors
 /// [`Error::Input`] with the place when the text is not valid.
-pub fn read_str(name: &str, text: &str) -> Result<Vec<Shot>, Error> {
-    let (table, records) = Table::read(name, text)?;
+pub fn read_str(name: &str, text: &str) -> Result<Vec<Test>, Error> {
+    let (table, records) = CsvTable::read(name, text)?;
     check_header(&table)?;
-    let mut shots = Vec::new();
+    let mut tests = Vec::new();
     for record in records {
-        shots.push(shot(&Row {
+        tests.push(test(&CsvRow {
             table: &table,
             record,
         })?);
     }
-    if shots.is_empty() {
-        let help = "write one row a shot below the header, such as 184.3,yes";
-        let error = table.error(0..0, "", "the file holds no shot", help);
+    if tests.is_empty() {
+        let help = "write one row per test below the header, such as 184.3,yes";
+        let error = table.error(0..0, "", "the file holds no test", help);
         return Err(error.into());
     }
-    Ok(shots)
+    Ok(tests)
 }
 
-fn check_header(table: &Table<'_>) -> Result<(), Box<InputError>> {
+fn check_header(table: &CsvTable<'_>) -> Result<(), Box<InputError>> {
     let known = || COLUMNS.iter().copied();
     let separated = match table.header.len() {
         1 => "; columns are separated by commas",
@@ -61,6 +61,9 @@ fn check_header(table: &Table<'_>) -> Result<(), Box<InputError>> {
             return Err(table.error(span, name, message, "remove one"));
         }
         if !known().any(|column| column == name) {
+            if let Some(renamed) = Renamed::of(name) {
+                return Err(table.error(span, name, renamed.message(), renamed.help()));
+            }
             let near = nearest(name, known())
                 .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
             return Err(table.error(
@@ -84,7 +87,7 @@ fn check_header(table: &Table<'_>) -> Result<(), Box<InputError>> {
     Ok(())
 }
 
-fn shot(row: &Row<'_>) -> Result<Shot, Box<InputError>> {
+fn test(row: &CsvRow<'_>) -> Result<Test, Box<InputError>> {
     if row.record.len() != row.table.header.len() {
         return Err(row.error(
             VELOCITY,
@@ -106,8 +109,8 @@ fn shot(row: &Row<'_>) -> Result<Shot, Box<InputError>> {
     }
     row.required(PERFORATED)?;
     let perforated = row.word(PERFORATED, &[("yes", true), ("no", false)])?;
-    Ok(Shot {
-        speed,
+    Ok(Test {
+        impact_velocity: speed,
         perforated: perforated.unwrap_or(false),
     })
 }

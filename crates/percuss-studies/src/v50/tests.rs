@@ -1,26 +1,26 @@
 use super::*;
 use crate::Error;
 
-fn shots(stopped: &[f64], perforated: &[f64]) -> Vec<Shot> {
-    let shot = |speed: &f64, perforated| Shot {
-        speed: *speed,
+fn tests(stopped: &[f64], perforated: &[f64]) -> Vec<Test> {
+    let test = |speed: &f64, perforated| Test {
+        impact_velocity: *speed,
         perforated,
     };
-    let stopped = stopped.iter().map(|speed| shot(speed, false));
+    let stopped = stopped.iter().map(|speed| test(speed, false));
     stopped
-        .chain(perforated.iter().map(|speed| shot(speed, true)))
+        .chain(perforated.iter().map(|speed| test(speed, true)))
         .collect()
 }
 
-fn by(method: Method, shots: &[Shot]) -> Estimate {
-    estimate(shots, SPAN).of(method).unwrap().clone()
+fn by(method: Method, tests: &[Test]) -> Estimate {
+    estimate(tests, SPAN).of(method).unwrap().clone()
 }
 
-/// Shots at two speeds: as many numbers as unknowns, so that the likeliest chances are the parts that went through.
+/// Tests at two speeds: as many numbers as unknowns, so that the most likely probabilities are the parts that went through.
 #[test]
 fn at_two_speeds_the_likeliest_chances_are_the_observed_parts() {
     // 1 of 4 at 200 m/s, 3 of 4 at 210 m/s.
-    let even = shots(&[200.0, 200.0, 200.0, 210.0], &[200.0, 210.0, 210.0, 210.0]);
+    let even = tests(&[200.0, 200.0, 200.0, 210.0], &[200.0, 210.0, 210.0, 210.0]);
     let logit = by(Method::Logit, &even);
     assert!((logit.v50_m_s.unwrap() - 205.0).abs() < 1e-9);
     // logit(3/4) = ln 3: the scale is 10/(2 ln 3), the standard deviation π/√3 of it.
@@ -29,12 +29,12 @@ fn at_two_speeds_the_likeliest_chances_are_the_observed_parts() {
     assert!((logit.standard_deviation_m_s.unwrap() / deviation - 1.0).abs() < 1e-8);
     let log = 2.0 * (4.0 * 0.75_f64.ln()) - 2.0 * (0.75_f64.ln() - 0.25_f64.ln());
     assert!((logit.log_likelihood.unwrap() - log).abs() < 1e-9);
-    // The information of one shot is p (1 − p) = 3/16: α has the variance 1/(8·3/16), and V50 is −α/β.
+    // The information of one test is p (1 − p) = 3/16: α has the variance 1/(8·3/16), and V50 is −α/β.
     let error = scale * (1.0 / (8.0 * 3.0 / 16.0_f64)).sqrt();
     assert!((logit.standard_error_m_s.unwrap() / error - 1.0).abs() < 1e-6);
 
     // 1 of 5 at 200 m/s, 4 of 6 at 212 m/s; Φ⁻¹(1/5) = −0.8416212, Φ⁻¹(2/3) = 0.4307273.
-    let uneven = shots(
+    let uneven = tests(
         &[200.0, 200.0, 200.0, 200.0, 212.0, 212.0],
         &[200.0, 212.0, 212.0, 212.0, 212.0],
     );
@@ -45,8 +45,8 @@ fn at_two_speeds_the_likeliest_chances_are_the_observed_parts() {
 }
 
 #[test]
-fn symmetric_shots_have_their_middle_for_v50() {
-    let symmetric = shots(&[180.0, 184.0, 188.0], &[186.0, 190.0, 194.0]);
+fn symmetric_tests_have_their_middle_for_v50() {
+    let symmetric = tests(&[180.0, 184.0, 188.0], &[186.0, 190.0, 194.0]);
     for method in [Method::Probit, Method::Logit, Method::MeanOfExtremes] {
         let found = by(method, &symmetric);
         assert!((found.v50_m_s.unwrap() - 187.0).abs() < 1e-7, "{found:?}");
@@ -60,7 +60,7 @@ fn symmetric_shots_have_their_middle_for_v50() {
 /// At the ends of the interval the likelihood, by brute force over the scatter, is down by the half of chi-square.
 #[test]
 fn at_the_ends_of_the_interval_the_likelihood_is_down_by_half_of_chi_square() {
-    let mixed = shots(
+    let mixed = tests(
         &[160.0, 166.0, 170.0, 174.0, 176.0, 183.0],
         &[179.0, 181.0, 188.0, 192.0, 195.0, 199.0],
     );
@@ -70,7 +70,9 @@ fn at_the_ends_of_the_interval_the_likelihood_is_down_by_half_of_chi_square() {
             (1..40_000)
                 .map(|i| 0.005 * f64::from(i))
                 .map(|scale| {
-                    let log = |s: &Shot| link.log_chance(fit::sign(s) * (s.speed - v50) / scale);
+                    let log = |s: &Test| {
+                        link.log_probability(fit::sign(s) * (s.impact_velocity - v50) / scale)
+                    };
                     mixed.iter().map(log).sum::<f64>()
                 })
                 .fold(f64::MIN, f64::max)
@@ -83,17 +85,17 @@ fn at_the_ends_of_the_interval_the_likelihood_is_down_by_half_of_chi_square() {
     }
 }
 
-/// At each of 21 speeds as many of 100 shots go through as a known distribution says, rounded.
+/// At each of 21 speeds as many of 100 tests go through as a known distribution says, rounded.
 #[test]
 fn known_numbers_are_recovered() {
     let (v50, deviation) = (300.0, 8.0);
-    let made = |link: Link| -> Vec<Shot> {
+    let made = |link: Link| -> Vec<Test> {
         let speeds = (0..21).map(|i| 284.0 + 1.6 * f64::from(i));
         let at = |speed: f64| {
             let z = (speed - v50) / deviation * link.standard_deviation();
-            let through = (100.0 * link.chance(z)).round() as usize;
-            (0..100).map(move |i| Shot {
-                speed,
+            let through = (100.0 * link.probability(z)).round() as usize;
+            (0..100).map(move |i| Test {
+                impact_velocity: speed,
                 perforated: i < through,
             })
         };
@@ -106,7 +108,7 @@ fn known_numbers_are_recovered() {
             (found.standard_deviation_m_s.unwrap() / deviation - 1.0).abs() < 0.01,
             "{found:?}"
         );
-        // With so many shots the interval is that of the standard error.
+        // With so many tests the interval is that of the standard error.
         let wide = found.high_m_s.unwrap() - found.low_m_s.unwrap();
         let error = found.standard_error_m_s.unwrap();
         assert!(
@@ -120,10 +122,10 @@ fn known_numbers_are_recovered() {
 fn a_change_of_origin_and_unit_changes_nothing_else() {
     let (stopped, perforated) = ([160.0, 166.0, 170.0, 183.0], [181.0, 188.0, 192.0, 199.0]);
     let scaled = |speeds: [f64; 4]| speeds.map(|v| 1000.0 + 3.0 * v);
-    let one = by(Method::Probit, &shots(&stopped, &perforated));
+    let one = by(Method::Probit, &tests(&stopped, &perforated));
     let other = by(
         Method::Probit,
-        &shots(&scaled(stopped), &scaled(perforated)),
+        &tests(&scaled(stopped), &scaled(perforated)),
     );
     for (a, b) in [
         (one.v50_m_s, other.v50_m_s),
@@ -137,8 +139,8 @@ fn a_change_of_origin_and_unit_changes_nothing_else() {
 }
 
 #[test]
-fn separated_shots_have_no_likeliest_v50_but_an_interval_and_a_mean() {
-    let apart = shots(&[170.0, 175.0, 180.0, 182.0], &[186.0, 190.0, 193.0, 199.0]);
+fn separated_tests_have_no_likeliest_v50_but_an_interval_and_a_mean() {
+    let apart = tests(&[170.0, 175.0, 180.0, 182.0], &[186.0, 190.0, 193.0, 199.0]);
     let v50 = estimate(&apart, SPAN);
     assert_eq!(v50.pattern, Pattern::Separated);
     assert_eq!(
@@ -160,18 +162,18 @@ fn separated_shots_have_no_likeliest_v50_but_an_interval_and_a_mean() {
         );
     }
     let mean = v50.of(Method::MeanOfExtremes).unwrap();
-    assert_eq!((mean.v50_m_s, mean.shots_used), (Some(184.375), Some(8)));
-    // A shot of either kind at one speed is no zone of mixed results.
-    let touching = shots(&[170.0, 180.0], &[180.0, 190.0]);
+    assert_eq!((mean.v50_m_s, mean.tests_used), (Some(184.375), Some(8)));
+    // A test of either kind at one speed is no zone of mixed results.
+    let touching = tests(&[170.0, 180.0], &[180.0, 190.0]);
     assert_eq!(estimate(&touching, SPAN).pattern, Pattern::Separated);
-    // Two shots bound nothing.
-    let two = by(Method::Probit, &shots(&[180.0], &[190.0]));
+    // Two tests bound nothing.
+    let two = by(Method::Probit, &tests(&[180.0], &[190.0]));
     assert_eq!((two.low_m_s, two.high_m_s), (None, None));
 }
 
 #[test]
 fn the_mean_takes_as_many_pairs_as_the_span_allows() {
-    let many = shots(&[150.0, 178.0, 182.0, 188.0], &[184.0, 190.0, 194.0, 240.0]);
+    let many = tests(&[150.0, 178.0, 182.0, 188.0], &[184.0, 190.0, 194.0, 240.0]);
     let of = |span| {
         estimate(&many, span)
             .of(Method::MeanOfExtremes)
@@ -179,7 +181,7 @@ fn the_mean_takes_as_many_pairs_as_the_span_allows() {
             .clone()
     };
     let (two, three) = (of(12.0), of(38.1));
-    assert_eq!((two.shots_used, two.v50_m_s), (Some(4), Some(186.0)));
+    assert_eq!((two.tests_used, two.v50_m_s), (Some(4), Some(186.0)));
     assert_eq!((two.span_m_s, three.span_m_s), (Some(8.0), Some(16.0)));
     assert_eq!(
         three.v50_m_s,
@@ -191,22 +193,22 @@ fn the_mean_takes_as_many_pairs_as_the_span_allows() {
 }
 
 #[test]
-fn shots_of_one_kind_and_reversed_ones_give_reasons() {
+fn tests_of_one_kind_and_reversed_ones_give_reasons() {
     for (kind, pattern, words) in [
         (
-            shots(&[180.0, 190.0], &[]),
+            tests(&[180.0, 190.0], &[]),
             Pattern::AllStopped,
-            "no shot went through",
+            "there is no complete penetration",
         ),
         (
-            shots(&[], &[180.0, 190.0]),
+            tests(&[], &[180.0, 190.0]),
             Pattern::AllPerforated,
-            "no shot was stopped",
+            "no test was stopped",
         ),
         (
-            shots(&[190.0, 195.0], &[180.0]),
+            tests(&[190.0, 195.0], &[180.0]),
             Pattern::Reversed,
-            "the faster shots were stopped",
+            "the faster tests were stopped",
         ),
     ] {
         let v50 = estimate(&kind, SPAN);
@@ -215,18 +217,19 @@ fn shots_of_one_kind_and_reversed_ones_give_reasons() {
         assert!(v50.estimates.iter().all(|entry| entry.v50_m_s.is_none()));
     }
     // Mixed, and yet the faster ones are stopped more often.
-    let falling = shots(&[180.0, 195.0, 196.0, 197.0], &[178.0, 179.0, 181.0, 196.5]);
+    let falling = tests(&[180.0, 195.0, 196.0, 197.0], &[178.0, 179.0, 181.0, 196.5]);
     let none = by(Method::Logit, &falling);
     assert!(none.reason.unwrap().contains("no more often"));
 }
 
 #[test]
 fn a_file_is_read_and_what_is_wrong_in_it_has_its_place() {
-    let text = "velocity_m_s,perforated,note\n184.3,yes,\n\n 184.8 , no ,\"stopped, just\"\n";
+    let text =
+        "impact_velocity_m_s,perforated,note\n184.3,yes,\n\n 184.8 , no ,\"stopped, just\"\n";
     let read = read_str("shots.csv", text).unwrap();
     assert_eq!(
         read,
-        shots(&[184.8], &[184.3])
+        tests(&[184.8], &[184.3])
             .into_iter()
             .rev()
             .collect::<Vec<_>>()
@@ -237,67 +240,67 @@ fn a_file_is_read_and_what_is_wrong_in_it_has_its_place() {
     };
     for (text, line, key, words) in [
         (
-            "velocity_m_s,perforated\n184,maybe\n",
+            "impact_velocity_m_s,perforated\n184,maybe\n",
             2,
             "perforated",
             "`maybe` is no perforated",
         ),
         (
-            "velocity_m_s,perforated\n184,Yes\n",
+            "impact_velocity_m_s,perforated\n184,Yes\n",
             2,
             "perforated",
             "did you mean `yes`?",
         ),
         (
-            "velocity_m_s,perforated\n184,\n",
+            "impact_velocity_m_s,perforated\n184,\n",
             2,
             "perforated",
             "`perforated` is empty",
         ),
         (
-            "velocity_m_s,perforated\n1,yes\nfast,no\n",
+            "impact_velocity_m_s,perforated\n1,yes\nfast,no\n",
             3,
-            "velocity_m_s",
+            "impact_velocity_m_s",
             "`fast` is no number",
         ),
         (
-            "velocity_m_s,perforated\n-5,no\n",
+            "impact_velocity_m_s,perforated\n-5,no\n",
             2,
-            "velocity_m_s",
+            "impact_velocity_m_s",
             "-5 m/s is out of range",
         ),
         (
-            "velocity_m_s,perforated\n99999,no\n",
+            "impact_velocity_m_s,perforated\n99999,no\n",
             2,
-            "velocity_m_s",
+            "impact_velocity_m_s",
             "allowed: 0 to 10000 m/s",
         ),
         (
             "velocity,perforated\n184,no\n",
             1,
             "velocity",
-            "did you mean `velocity_m_s`?",
+            "did you mean `impact_velocity_m_s`?",
         ),
         (
-            "velocity_m_s;perforated\n184;no\n",
+            "impact_velocity_m_s;perforated\n184;no\n",
             1,
-            "velocity_m_s;perforated",
+            "impact_velocity_m_s;perforated",
             "separated by commas",
         ),
-        ("velocity_m_s\n184\n", 1, "", "lacks `perforated`"),
+        ("impact_velocity_m_s\n184\n", 1, "", "lacks `perforated`"),
         (
-            "velocity_m_s,velocity_m_s\n1,2\n",
+            "impact_velocity_m_s,impact_velocity_m_s\n1,2\n",
             1,
-            "velocity_m_s",
+            "impact_velocity_m_s",
             "two columns",
         ),
         (
-            "velocity_m_s,perforated\n184\n",
+            "impact_velocity_m_s,perforated\n184\n",
             2,
-            "velocity_m_s",
+            "impact_velocity_m_s",
             "the row has 1 fields",
         ),
-        ("velocity_m_s,perforated\n", 1, "", "holds no shot"),
+        ("impact_velocity_m_s,perforated\n", 1, "", "holds no test"),
     ] {
         let found = error(text);
         assert_eq!((found.0, found.1.as_str()), (line, key), "{text}");

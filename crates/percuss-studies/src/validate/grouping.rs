@@ -1,15 +1,15 @@
-//! Statistics by model, kind of shot and one more property.
+//! Statistics by model, kind of test and one more property.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 
 use super::{Errors, Prediction, Standing, Validation};
-use crate::shots::Kind;
+use crate::experiments::Kind;
 
 /// What stands between the parts of a group's value.
 pub const SEPARATOR: &str = "; ";
-/// Value of [`Grouping::All`] for shots with hot projectiles.
+/// Value of [`Grouping::All`] for tests with hot projectiles.
 pub const HOT: &str = "hot";
 
 /// What predictions are grouped by, beside model and kind.
@@ -35,7 +35,7 @@ pub enum Grouping {
 }
 
 impl Group {
-    /// The model, with what sets the group apart in a table of all shots.
+    /// The model, with what sets the group apart in a table of all tests.
     pub fn model_in_words(&self) -> String {
         if self.grouping == Grouping::All && self.value == HOT {
             format!("{}, {HOT} projectiles", self.model)
@@ -59,7 +59,7 @@ impl Grouping {
     ];
 
     /// What the groups are, in words.
-    pub fn in_words(self) -> &'static str {
+    pub fn describe(self) -> &'static str {
         match self {
             Self::All => "all",
             Self::Source => "source",
@@ -100,23 +100,23 @@ impl Grouping {
         }
     }
 
-    /// Whether rival material records have groups of their own; elsewhere a shot counts once, with its main record.
+    /// Whether rival material records have groups of their own; elsewhere a test counts once, with its main record.
     fn tells_records_apart(self) -> bool {
         matches!(self, Self::Record | Self::RecordAndSource)
     }
 
     fn value(self, validation: &Validation, prediction: &Prediction) -> String {
-        let shot = validation.shot(prediction);
+        let test = validation.test(prediction);
         match self {
-            Self::All if shot.is_hot() => HOT.to_owned(),
+            Self::All if test.is_hot() => HOT.to_owned(),
             Self::All => "all".to_owned(),
-            Self::Source => shot.source.clone(),
-            Self::Record => [&*shot.projectile_class, &prediction.record].join(SEPARATOR),
+            Self::Source => test.source.clone(),
+            Self::Record => [&*test.projectile_class, &prediction.record].join(SEPARATOR),
             Self::RecordAndSource => {
-                [&*shot.projectile_class, &prediction.record, &shot.source].join(SEPARATOR)
+                [&*test.projectile_class, &prediction.record, &test.source].join(SEPARATOR)
             }
-            Self::Target => shot.target.name().to_owned(),
-            Self::Projectile => shot.projectile_class.clone(),
+            Self::Target => test.target.name().to_owned(),
+            Self::Projectile => test.projectile_class.clone(),
             Self::Regime => prediction.regime.clone(),
             Self::Split => prediction.split.name().to_owned(),
         }
@@ -128,7 +128,7 @@ impl Grouping {
 pub struct Group {
     /// Name of the model.
     pub model: &'static str,
-    /// Kind of shot.
+    /// Kind of test.
     pub kind: Kind,
     /// What the group is made by.
     pub grouping: Grouping,
@@ -149,12 +149,12 @@ pub fn statistics(validation: &Validation, grouping: Grouping) -> Vec<Group> {
         let (true, Some(error)) = (counted, prediction.relative_error) else {
             continue;
         };
-        let shot = validation.shot(prediction);
+        let test = validation.test(prediction);
         let model = place(validation, prediction.model);
         groups
-            .entry((shot.kind, model, grouping.value(validation, prediction)))
+            .entry((test.kind, model, grouping.value(validation, prediction)))
             .or_default()
-            .push((error, &shot.id));
+            .push((error, &test.id));
     }
     groups
         .into_iter()
@@ -170,43 +170,43 @@ pub fn statistics(validation: &Validation, grouping: Grouping) -> Vec<Group> {
         .collect()
 }
 
-/// What became of the shots of one kind with one model: how many stand where, and why the rest is not counted.
+/// What became of the tests of one kind with one model: how many stand where, and why the rest is not counted.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Coverage {
     /// Name of the model.
     pub model: &'static str,
-    /// Kind of shot.
+    /// Kind of test.
     pub kind: Kind,
-    /// How many shots stand where, with their main record, in the order of [`Standing::ALL`].
+    /// How many tests stand where, with their main record, in the order of [`Standing::ALL`].
     pub standings: [usize; Standing::ALL.len()],
-    /// The commonest reason for no prediction, and how many shots it holds for.
+    /// The commonest reason for no prediction, and how many tests it holds for.
     pub reason: Option<(String, usize)>,
 }
 
 impl Coverage {
-    /// How many shots stand there.
+    /// How many tests stand there.
     pub fn count(&self, standing: Standing) -> usize {
         self.standings[standing as usize]
     }
 
-    /// Whether the model gives the quantity that this kind of shot measures.
+    /// Whether the model gives the quantity that this kind of test measures.
     pub fn is_given(&self) -> bool {
         self.count(Standing::NotGiven) == 0
     }
 
-    /// How many shots there are.
+    /// How many tests there are.
     pub fn total(&self) -> usize {
         self.standings.iter().sum()
     }
 }
 
-/// What became of the shots, for each kind and model.
+/// What became of the tests, for each kind and model.
 pub fn coverage(validation: &Validation) -> Vec<Coverage> {
     type Reasons<'a> = BTreeMap<&'a str, usize>;
     let mut groups: BTreeMap<(Kind, usize), ([usize; Standing::ALL.len()], Reasons<'_>)> =
         BTreeMap::new();
     for prediction in validation.predictions.iter().filter(|p| p.main_record) {
-        let kind = validation.shot(prediction).kind;
+        let kind = validation.test(prediction).kind;
         let key = (kind, place(validation, prediction.model));
         let (standings, reasons) = groups.entry(key).or_default();
         standings[prediction.standing as usize] += 1;
@@ -229,7 +229,7 @@ pub fn coverage(validation: &Validation) -> Vec<Coverage> {
 }
 
 /// Models of which no prediction is counted.
-pub fn without_shots(validation: &Validation) -> Vec<&'static str> {
+pub fn without_tests(validation: &Validation) -> Vec<&'static str> {
     let counted = |model: &str| {
         validation
             .predictions

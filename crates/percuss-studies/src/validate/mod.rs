@@ -1,10 +1,10 @@
-//! Validation: every model on every published shot that it applies to, and how far off it is.
+//! Validation: every model on every published test that it applies to, and how far off it is.
 //!
 //! ```no_run
 //! use std::ops::ControlFlow;
-//! use percuss::{material::Library, model::quick, shots, validate};
+//! use percuss::{material::Library, model::quick, tests, validate};
 //!
-//! let validation = validate::run(&quick(), shots::built_in(), Library::built_in(), &|_| ControlFlow::Continue(()))?;
+//! let validation = validate::run(&fast_models(), experiments::built_in(), Library::built_in(), &|_| ControlFlow::Continue(()))?;
 //! for group in validate::statistics(&validation, validate::Grouping::All) {
 //!     println!("{} {}: RMS {:.1} % of {}", group.model, group.kind.name(), 100.0 * group.errors.rms, group.errors.count);
 //! }
@@ -26,7 +26,7 @@ use std::{
 use rayon::prelude::*;
 
 pub use grouping::{
-    Coverage, Group, Grouping, HOT, SEPARATOR, coverage, statistics, without_shots,
+    Coverage, Group, Grouping, HOT, SEPARATOR, coverage, statistics, without_tests,
 };
 pub use prediction::{Prediction, Standing};
 pub use record::PredictionRecord;
@@ -34,59 +34,61 @@ pub use statistics::Errors;
 
 use prediction::Computed;
 
-use crate::{Error, Scenario, guard::FittedTo, material::Library, model::Model, shots::Shot};
+use crate::{
+    Error, Scenario, experiments::Experiment, material::Library, model::Model, validity::FittedTo,
+};
 
-/// What every model said of every shot.
+/// What every model said of every test.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Validation {
-    /// The shots.
-    pub shots: Vec<Shot>,
+    /// The tests.
+    pub tests: Vec<Experiment>,
     /// Names of the models, in their own order.
     pub models: Vec<&'static str>,
     /// What each of them was fitted to or chosen on.
     pub fitted_to: Vec<&'static [FittedTo]>,
-    /// One entry a shot, material record and model, in that order.
+    /// One entry a test, material record and model, in that order.
     pub predictions: Vec<Prediction>,
 }
 
 impl Validation {
-    /// The shot that a prediction is of.
-    pub fn shot(&self, prediction: &Prediction) -> &Shot {
-        &self.shots[prediction.shot]
+    /// The test that a prediction is of.
+    pub fn test(&self, prediction: &Prediction) -> &Experiment {
+        &self.tests[prediction.test]
     }
 }
 
-/// Computes every shot with every model that applies, on all cores.
+/// Computes every test with every model that applies, on all cores.
 ///
 /// `progress` is called with the part done, 0 to 1, from several threads; [`ControlFlow::Break`] ends the validation.
 ///
 /// # Errors
-/// [`Error::Cancelled`]; a model that fails on a shot is an entry of the result and no error.
+/// [`Error::Cancelled`]; a model that fails on a test is an entry of the result and no error.
 pub fn run(
     models: &[&'static dyn Model],
-    shots: &[Shot],
+    tests: &[Experiment],
     library: &Library,
     progress: &(dyn Fn(f64) -> ControlFlow<()> + Sync),
 ) -> Result<Validation, Error> {
-    let records = |shot: &Shot| shot.projectile_materials.len().max(1);
-    let jobs: Vec<(usize, usize)> = shots
+    let records = |test: &Experiment| test.projectile_materials.len().max(1);
+    let jobs: Vec<(usize, usize)> = tests
         .iter()
         .enumerate()
-        .flat_map(|(i, shot)| (0..records(shot)).map(move |record| (i, record)))
+        .flat_map(|(i, test)| (0..records(test)).map(move |record| (i, record)))
         .collect();
     let total = (jobs.len() * models.len()).max(1);
     let (done, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let compute = |&(shot, record): &(usize, usize)| -> Vec<Prediction> {
-        let names = &shots[shot].projectile_materials;
+    let compute = |&(test, record): &(usize, usize)| -> Vec<Prediction> {
+        let names = &tests[test].projectile_materials;
         let name = names.get(record).map_or("", String::as_str);
-        let scenario = shots[shot].scenario(name, library);
+        let scenario = tests[test].scenario(name, library);
         let regime = scenario
             .as_ref()
             .map_or_else(|_| String::new(), prediction::regime_of);
         let of_model = |&model: &&'static dyn Model| {
             let case = Computed {
-                shot: &shots[shot],
-                index: shot,
+                test: &tests[test],
+                index: test,
                 record,
                 scenario: &scenario,
                 regime: &regime,
@@ -104,7 +106,7 @@ pub fn run(
             .map(of_model)
             .collect()
     };
-    // Shots differ in cost by orders of magnitude: one at a time, so that no core is left with a block of slow ones.
+    // Tests differ in cost by orders of magnitude: one at a time, so that no core is left with a block of slow ones.
     let predictions: Vec<Vec<Prediction>> = jobs.par_iter().with_max_len(1).map(compute).collect();
     if stop.load(Ordering::Relaxed) {
         return Err(Error::Cancelled {
@@ -113,9 +115,12 @@ pub fn run(
         });
     }
     Ok(Validation {
-        shots: shots.to_vec(),
+        tests: tests.to_vec(),
         models: models.iter().map(|model| model.name()).collect(),
-        fitted_to: models.iter().map(|model| model.guard().fitted_to).collect(),
+        fitted_to: models
+            .iter()
+            .map(|model| model.validity().fitted_to)
+            .collect(),
         predictions: predictions.into_iter().flatten().collect(),
     })
 }
@@ -124,14 +129,14 @@ pub fn run(
 /// thread. A test that no case can be made of is left out.
 pub(crate) fn with_main_records<'a>(
     models: &'a [&'static dyn Model],
-    shots: impl IntoIterator<Item = (usize, &'a Shot)>,
+    tests: impl IntoIterator<Item = (usize, &'a Experiment)>,
     library: &'a Library,
 ) -> impl Iterator<Item = (Prediction, Scenario)> {
-    let of_shot = move |(index, shot): (usize, &'a Shot)| {
-        let name = shot.projectile_materials.first();
-        let scenario = shot.scenario(name.map_or("", String::as_str), library);
+    let of_test = move |(index, test): (usize, &'a Experiment)| {
+        let name = test.projectile_materials.first();
+        let scenario = test.scenario(name.map_or("", String::as_str), library);
         let case = Computed {
-            shot,
+            test,
             index,
             record: 0,
             scenario: &scenario,
@@ -146,5 +151,5 @@ pub(crate) fn with_main_records<'a>(
             predictions.map(move |prediction| (prediction, scenario.clone()))
         })
     };
-    shots.into_iter().flat_map(of_shot)
+    tests.into_iter().flat_map(of_test)
 }

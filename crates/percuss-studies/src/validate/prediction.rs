@@ -1,4 +1,4 @@
-//! What one model said of one shot.
+//! Prediction of one test by one model.
 
 use std::{
     ops::ControlFlow,
@@ -7,22 +7,22 @@ use std::{
 
 use crate::{
     Error, Scenario,
+    experiments::{Experiment, Kind, Split},
     model::{self, Control, Model},
     outcome::Outcome,
     regime::Regime,
-    shots::{Kind, Shot, Split},
 };
 
-/// What one model said of one shot with one material record. Values are in the unit of the shot's kind, see [`Kind::unit`].
+/// What one model said of one test with one material record. Values are in the unit of the test's kind, see [`Kind::unit`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
-    /// Index of the shot.
-    pub shot: usize,
+    /// Index of the test.
+    pub test: usize,
     /// Name of the model.
     pub model: &'static str,
     /// The material record that stood for the projectile; empty where there is none.
     pub record: String,
-    /// Whether that record is the shot's main one.
+    /// Whether that record is the test's main one.
     pub main_record: bool,
     /// What was measured.
     pub measured: f64,
@@ -30,15 +30,15 @@ pub struct Prediction {
     pub predicted: Option<f64>,
     /// `(predicted − measured)/measured`, where nothing is divided by zero.
     pub relative_error: Option<f64>,
-    /// What kind of shot it is: the projectile and the target; empty where no case could be made.
+    /// What kind of test it is: the projectile and the target; empty where no case could be made.
     pub regime: String,
-    /// How the shot ended in the model.
+    /// How the test ended in the model.
     pub outcome: Outcome,
     /// Why there is no prediction.
     pub reason: Option<String>,
     /// Warnings that came with the prediction.
     pub warnings: usize,
-    /// Whether the prediction is blind: neither the program's constants nor the model were fitted to the shot's source or chosen on it,
+    /// Whether the prediction is blind: neither the program's constants nor the model were fitted to the test's source or chosen on it,
     /// nor were the constants of its materials calibrated on it.
     pub split: Split,
     /// Whether statistics count it, and if not, why.
@@ -94,9 +94,9 @@ impl Standing {
     }
 }
 
-/// A shot as a case, with one of its material records.
+/// A test as a case, with one of its material records.
 pub(super) struct Computed<'a> {
-    pub(super) shot: &'a Shot,
+    pub(super) test: &'a Experiment,
     pub(super) index: usize,
     pub(super) record: usize,
     pub(super) scenario: &'a Result<Scenario, String>,
@@ -106,39 +106,39 @@ pub(super) struct Computed<'a> {
 impl Computed<'_> {
     /// What a model says of it; `stop` ends a long run.
     pub(super) fn predict(&self, model: &dyn Model, stop: &AtomicBool) -> Prediction {
-        let shot = self.shot;
+        let test = self.test;
         let answer = match self.scenario {
             Err(reason) => Answer::none(Standing::NoCase, Outcome::NotApplicable, reason.clone()),
-            Ok(_) if !model.guard().predicts.contains(&shot.kind.quantity()) => Answer::none(
+            Ok(_) if !model.validity().predicts.contains(&test.kind.quantity()) => Answer::none(
                 Standing::NotGiven,
                 Outcome::NotApplicable,
-                gives_no(shot.kind),
+                gives_no(test.kind),
             ),
-            Ok(scenario) => compute(shot.kind, scenario, model, stop),
+            Ok(scenario) => compute(test.kind, scenario, model, stop),
         };
-        let measured = shot.kind.shown(shot.measured);
+        let measured = test.kind.shown(test.measured);
         let relative_error = answer
             .predicted
             .filter(|_| measured != 0.0)
             .map(|predicted| (predicted - measured) / measured);
         let standing = match answer.standing {
-            Standing::Counted if shot.flag.is_some() => Standing::Flagged,
-            Standing::Counted if shot.duplicate_of.is_some() => Standing::Repeated,
+            Standing::Counted if test.flag.is_some() => Standing::Flagged,
+            Standing::Counted if test.duplicate_of.is_some() => Standing::Repeated,
             Standing::Counted if relative_error.is_none() => Standing::MeasuredZero,
             other => other,
         };
-        let calibrated = |scenario: &Scenario| scenario.is_calibrated_on(&shot.source);
-        let split = if model.guard().is_fitted_to(&shot.source)
+        let calibrated = |scenario: &Scenario| scenario.is_calibrated_on(&test.source);
+        let split = if model.validity().is_fitted_to(&test.source)
             || self.scenario.as_ref().is_ok_and(calibrated)
         {
             Split::Calibration
         } else {
-            shot.split
+            test.split
         };
         Prediction {
-            shot: self.index,
+            test: self.index,
             model: model.name(),
-            record: shot
+            record: test
                 .projectile_materials
                 .get(self.record)
                 .cloned()
@@ -162,8 +162,8 @@ pub(super) fn regime_of(scenario: &Scenario) -> String {
     let regime = Regime::of(scenario);
     format!(
         "{} on {}",
-        regime.projectile.in_words(),
-        regime.target.in_words()
+        regime.projectile.describe(),
+        regime.target.describe()
     )
 }
 
@@ -188,11 +188,11 @@ impl Answer {
 }
 
 fn gives_no(kind: Kind) -> String {
-    format!("gives no {}", kind.quantity().in_words())
+    format!("gives no {}", kind.quantity().describe())
 }
 
 fn compute(kind: Kind, scenario: &Scenario, model: &dyn Model, stop: &AtomicBool) -> Answer {
-    let mut watch = |_| {
+    let mut observer = |_| {
         if stop.load(Ordering::Relaxed) {
             ControlFlow::Break(())
         } else {
@@ -201,7 +201,7 @@ fn compute(kind: Kind, scenario: &Scenario, model: &dyn Model, stop: &AtomicBool
     };
     let mut control = Control {
         record: false,
-        progress: Some(&mut watch),
+        progress: Some(&mut observer),
         ..Control::default()
     };
     let failed = |outcome, reason| Answer::none(Standing::Failed, outcome, reason);
@@ -216,7 +216,7 @@ fn compute(kind: Kind, scenario: &Scenario, model: &dyn Model, stop: &AtomicBool
     match result.measurable(kind.quantity()) {
         _ if result.outcome == Outcome::OutOfTime => failed(
             Outcome::OutOfTime,
-            "the run ended before the shot did".to_owned(),
+            "the run ended before the test did".to_owned(),
         ),
         None => Answer::none(Standing::NotGiven, result.outcome, gives_no(kind)),
         Some(value) if !value.is_finite() => failed(Outcome::Failed, format!("it gives {value}")),

@@ -1,28 +1,28 @@
-//! A prediction as one flat record with its shot and its citation: what `--json`, CSV and Parquet hold.
+//! A prediction as one flat record with its test and its citation: what `--json`, CSV and Parquet hold.
 
 use serde::Serialize;
 
 use super::{Group, Grouping, Validation};
 use crate::{
+    experiments::{Kind, Split},
     material::{Trust, references},
     outcome::Outcome,
-    shots::{Kind, Split},
 };
 
-/// A prediction with its shot. The names are stable; a number that does not exist is null.
+/// A prediction with its test. The names are stable; a number that does not exist is null.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PredictionRecord {
-    /// Id of the shot.
-    pub shot: String,
-    /// Source of the shot.
+    /// Id of the test.
+    pub test: String,
+    /// Source of the test.
     pub source: String,
     /// Authors and year of the source, where it is a key of the bibliography.
     pub citation: String,
-    /// The public place where the shot was read.
+    /// The public place where the test was read.
     pub read_at: String,
     /// Licence of the row.
     pub licence: String,
-    /// Kind of shot.
+    /// Kind of test.
     pub kind: Kind,
     /// Whether the prediction is blind.
     pub split: Split,
@@ -32,7 +32,7 @@ pub struct PredictionRecord {
     pub projectile: String,
     /// Material record that stood for the projectile.
     pub record: String,
-    /// Whether that is the shot's main record.
+    /// Whether that is the test's main record.
     pub main_record: bool,
     /// Material of the target.
     pub target: String,
@@ -42,7 +42,7 @@ pub struct PredictionRecord {
     pub obliquity_deg: f64,
     /// Temperature of the projectile [K].
     pub temperature_k: Option<f64>,
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
     /// Name of the model.
     pub model: &'static str,
@@ -62,11 +62,11 @@ pub struct PredictionRecord {
     pub reason: Option<String>,
     /// Why the row is suspect.
     pub flag: Option<String>,
-    /// Id of the shot that it repeats.
+    /// Id of the test that it repeats.
     pub duplicate_of: Option<String>,
     /// Regime of the case.
     pub regime: String,
-    /// How the shot ended in the model.
+    /// How the test ended in the model.
     pub outcome: Outcome,
     /// Warnings that came with the prediction.
     pub warnings: usize,
@@ -78,36 +78,36 @@ impl Validation {
         self.predictions
             .iter()
             .map(|prediction| {
-                let shot = self.shot(prediction);
+                let test = self.test(prediction);
                 PredictionRecord {
-                    shot: shot.id.clone(),
-                    source: shot.source.clone(),
+                    test: test.id.clone(),
+                    source: test.source.clone(),
                     citation: references()
-                        .get(&shot.source)
+                        .get(&test.source)
                         .map_or_else(String::new, |reference| reference.label.clone()),
-                    read_at: shot.read_at.clone(),
-                    licence: shot.licence.clone(),
-                    kind: shot.kind,
+                    read_at: test.read_at.clone(),
+                    licence: test.licence.clone(),
+                    kind: test.kind,
                     split: prediction.split,
-                    trust: shot.trust,
-                    projectile: shot.projectile_class.clone(),
+                    trust: test.trust,
+                    projectile: test.projectile_class.clone(),
                     record: prediction.record.clone(),
                     main_record: prediction.main_record,
-                    target: shot.target.name().to_owned(),
-                    thickness_mm: shot.target.thickness().map(|thickness| thickness * 1e3),
-                    obliquity_deg: shot.obliquity_deg,
-                    temperature_k: shot.temperature,
-                    impact_velocity_m_s: shot.impact_velocity,
+                    target: test.target.name().to_owned(),
+                    thickness_mm: test.target.thickness().map(|thickness| thickness * 1e3),
+                    obliquity_deg: test.obliquity_deg,
+                    temperature_k: test.temperature,
+                    impact_velocity_m_s: test.impact_velocity,
                     model: prediction.model,
                     measured: prediction.measured,
                     predicted: prediction.predicted,
-                    unit: shot.kind.unit(),
-                    uncertainty: shot.uncertainty.map(|value| shot.kind.shown(value)),
+                    unit: test.kind.unit(),
+                    uncertainty: test.uncertainty.map(|value| test.kind.shown(value)),
                     relative_error: prediction.relative_error,
                     standing: prediction.standing.name(),
                     reason: prediction.reason.clone(),
-                    flag: shot.flag.clone(),
-                    duplicate_of: shot.duplicate_of.clone(),
+                    flag: test.flag.clone(),
+                    duplicate_of: test.duplicate_of.clone(),
                     regime: prediction.regime.clone(),
                     outcome: prediction.outcome,
                     warnings: prediction.warnings,

@@ -17,12 +17,12 @@ pub struct Errors {
     pub median_absolute: f64,
     /// The error of largest magnitude.
     pub worst: f64,
-    /// Id of the shot that has it; the first one of several.
+    /// Id of the test that has it; the first one of several.
     pub worst_id: String,
 }
 
 impl Errors {
-    /// Statistics of errors and the ids of their shots; `None` where there are none.
+    /// Statistics of errors and the ids of their tests; `None` where there are none.
     pub fn of<'a>(errors: impl IntoIterator<Item = (f64, &'a str)>) -> Option<Self> {
         let errors: Vec<(f64, &str)> = errors.into_iter().collect();
         let count = errors.len();

@@ -2,24 +2,24 @@ use std::{ops::ControlFlow, sync::Mutex};
 
 use super::*;
 use crate::{
-    guard::{FittedTo, Guard},
+    experiments::{self, Kind, Split},
     made_up::MadeUp,
     material::references,
     model::{Control, MODELS},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
-    shots::{self, Kind, Split},
+    validity::{FittedTo, ValidityDomain},
 };
 
 /// A model whose ballistic limit is ten times the thickness in mm; it gives 450 m/s for 45 mm.
 const MADE_UP: MadeUp = MadeUp {
     name: "made_up",
-    guard: Guard {
+    validity: ValidityDomain {
         predicts: &[BandQuantity::BallisticLimit],
         fitted_to: &[FittedTo {
             sources: &["one"],
             because: "it was made up there",
         }],
-        ..Guard::OPEN
+        ..ValidityDomain::OPEN
     },
     result: |scenario| {
         let thickness = scenario.target_thickness().unwrap_or(f64::NAN);
@@ -44,9 +44,9 @@ h,two,depth,apm2-core,6.2,5.3,300,aluminium-2024-t351,95,3,mm,,,
 ";
 
 fn made_up() -> Validation {
-    let shots = shots::read_str("made-up.csv", FILE, Library::built_in()).unwrap();
+    let tests = experiments::read_str("made-up.csv", FILE, Library::built_in()).unwrap();
     let go_on = |_| ControlFlow::Continue(());
-    run(&[&MADE_UP], &shots, Library::built_in(), &go_on).unwrap()
+    run(&[&MADE_UP], &tests, Library::built_in(), &go_on).unwrap()
 }
 
 fn close(a: f64, b: f64) {
@@ -96,7 +96,7 @@ fn what_is_not_counted_says_why() {
         let found = validation
             .predictions
             .iter()
-            .find(|p| validation.shot(p).id == id);
+            .find(|p| validation.test(p).id == id);
         found.unwrap_or_else(|| panic!("{id}"))
     };
     let expected = [
@@ -129,7 +129,7 @@ fn a_model_is_not_blind_to_what_it_was_fitted_to() {
     let validation = made_up();
     for prediction in &validation.predictions {
         let blind = prediction.split == Split::Blind;
-        assert_eq!(blind, validation.shot(prediction).source == "two");
+        assert_eq!(blind, validation.test(prediction).source == "two");
     }
     let by_split = statistics(&validation, Grouping::Split);
     let found: Vec<(&str, usize)> = by_split
@@ -138,14 +138,14 @@ fn a_model_is_not_blind_to_what_it_was_fitted_to() {
         .collect();
     assert_eq!(found, [("blind", 1), ("calibration", 2)]);
     assert_eq!(
-        validation.fitted_to[0][0].in_words(),
+        validation.fitted_to[0][0].describe(),
         "not blind to one: it was made up there"
     );
 }
 
 #[test]
 fn what_models_were_fitted_to_is_in_the_bibliography() {
-    let fitted = MODELS.iter().flat_map(|model| model.guard().fitted_to);
+    let fitted = MODELS.iter().flat_map(|model| model.validity().fitted_to);
     for source in fitted.flat_map(|fitted| fitted.sources) {
         assert!(references().contains_key(*source), "{source}");
     }
@@ -154,11 +154,15 @@ fn what_models_were_fitted_to_is_in_the_bibliography() {
 #[test]
 fn plate_cavity_is_blind_to_no_limit_of_the_database() {
     let model = crate::model::model("plate_cavity").unwrap();
-    for shot in shots::built_in()
+    for test in experiments::built_in()
         .iter()
-        .filter(|shot| shot.read_at.contains("10.17632/4f92y6jzzh.2"))
+        .filter(|test| test.read_at.contains("10.17632/4f92y6jzzh.2"))
     {
-        assert!(model.guard().is_fitted_to(&shot.source), "{}", shot.source);
+        assert!(
+            model.validity().is_fitted_to(&test.source),
+            "{}",
+            test.source
+        );
     }
 }
 
@@ -173,18 +177,18 @@ fn an_even_number_of_errors_has_its_median_between() {
 
 #[test]
 fn a_validation_can_be_watched_and_stopped() {
-    let shots = shots::read_str("made-up.csv", FILE, Library::built_in()).unwrap();
+    let tests = experiments::read_str("made-up.csv", FILE, Library::built_in()).unwrap();
     let seen = Mutex::new(Vec::new());
-    let watch = |fraction: f64| {
+    let observer = |fraction: f64| {
         seen.lock().unwrap().push(fraction);
         ControlFlow::Continue(())
     };
-    run(&[&MADE_UP], &shots, Library::built_in(), &watch).unwrap();
+    run(&[&MADE_UP], &tests, Library::built_in(), &observer).unwrap();
     let seen = seen.into_inner().unwrap();
     assert_eq!(seen.len(), 9);
     close(seen.iter().copied().fold(0.0, f64::max), 1.0);
     let stop = |_| ControlFlow::Break(());
-    let stopped = run(&[&MADE_UP], &shots, Library::built_in(), &stop);
+    let stopped = run(&[&MADE_UP], &tests, Library::built_in(), &stop);
     assert!(
         matches!(stopped, Err(Error::Cancelled { .. })),
         "{stopped:?}"
@@ -196,30 +200,30 @@ fn a_ballistic_limit_does_not_see_the_measured_one() {
     // Limits are computed from an impact at the measured limit: a model that uses that speed would not be blind.
     for model in MODELS.iter().filter(|model| {
         model
-            .guard()
+            .validity()
             .predicts
             .contains(&BandQuantity::BallisticLimit)
     }) {
-        for shot in shots::built_in()
+        for test in experiments::built_in()
             .iter()
             .filter(|s| s.kind == Kind::BallisticLimit && s.no_case().is_none())
             .step_by(100)
         {
-            let scenario = shot
-                .scenario(&shot.projectile_materials[0], Library::built_in())
+            let scenario = test
+                .scenario(&test.projectile_materials[0], Library::built_in())
                 .unwrap();
             let limit = |speed: f64| {
                 let result =
                     crate::model::run(*model, &scenario.at_speed(speed), &mut Control::default());
                 result.ok().and_then(|result| result.ballistic_limit)
             };
-            let speed = shot.impact_velocity;
+            let speed = test.impact_velocity;
             if let (Some(a), Some(b)) = (limit(speed), limit(1.02 * speed)) {
                 assert!(
                     (a / b - 1.0).abs() < 1e-6,
                     "{} {}: {a} {b}",
                     model.name(),
-                    shot.id
+                    test.id
                 );
             }
         }

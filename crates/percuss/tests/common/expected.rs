@@ -27,7 +27,7 @@ pub struct Expected {
     /// Name of the result record, or a path such as `/fragments/2/velocity_m_s`.
     pub quantity: String,
     /// Impact velocity instead of the scenario's.
-    pub velocity: Option<Velocity>,
+    pub impact_velocity: Option<Velocity>,
     /// Impact velocities without and with perforation, for the ballistic limit of a model that does not compute one.
     pub bracket: Option<[Velocity; 2]>,
     /// Span of time over which a sampled quantity is averaged.

@@ -85,7 +85,7 @@ pub fn assert_near(what: &str, value: f64, exact: f64, fraction: f64) {
 pub fn paper(velocity: f64, elements: (u32, u32), options: &str) -> String {
     format!(
         r#"
-        projectile = {{ material = "copper", length = "12.74 mm", diameter = "4.8 mm", velocity = "{velocity} m/s" }}
+        projectile = {{ material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "{velocity} m/s" }}
         target = {{ material = "aluminium-2024-t351", thickness = "25 mm" }}
         [chain]
         projectile_elements = {}
@@ -100,7 +100,7 @@ pub fn paper(velocity: f64, elements: (u32, u32), options: &str) -> String {
 pub fn wilkins(velocity: f64) -> String {
     format!(
         r#"
-        projectile = {{ material = "copper", length = "23.47 mm", diameter = "7.62 mm", velocity = "{velocity} m/s" }}
+        projectile = {{ material = "copper", length = "23.47 mm", diameter = "7.62 mm", impact_velocity = "{velocity} m/s" }}
         target = {{ rigid_wall = true }}
         "#
     )

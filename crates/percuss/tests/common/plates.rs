@@ -9,7 +9,7 @@ use percuss::{
 pub fn scenario(nose: &str, velocity: f64, thickness_mm: f64, plate: &str, more: &str) -> Scenario {
     let text = format!(
         r#"
-        projectile = {{ material = "rigid", mass = "197 g", diameter = "20 mm", nose = {nose}, velocity = "{velocity} m/s" }}
+        projectile = {{ material = "rigid", mass = "197 g", diameter = "20 mm", nose = {nose}, impact_velocity = "{velocity} m/s" }}
         target = {{ material = "plate", thickness = "{thickness_mm} mm" }}
         materials.rigid = {{ name = "rigid", density = "7850 kg/m3", youngs_modulus = "210 GPa", poissons_ratio = 0.3, strength = {{ elastic = {{}} }} }}
         materials.plate = {{ name = "plate", density = "2700 kg/m3", youngs_modulus = "70 GPa", poissons_ratio = 0.33, {plate} }}

@@ -14,7 +14,7 @@ pub fn elastic_bars(
 ) -> String {
     format!(
         r#"
-        projectile = {{ material = "rod", length = "12.74 mm", diameter = "4.8 mm", velocity = "{velocity} m/s" }}
+        projectile = {{ material = "rod", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "{velocity} m/s" }}
         target = {{ material = "{target}", thickness = "{thickness_mm} mm", back_face = "{back_face}" }}
         {options}
         [materials.rod]

@@ -14,12 +14,12 @@ use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Error,
     calibrate::{
-        Calibrated, Fitted, Noise, Observations, Problem, Sampling, Settings, Stage, Watch,
+        Calibrated, Fitted, Noise, Observations, Observer, Problem, Sampling, Settings, Stage,
     },
     case,
+    experiments::Kind,
     material::Library,
     model::{MODELS, model},
-    shots::Kind,
 };
 
 use crate::{
@@ -154,7 +154,7 @@ impl Calibrate {
         let on_progress = Mutex::new(on_progress);
         let found = self.solve(&problem, &settings, &|stage, part, runs| {
             let mut on_progress = on_progress.lock().unwrap_or_else(PoisonError::into_inner);
-            on_progress(stage.of_whole(part, sampled), &stage.in_words(runs))
+            on_progress(stage.of_whole(part, sampled), &stage.describe(runs))
         })?;
         let files = written(folder, &found)?;
         Ok(Response {
@@ -178,7 +178,7 @@ impl Calibrate {
         }
         if !self.data.is_empty() {
             let (shots, _) = shot_data::read(&self.data, &self.kind, &library)?;
-            observations.add_shots(&shots, &library, &fitted)?;
+            observations.add_tests(&shots, &library, &fitted)?;
         }
         let wanted = |found: &[String]| {
             let mut keys = self.source.iter().chain(&self.hold_out);
@@ -222,7 +222,7 @@ impl Calibrate {
         &self,
         problem: &Problem,
         settings: &Settings,
-        watch: Watch<'_>,
+        watch: Observer<'_>,
     ) -> Result<Calibrated, Failure> {
         let name = self.name.as_deref();
         Ok(Calibrated::of(problem, settings, name, watch)?)
@@ -240,7 +240,7 @@ impl Calibrate {
                         std::mem::replace(&mut *board, (stage, Progress::new(!self.quiet)));
                     before.1.finish();
                 }
-                board.1.update(part, &stage.in_words(runs));
+                board.1.update(part, &stage.describe(runs));
             }
             match stop.load(Ordering::Relaxed) {
                 true => ControlFlow::Break(()),

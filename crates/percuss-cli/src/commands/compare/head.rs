@@ -35,7 +35,7 @@ pub fn text(scenario: &Scenario, comparison: &Comparison) -> String {
         text.push('\n');
         let regime = &comparison.regime[from].regime;
         let words = if speeds.len() == 1 {
-            regime.in_words(scenario)
+            regime.describe(scenario)
         } else {
             text += &format!("{}\n", bold(speed_range(&speeds[from..to])));
             regime.kind_in_words(scenario)

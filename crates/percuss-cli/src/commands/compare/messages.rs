@@ -44,7 +44,7 @@ pub fn grouped<'a>(
 
 impl Message<'_> {
     /// The message at its first velocity, which is named where its numbers change.
-    pub fn in_words(&self, speeds: &[f64]) -> String {
+    pub fn describe(&self, speeds: &[f64]) -> String {
         let speed = speed_range(&speeds[self.first..=self.first]);
         match self.varies && !self.text.contains(&speed) {
             true => format!("{} (at {speed})", self.text),
@@ -105,7 +105,7 @@ mod tests {
         let messages = grouped(texts.into_iter().enumerate(), 4);
         let said: Vec<(String, String)> = messages
             .iter()
-            .map(|message| (message.place(&speeds), message.in_words(&speeds)))
+            .map(|message| (message.place(&speeds), message.describe(&speeds)))
             .collect();
         let pair = |a: &str, b: &str| (a.to_owned(), b.to_owned());
         assert_eq!(
@@ -125,6 +125,6 @@ mod tests {
         let messages = grouped([(0, "a 1"), (1, "a 1")].into_iter(), 2);
         assert_eq!(messages.len(), 1);
         assert_eq!(messages[0].place(&[1.0, 2.0]), "");
-        assert_eq!(messages[0].in_words(&[1.0, 2.0]), "a 1");
+        assert_eq!(messages[0].describe(&[1.0, 2.0]), "a 1");
     }
 }

@@ -59,12 +59,12 @@ fn why(comparison: &Comparison, model: &str, outcome: Outcome) -> Option<String>
                 Outcome::Failed => ":",
                 _ => ", because",
             };
-            let (place, reason) = (one.place(&speeds), one.in_words(&speeds));
+            let (place, reason) = (one.place(&speeds), one.describe(&speeds));
             Some(format!("{what}{place}{because} {reason}"))
         }
         several => {
             let each = several.iter().map(|message| {
-                let (place, reason) = (message.place(&speeds), message.in_words(&speeds));
+                let (place, reason) = (message.place(&speeds), message.describe(&speeds));
                 format!("{}: {reason}", place.trim_start())
             });
             Some(format!("{what} {}", each.collect::<Vec<_>>().join("; ")))
@@ -88,7 +88,7 @@ fn silent(comparison: &Comparison) -> Vec<String> {
         .map(|model| {
             format!(
                 "{model}: gives no {}{}",
-                leading.in_words(),
+                leading.describe(),
                 gives(comparison, model)
             )
         })
@@ -104,7 +104,7 @@ fn gives(comparison: &Comparison, model: &str) -> String {
                 .of_model(model)
                 .any(|r| r.value(**quantity).is_some())
         })
-        .map(|quantity| quantity.in_words())
+        .map(|quantity| quantity.describe())
         .collect();
     match given.as_slice() {
         [] => String::new(),

@@ -15,8 +15,8 @@ use std::path::PathBuf;
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario, case,
-    compare::{self, Comparison, Watch},
-    model::{self, MODELS},
+    compare::{self, Comparison, Observer},
+    model::{self, CostClass, MODELS},
 };
 
 use crate::{
@@ -148,7 +148,7 @@ impl Compare {
             let words = format!("{} of {} runs", now.finished, now.total);
             on_progress(now.fraction, &words)
         };
-        let mut watch = Watch {
+        let mut watch = Observer {
             progress: Some(&mut report),
         };
         Ok(compare::compare(&models, scenario, speeds, &mut watch)?)
@@ -163,7 +163,9 @@ impl Compare {
 
     /// Line that names the applicable models that take minutes and were not run.
     fn left_out(&self, scenario: &Scenario) -> String {
-        let slow = MODELS.iter().filter(|model| model.is_slow());
+        let slow = MODELS
+            .iter()
+            .filter(|model| model.cost() == CostClass::Minutes);
         let applying = slow.filter(|model| model::applicability(**model, scenario).is_ok());
         let names: Vec<&str> = applying.map(|model| model.name()).collect();
         if !self.model.is_empty() || names.is_empty() {

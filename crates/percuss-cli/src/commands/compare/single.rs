@@ -28,7 +28,7 @@ pub fn text(comparison: &Comparison) -> String {
         .last(any_measured.then(|| "experiment".to_owned()));
     for quantity in quantities {
         let measured = measured(quantity);
-        let heading = quantity.in_words().replace(' ', "\n");
+        let heading = quantity.describe().replace(' ', "\n");
         rows = rows
             .numbers(heading, quantity.unit(), |record| {
                 number(record.value(quantity), 4)
@@ -52,11 +52,11 @@ pub fn text(comparison: &Comparison) -> String {
             rows.numbers("estimated model\nerror of the depth", "%", |record| {
                 let expected = record.expected_error.as_ref();
                 expected.map_or_else(String::new, |expected| {
-                    expected.in_words().replace(" %", "")
+                    expected.describe().replace(" %", "")
                 })
             })
         })
-        .words("outcome", |record| record.outcome.in_words())
+        .words("outcome", |record| record.outcome.describe())
         .numbers("warn-\nings", "", |record| match record.warnings.len() {
             0 => String::new(),
             count => count.to_string(),
@@ -107,7 +107,7 @@ fn range(record: &ResultRecord, leading: BandQuantity) -> String {
     let ends = format!("{}–{}", significant(band.low, 3), significant(band.high, 3));
     match band.quantity == leading {
         true => ends,
-        false => format!("{} {ends}", band.quantity.in_words()),
+        false => format!("{} {ends}", band.quantity.describe()),
     }
 }
 

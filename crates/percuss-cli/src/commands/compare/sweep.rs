@@ -91,12 +91,12 @@ fn versus_velocity(comparison: &Comparison, quantity: BandQuantity, models: &[&s
                 number(values[i], 4)
             })
         });
-    let mut text = heading(&format!("{} [{}]", quantity.in_words(), quantity.unit()));
+    let mut text = heading(&format!("{} [{}]", quantity.describe(), quantity.unit()));
     text += &blocks(&table.table());
     if !compared.is_empty() && !models.is_empty() {
         text += &heading(&format!(
             "{}, difference from experiment [%]",
-            quantity.in_words()
+            quantity.describe()
         ));
         let off =
             Table::of(&compared)

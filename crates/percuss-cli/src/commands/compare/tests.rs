@@ -2,20 +2,20 @@
 
 use percuss::{
     Error, Scenario, case,
-    compare::{Comparison, Watch, compare},
-    guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
+    compare::{Comparison, Observer, compare},
     material::MaterialClass,
     model::{Control, Model},
-    model_error::Expectation,
+    model_error::ModelErrorEstimate,
     outcome::{Band, BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
+    validity::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 
 use super::{head, missing, quantities, single, sweep, warnings};
 
 struct Fake {
     name: &'static str,
-    guard: Guard,
+    validity: ValidityDomain,
     depth_mm: f64,
 }
 
@@ -28,8 +28,8 @@ impl Model for Fake {
         "made up"
     }
 
-    fn guard(&self) -> &'static Guard {
-        Box::leak(Box::new(self.guard))
+    fn validity(&self) -> &'static ValidityDomain {
+        Box::leak(Box::new(self.validity))
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
@@ -63,7 +63,7 @@ const fn speeds(min: f64, max: f64) -> Range {
     }
 }
 
-const FIRST: Guard = Guard {
+const FIRST: ValidityDomain = ValidityDomain {
     first_choice: &[FirstChoice {
         projectile: ProjectileRegime::Eroding,
         targets: TargetKind::ALL,
@@ -71,26 +71,26 @@ const FIRST: Guard = Guard {
         target_material: MaterialClass::Metal,
         because: "it is made up for it",
     }],
-    ..Guard::OPEN
+    ..ValidityDomain::OPEN
 };
-const FAST: Guard = Guard {
+const FAST: ValidityDomain = ValidityDomain {
     ranges: &[speeds(600.0, 5000.0)],
     ..FIRST
 };
-const MIDDLE: Guard = Guard {
+const MIDDLE: ValidityDomain = ValidityDomain {
     ranges: &[speeds(400.0, 800.0)],
-    ..Guard::OPEN
+    ..ValidityDomain::OPEN
 };
-const NEVER: Guard = Guard {
+const NEVER: ValidityDomain = ValidityDomain {
     targets: &[TargetKind::RigidWall],
-    ..Guard::OPEN
+    ..ValidityDomain::OPEN
 };
 
 const CASE: &str = "
-projectile = { material = 'copper', length = '40 mm', diameter = '5 mm', velocity = '1000 m/s' }
+projectile = { material = 'copper', length = '40 mm', diameter = '5 mm', impact_velocity = '1000 m/s' }
 target = { material = 'aluminium-2024-t351', thickness = '500 mm' }
 [[experiments]]
-velocity = '1000 m/s'
+impact_velocity = '1000 m/s'
 depth_of_penetration = '16 mm'
 uncertainty = '1.5 mm'
 source = 'a'
@@ -123,25 +123,25 @@ fn comparison(speeds: &[f64]) -> (Scenario, Comparison) {
         .enumerate()
         .map(|(i, name)| Fake {
             name,
-            guard: match *name {
+            validity: match *name {
                 "tate" => FAST,
                 "forrestal" | "poncelet" => MIDDLE,
                 "taylor" | "wilkins_guinan" => NEVER,
-                _ => Guard::OPEN,
+                _ => ValidityDomain::OPEN,
             },
             depth_mm: 12.0 + i as f64,
         })
         .collect();
     let models: Vec<&dyn Model> = fakes.iter().map(|fake| fake as &dyn Model).collect();
     let scenario = case::load_str("made-up", CASE).unwrap();
-    let mut comparison = compare(&models, &scenario, speeds, &mut Watch::default()).unwrap();
+    let mut comparison = compare(&models, &scenario, speeds, &mut Observer::default()).unwrap();
     // A made-up model is known by its name: what is expected of the real one is not this one's.
     for record in &mut comparison.results {
-        record.expected_error = (record.model == "chain").then_some(Expectation {
+        record.expected_error = (record.model == "chain").then_some(ModelErrorEstimate {
             median: -0.32 + 1e-4 * record.impact_velocity_m_s,
             low: -0.86,
             high: 0.14,
-            shots: 12,
+            cases: 12,
         });
     }
     (scenario, comparison)

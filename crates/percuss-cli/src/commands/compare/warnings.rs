@@ -30,7 +30,7 @@ fn lines(comparison: &Comparison) -> Vec<String> {
             .filter(|(speed, record)| is_shown(comparison, *speed, record))
             .flat_map(|(speed, record)| record.warnings.iter().map(move |w| (speed, w.as_str())));
         for message in grouped(said, speeds.len()) {
-            let words = message.in_words(&speeds);
+            let words = message.describe(&speeds);
             entries.push((
                 model,
                 match message.place(&speeds).trim_start() {

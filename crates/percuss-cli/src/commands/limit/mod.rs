@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario, case,
-    limit::{self, LimitOutcome, Limits, Range, Search, Tolerance, Watch},
+    limit::{self, LimitOutcome, Limits, Observer, Range, Search, Tolerance},
     model::MODELS,
-    v50::{self, Shot, V50},
+    v50::{self, Test, V50},
 };
 use serde::Serialize;
 
@@ -45,7 +45,7 @@ With --shots FILE.csv V50, the velocity at which the probability of perforation
 is 50 %, is estimated from test results: by maximum likelihood (probit and
 logit) with the 95 % likelihood-ratio interval, and as the mean of equal numbers
 of the highest partial and the lowest complete penetrations (extremes). The file
-has one row per test and the columns velocity_m_s and perforated (yes or no).
+has one row per test and the columns impact_velocity_m_s and perforated (yes or no).
 The case is then optional.
 
 With --out DIR a copy of the case (case-as-run.toml), limit.json, the tables
@@ -111,13 +111,13 @@ struct LimitRecord<'a> {
     #[serde(flatten)]
     limits: Option<&'a Limits>,
     v50: Option<&'a V50>,
-    shots: Option<&'a [Shot]>,
+    shots: Option<&'a [Test]>,
 }
 
 /// Result of the command and the files that it wrote.
 struct LimitOutput {
     case: Option<(Scenario, Limits)>,
-    shots: Option<(Vec<Shot>, V50)>,
+    shots: Option<(Vec<Test>, V50)>,
     files: Vec<PathBuf>,
 }
 
@@ -203,7 +203,7 @@ impl Limit {
             let words = format!("{} runs", now.finished);
             on_progress(now.fraction, &words)
         };
-        let mut watch = Watch {
+        let mut watch = Observer {
             progress: Some(&mut report),
         };
         Ok(limit::limits(&models, scenario, &search, &mut watch)?)

@@ -31,7 +31,7 @@ pub fn text(limits: &Limits) -> String {
     }
     lines.extend(limits.results.iter().filter_map(|limit| {
         let expected = limit.expected_error.as_ref()?;
-        let (model, words) = (limit.model, expected.in_words());
+        let (model, words) = (limit.model, expected.describe());
         Some(format!("estimated model error of {model}: {words}"))
     }));
     let without = limits.without_expected_error();

@@ -22,9 +22,9 @@ pub fn head(scenario: &Scenario, limits: &Limits, tolerance: Tolerance) -> Strin
         limits.case,
         significant(limits.searched_m_s.0, 4),
         significant(limits.searched_m_s.1, 4),
-        values::in_words(tolerance)
+        values::describe(tolerance)
     );
-    let rear_face = limits.rear_face.and_then(RearFace::in_words);
+    let rear_face = limits.rear_face.and_then(RearFace::describe);
     let rear_face = rear_face.map_or_else(String::new, |words| paragraph(&words));
     format!("{}{}{rear_face}\n", title(scenario), paragraph(&line))
 }
@@ -144,7 +144,7 @@ pub fn reasons(limits: &Limits) -> Vec<String> {
         let reason = limit.reason.as_deref().unwrap_or("no reason given");
         let words = match limit.outcome {
             LimitOutcome::NotApplicable => format!("not applicable, because {reason}"),
-            other => format!("{}: {reason}", other.in_words()),
+            other => format!("{}: {reason}", other.describe()),
         };
         (limit.model, words)
     });
@@ -159,7 +159,7 @@ pub fn lines(limits: &Limits) -> String {
             "model={} outcome={} ballistic_limit_m_s={} stopped_m_s={} perforated_m_s={} runs={} warnings={} \
              recommended={} input_limit_m_s={}\n",
             limit.model,
-            limit.outcome.in_words().replace(' ', "_"),
+            limit.outcome.describe().replace(' ', "_"),
             value(limit.ballistic_limit_m_s),
             value(limit.bracket.map(|bracket| bracket.stopped_m_s)),
             value(limit.bracket.map(|bracket| bracket.perforated_m_s)),
@@ -176,15 +176,15 @@ pub fn lines(limits: &Limits) -> String {
 pub fn v50_text(file: &str, v50: &V50) -> String {
     let line = format!(
         "{} of {file}: {} partial and {} complete penetrations; {}",
-        counted(v50.shots, "test"),
-        v50.shots - v50.perforated,
+        counted(v50.tests, "test"),
+        v50.tests - v50.perforated,
         v50.perforated,
         pattern(v50)
     );
     let mut text = format!("{}\n{}\n\n", bold("V50"), wrap(&line, width(), 0));
     let percent = format!("{:.0} %", 100.0 * v50.confidence);
     let table = Table::of(&v50.estimates)
-        .words("method", |entry| entry.method.in_words())
+        .words("method", |entry| entry.method.describe())
         .numbers("V50", "m/s", |entry| number(entry.v50_m_s, 5))
         .numbers(format!("{percent} interval"), "m/s", interval)
         .numbers("standard\nerror", "m/s", |entry| {
@@ -194,14 +194,14 @@ pub fn v50_text(file: &str, v50: &V50) -> String {
             number(entry.standard_deviation_m_s, 5)
         })
         .numbers("tests\nused", "", |entry| {
-            let all = entry.v50_m_s.map(|_| v50.shots);
-            let used = entry.shots_used.or(all);
+            let all = entry.v50_m_s.map(|_| v50.tests);
+            let used = entry.tests_used.or(all);
             used.map_or_else(|| number(None, 0), |used| used.to_string())
         })
         .numbers("span", "m/s", |entry| number(entry.span_m_s, 5));
     text += &blocks(&table.table());
     let said = v50.estimates.iter();
-    let said = said.filter_map(|entry| Some((entry.method.in_words(), entry.reason.clone()?)));
+    let said = said.filter_map(|entry| Some((entry.method.describe(), entry.reason.clone()?)));
     for line in by_models(said) {
         text += &format!("{}\n\n", wrap(&line, width(), 2));
     }
@@ -243,7 +243,7 @@ pub fn v50_lines(v50: &V50) -> String {
     let line = |entry: &Estimate| {
         format!(
             "method={} v50_m_s={} low_m_s={} high_m_s={} standard_deviation_m_s={}\n",
-            entry.method.in_words().replace(' ', "_"),
+            entry.method.describe().replace(' ', "_"),
             value(entry.v50_m_s),
             value(entry.low_m_s),
             value(entry.high_m_s),

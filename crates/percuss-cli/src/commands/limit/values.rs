@@ -120,7 +120,7 @@ pub fn points(text: &str) -> Result<u16, ValueError> {
 }
 
 /// Tolerance as text, as the option takes it.
-pub fn in_words(tolerance: Tolerance) -> String {
+pub fn describe(tolerance: Tolerance) -> String {
     match tolerance {
         Tolerance::Absolute(width) => format!("{} m/s", significant(width, 4)),
         Tolerance::Relative(part) => format!("{} %", significant(100.0 * part, 4)),

@@ -1,6 +1,6 @@
 //! Terminal output of one model.
 
-use percuss::guard::{FirstChoice, of_material};
+use percuss::validity::{FirstChoice, of_material};
 
 use super::ModelRecord;
 use crate::terminal::{bold, width, wrap};
@@ -13,13 +13,13 @@ pub fn text(model: &ModelRecord) -> String {
         wrap(model.summary, width(), 0),
         bold("range of validity")
     );
-    for line in model.guard.in_words() {
+    for line in model.validity.describe() {
         text += &item(&line);
     }
-    if !model.guard.first_choice.is_empty() {
+    if !model.validity.first_choice.is_empty() {
         text += &format!("\n{}\n", bold("first choice for"));
-        for choice in model.guard.first_choice {
-            text += &item(&in_words(choice));
+        for choice in model.validity.first_choice {
+            text += &item(&describe(choice));
         }
     }
     if !model.options.is_empty() {
@@ -40,12 +40,12 @@ fn item(line: &str) -> String {
     format!("  - {}\n", wrap(line, width() - 4, 4))
 }
 
-fn in_words(choice: &FirstChoice) -> String {
-    let targets: Vec<&str> = choice.targets.iter().map(|kind| kind.in_words()).collect();
+fn describe(choice: &FirstChoice) -> String {
+    let targets: Vec<&str> = choice.targets.iter().map(|kind| kind.describe()).collect();
     let noses: Vec<&str> = choice.noses.iter().map(|nose| nose.name()).collect();
     format!(
         "{} projectiles with {} noses against {}{}: {}",
-        choice.projectile.in_words(),
+        choice.projectile.describe(),
         noses.join(", "),
         targets.join(", "),
         of_material(choice.targets, &[choice.target_material]),

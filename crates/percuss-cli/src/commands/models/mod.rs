@@ -7,8 +7,8 @@ mod table;
 use clap::Args;
 use percuss::{
     case,
-    guard::Guard,
     model::{self, MODELS, Model},
+    validity::ValidityDomain,
 };
 use serde::Serialize;
 use serde_json::Value;
@@ -48,7 +48,7 @@ pub struct Models {
 struct ModelRecord {
     name: &'static str,
     summary: &'static str,
-    guard: &'static Guard,
+    validity: &'static ValidityDomain,
     /// Keys of the model's table in a case file.
     #[serde(serialize_with = "options::keys")]
     options: Vec<ModelOption>,
@@ -61,7 +61,7 @@ impl ModelRecord {
         Self {
             name: model.name(),
             summary: model.summary(),
-            guard: model.guard(),
+            validity: model.validity(),
             options: options::of(model.name(), schema),
             page: format!("docs/models/{}.md", model.name()),
         }

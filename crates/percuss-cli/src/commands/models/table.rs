@@ -25,20 +25,20 @@ pub fn text(models: &[ModelRecord]) -> String {
 }
 
 fn projectiles(model: &ModelRecord) -> String {
-    let regimes = model.guard.projectile;
+    let regimes = model.validity.projectile;
     if ProjectileRegime::ALL
         .iter()
         .all(|regime| regimes.contains(regime))
     {
         return "any".to_owned();
     }
-    let words: Vec<&str> = regimes.iter().map(|regime| regime.in_words()).collect();
+    let words: Vec<&str> = regimes.iter().map(|regime| regime.describe()).collect();
     words.join(", ")
 }
 
 /// Targets in one word each, and their material where it is not metal alone.
 fn targets(model: &ModelRecord) -> String {
-    let kinds = model.guard.targets;
+    let kinds = model.validity.targets;
     let word = |kind: &TargetKind| match kind {
         TargetKind::SemiInfinite => "semi-infinite",
         TargetKind::ThickPlate => "thick",
@@ -52,9 +52,9 @@ fn targets(model: &ModelRecord) -> String {
         true => "any".to_owned(),
         false => kinds.iter().map(word).collect::<Vec<_>>().join(", "),
     };
-    let materials = model.guard.target_materials;
+    let materials = model.validity.target_materials;
     if *materials != [MaterialClass::Metal] {
-        let words: Vec<&str> = materials.iter().map(|class| class.in_words()).collect();
+        let words: Vec<&str> = materials.iter().map(|class| class.describe()).collect();
         text += &format!("; {}", words.join(", "));
     }
     text

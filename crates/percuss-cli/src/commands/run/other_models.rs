@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use percuss::{
     Scenario,
-    compare::{self, Comparison, Watch},
+    compare::{self, Comparison, Observer},
     model,
     outcome::BandQuantity,
     summary::ResultRecord,
@@ -19,13 +19,13 @@ pub fn rows(
     but: &str,
     progress: &mut Progress,
 ) -> Result<(String, Vec<Row>), Failure> {
-    let mut models = model::quick();
+    let mut models = model::fast_models();
     models.retain(|model| model.name() != but);
     let mut report = |now: compare::Progress| {
         progress.update(now.fraction, "other models");
         ControlFlow::Continue(())
     };
-    let mut watch = Watch {
+    let mut watch = Observer {
         progress: Some(&mut report),
     };
     let found = compare::compare(&models, scenario, &[scenario.impact_velocity], &mut watch)?;
@@ -40,7 +40,7 @@ fn shown(found: &Comparison) -> (String, Vec<Row>) {
     });
     let heading = format!(
         "{} by other models (`percuss compare` recommends one)",
-        quantity.in_words()
+        quantity.describe()
     );
     (heading, given.collect())
 }
@@ -49,7 +49,7 @@ fn words(record: &ResultRecord, quantity: BandQuantity, value: f64) -> String {
     let value = number(value, quantity.unit());
     match (&record.expected_error, quantity) {
         (Some(error), BandQuantity::DepthOfPenetration) => {
-            format!("{value}, model error {}", error.in_words())
+            format!("{value}, model error {}", error.describe())
         }
         _ => value,
     }

@@ -12,7 +12,7 @@ use std::{
 use clap::{Args, Subcommand};
 use percuss::{
     outcome::Outcome,
-    sweep::{self, BatchKernel, Row},
+    sweep::{self, BatchKernel, SweepRow},
 };
 use percuss_report::sweep::{Manifest, Status, SweepFolder, merge, status};
 use serde::Serialize;
@@ -153,7 +153,7 @@ impl Sweep {
             done: 0,
         });
         let start = Instant::now();
-        let on_progress = |rows: &[Row]| {
+        let on_progress = |rows: &[SweepRow]| {
             let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
             state.on_progress(rows);
             let rate = state.done as f64 / start.elapsed().as_secs_f64();
@@ -188,7 +188,7 @@ impl Sweep {
                 sweep.model.name(),
                 sweep.design().name()
             )),
-            terminal::counted(sweep.shots() as usize, "run"),
+            terminal::counted(sweep.runs() as usize, "run"),
             out.display(),
         );
         if parts > 1 {
@@ -238,11 +238,11 @@ struct SweepProgress {
 }
 
 impl SweepProgress {
-    fn on_progress(&mut self, rows: &[Row]) {
+    fn on_progress(&mut self, rows: &[SweepRow]) {
         self.done += rows.len() as u64;
         for row in rows {
             let outcome = row.record.as_ref().map_or(Outcome::Failed, |r| r.outcome);
-            *self.outcomes.entry(outcome.in_words()).or_default() += 1;
+            *self.outcomes.entry(outcome.describe()).or_default() += 1;
         }
     }
 }

@@ -21,8 +21,8 @@ const AFTER_HELP: &str = "\
 Examples:
   percuss sweep plot rows
   percuss sweep plot rows --quantity peak_force_kn --out figures
-  percuss sweep plot rows --x projectile.velocity --y chain.border_shear
-  percuss sweep plot rows --style map --x projectile.velocity";
+  percuss sweep plot rows --x projectile.impact_velocity --y chain.border_shear
+  percuss sweep plot rows --style map --x projectile.impact_velocity";
 
 /// Draw a result of a sweep
 #[derive(Debug, Args)]

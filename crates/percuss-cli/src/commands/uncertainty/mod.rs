@@ -18,7 +18,7 @@ use percuss::{
     summary::ResultNumber,
     sweep::BatchKernel,
     uncertainty::{
-        self, MAX_SAMPLES, MIN_SAMPLES, Settings, Study, Uncertainty as Analysis, Watch,
+        self, MAX_SAMPLES, MIN_SAMPLES, Observer, Settings, Study, Uncertainty as Analysis,
     },
 };
 
@@ -38,7 +38,7 @@ Propagate the uncertainty of input parameters to the results of a case. The case
 lists the parameters with their distributions in its table `uncertainty`:
 
   [[uncertainty.parameter]]
-  key = \"projectile.velocity\"
+  key = \"projectile.impact_velocity\"
   normal = { mean = \"230 m/s\", standard_deviation = \"3 m/s\" }
 
 The samples are scrambled Sobol' points. The output has the mean, the standard
@@ -210,7 +210,7 @@ impl Uncertainty {
     ) -> Result<Analysis, Failure> {
         let pool = workers::pool(self.threads)?;
         let on_progress = Mutex::new(on_progress);
-        let watch = Watch {
+        let watch = Observer {
             stop,
             progress: &|done, total| {
                 let mut on_progress = on_progress.lock().unwrap_or_else(PoisonError::into_inner);

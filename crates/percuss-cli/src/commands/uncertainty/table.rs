@@ -41,8 +41,8 @@ pub fn lines(found: &Uncertainty) -> String {
             at(5.0),
             at(50.0),
             at(95.0),
-            s.shots,
-            found.failures.shots,
+            s.runs,
+            found.failures.runs,
         )
     };
     found.quantities.iter().map(line).collect()
@@ -51,7 +51,7 @@ pub fn lines(found: &Uncertainty) -> String {
 fn head(scenario: &Scenario, found: &Uncertainty) -> String {
     let line = format!(
         "case {}, model {}, {} samples, seed {}, {} runs in total",
-        found.case, found.model, found.samples, found.seed, found.shots
+        found.case, found.model, found.samples, found.seed, found.runs
     );
     format!("{}{}\n", title(scenario), paragraph(&line))
 }
@@ -70,15 +70,15 @@ fn inputs(found: &Uncertainty) -> String {
 fn outcome(found: &Uncertainty) -> String {
     let mut rows = vec![(
         "outcome at median inputs",
-        found.nominal.outcome.in_words().to_owned(),
+        found.nominal.outcome.describe().to_owned(),
     )];
     if let Some(p) = &found.perforation {
         rows.push(("probability of perforation", probability(p)));
     }
-    if found.failures.shots > 0 {
+    if found.failures.runs > 0 {
         rows.push((
             "runs without a result",
-            format!("{} of {}", found.failures.shots, found.samples),
+            format!("{} of {}", found.failures.runs, found.samples),
         ));
     }
     let row = |(name, value): &(&str, String)| format!("{name:<28}{value}\n");
@@ -118,7 +118,7 @@ fn spread(found: &Uncertainty) -> String {
         ("5th percentile", |q| percentile(&q.statistics, 5.0)),
         ("median", |q| percentile(&q.statistics, 50.0)),
         ("95th percentile", |q| percentile(&q.statistics, 95.0)),
-        ("runs", |q| q.statistics.shots.to_string()),
+        ("runs", |q| q.statistics.runs.to_string()),
     ];
     let table =
         Table::of(&ROWS)
@@ -190,7 +190,9 @@ fn bands(found: &Uncertainty) -> String {
     let bands = &found.bands;
     let perforates = |band: &Band| band.perforation.is_some_and(|p| p.perforated > 0);
     let table = Table::of(bands)
-        .numbers("velocity", "m/s", |band| significant(band.velocity_m_s, 4))
+        .numbers("velocity", "m/s", |band| {
+            significant(band.impact_velocity_m_s, 4)
+        })
         .when(bands.iter().any(perforates), |rows| {
             rows.numbers("probability of\nperforation", "%", |band| {
                 let perforation = band.perforation;
@@ -215,7 +217,7 @@ fn bands(found: &Uncertainty) -> String {
         });
     let title = format!(
         "percentiles versus impact velocity, {} runs each; the velocity itself is exact",
-        bands[0].shots
+        bands[0].runs
     );
     format!("{}\n{}", bold(title), blocks(&table.table()))
 }

@@ -2,17 +2,17 @@
 
 mod laws;
 mod records;
-mod slips;
+mod unit_errors;
 
 use super::*;
-use crate::check::{Check, Finding};
+use crate::check::{Check, Diagnostic};
 
 fn built_in() -> impl Iterator<Item = &'static MaterialEntry> {
     Library::built_in().iter()
 }
 
-fn findings(material: &Material) -> Vec<Finding> {
-    let mut findings = Vec::new();
-    material.check(&mut Check::new(&mut findings));
-    findings
+fn diagnostics(material: &Material) -> Vec<Diagnostic> {
+    let mut diagnostics = Vec::new();
+    material.check(&mut Check::new(&mut diagnostics));
+    diagnostics
 }

@@ -15,7 +15,7 @@ fn every_record_is_sourced_and_explained() {
         assert_ne!(material.trust, Trust::User, "{id}: trust");
         assert!(!material.note.is_empty(), "{id}: no note");
         assert!(material.family.is_some(), "{id}: no family");
-        assert_eq!(findings(material), [], "{id}");
+        assert_eq!(diagnostics(material), [], "{id}");
     }
 }
 

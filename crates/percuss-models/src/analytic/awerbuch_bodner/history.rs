@@ -1,18 +1,18 @@
-//! Time histories of a shot in three stages.
+//! Time histories of a case in three stages.
 
-use super::stages::{Impact, Moment, Shot};
+use super::stages::{Impact, MotionState, Perforation};
 use crate::{
     history::{History, Sample},
     ledger::{EnergyLedger, MomentumLedger},
 };
 
-/// Histories of a shot with a projectile of this length [m].
-pub(super) fn of(impact: &Impact, shot: &Shot, length: f64) -> History {
-    let Some((first, _)) = shot.moments.first() else {
+/// Histories of a case with a projectile of this length [m].
+pub(super) fn of(impact: &Impact, case: &Perforation, length: f64) -> History {
+    let Some((first, _)) = case.moments.first() else {
         return History::default();
     };
     let speed = first.speed;
-    let samples = shot
+    let samples = case
         .moments
         .iter()
         .zip(0..)
@@ -27,7 +27,7 @@ pub(super) fn of(impact: &Impact, shot: &Shot, length: f64) -> History {
 
 fn sample(
     impact: &Impact,
-    moment: &Moment,
+    moment: &MotionState,
     contact_force: f64,
     step: u64,
     impact_velocity: f64,

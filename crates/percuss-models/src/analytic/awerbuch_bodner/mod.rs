@@ -9,18 +9,18 @@ use std::f64::consts::PI;
 
 use self::stages::Impact;
 use super::{
-    plate_shot::{PlateShot, plate_result, refuse, taken_as_rigid},
+    plate_impact::{PlateImpact, plate_result, refuse, taken_as_rigid},
     plugging::PLUG_RANGES,
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::{Guard, NoseKind},
     material::tensile_strength,
     options::AwerbuchBodnerOptions,
     outcome::{Band, BandQuantity, Detail, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
     units::Pressure,
+    validity::{NoseKind, ValidityDomain},
 };
 
 /// Perforation in three stages.
@@ -31,7 +31,7 @@ pub struct AwerbuchBodner;
 const CONFINEMENT: f64 = 2.7;
 
 /// The impact with a strength [Pa] for what the options do not give.
-fn impact(scenario: &Scenario, shot: &PlateShot<'_>, strength: f64) -> Impact {
+fn impact(scenario: &Scenario, case: &PlateImpact<'_>, strength: f64) -> Impact {
     let options = &scenario.options.awerbuch_bodner;
     let crushing = options
         .crushing_stress
@@ -40,12 +40,12 @@ fn impact(scenario: &Scenario, shot: &PlateShot<'_>, strength: f64) -> Impact {
         .shear_strength
         .map_or(strength / 3.0_f64.sqrt(), Pressure::si);
     Impact {
-        mass: shot.mass,
-        area: shot.area(),
-        thickness: shot.thickness,
-        density: shot.plate.density.si(),
-        crushing_force: crushing * shot.area(),
-        rim_force: shear * PI * shot.diameter,
+        mass: case.mass,
+        area: case.area(),
+        thickness: case.thickness,
+        density: case.plate.density.si(),
+        crushing_force: crushing * case.area(),
+        rim_force: shear * PI * case.diameter,
     }
 }
 
@@ -66,9 +66,9 @@ impl Model for AwerbuchBodner {
         "perforation of plates by blunt rigid projectiles in three stages: crushing, plug gathering speed, plug sheared out"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[BandQuantity::BallisticLimit, BandQuantity::ResidualVelocity],
                 projectile: &[ProjectileRegime::Rigid, ProjectileRegime::Deforming],
                 targets: TargetKind::PLATES,
@@ -78,16 +78,16 @@ impl Model for AwerbuchBodner {
                     "normal impact; reconstructed: the original paper could not be read",
                     "bending of the plate, rate and heat are left out: see the validation report for how far measured limits lie off",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
-        let shot = PlateShot::of(scenario)?;
+        let case = PlateImpact::of(scenario)?;
         let options = &scenario.options.awerbuch_bodner;
         let given = options.crushing_stress.is_some() && options.shear_strength.is_some();
-        (!given && tensile_strength(shot.plate).is_none()).then(|| {
+        (!given && tensile_strength(case.plate).is_none()).then(|| {
             Refusal::new("the plate's strength law never flows").with_remedy(
                 "give `awerbuch_bodner.crushing_stress` and `awerbuch_bodner.shear_strength`",
             )
@@ -95,12 +95,12 @@ impl Model for AwerbuchBodner {
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        let shot =
-            PlateShot::of(scenario).ok_or_else(|| refuse(self.name(), "it takes one plate"))?;
-        let strength = tensile_strength(shot.plate).unwrap_or(0.0);
-        let impact = impact(scenario, &shot, strength);
+        let case =
+            PlateImpact::of(scenario).ok_or_else(|| refuse(self.name(), "it takes one plate"))?;
+        let strength = tensile_strength(case.plate).unwrap_or(0.0);
+        let impact = impact(scenario, &case, strength);
         let limit = impact.ballistic_limit(impact.plugging_limit());
-        let mut result = plate_result(self.name(), "three stages", shot.speed, limit, 0.0);
+        let mut result = plate_result(self.name(), "three stages", case.speed, limit, 0.0);
         let detail = |name, unit, value| Detail { name, unit, value };
         result.details = vec![
             detail(
@@ -111,13 +111,13 @@ impl Model for AwerbuchBodner {
             detail(
                 "shear strength",
                 "MPa",
-                impact.rim_force / (PI * shot.diameter) * 1e-6,
+                impact.rim_force / (PI * case.diameter) * 1e-6,
             ),
-            detail("mass of the plug", "g", shot.plug_mass() * 1e3),
+            detail("mass of the plug", "g", case.plug_mass() * 1e3),
         ];
-        result.band = band(scenario, &shot);
-        if shot.speed > 0.0 {
-            let run = impact.shot(shot.speed, true);
+        result.band = band(scenario, &case);
+        if case.speed > 0.0 {
+            let run = impact.case(case.speed, true);
             result.outcome = match run.contact_time {
                 Some(_) => Outcome::Perforated,
                 None => Outcome::AtRest,
@@ -162,20 +162,20 @@ impl Model for AwerbuchBodner {
 }
 
 /// Range of the ballistic limit between the yield stress and the flow stress at unit strain, where neither stress is given.
-fn band(scenario: &Scenario, shot: &PlateShot<'_>) -> Option<Band> {
+fn band(scenario: &Scenario, case: &PlateImpact<'_>) -> Option<Band> {
     if scenario.options.awerbuch_bodner != AwerbuchBodnerOptions::default() {
         return None;
     }
-    let law = shot.plate.strength.law();
+    let law = case.plate.strength.law();
     let at = |strength: f64| {
-        let impact = impact(scenario, shot, strength);
+        let impact = impact(scenario, case, strength);
         impact.ballistic_limit(impact.plugging_limit())
     };
-    let middle = at(tensile_strength(shot.plate)?);
+    let middle = at(tensile_strength(case.plate)?);
     Some(Band {
         quantity: BandQuantity::BallisticLimit,
-        low: at(law.initial_yield_stress(shot.plate)?).min(middle),
-        high: at(law.flow_stress_at_unit_strain(shot.plate)?).max(middle),
+        low: at(law.initial_yield_stress(case.plate)?).min(middle),
+        high: at(law.flow_stress_at_unit_strain(case.plate)?).max(middle),
         basis: "both stresses from the yield stress, and from the flow stress at unit strain",
     })
 }

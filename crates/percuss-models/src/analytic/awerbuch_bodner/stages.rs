@@ -17,16 +17,16 @@ pub(super) struct Impact {
     pub rim_force: f64,
 }
 
-/// One moment of a shot.
+/// One moment of a case.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Moment {
+pub(super) struct MotionState {
     /// Time [s].
     pub time: f64,
     /// Depth of the projectile's face below the original face [m].
     pub depth: f64,
     /// Thickness of plate that was crushed and moves with the projectile [m].
     pub crushed: f64,
-    /// Speed of the projectile [m/s].
+    /// Velocity of the projectile [m/s].
     pub speed: f64,
     /// Speed of the rest of the plug [m/s].
     pub plug_speed: f64,
@@ -40,24 +40,24 @@ pub(super) struct Moment {
     pub impulse: f64,
 }
 
-/// A whole shot.
+/// A whole case.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Shot {
-    /// Moment at which the plug starts to move.
-    pub plug_starts: Moment,
-    /// Moment from which projectile and plug move as one.
-    pub one_body: Moment,
+pub(super) struct Perforation {
+    /// MotionState at which the plug starts to move.
+    pub plug_starts: MotionState,
+    /// MotionState from which projectile and plug move as one.
+    pub one_body: MotionState,
     /// Last moment: the plug has left, or everything stands still.
-    pub last: Moment,
+    pub last: MotionState,
     /// Time at which the plug leaves the plate [s]; `None` when it does not.
     pub contact_time: Option<f64>,
     /// Moments with the force on the projectile [N], when they were asked for.
-    pub moments: Vec<(Moment, f64)>,
+    pub moments: Vec<(MotionState, f64)>,
 }
 
 /// Part of a changing quantity by which one step may change it.
 const STEP: f64 = 0.05;
-/// Steps over the time that the plate's thickness takes at the impact speed.
+/// Steps over the time that the plate's thickness takes at the impact velocity.
 const STEPS: f64 = 200.0;
 /// Difference of speeds, and thickness left, that count as none, as parts of the speed and the thickness at the start.
 const NOTHING: f64 = 1e-9;
@@ -78,48 +78,48 @@ impl Impact {
     }
 
     /// Length of rim in shear [m].
-    fn rim(&self, moment: &Moment) -> f64 {
+    fn rim(&self, moment: &MotionState) -> f64 {
         (self.thickness - moment.depth).max(0.0)
     }
 
-    fn plug_mass(&self, moment: &Moment) -> f64 {
+    fn plug_mass(&self, moment: &MotionState) -> f64 {
         self.line_mass() * (self.thickness - moment.crushed)
     }
 
     /// Kinetic energy of everything that moves [J].
-    pub fn kinetic_energy(&self, moment: &Moment) -> f64 {
+    pub fn kinetic_energy(&self, moment: &MotionState) -> f64 {
         0.5 * (self.mass + self.line_mass() * moment.crushed) * moment.speed.powi(2)
             + 0.5 * self.plug_mass(moment) * moment.plug_speed.powi(2)
     }
 
     /// Momentum of the target's part in motion [N s].
-    pub fn target_momentum(&self, moment: &Moment) -> f64 {
+    pub fn target_momentum(&self, moment: &MotionState) -> f64 {
         self.line_mass() * moment.crushed * moment.speed
             + self.plug_mass(moment) * moment.plug_speed
     }
 
     /// Force on the projectile alone while metal is crushed [N]: its mass times its deceleration.
-    fn crushing(&self, moment: &Moment) -> f64 {
+    fn crushing(&self, moment: &MotionState) -> f64 {
         let closing = moment.speed - moment.plug_speed;
         let front = self.crushing_force + self.line_mass() * closing * closing;
         self.mass / (self.mass + self.line_mass() * moment.crushed) * front
     }
 
     /// Force on the projectile alone while everything moves as one [N].
-    fn shearing(&self, moment: &Moment) -> f64 {
+    fn shearing(&self, moment: &MotionState) -> f64 {
         self.mass / self.joint_mass() * self.rim_force * self.rim(moment)
     }
 
-    /// The shot at an impact speed above zero [m/s].
-    pub fn shot(&self, speed: f64, record: bool) -> Shot {
+    /// The case at an impact velocity above zero [m/s].
+    pub fn case(&self, speed: f64, record: bool) -> Perforation {
         let mut moments = Vec::new();
-        let start = Moment {
+        let start = MotionState {
             speed,
-            ..Moment::default()
+            ..MotionState::default()
         };
         let plug_starts = self.crush(start, record.then_some(&mut moments));
         if plug_starts.speed == 0.0 {
-            return Shot {
+            return Perforation {
                 plug_starts,
                 one_body: plug_starts,
                 last: plug_starts,
@@ -130,7 +130,7 @@ impl Impact {
         let (one_body, left_early) =
             self.push_plug(plug_starts, speed, record.then_some(&mut moments));
         let (last, left) = self.shear(one_body, record.then_some(&mut moments));
-        Shot {
+        Perforation {
             plug_starts,
             one_body,
             last,
@@ -142,7 +142,11 @@ impl Impact {
     /// First stage: the plate in front is crushed and carried along, `d(M v)/dt = −F`, until it takes more to crush than to shear.
     ///
     /// With `P = M v` and `dx = v dt`: `P² = P₀² − 2F (m x + ρA x²/2)`, and the time is `(P₀ − P)/F`.
-    fn crush(&self, start: Moment, moments: Option<&mut Vec<(Moment, f64)>>) -> Moment {
+    fn crush(
+        &self,
+        start: MotionState,
+        moments: Option<&mut Vec<(MotionState, f64)>>,
+    ) -> MotionState {
         let force = self.crushing_force;
         let line = self.line_mass();
         let initial = self.mass * start.speed;
@@ -159,7 +163,7 @@ impl Impact {
             let momentum = (initial * initial - 2.0 * force * swept).max(0.0).sqrt();
             let speed = momentum / (self.mass + line * depth);
             let lost = 0.5 * initial * start.speed - 0.5 * momentum * speed;
-            Moment {
+            MotionState {
                 time: (initial - momentum) / force,
                 depth,
                 crushed: depth,
@@ -192,10 +196,10 @@ impl Impact {
     /// Returns the time at which the plug leaves the plate, if it does so meanwhile.
     fn push_plug(
         &self,
-        start: Moment,
+        start: MotionState,
         impact_velocity: f64,
-        mut moments: Option<&mut Vec<(Moment, f64)>>,
-    ) -> (Moment, Option<f64>) {
+        mut moments: Option<&mut Vec<(MotionState, f64)>>,
+    ) -> (MotionState, Option<f64>) {
         let mut now = start;
         let mut left = None;
         for _ in 0..MOST_STEPS {
@@ -231,12 +235,12 @@ impl Impact {
     }
 
     /// Rates of change during the second stage; those of the time are of no use.
-    fn rates(&self, moment: &Moment) -> Moment {
+    fn rates(&self, moment: &MotionState) -> MotionState {
         let closing = moment.speed - moment.plug_speed;
         let line = self.line_mass();
         let shear = self.rim_force * self.rim(moment);
         let plug_mass = self.plug_mass(moment).max(NOTHING * line * self.thickness);
-        Moment {
+        MotionState {
             time: 1.0,
             depth: moment.speed,
             crushed: closing,
@@ -251,7 +255,7 @@ impl Impact {
     }
 
     /// One step of the classical Runge–Kutta method.
-    fn step(&self, now: &Moment, first: &Moment, step: f64) -> Moment {
+    fn step(&self, now: &MotionState, first: &MotionState, step: f64) -> MotionState {
         let second = self.rates(&now.plus(step / 2.0, first));
         let third = self.rates(&now.plus(step / 2.0, &second));
         let fourth = self.rates(&now.plus(step, &third));
@@ -264,9 +268,9 @@ impl Impact {
     /// Third stage: projectile and plug move as one against shear along what is left of the rim, `M dv/dt = −k (h − x)`.
     fn shear(
         &self,
-        start: Moment,
-        moments: Option<&mut Vec<(Moment, f64)>>,
-    ) -> (Moment, Option<f64>) {
+        start: MotionState,
+        moments: Option<&mut Vec<(MotionState, f64)>>,
+    ) -> (MotionState, Option<f64>) {
         let rim = self.rim(&start);
         if rim == 0.0 {
             return (start, None);
@@ -282,7 +286,7 @@ impl Impact {
             };
             let left = rim * cosh - start.speed * reach;
             let speed = (start.speed * cosh - rate * rate * rim * reach).max(0.0);
-            Moment {
+            MotionState {
                 time: start.time + time,
                 depth: self.thickness - left.max(0.0),
                 speed,
@@ -321,7 +325,7 @@ impl Impact {
 
     /// Ballistic limit [m/s]: the lowest speed at which the plug leaves, to a part in 1e7, by bisection from a speed of this order.
     pub fn ballistic_limit(&self, order: f64) -> f64 {
-        let leaves = |speed: f64| self.shot(speed, false).contact_time.is_some();
+        let leaves = |speed: f64| self.case(speed, false).contact_time.is_some();
         let (mut low, mut high) = (0.0, order);
         while !leaves(high) && high < 1e6 {
             low = high;
@@ -339,7 +343,7 @@ impl Impact {
     }
 }
 
-impl Moment {
+impl MotionState {
     fn plus(&self, step: f64, rates: &Self) -> Self {
         Self {
             time: self.time + step * rates.time,

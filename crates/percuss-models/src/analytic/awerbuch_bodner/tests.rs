@@ -20,10 +20,10 @@ fn impact(crushing: f64, shear: f64) -> Impact {
 fn without_strength_momentum_is_kept() {
     let impact = impact(0.0, 0.0);
     for speed in [10.0, 200.0, 2000.0] {
-        let shot = impact.shot(speed, false);
+        let case = impact.case(speed, false);
         let expected = impact.mass * speed / impact.joint_mass();
-        assert!((shot.last.speed / expected - 1.0).abs() < 1e-12);
-        assert!(shot.contact_time.is_some());
+        assert!((case.last.speed / expected - 1.0).abs() < 1e-12);
+        assert!(case.contact_time.is_some());
     }
 }
 
@@ -33,8 +33,8 @@ fn without_a_plate_nothing_is_lost() {
         thickness: 1e-9,
         ..impact(1.5e9, 3e8)
     };
-    let shot = thin.shot(100.0, false);
-    assert!((shot.last.speed / 100.0 - 1.0).abs() < 1e-6, "{shot:?}");
+    let case = thin.case(100.0, false);
+    assert!((case.last.speed / 100.0 - 1.0).abs() < 1e-6, "{case:?}");
 }
 
 #[test]
@@ -48,26 +48,26 @@ fn all_energy_and_momentum_have_a_line() {
         (3e8, 6e8, 20.0),
     ] {
         let impact = impact(crushing, shear);
-        let shot = impact.shot(speed, true);
-        for sample in history::of(&impact, &shot, 0.08).samples {
+        let case = impact.case(speed, true);
+        for sample in history::of(&impact, &case, 0.08).samples {
             let (energy, momentum) = (sample.energy.residual(), sample.momentum.residual());
             assert!(energy.abs() < 1e-7, "{crushing} {speed} {sample:?}");
             assert!(momentum.abs() < 1e-7, "{crushing} {speed} {sample:?}");
         }
-        assert!(shot.last.capture >= 0.0 && shot.last.crushing_work > 0.0);
+        assert!(case.last.capture >= 0.0 && case.last.crushing_work > 0.0);
     }
 }
 
 #[test]
 fn the_force_gives_the_impulse_on_the_projectile() {
     let impact = impact(5e8, 3.3e8);
-    let shot = impact.shot(300.0, true);
-    let impulse: f64 = shot
+    let case = impact.case(300.0, true);
+    let impulse: f64 = case
         .moments
         .windows(2)
         .map(|pair| (pair[1].0.time - pair[0].0.time) * (pair[0].1 + pair[1].1) / 2.0)
         .sum();
-    let expected = impact.mass * (300.0 - shot.last.speed);
+    let expected = impact.mass * (300.0 - case.last.speed);
     assert!(
         (impulse / expected - 1.0).abs() < 1e-3,
         "{impulse} {expected}"
@@ -79,7 +79,7 @@ fn a_plate_that_cannot_be_crushed_gives_recht_and_ipson() {
     let impact = impact(1e15, 3.3e8);
     let limit = impact.plugging_limit();
     assert!((impact.ballistic_limit(limit) / limit - 1.0).abs() < 1e-6);
-    let residual = impact.shot(300.0, false).last.speed;
+    let residual = impact.case(300.0, false).last.speed;
     let factor = impact.mass / impact.joint_mass();
     let expected = factor * (300.0_f64.powi(2) - limit * limit).sqrt();
     assert!(
@@ -96,7 +96,7 @@ fn a_heavy_projectile_takes_the_work_of_shear_from_its_energy() {
         ..impact(1e12, 3.3e8)
     };
     let work = impact.rim_force * impact.thickness.powi(2) / 2.0;
-    let residual = impact.shot(10.0, false).last.speed;
+    let residual = impact.case(10.0, false).last.speed;
     let lost = 0.5 * impact.mass * (100.0 - residual * residual);
     // The plug of 30 g carries ½ m_p V² = 1.5 J and its capture takes as much again.
     assert!((lost - work - 2.96).abs() < 0.05, "{lost} {work}");
@@ -109,15 +109,15 @@ fn residual_velocity_grows_from_zero_at_the_limit() {
         let limit = impact.ballistic_limit(impact.plugging_limit());
         assert!(
             impact
-                .shot(limit * (1.0 - 1e-6), false)
+                .case(limit * (1.0 - 1e-6), false)
                 .contact_time
                 .is_none()
         );
-        let mut before = impact.shot(limit * (1.0 + 1e-6), false).last.speed;
+        let mut before = impact.case(limit * (1.0 + 1e-6), false).last.speed;
         assert!(before < 0.02 * limit, "{before} {limit}");
         for i in 1..200 {
             let speed = limit * (1.0 + 0.02 * f64::from(i));
-            let residual = impact.shot(speed, false).last.speed;
+            let residual = impact.case(speed, false).last.speed;
             assert!(residual > before && residual < speed, "{crushing} {speed}");
             before = residual;
         }
@@ -130,6 +130,6 @@ fn fast_projectiles_pass_in_the_time_of_their_flight() {
         mass: 100.0,
         ..impact(1.5e9, 3.3e8)
     };
-    let time = impact.shot(5000.0, false).contact_time.unwrap();
+    let time = impact.case(5000.0, false).contact_time.unwrap();
     assert!((time * 5000.0 / 0.012 - 1.0).abs() < 1e-3, "{time}");
 }

@@ -1,7 +1,7 @@
 //! The equations of Alekseevskii and Tate: steady flow at the tip of a rod that loses length and speed.
 
 use crate::{
-    analytic::ode::{Problem, Stuck},
+    analytic::ode::{IntegrationError, Problem},
     error::NumericalError,
 };
 
@@ -147,7 +147,7 @@ impl Rods {
     }
 
     /// Tail speed, length, depth and time at the end of the erosion.
-    fn erode(&self, speed: f64, length: f64) -> Result<(f64, f64, f64, f64), Stuck> {
+    fn erode(&self, speed: f64, length: f64) -> Result<(f64, f64, f64, f64), IntegrationError> {
         let threshold = self.threshold();
         if speed <= threshold {
             return Ok((speed, length, 0.0, 0.0));
@@ -164,7 +164,7 @@ impl Rods {
         // Both measures are scaled to fall from about one.
         let event =
             |&[tail, left, _]: &[f64; 3]| ((tail - threshold) / speed).min(left / length - USED_UP);
-        let ending = Problem {
+        let end = Problem {
             rates: &rates,
             event: &event,
             relative: TOLERANCE,
@@ -172,8 +172,8 @@ impl Rods {
             first_step: 1e-3 * length / speed,
         }
         .solve([speed, length, 0.0], |_, _| ())?;
-        let [tail, left, depth] = ending.state;
-        Ok((tail, left, depth, ending.time))
+        let [tail, left, depth] = end.state;
+        Ok((tail, left, depth, end.time))
     }
 }
 

@@ -6,19 +6,19 @@ mod exact;
 pub use equations::{Phase, Rods, Stop};
 
 use super::{
-    deep_shot::never_yields,
+    deep_penetration::never_yields,
     long_rod::{
         LongRod, NOT_ONE_TARGET, STRENGTH_STRAIN, detail, rests_on, sharp_and_rigid, strength,
     },
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::{FirstChoice, Guard, Measure, NoseKind, Outside, Range},
     material::{Material, MaterialClass, cavity_expansion_pressure},
     outcome::{Band, BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
     units::Pressure,
+    validity::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 
 /// The long rod of Alekseevskii and Tate.
@@ -142,9 +142,9 @@ impl Model for Tate {
         "long rod of Alekseevskii and Tate: steady flow at the tip, eroding or rigid"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[
                     BandQuantity::DepthOfPenetration,
                     BandQuantity::ProjectileFinalLength,
@@ -164,7 +164,7 @@ impl Model for Tate {
                     "normal impact; the shape of the nose is left out: a rod with a nose counts as the flat-ended one of its mass",
                     "entry, the flow that goes on after the rod is used up, and compressibility are left out",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }

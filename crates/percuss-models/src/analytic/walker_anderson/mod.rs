@@ -14,12 +14,12 @@ use super::{
 };
 use crate::{
     Error, Refusal, Scenario,
-    guard::Guard,
     material::Material,
     outcome::{BandQuantity, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
     units::{Length, significant},
+    validity::ValidityDomain,
 };
 
 /// The long rod of Walker and Anderson.
@@ -29,7 +29,7 @@ pub struct WalkerAnderson;
 /// Slope of shock speed against particle speed where a material has none: metals have 1.2 to 1.7.
 const TYPICAL_SLOPE: f64 = 1.5;
 
-/// Crater radius over the rod's at an impact speed [m/s], a fit to steel targets \[walker1995\].
+/// Crater radius over the rod's at an impact velocity [m/s], a fit to steel targets \[walker1995\].
 fn crater_ratio(speed: f64) -> f64 {
     1.0 + 2.87e-4 * speed + 1.48e-7 * speed * speed
 }
@@ -128,9 +128,9 @@ impl Model for WalkerAnderson {
         "long rod of Walker and Anderson: in time from the impact shock to rest, eroding or rigid"
     }
 
-    fn guard(&self) -> &'static Guard {
+    fn validity(&self) -> &'static ValidityDomain {
         const {
-            &Guard {
+            &ValidityDomain {
                 predicts: &[
                     BandQuantity::DepthOfPenetration,
                     BandQuantity::ProjectileFinalLength,
@@ -143,7 +143,7 @@ impl Model for WalkerAnderson {
                     "normal impact; the shape of the nose is left out: a rod with a nose counts as the flat-ended one of its mass",
                     "the radius of the crater is an input: when not given it comes from a fit to steel targets",
                 ],
-                ..Guard::OPEN
+                ..ValidityDomain::OPEN
             }
         }
     }

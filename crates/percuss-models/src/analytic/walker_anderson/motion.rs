@@ -3,7 +3,7 @@
 use super::{
     super::{
         long_rod::failure,
-        ode::{Ending, Problem, Stuck},
+        ode::{FinalState, IntegrationError, Problem},
     },
     flow::Flow,
 };
@@ -11,7 +11,7 @@ use crate::error::NumericalError;
 
 /// Error of a step as a part of the quantity.
 const TOLERANCE: f64 = 1e-10;
-/// Part of the impact speed at which a speed counts as zero.
+/// Part of the impact velocity at which a speed counts as zero.
 const STOPPED: f64 = 1e-7;
 /// Part of the length at which a rod counts as used up.
 const USED_UP: f64 = 1e-7;
@@ -121,7 +121,7 @@ impl Motion {
         speed: f64,
         length: f64,
         watch: impl FnMut(f64, &State),
-    ) -> Result<Ending<4>, Stuck> {
+    ) -> Result<FinalState<4>, IntegrationError> {
         let event = |&[tail, tip, left, _]: &State| {
             ((tail - tip) / speed - STOPPED)
                 .min(tip / speed - STOPPED)
@@ -147,8 +147,8 @@ impl Motion {
     /// # Errors
     /// When an integration finds no end.
     pub(super) fn penetrate(&self, speed: f64, length: f64) -> Result<Stop, NumericalError> {
-        let ending = self.erode(speed, length, |_, _| ()).map_err(failure)?;
-        let [_, tip, left, depth] = ending.state;
+        let end = self.erode(speed, length, |_, _| ()).map_err(failure)?;
+        let [_, tip, left, depth] = end.state;
         let mut stop = Stop {
             depth,
             rigid_depth: 0.0,
@@ -158,7 +158,7 @@ impl Motion {
                 0.0
             },
             hand_over_speed: tip,
-            time: ending.time,
+            time: end.time,
         };
         if tip > 2.0 * STOPPED * speed && stop.length > 0.0 {
             let rigid = Problem {

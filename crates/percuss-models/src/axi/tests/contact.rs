@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::{Grid, Solid, body, rectangle, solver, supported, uniform};
 use crate::axi::{
     body::Body,
-    boundary::{Support, Supports},
+    boundary::{BoundaryCondition, BoundaryConditions},
     contact::Contact,
     field::Field,
     law::Law,
@@ -222,7 +222,7 @@ fn friction_without_bounds_is_sticking() {
 }
 
 #[test]
-fn slabs_that_are_held_at_their_edge_meet_with_closed_books() {
+fn slabs_that_are_held_at_their_edge_meet_with_a_closed_energy_balance() {
     const RADIUS: f64 = 10e-3;
     const HEIGHT: f64 = 5e-3;
     let cell = HEIGHT / 20.0;
@@ -233,9 +233,9 @@ fn slabs_that_are_held_at_their_edge_meet_with_closed_books() {
             body(steel(), sections, &uniform([0.0, speed]))
         };
         let bodies = vec![slab((-HEIGHT, 0.0), SPEED), slab((0.0, HEIGHT), 0.0)];
-        let supports = Supports {
-            edge: (edge, Support::Smooth),
-            ..Supports::NONE
+        let supports = BoundaryConditions {
+            edge: (edge, BoundaryCondition::Smooth),
+            ..BoundaryConditions::NONE
         };
         let mut solver = supported(bodies, vec![supports; 2], cell);
         solver.contact = contact;

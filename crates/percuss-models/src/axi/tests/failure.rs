@@ -100,7 +100,7 @@ fn torn(erode_failed: bool) -> Grid {
 }
 
 #[test]
-fn a_torn_bar_flies_off_in_halves_and_its_books_close() {
+fn a_torn_bar_flies_off_in_halves_and_its_energy_balance_closes() {
     for erode in [false, true] {
         let solver = torn(erode);
         let (energy, lost) = (solver.energy(), solver.accumulated.lost[0]);

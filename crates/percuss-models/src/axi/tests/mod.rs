@@ -1,4 +1,4 @@
-//! Exact checks of the model, a small file a problem. Bodies are filled by hand, so that shapes and initial motions are free.
+//! Exact checks of the model, one small file per problem. Bodies are filled by hand, so that shapes and initial motions are free.
 
 mod contact;
 mod failure;
@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 use super::{
     block::{Block, Members},
     body::{Body, Limits},
-    boundary::Supports,
+    boundary::BoundaryConditions,
     contact::Contact,
     law::{Law, Pressure},
     solver::{Accumulators, DeferredWork, Grid},
@@ -182,17 +182,17 @@ fn spherical_shell(inner: f64, outer: f64, spacing: f64) -> Vec<([f64; 2], f64)>
     sections
 }
 
-/// A smooth back face in front of everything: nothing moves along the axis.
+/// A smooth rear face in front of everything: nothing moves along the axis.
 const ALL_ROWS: isize = isize::MIN;
 
 /// Bodies without supports, ready to move.
 fn solver(bodies: Vec<Body>, cell: f64) -> Grid {
-    let supports = vec![Supports::NONE; bodies.len()];
+    let supports = vec![BoundaryConditions::NONE; bodies.len()];
     supported(bodies, supports, cell)
 }
 
 /// Bodies with supports, ready to move.
-fn supported(bodies: Vec<Body>, supports: Vec<Supports>, cell: f64) -> Grid {
+fn supported(bodies: Vec<Body>, supports: Vec<BoundaryConditions>, cell: f64) -> Grid {
     let mut solver = Grid {
         bodies,
         supports,

@@ -1,9 +1,9 @@
-//! Waves that leave through non-reflecting faces: what comes back.
+//! Reflection of waves at non-reflecting faces.
 
 use std::f64::consts::PI;
 
 use super::{Body, Grid, Particle, Solid, body, rectangle, supported};
-use crate::axi::boundary::{Support, Supports};
+use crate::axi::boundary::{BoundaryCondition, BoundaryConditions};
 
 const SPEED: f64 = 1.0;
 
@@ -19,8 +19,8 @@ fn waves() -> (f64, [f64; 2]) {
     (modulus, [speed(modulus), speed(solid.shear_modulus)])
 }
 
-fn open_face() -> Support {
-    Support::NonReflecting {
+fn open_face() -> BoundaryCondition {
+    BoundaryCondition::NonReflecting {
         impedance: waves().1.map(|speed| steel().density * speed),
         stiffness: 0.0,
     }
@@ -94,13 +94,13 @@ fn a_wave_leaves_through_a_back_face() {
         let sections = rectangle((0.0, radius), (0.0, LENGTH), 0.5 * cell);
         let mut slab = body(steel().law(), sections, &motion);
         make_outgoing(&mut slab, 1);
-        let supports = Supports {
+        let supports = BoundaryConditions {
             back: (cells as isize, open_face()),
-            ..Supports::NONE
+            ..BoundaryConditions::NONE
         };
         let solver = supported(vec![slab], vec![supports], cell);
         let left = left(solver, |p| p.position[0] < 0.1 * LENGTH);
-        println!("back face, {cells} cells: {:.2} % comes back", 100.0 * left);
+        println!("rear face, {cells} cells: {:.2} % comes back", 100.0 * left);
         assert!(left < 2.0 / cells);
     }
 }
@@ -119,9 +119,9 @@ fn a_wave_leaves_through_an_edge() {
         let sections = rectangle((from, RADIUS), (-half, half), 0.5 * cell);
         let mut block = body(steel().law(), sections, &motion);
         make_outgoing(&mut block, 0);
-        let supports = Supports {
+        let supports = BoundaryConditions {
             edge: ((RADIUS / cell).round() as usize + 1, open_face()),
-            ..Supports::NONE
+            ..BoundaryConditions::NONE
         };
         let solver = supported(vec![block], vec![supports], cell);
         let left = left(solver, |p| p.position[1].abs() < 0.1 * LENGTH);

@@ -6,7 +6,7 @@ use super::{
     rectangle, solver, spherical_shell, supported, uniform,
 };
 use crate::{
-    axi::boundary::{Support, Supports},
+    axi::boundary::{BoundaryCondition, BoundaryConditions},
     solver::Particle,
 };
 
@@ -112,9 +112,9 @@ fn cylinder(solid: Solid, pressure: f64, cells: f64) -> Loaded {
     let spacing = 0.5 * cell;
     let sections = rectangle((INNER, OUTER), (0.0, 2.0 * cell), spacing);
     let tube = body(solid.law(), sections, &uniform([0.0; 2]));
-    let supports = Supports {
-        back: (isize::MIN, Support::Smooth),
-        ..Supports::NONE
+    let supports = BoundaryConditions {
+        back: (isize::MIN, BoundaryCondition::Smooth),
+        ..BoundaryConditions::NONE
     };
     let mut solver = supported(vec![tube], vec![supports], cell);
     let part = |[r, _]: [f64; 2]| {

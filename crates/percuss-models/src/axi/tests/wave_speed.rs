@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::{ALL_ROWS, Grid, Solid, body, rectangle, supported};
 use crate::axi::{
-    boundary::{Support, Supports},
+    boundary::{BoundaryCondition, BoundaryConditions},
     law::Law,
 };
 
@@ -20,7 +20,7 @@ fn copper() -> Solid {
 }
 
 /// Speed from the times at which the amplitude of `cos(πz/L)` passes zero, over two periods [m/s].
-fn measured_speed(radius: f64, cell: f64, supports: Supports, courant: f64) -> f64 {
+fn measured_speed(radius: f64, cell: f64, supports: BoundaryConditions, courant: f64) -> f64 {
     let number = PI / LENGTH;
     let motion = |[_, depth]: [f64; 2]| {
         let phase = number * depth;
@@ -63,7 +63,7 @@ fn waves_in_a_thin_bar_travel_at_the_bar_wave_speed() {
     // Rayleigh's correction for the motion across the bar.
     let inertia = (RATIO * PI * radius / LENGTH).powi(2) / 4.0;
     let exact = (YOUNGS_MODULUS / solid.density).sqrt() * (1.0 - inertia);
-    let speed = measured_speed(radius, radius / 3.0, Supports::NONE, 0.5);
+    let speed = measured_speed(radius, radius / 3.0, BoundaryConditions::NONE, 0.5);
     println!("bar: {:+.4} %", 100.0 * (speed / exact - 1.0));
     assert!((speed / exact - 1.0).abs() < 5e-4);
 }
@@ -72,9 +72,9 @@ fn waves_in_a_thin_bar_travel_at_the_bar_wave_speed() {
 fn bulk_error(cells: f64, courant: f64) -> f64 {
     let solid = copper();
     let modulus = solid.bulk_modulus + 4.0 / 3.0 * solid.shear_modulus;
-    let supports = Supports {
-        edge: (0, Support::Smooth),
-        ..Supports::NONE
+    let supports = BoundaryConditions {
+        edge: (0, BoundaryCondition::Smooth),
+        ..BoundaryConditions::NONE
     };
     let cell = LENGTH / cells;
     measured_speed(2.0 * cell, cell, supports, courant) / (modulus / solid.density).sqrt() - 1.0
@@ -99,7 +99,7 @@ fn the_speed_of_waves_converges_to_second_order_in_the_time_step() {
 }
 
 /// Error of the time that a wave of four lengths of a slab takes to fall to rest, its front end held; with cells in the slab.
-fn held_error(cells: f64, supports: Supports) -> f64 {
+fn held_error(cells: f64, supports: BoundaryConditions) -> f64 {
     let solid = copper();
     let modulus = solid.bulk_modulus + 4.0 / 3.0 * solid.shear_modulus;
     let number = 0.5 * PI / LENGTH;
@@ -142,16 +142,16 @@ fn time_to_rest(solver: &mut Grid, amplitude: impl Fn(&Grid) -> f64) -> f64 {
 
 #[test]
 fn a_wall_and_a_fixed_back_face_hold_to_second_order_in_the_cell() {
-    let smooth = Supports {
-        edge: (0, Support::Smooth),
-        ..Supports::NONE
+    let smooth = BoundaryConditions {
+        edge: (0, BoundaryCondition::Smooth),
+        ..BoundaryConditions::NONE
     };
-    let wall = Supports {
+    let wall = BoundaryConditions {
         wall: true,
         ..smooth.clone()
     };
-    let fixed = Supports {
-        back: (0, Support::Smooth),
+    let fixed = BoundaryConditions {
+        back: (0, BoundaryCondition::Smooth),
         ..smooth
     };
     for supports in [wall, fixed] {
@@ -183,10 +183,13 @@ fn edge_error(cells: f64) -> f64 {
         ..solid.law()
     };
     let sections = rectangle((LENGTH, edge), (0.0, 2.0 * cell), 0.5 * cell);
-    let supports = Supports {
-        back: (ALL_ROWS, Support::Smooth),
-        edge: ((edge / cell).round() as usize + 1, Support::Smooth),
-        ..Supports::NONE
+    let supports = BoundaryConditions {
+        back: (ALL_ROWS, BoundaryCondition::Smooth),
+        edge: (
+            (edge / cell).round() as usize + 1,
+            BoundaryCondition::Smooth,
+        ),
+        ..BoundaryConditions::NONE
     };
     let mut solver = supported(vec![body(law, sections, &motion)], vec![supports], cell);
     let amplitude = |solver: &Grid| -> f64 {

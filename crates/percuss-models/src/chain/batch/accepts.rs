@@ -3,8 +3,8 @@
 use crate::{
     material::Material,
     options::{
-        ArtificialViscosity, BorderShearLaw, ChainOptions, ErosionClosure, Kinematics, Scheme,
-        TargetClosure,
+        ArtificialViscosity, BorderShearLaw, ChainOptions, ErosionCriterion, Kinematics, Scheme,
+        TargetResistanceModel,
     },
     scenario::{Plate, Scenario, TargetBody},
 };
@@ -32,7 +32,7 @@ fn accepts_options(options: &ChainOptions) -> bool {
         scheme,
         projectile_elements: _,
         target_elements: _,
-        target_closure: _,
+        target_resistance: _,
         constraint_factor: _,
         border_shear: _,
         border_shear_law,
@@ -41,7 +41,7 @@ fn accepts_options(options: &ChainOptions) -> bool {
         kinematics: _,
         courant: _,
         erosion_strain: _,
-        erosion_closure: _,
+        erosion_criterion: _,
         artificial_viscosity,
         damping_ratio,
         local_damping,
@@ -56,8 +56,8 @@ fn accepts_options(options: &ChainOptions) -> bool {
     } = options;
     *scheme == Scheme::Conservative
         && published.is_none()
-        && options.target_closure() == TargetClosure::Column
-        && options.erosion_closure() == ErosionClosure::Strain
+        && options.target_resistance() == TargetResistanceModel::Column
+        && options.erosion_criterion() == ErosionCriterion::Strain
         && options.kinematics() == Kinematics::Logarithmic
         && border_shear_law.unwrap_or_default() == BorderShearLaw::Friction
         && shear_band.is_none()

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{interfaces::Interface, scalars::LaneScalars};
 use crate::{
     lanes::{LANES, Lanes},
-    problem::BackFace,
+    problem::RearFaceCondition,
     scenario::{Scenario, TargetBody},
 };
 
@@ -30,9 +30,9 @@ impl Mesh {
         let chain = &scenario.options.chain;
         let back = match &scenario.target {
             TargetBody::Layers { back_face, .. } => match back_face {
-                BackFace::Free => Back::Free,
-                BackFace::Fixed => Back::Fixed,
-                BackFace::NonReflecting => Back::Open,
+                RearFaceCondition::Free => Back::Free,
+                RearFaceCondition::Fixed => Back::Fixed,
+                RearFaceCondition::NonReflecting => Back::Open,
             },
             _ => Back::Free,
         };

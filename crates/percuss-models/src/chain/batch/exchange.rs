@@ -2,7 +2,7 @@
 
 use super::bundle::{Body, Bundle, Flow, Spring};
 use crate::{
-    chain::{column::ColumnRun, part::Part, state::Element},
+    chain::{column::ColumnRun, part::Section, state::Element},
     material::{Hardening, YieldPoint},
     power::log_ratio,
 };
@@ -194,7 +194,7 @@ impl Flow {
 }
 
 impl Body {
-    fn load_lane(&mut self, lane: usize, part: &Part) {
+    fn load_lane(&mut self, lane: usize, part: &Section) {
         let law = part.strength.hardening().unwrap_or(Hardening::none(0.0));
         self.modulus.0[lane] = part.modulus;
         self.compliance.0[lane] = part.compliance;

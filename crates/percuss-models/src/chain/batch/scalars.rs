@@ -1,7 +1,7 @@
 //! What there is one of in every shot, and how it gets into a lane and out of it again.
 
 use crate::{
-    chain::{column::ColumnRun, state::End},
+    chain::{column::ColumnRun, state::BoundaryCondition},
     lanes::Lanes,
 };
 
@@ -46,7 +46,7 @@ impl LaneScalars {
         self.courant.0[lane] = run.solver.control.courant;
         self.stable_step.0[lane] = state.stable_step;
         self.closed.0[lane] = f64::from(state.interfaces[0].closed);
-        if let End::Open { impedance, .. } = state.end {
+        if let BoundaryCondition::Open { impedance, .. } = state.end {
             self.impedance.0[lane] = impedance;
         }
         self.back_position.0[lane] = state.back_position;

@@ -6,8 +6,8 @@ use crate::{Error, Scenario, case, chain::column::ColumnRun, lanes::LANES, model
 /// A shot of the paper's rod and plate with other numbers.
 fn shot(rod: &str, target: &str, velocity: f64, options: &str) -> Scenario {
     let text = format!(
-        "projectile = {{ material = '{rod}', length = '12.74 mm', diameter = '4.8 mm', velocity = '{velocity} m/s' }}\n\
-         target = {{ {target} }}\n[chain]\ntarget_closure = 'column'\n{options}\n[materials.elastic]\nname = 'e'\n\
+        "projectile = {{ material = '{rod}', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '{velocity} m/s' }}\n\
+         target = {{ {target} }}\n[chain]\ntarget_resistance = 'column'\n{options}\n[materials.elastic]\nname = 'e'\n\
          density = '8000 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\nstrength.elastic = {{}}\n\
          [materials.perfect]\nname = 'p'\ndensity = '8000 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\n\
          specific_heat = '400 J/(kg K)'\nstrength.perfectly_plastic = {{ flow_stress = '600 MPa' }}\n"
@@ -168,7 +168,7 @@ fn shots_that_need_more_are_left_to_the_single_run() {
         "local_damping = 0.1",
         "kinematics = 'small-strain'",
         "artificial_viscosity.linear = 0.1",
-        "erosion_closure = 'tate'",
+        "erosion_criterion = 'tate'",
         "failure.spall = { strength = '1 GPa' }",
     ] {
         assert!(!accepts(&shot("copper", PLATE, 200.0, more)), "{more}");

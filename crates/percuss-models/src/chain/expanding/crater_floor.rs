@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::resistance::Resistance;
-use crate::{Error, resistance::OwnResistance, solver::archive::Archive};
+use crate::{Error, resistance::CustomResistance, solver::archive::Archive};
 
 /// Added mass of a disc that moves normal to itself, on one side of it, over `ρ a³` \[lamb1932\].
 const ADDED_MASS: f64 = 4.0 / 3.0;
@@ -21,7 +21,7 @@ pub(super) enum TargetResistance {
     /// The pressure of an expanding cavity, and that which turns the target aside.
     Cavity(Resistance),
     /// A law of the caller's own.
-    Own(OwnResistance),
+    Own(CustomResistance),
 }
 
 impl TargetResistance {

@@ -2,7 +2,7 @@
 
 use super::plane_impact;
 use crate::{
-    problem::BackFace,
+    problem::RearFaceCondition,
     scenario::{Scenario, TargetBody},
     units::significant,
 };
@@ -52,7 +52,7 @@ pub(super) fn warning(
     });
     let rear = matches!(
         &scenario.target,
-        TargetBody::Layers { layers, back_face: BackFace::Fixed, .. } if layers.iter().all(|plate| plate.thickness.is_some())
+        TargetBody::Layers { layers, back_face: RearFaceCondition::Fixed, .. } if layers.iter().all(|plate| plate.thickness.is_some())
     );
     let rear = rear.then(|| {
         "the force on the fixed rear face is that of a plate of infinite width: in the seed paper's case 8 to 31 % above that of `axi` at 5 \

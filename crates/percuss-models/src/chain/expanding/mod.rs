@@ -1,4 +1,4 @@
-//! Target closure `expanding-cavity`: a projectile that takes time to widen, on a crater floor that advances against the pressure
+//! Target resistance model `expanding-cavity`: a projectile that takes time to widen, on a crater floor that advances against the pressure
 //! of an expanding cavity, carried by an elastic cone.
 //!
 //! It has a solver of its own: no part of the column is left in it.
@@ -45,7 +45,7 @@ use crate::{
     ledger::{EnergyLedger, MomentumLedger},
     options::ChainOptions,
     outcome::{Outcome, RunResult, Termination},
-    problem::BackFace,
+    problem::RearFaceCondition,
     scenario::{Plate, TargetBody, modelled_thickness},
     solver::{
         archive::Archive,
@@ -61,10 +61,12 @@ const SMALLEST_COURANT: f64 = 0.05;
 /// Steps between two audits.
 const AUDIT_INTERVAL: u64 = 64;
 
-/// Why a case cannot be run with this closure, if it cannot.
+/// Why a case cannot be run with this target resistance model, if it cannot.
 pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     let Some(plate) = struck(scenario) else {
-        return Some("the target closure `expanding-cavity` needs a target of one material".into());
+        return Some(
+            "the target resistance model `expanding-cavity` needs a target of one material".into(),
+        );
     };
     if scenario.resistance.is_some() {
         return None;
@@ -76,7 +78,7 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
         .initial_yield_stress(&plate.material);
     yields
         .is_none()
-        .then(|| "the target closure `expanding-cavity` needs a target that yields".into())
+        .then(|| "the target resistance model `expanding-cavity` needs a target that yields".into())
 }
 
 fn struck(scenario: &Scenario) -> Option<&Plate> {
@@ -121,7 +123,7 @@ impl<'a> Cavity<'a> {
         let count = options.projectile_elements();
         let rod = Rod::new(metal, count, projectile.length, area, temperature, speed);
         let radius = (area / std::f64::consts::PI).sqrt();
-        // The floor advances at about half the impact speed, and the flow under it is as deep as the projectile is thick.
+        // The floor advances at about half the impact velocity, and the flow under it is as deep as the projectile is thick.
         let rate = if rate_effects {
             speed / (2.0 * radius)
         } else {
@@ -129,7 +131,7 @@ impl<'a> Cavity<'a> {
         };
         let free_rear_face = plate
             .thickness
-            .filter(|_| rear_face(scenario) == BackFace::Free);
+            .filter(|_| rear_face(scenario) == RearFaceCondition::Free);
         let resistance_law = match &scenario.resistance {
             Some(own) => TargetResistance::Own(own.clone()),
             None => TargetResistance::Cavity(
@@ -323,9 +325,9 @@ fn far_field(
 }
 
 /// What holds the rear face of the target.
-fn rear_face(scenario: &Scenario) -> BackFace {
+fn rear_face(scenario: &Scenario) -> RearFaceCondition {
     match &scenario.target {
         TargetBody::Layers { back_face, .. } => *back_face,
-        _ => BackFace::NonReflecting,
+        _ => RearFaceCondition::NonReflecting,
     }
 }

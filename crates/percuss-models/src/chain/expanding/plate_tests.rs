@@ -3,8 +3,8 @@
 use super::rear_face::RearFace;
 use crate::{
     Scenario,
-    case::{self, BackFace, TargetClosure},
-    chain::{closure_in_use, cone::Cone},
+    case::{self, RearFaceCondition, TargetResistanceModel},
+    chain::{cone::Cone, resistance_model_in_use},
     model::{self, Control},
     outcome::{Outcome, RunResult},
     summary::ResultRecord,
@@ -13,7 +13,7 @@ use crate::{
 /// The seed paper's rod on a plate of a thickness in projectile diameters.
 fn plate(diameters: f64, speed: f64, target: &str, more: &str) -> Scenario {
     let text = format!(
-        "projectile = {{ material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '{speed} m/s' }}\n\
+        "projectile = {{ material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '{speed} m/s' }}\n\
          target = {{ material = 'aluminium-2024-t351', thickness = '{} mm'{target} }}\n{more}\n",
         4.8 * diameters
     );
@@ -38,14 +38,17 @@ fn depth(scenario: &Scenario) -> f64 {
 }
 
 /// A rear face 10 mm behind a disc of 3 mm, in which both waves travel at 5 mm/us.
-fn rear_face(face: BackFace) -> (RearFace, Cone) {
+fn rear_face(face: RearFaceCondition) -> (RearFace, Cone) {
     let cone = Cone::under_disc(std::f64::consts::PI * 9e-6, 0.3);
     (RearFace::new(face, cone, 10e-3, [5e3; 2]).unwrap(), cone)
 }
 
 #[test]
 fn echoes_are_those_of_the_images() {
-    for (face, sign) in [(BackFace::Fixed, -1.0_f64), (BackFace::Free, 1.0)] {
+    for (face, sign) in [
+        (RearFaceCondition::Fixed, -1.0_f64),
+        (RearFaceCondition::Free, 1.0),
+    ] {
         let (mut face, cone) = rear_face(face);
         // The mouth moves out to 1 um within the first microsecond and stays there.
         let outgoing = |time: f64| 1e-6 * (time * 1e6).min(1.0);
@@ -69,7 +72,7 @@ fn echoes_are_those_of_the_images() {
 
 #[test]
 fn a_fixed_rear_face_carries_twice_the_force_that_arrives() {
-    let (mut face, _) = rear_face(BackFace::Fixed);
+    let (mut face, _) = rear_face(RearFaceCondition::Fixed);
     let (step, force) = (7.3e-9, 1e3);
     let mut time = 0.0;
     // The plane-integrated wave goes to and fro between a face of given force and one that stands.
@@ -102,8 +105,8 @@ fn the_depth_changes_steadily_with_the_thickness() {
                 .map(|h| {
                     let scenario = plate(*h, speed, &target, "");
                     assert_eq!(
-                        closure_in_use(&scenario),
-                        Some(TargetClosure::ExpandingCavity)
+                        resistance_model_in_use(&scenario),
+                        Some(TargetResistanceModel::ExpandingCavity)
                     );
                     depth(&scenario)
                 })
@@ -165,7 +168,7 @@ fn writing_down_a_default_changes_nothing() {
         for default in [
             "scheme = 'conservative'",
             "projectile_elements = 40",
-            "target_closure = 'expanding-cavity'",
+            "target_resistance = 'expanding-cavity'",
             "constraint_factor = 2.7",
             "constraint_factor = 2.700000047683716",
             "border_shear = 0.577",
@@ -174,7 +177,7 @@ fn writing_down_a_default_changes_nothing() {
             "kinematics = 'logarithmic'",
             "courant = 0.5",
             "erosion_strain = 2.0",
-            "erosion_closure = 'strain'",
+            "erosion_criterion = 'strain'",
             "artificial_viscosity = { linear = 0.0, quadratic = 0.0 }",
             "damping_ratio = 0.0",
             "local_damping = 0.0",
@@ -182,7 +185,7 @@ fn writing_down_a_default_changes_nothing() {
             "adiabatic_heating = true",
             "heat_fraction = 0.9",
             "max_steps = 20000000",
-            "constraint_factor = 2.7\nborder_shear = 0.577\ntarget_closure = 'expanding-cavity'",
+            "constraint_factor = 2.7\nborder_shear = 0.577\ntarget_resistance = 'expanding-cavity'",
         ] {
             assert_eq!(bits(&format!("[chain]\n{default}")), without, "{default}");
         }
@@ -209,8 +212,8 @@ fn damping_changes_the_depth_a_little_and_is_accounted_for() {
     ] {
         let scenario = plate(5.2, 400.0, "", &format!("[chain]\n{options}"));
         assert_eq!(
-            closure_in_use(&scenario),
-            Some(TargetClosure::ExpandingCavity)
+            resistance_model_in_use(&scenario),
+            Some(TargetResistanceModel::ExpandingCavity)
         );
         let result = run(&scenario);
         let change = result.depth_of_penetration.unwrap() / without - 1.0;
@@ -236,8 +239,8 @@ fn a_weak_projectile_parts_and_mass_and_momentum_are_kept() {
         let weak = format!("chain.failure.spall.strength = '80 MPa'\n{energy}");
         let scenario = plate(5.2, 400.0, "", &weak);
         assert_eq!(
-            closure_in_use(&scenario),
-            Some(TargetClosure::ExpandingCavity)
+            resistance_model_in_use(&scenario),
+            Some(TargetResistanceModel::ExpandingCavity)
         );
         let result = run(&scenario);
         assert!(result.fragments.len() > 1, "{energy}");
@@ -278,9 +281,9 @@ fn a_column_by_an_option_says_so_first_and_gives_the_other_depth() {
         model::run_explained(chain, &scenario, &mut Control::default()).unwrap()
     };
     let usual = explained("");
-    assert_eq!(usual.target_closure_choice, None);
+    assert_eq!(usual.target_resistance_choice, None);
     let result = explained("chain.border_shear = 0.5");
-    let first = result.target_closure_choice.unwrap();
+    let first = result.target_resistance_choice.unwrap();
     assert!(first.contains("`column`: `chain.border_shear`"), "{first}");
     assert!(
         first.contains("`expanding-cavity` gives a depth of 0.69"),

@@ -1,4 +1,4 @@
-//! The projectile as one rod, or as the pieces that it has parted into.
+//! The projectile as one rod, or as the pieces that it has separated into.
 
 use super::{
     node::Node,

@@ -13,7 +13,7 @@
 //! `B(t) = 2 Σ_j (−1)^j F(t − (2j + 1)h/c_p)` is exact for the contact force F.
 
 use super::delay_line::DelayLine;
-use crate::{Error, chain::cone::Cone, problem::BackFace, solver::archive::Archive};
+use crate::{Error, chain::cone::Cone, problem::RearFaceCondition, solver::archive::Archive};
 
 /// Samples of a delay line per transit of the thickness.
 const SAMPLES: usize = 64;
@@ -55,15 +55,15 @@ impl RearFace {
     /// Of a plate of a thickness [m]; `speeds` are those of waves in the cone and of plane longitudinal waves [m/s]. `None` for a
     /// face that does not reflect.
     pub(super) fn new(
-        face: BackFace,
+        face: RearFaceCondition,
         cone: Cone,
         thickness: f64,
         speeds: [f64; 2],
     ) -> Option<Self> {
         let sign = match face {
-            BackFace::Fixed => -1.0,
-            BackFace::Free => 1.0,
-            BackFace::NonReflecting => return None,
+            RearFaceCondition::Fixed => -1.0,
+            RearFaceCondition::Free => 1.0,
+            RearFaceCondition::NonReflecting => return None,
         };
         let lines = speeds.map(|speed| {
             let most = 2 * SAMPLES * (MOST_ECHOES + 1);

@@ -1,4 +1,4 @@
-//! What a target opposes to a crater that is being made, from first yield to steady penetration.
+//! Penetration resistance of a target, from first yield to steady penetration.
 //!
 //! Under the projectile lies a hemisphere of its radius in which the pressure is the same everywhere; as the crater floor advances it
 //! is pushed outwards and expands a spherical cavity in the target around it, as under an indenter \[johnson1970\]. A floor that has

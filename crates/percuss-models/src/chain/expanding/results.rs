@@ -19,7 +19,7 @@ use crate::{
     units::significant,
 };
 
-/// Part of the impact speed below which a projectile counts as stopped.
+/// Part of the impact velocity below which a projectile counts as stopped.
 const REST_FRACTION: f64 = 0.01;
 /// Part of its depth by which a floor may still sink in a window of a run that is over.
 const QUIET_FRACTION: f64 = 1e-6;
@@ -90,7 +90,7 @@ pub(super) fn outcome(
             return (Outcome::Perforated, words);
         }
         Termination::NothingMoves => {
-            return (Outcome::AtRest, "the impact speed is zero".to_owned());
+            return (Outcome::AtRest, "the impact velocity is zero".to_owned());
         }
         _ if mass == 0.0 => {
             let words = "no element of the projectile is left".to_owned();
@@ -104,7 +104,7 @@ pub(super) fn outcome(
     }
     let ratio = momentum / (mass * impact_velocity);
     let speed = format!(
-        "the projectile's mean speed at the end is {} % of the impact speed",
+        "the projectile's mean speed at the end is {} % of the impact velocity",
         significant(100.0 * ratio, 3)
     );
     let percent = REST_FRACTION * 100.0;
@@ -153,7 +153,7 @@ pub(super) fn complete(cavity: &Cavity<'_>, result: &mut RunResult, monitor: &Ru
     result.warnings.splice(0..0, remnant.warning());
 }
 
-/// Logarithmic stretch beyond which a slice counts as parted: it takes 63 % of a bar's area, about what metals have lost at fracture.
+/// Logarithmic stretch beyond which a slice counts as separated: it takes 63 % of a bar's area, about what metals have lost at fracture.
 const PARTED: f64 = 1.0;
 
 /// What is left of the projectile, unloaded.
@@ -164,7 +164,7 @@ const PARTED: f64 = 1.0;
 struct Remnant {
     slices: usize,
     parted: usize,
-    /// Length, in which a parted slice is as long as before the impact [m].
+    /// Length, in which a separated slice is as long as before the impact [m].
     length: f64,
     /// Length as it is drawn out [m].
     drawn_out: f64,
@@ -211,7 +211,7 @@ fn warning_of_target_failure(state: &State) -> Option<String> {
     let (depth, time) = state.target_failure.as_ref()?.first?;
     Some(format!(
         "the target would fail in tension {} mm below its face after {} us, which the model `expanding-cavity` does not include; compare \
-         with `chain.target_closure = \"column\"`",
+         with `chain.target_resistance = \"column\"`",
         significant(depth * 1e3, 3),
         significant(time * 1e6, 3)
     ))

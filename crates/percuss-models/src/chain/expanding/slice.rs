@@ -76,7 +76,7 @@ pub(super) struct Slice {
     pub(super) temperature: f64,
     pub(super) yield_point: YieldPoint,
     pub(super) initial_position: f64,
-    /// By the failure law, failed at 1; and whether it has parted from a neighbour.
+    /// By the failure law, failed at 1; and whether it has separated from a neighbour.
     pub(super) damage: f64,
     pub(super) parted: bool,
 }
@@ -264,7 +264,7 @@ impl Shear {
         let trial = self.stress[1] + metal.shear_modulus * strain;
         // A slice that flows in shear all over turns as much work into heat as this stress at its outer radius would.
         let yield_stress = 0.5 * (behind.yield_stress() + ahead.yield_stress());
-        // A metal that melts has no strength, but for rounding to either side.
+        // A metal that melts has no strength, except for rounding to either side.
         let limit = 4.0 / 3.0 * yield_stress.max(0.0) / 3.0_f64.sqrt();
         let stress = trial.clamp(-limit, limit);
         let step_before = self.plastic_step;

@@ -1,4 +1,4 @@
-//! One step of the projectile, the crater floor and the far field, with its energy and momentum balance.
+//! Time step of the projectile, the crater floor and the far field, with its energy and momentum balance.
 
 use serde::{Deserialize, Serialize};
 
@@ -390,7 +390,7 @@ impl State {
     }
 
     pub(super) fn momentum(&self) -> MomentumLedger {
-        // Waves that left through the last node are in the plate still, but for what its support has taken.
+        // Waves that left through the last node are in the plate still, except for what its support has taken.
         let passed = self.far_field.passed_impulse;
         let support = match &self.rear_face {
             Some(face) => face.support_impulse,

@@ -1,23 +1,23 @@
-//! Exact answers that the parts of the closure and their interplay must give.
+//! Exact checks of the parts of the expanding cavity and of their interaction.
 
 use std::{f64::consts::PI, sync::Arc};
 
 use super::{CavityRun, StepControl, resistance::Resistance, rod::Rod, slice::Metal};
 use crate::{
     Scenario,
-    case::{self, TargetClosure},
+    case::{self, TargetResistanceModel},
     model::{self, Control},
     outcome::{Outcome, PLANE_IMPACT, RunResult},
-    resistance::{OwnResistance, ResistanceLaw},
+    resistance::{CustomResistance, ResistanceLaw},
 };
 
 fn scenario(projectile: &str, target: &str, length: f64, speed: f64, more: &str) -> Scenario {
     let text = format!(
-        "[projectile]\nmaterial = \"{projectile}\"\nlength = \"{length} mm\"\ndiameter = \"5 mm\"\nvelocity = \"{speed} m/s\"\n\
+        "[projectile]\nmaterial = \"{projectile}\"\nlength = \"{length} mm\"\ndiameter = \"5 mm\"\nimpact_velocity = \"{speed} m/s\"\n\
          [target]\nmaterial = \"{target}\"\nthickness = \"semi-infinite\"\n\
-         [chain]\ntarget_closure = \"expanding-cavity\"\n{more}"
+         [chain]\ntarget_resistance = \"expanding-cavity\"\n{more}"
     );
-    case::load_str("shot", &text).unwrap()
+    case::load_str("impact", &text).unwrap()
 }
 
 fn run(scenario: &Scenario) -> RunResult {
@@ -175,7 +175,7 @@ fn a_damped_bar_loses_the_exact_part_of_its_amplitude() {
 fn the_peak_contact_force_converges_to_that_of_a_plane_impact() {
     let peak = |elements: u32| {
         let text = format!(
-            "[projectile]\nmaterial = 'copper-woodward'\nlength = '12.74 mm'\ndiameter = '4.8 mm'\nvelocity = '230 m/s'\n\
+            "[projectile]\nmaterial = 'copper-woodward'\nlength = '12.74 mm'\ndiameter = '4.8 mm'\nimpact_velocity = '230 m/s'\n\
              [target]\nmaterial = 'aluminium-2024-t351-woodward'\nthickness = '25 mm'\n\
              [chain]\nend_time = '0.4 us'\nprojectile_elements = {elements}"
         );
@@ -242,14 +242,14 @@ fn a_slow_rod_only_dents_the_target_elastically() {
 fn a_rigid_rod_is_stopped_by_the_resistance_alone() {
     // Nothing of the rod flows and the ground is stiff against the resistance: (M + m_a) dv/dt = −A [p(δ) + ½ρv²].
     let (speed, length) = (150.0, 50e-3);
-    let text = "[projectile]\nmaterial = \"rigid\"\nlength = \"50 mm\"\ndiameter = \"5 mm\"\nvelocity = \"150 m/s\"\n\
+    let text = "[projectile]\nmaterial = \"rigid\"\nlength = \"50 mm\"\ndiameter = \"5 mm\"\nimpact_velocity = \"150 m/s\"\n\
                 [target]\nmaterial = \"soft\"\nthickness = \"semi-infinite\"\n\
-                [chain]\ntarget_closure = \"expanding-cavity\"\nprojectile_elements = 100\n\
+                [chain]\ntarget_resistance = \"expanding-cavity\"\nprojectile_elements = 100\n\
                 [materials.rigid]\nname = \"rigid\"\ndensity = \"7850 kg/m3\"\nyoungs_modulus = \"1500 GPa\"\npoissons_ratio = 0.3\n\
                 strength.perfectly_plastic = { flow_stress = \"20 GPa\" }\n\
                 [materials.soft]\nname = \"soft\"\ndensity = \"2700 kg/m3\"\nyoungs_modulus = \"70 GPa\"\npoissons_ratio = 0.33\n\
                 strength.perfectly_plastic = { flow_stress = \"20 MPa\" }\n";
-    let scenario = case::load_str("shot", text).unwrap();
+    let scenario = case::load_str("impact", text).unwrap();
     let result = run(&scenario);
     let struck = &super::struck(&scenario).unwrap().material;
     let resistance = Resistance::new(struck, RADIUS, 0.0, 0.0, None).unwrap();
@@ -268,7 +268,7 @@ fn a_rigid_rod_is_stopped_by_the_resistance_alone() {
 }
 
 #[test]
-fn the_books_balance_and_the_depth_grows_with_speed() {
+fn the_balances_close_and_the_depth_grows_with_speed() {
     for (projectile, target) in [
         ("copper-woodward", "aluminium-2024-t351-woodward"),
         ("4340-johnson-cook", "6061-t6-lesuer"),
@@ -291,14 +291,14 @@ fn the_books_balance_and_the_depth_grows_with_speed() {
 fn the_depth_converges_with_the_mesh() {
     let depth = |elements: u32, courant: f64| {
         let options = format!("projectile_elements = {elements}\ncourant = {courant}\n");
-        let shot = scenario(
+        let impact = scenario(
             "4340-johnson-cook",
             "weldox-460-e-borvik",
             15.0,
             300.0,
             &options,
         );
-        run(&shot).depth_of_penetration.unwrap()
+        run(&impact).depth_of_penetration.unwrap()
     };
     let (coarse, medium, fine) = (depth(20, 0.3), depth(40, 0.3), depth(80, 0.3));
     assert!(
@@ -327,15 +327,15 @@ impl ResistanceLaw for Same {
 
 #[test]
 fn a_law_of_the_callers_own_takes_the_place_of_the_cavity() {
-    let mut shot = scenario("4340-johnson-cook", "weldox-460-e-borvik", 50.0, 400.0, "");
-    let cavity = run(&shot).depth_of_penetration.unwrap();
-    let struck = super::struck(&shot).unwrap().material.clone();
+    let mut impact = scenario("4340-johnson-cook", "weldox-460-e-borvik", 50.0, 400.0, "");
+    let cavity = run(&impact).depth_of_penetration.unwrap();
+    let struck = super::struck(&impact).unwrap().material.clone();
     let own = Same {
         cavity: Resistance::new(&struck, RADIUS, 400.0 / (2.0 * RADIUS), 0.9, None).unwrap(),
         density: struck.density.si(),
     };
-    shot.resistance = Some(OwnResistance(Arc::new(own)));
-    let result = run(&shot);
+    impact.resistance = Some(CustomResistance(Arc::new(own)));
+    let result = run(&impact);
     // They differ in how hard what has spread beside the floor may press.
     let depth = result.depth_of_penetration.unwrap();
     assert!((depth / cavity - 1.0).abs() < 0.02, "{depth} {cavity}");
@@ -353,32 +353,32 @@ fn a_rigid_rod_against_a_constant_pressure_stops_where_its_energy_is_used_up() {
             300e6
         }
     }
-    let text = "[projectile]\nmaterial = \"rigid\"\nlength = \"50 mm\"\ndiameter = \"5 mm\"\nvelocity = \"150 m/s\"\n\
+    let text = "[projectile]\nmaterial = \"rigid\"\nlength = \"50 mm\"\ndiameter = \"5 mm\"\nimpact_velocity = \"150 m/s\"\n\
                 [target]\nmaterial = \"light\"\nthickness = \"semi-infinite\"\n\
-                [chain]\ntarget_closure = \"expanding-cavity\"\nprojectile_elements = 100\n\
+                [chain]\ntarget_resistance = \"expanding-cavity\"\nprojectile_elements = 100\n\
                 [materials.rigid]\nname = \"rigid\"\ndensity = \"7850 kg/m3\"\nyoungs_modulus = \"1500 GPa\"\npoissons_ratio = 0.3\n\
                 strength.perfectly_plastic = { flow_stress = \"20 GPa\" }\n\
                 [materials.light]\nname = \"light\"\ndensity = \"2000 kg/m3\"\nyoungs_modulus = \"700 GPa\"\npoissons_ratio = 0.33\n\
                 strength.elastic = {}\n";
-    let mut shot = case::load_str("shot", text).unwrap();
+    let mut impact = case::load_str("impact", text).unwrap();
     // An elastic target has no pressure of its own.
-    assert!(super::not_applicable(&shot).is_some());
-    shot.resistance = Some(OwnResistance(Arc::new(Constant)));
-    assert!(super::not_applicable(&shot).is_none());
+    assert!(super::not_applicable(&impact).is_some());
+    impact.resistance = Some(CustomResistance(Arc::new(Constant)));
+    assert!(super::not_applicable(&impact).is_none());
     let area = PI * RADIUS * RADIUS;
     let (mass, added) = (7850.0 * area * 50e-3, 4.0 / 3.0 * 2000.0 * RADIUS.powi(3));
     // The added mass of the target is set in motion by the rod when they meet, and slows down with it.
     let expected = 0.5 * mass * mass / (mass + added) * 150.0 * 150.0 / (300e6 * area);
-    let found = run(&shot).depth_of_penetration.unwrap();
+    let found = run(&impact).depth_of_penetration.unwrap();
     assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
 }
 
 #[test]
 fn where_nothing_takes_a_law_of_resistance_it_is_refused() {
-    let mut shot = scenario("4340-johnson-cook", "weldox-460-e-borvik", 50.0, 400.0, "");
-    let refused = |shot: &Scenario, name: &str| {
+    let mut impact = scenario("4340-johnson-cook", "weldox-460-e-borvik", 50.0, 400.0, "");
+    let refused = |impact: &Scenario, name: &str| {
         let model = model::model(name).unwrap();
-        match model::run(model, shot, &mut Control::default()) {
+        match model::run(model, impact, &mut Control::default()) {
             Err(error @ crate::Error::NotApplicable { .. }) => error.to_string(),
             other => panic!("{name}: {other:?}"),
         }
@@ -389,10 +389,10 @@ fn where_nothing_takes_a_law_of_resistance_it_is_refused() {
             unreachable!("no model asks it")
         }
     }
-    shot.resistance = Some(OwnResistance(Arc::new(Never)));
+    impact.resistance = Some(CustomResistance(Arc::new(Never)));
     for name in ["fdm", "tate", "axi"] {
-        assert!(refused(&shot, name).contains("use the model `chain`"));
+        assert!(refused(&impact, name).contains("use the model `chain`"));
     }
-    shot.options.chain.target_closure = Some(TargetClosure::Column);
-    assert!(refused(&shot, "chain").contains("expanding-cavity"));
+    impact.options.chain.target_resistance = Some(TargetResistanceModel::Column);
+    assert!(refused(&impact, "chain").contains("expanding-cavity"));
 }

@@ -63,7 +63,7 @@ impl<'a> Published<'a> {
     pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
         let Some((plate, _, _)) = single_plate(scenario) else {
             return Some(
-                "scheme `published` has one plate of finite thickness with a fixed back face"
+                "scheme `published` has one plate of finite thickness with a fixed rear face"
                     .into(),
             );
         };
@@ -82,7 +82,7 @@ impl<'a> Published<'a> {
     /// The chain at the moment of impact.
     ///
     /// # Errors
-    /// [`Error::NotApplicable`] for anything but one plate with a fixed back face and power-law or elastic materials.
+    /// [`Error::NotApplicable`] for anything but one plate with a fixed rear face and power-law or elastic materials.
     pub fn new(scenario: &'a Scenario) -> Result<Self, Error> {
         if let Some(refusal) = Self::not_applicable(scenario) {
             return Err(Error::not_applicable("chain", refusal));

@@ -156,7 +156,7 @@ impl Published<'_> {
                 .count();
         if inverted > 0 {
             warnings.push(format!(
-                "{inverted} springs are shorter than nothing: small strain lets elements invert"
+                "{inverted} springs are shorter than nothing: elements can invert under small-strain kinematics"
             ));
         }
         match self.options.interface {
@@ -169,7 +169,7 @@ impl Published<'_> {
             }
             Interface::Chain => {}
             Interface::Joined | Interface::JoinedPushed => warnings.push(format!(
-                "equation (15) gives the first target mass its speed from nothing: {:.2} % of the shot's momentum",
+                "equation (15) gives the first target mass its speed from nothing: {:.2} % of the impact's momentum",
                 100.0 * self.target.mass * self.scenario.impact_velocity / self.initial.1.max(f64::MIN_POSITIVE)
             )),
         }

@@ -4,7 +4,7 @@ use crate::{
     Scenario,
     material::{Material, Strength},
     options::SmallStrainStiffness,
-    problem::BackFace,
+    problem::RearFaceCondition,
     scenario::{Plate, TargetBody},
 };
 
@@ -50,7 +50,7 @@ pub(super) fn single_plate(scenario: &Scenario) -> Option<(&Plate, f64, f64)> {
     match &scenario.target {
         TargetBody::Layers {
             layers,
-            back_face: BackFace::Fixed,
+            back_face: RearFaceCondition::Fixed,
             column_diameter,
             separate_layers: false,
             ..

@@ -1,13 +1,13 @@
 //! Contact between segments: one shared node while they press on each other, two when they do not.
 
-use super::{End, Grid, Law, kick::dry_friction};
+use super::{BoundaryCondition, Grid, Law, kick::dry_friction};
 
 impl<L: Law> Grid<L> {
-    /// Moves the shared node of a closed contact, or lets it split when it would have to pull.
+    /// Moves the shared node of a closed contact, or splits it when it would have to pull.
     pub(super) fn kick_joined(&mut self, s: usize, time_step: f64) {
         let a = self.span(s).1;
         let b = a + 1;
-        if let End::Driven(velocity) = self.hold(b) {
+        if let BoundaryCondition::Driven(velocity) = self.hold(b) {
             let node = &mut self.nodes[a];
             let impulse = node.force * time_step - node.mass * (velocity - node.before);
             if impulse < 0.0 {
@@ -125,7 +125,7 @@ impl<L: Law> Grid<L> {
     /// Takes `change` [m/s] off the approach of the nodes `a` and `a + 1`, conserving momentum, and accounts for the loss.
     fn push_apart(&mut self, a: usize, change: f64) {
         let b = a + 1;
-        let driven = matches!(self.hold(b), End::Driven(_));
+        let driven = matches!(self.hold(b), BoundaryCondition::Driven(_));
         let (back, front) = (self.nodes[a], self.nodes[b]);
         let impulse = if driven {
             back.mass * change

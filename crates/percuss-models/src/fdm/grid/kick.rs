@@ -1,6 +1,6 @@
 //! New velocities from the forces of a step.
 
-use super::{End, Grid, Law, Node};
+use super::{BoundaryCondition, Grid, Law, Node};
 
 /// Moves a node by a force, dry friction holding against it.
 ///
@@ -64,11 +64,11 @@ impl<L: Law> Grid<L> {
     }
 
     /// What holds a node, if it stands at an end of the grid.
-    pub(super) fn hold(&self, i: usize) -> End {
+    pub(super) fn hold(&self, i: usize) -> BoundaryCondition {
         match self.ends {
-            [end, _] if i == 0 && end != End::Free => end,
+            [end, _] if i == 0 && end != BoundaryCondition::Free => end,
             [_, end] if i + 1 == self.nodes.len() => end,
-            _ => End::Free,
+            _ => BoundaryCondition::Free,
         }
     }
 
@@ -76,9 +76,9 @@ impl<L: Law> Grid<L> {
         let end = self.hold(i);
         let node = &mut self.nodes[i];
         match end {
-            End::Free => return kick(node, time_step),
-            End::Driven(velocity) => node.velocity = velocity,
-            End::Dashpot(impedance) => {
+            BoundaryCondition::Free => return kick(node, time_step),
+            BoundaryCondition::Driven(velocity) => node.velocity = velocity,
+            BoundaryCondition::Dashpot(impedance) => {
                 let inertia = node.mass / time_step;
                 node.velocity = ((inertia - 0.5 * impedance) * node.before + node.force)
                     / (inertia + 0.5 * impedance);

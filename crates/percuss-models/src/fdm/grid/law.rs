@@ -1,4 +1,4 @@
-//! What a material law offers the grid.
+//! Interface of a material law to the grid.
 
 use std::fmt;
 

@@ -32,9 +32,9 @@ const LARGEST_SHORTENING: f64 = 0.02;
 const SLACK: f64 = 1.1;
 const GROWTH: f64 = 1.05;
 
-/// What holds an end of the grid.
+/// Boundary condition of an end of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::fdm) enum End {
+pub(in crate::fdm) enum BoundaryCondition {
     /// Nothing.
     Free,
     /// A piston of this velocity [m/s]; at 0 a fixed end.
@@ -77,7 +77,7 @@ pub(in crate::fdm) struct Grid<L: Law> {
     pub(in crate::fdm) closed: Vec<bool>,
     pub(in crate::fdm) nodes: Vec<Node>,
     pub(in crate::fdm) cells: Vec<L::Cell>,
-    pub(in crate::fdm) ends: [End; 2],
+    pub(in crate::fdm) ends: [BoundaryCondition; 2],
     pub(in crate::fdm) time: f64,
     pub(in crate::fdm) step: u64,
     pub(in crate::fdm) time_step: f64,
@@ -111,7 +111,7 @@ pub(in crate::fdm) struct Slab<L: Law> {
 
 impl<L: Law> Grid<L> {
     /// Lines slabs up, back to front; slabs without a gap between them touch.
-    pub(in crate::fdm) fn new(slabs: Vec<Slab<L>>, ends: [End; 2]) -> Self {
+    pub(in crate::fdm) fn new(slabs: Vec<Slab<L>>, ends: [BoundaryCondition; 2]) -> Self {
         let mut grid = Self {
             bodies: Vec::new(),
             segments: Vec::new(),
@@ -135,10 +135,10 @@ impl<L: Law> Grid<L> {
         }
         let last = grid.nodes.len() - 1;
         grid.back_position = grid.nodes[last].position;
-        if let [End::Driven(velocity), _] = grid.ends {
+        if let [BoundaryCondition::Driven(velocity), _] = grid.ends {
             grid.nodes[0].velocity = velocity;
         }
-        if let [_, End::Driven(velocity)] = grid.ends {
+        if let [_, BoundaryCondition::Driven(velocity)] = grid.ends {
             grid.nodes[last].velocity = velocity;
         }
         grid.accumulated.initial_energy = grid.energy().total();

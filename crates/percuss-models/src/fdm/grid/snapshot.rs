@@ -1,6 +1,6 @@
-//! What histories and results keep of a grid.
+//! Snapshot of a grid for histories and results.
 
-use super::{End, Grid, Law, View};
+use super::{BoundaryCondition, Grid, Law, View};
 use crate::history::{ElementState, Profile, Sample};
 
 /// Most cells in a profile: a finer mesh than a picture can show is thinned out.
@@ -29,7 +29,7 @@ impl<L: Law> Grid<L> {
     /// A non-reflecting end has no static stiffness: the column that it holds drifts as a whole, and that drift is no crater.
     pub(in crate::fdm) fn depth(&self) -> f64 {
         match (self.floor(), self.ends[1]) {
-            (Some(floor), End::Dashpot(_)) => {
+            (Some(floor), BoundaryCondition::Dashpot(_)) => {
                 let drift = self.nodes[self.nodes.len() - 1].position - self.back_position;
                 self.nodes[floor].position - drift
             }

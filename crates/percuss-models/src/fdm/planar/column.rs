@@ -1,9 +1,9 @@
-//! A column of planar bodies between two ends: the solver by itself, for problems that are no shot.
+//! A column of planar bodies between two ends: the solver by itself, for problems that are no impact.
 
 use super::law::PlanarLaw;
 use crate::{
     Error,
-    fdm::grid::{End, Grid, Slab},
+    fdm::grid::{BoundaryCondition, Grid, Slab},
     ledger::{EnergyLedger, MomentumLedger},
     material::{Material, StateEquation},
     options::ArtificialViscosity,
@@ -127,12 +127,12 @@ pub struct CellState {
 
 /// A column of planar bodies, 1 m2 in cross-section, the first layer starting at 0.
 #[derive(Debug)]
-pub struct Column {
+pub struct PlanarGrid {
     grid: Grid<PlanarLaw>,
     courant: f64,
 }
 
-impl Column {
+impl PlanarGrid {
     /// A column at time 0.
     pub fn new(
         layers: &[Layer],
@@ -155,8 +155,8 @@ impl Column {
             slab
         });
         let end = |boundary| match boundary {
-            Boundary::Free => End::Free,
-            Boundary::Piston(velocity) => End::Driven(velocity),
+            Boundary::Free => BoundaryCondition::Free,
+            Boundary::Piston(velocity) => BoundaryCondition::Driven(velocity),
         };
         Self {
             grid: Grid::new(slabs.collect(), [end(left), end(right)]),

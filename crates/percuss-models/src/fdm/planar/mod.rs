@@ -7,7 +7,7 @@ mod results;
 mod run;
 
 pub use crate::material::{StateEquation, impedance_match};
-pub use column::{Boundary, CellState, Column, Layer, Medium, Solid};
+pub use column::{Boundary, CellState, Layer, Medium, PlanarGrid, Solid};
 
 pub(super) use run::{PlanarRun, cells, not_applicable};
 

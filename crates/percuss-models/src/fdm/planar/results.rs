@@ -63,7 +63,7 @@ fn details(impact: &PlanarImpact<'_>) -> Vec<Detail> {
     }
     if impact.back.free {
         details.push(detail(
-            "largest speed of the back face",
+            "largest speed of the rear face",
             "m/s",
             impact.back.largest,
         ));
@@ -78,7 +78,7 @@ fn details(impact: &PlanarImpact<'_>) -> Vec<Detail> {
         details.push(detail("first spall", "us", first.time * 1e6));
         if impact.back.free {
             let pull_back = impact.back.largest - impact.back.smallest_after;
-            details.push(detail("pull-back of the back face", "m/s", pull_back));
+            details.push(detail("pull-back of the rear face", "m/s", pull_back));
         }
     }
     details

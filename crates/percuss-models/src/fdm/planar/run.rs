@@ -11,14 +11,14 @@ use crate::{
     error::NumericalError,
     fdm::{
         audit::{self, AUDIT},
-        grid::{End, Grid, Slab},
+        grid::{BoundaryCondition, Grid, Slab},
     },
     history::{Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
     material::{Library, Material},
     options::{FdmOptions, MAX_STEPS},
     outcome::{Outcome, RunResult, Termination},
-    problem::BackFace,
+    problem::RearFaceCondition,
     scenario::{TargetBody, modelled_thickness},
     solver::{
         archive::Archive,
@@ -34,7 +34,7 @@ const PASSAGES: f64 = 3.0;
 /// Most cells of a target whose cells are to be as long as the projectile's.
 const MOST_CELLS: f64 = 20_000.0;
 
-/// Motion of the back face: whether it is one that can move freely, its largest speed, and the smallest one after that.
+/// Motion of the rear face: whether it is one that can move freely, its largest speed, and the smallest one after that.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct BackFaceMotion {
     pub(super) free: bool,
@@ -159,7 +159,7 @@ fn build(scenario: &Scenario) -> Option<(Grid<PlanarLaw>, f64, InterfaceForce)> 
     let mut passage = rod.length / flyer.wave_speed_at_rest();
     let mut slabs = vec![slab(flyer, -rod.length, rod.length, projectile as usize)];
     slabs[0].velocity = scenario.impact_velocity;
-    let mut end = End::Driven(0.0);
+    let mut end = BoundaryCondition::Driven(0.0);
     match &scenario.target {
         TargetBody::Layers {
             layers, back_face, ..
@@ -171,21 +171,25 @@ fn build(scenario: &Scenario) -> Option<(Grid<PlanarLaw>, f64, InterfaceForce)> 
                 let thickness = modelled_thickness(plate, scenario);
                 passage += thickness / law.wave_speed_at_rest();
                 let cells = (f64::from(target) * thickness / total).round().max(1.0);
-                if *back_face == BackFace::NonReflecting {
+                if *back_face == RearFaceCondition::NonReflecting {
                     let impedance = law.start_density * law.wave_speed_at_rest();
-                    end = End::Dashpot(impedance * law.area);
+                    end = BoundaryCondition::Dashpot(impedance * law.area);
                 }
                 slabs.push(slab(law, start, thickness, cells as usize));
                 start += thickness;
             }
-            if *back_face == BackFace::Free {
-                end = End::Free;
+            if *back_face == RearFaceCondition::Free {
+                end = BoundaryCondition::Free;
             }
         }
         _ => slabs.push(slab(law(&rod.material, scenario)?, 0.0, 0.0, 0)),
     }
     let interface = InterfaceForce::new(&slabs, scenario.impact_velocity);
-    Some((Grid::new(slabs, [End::Free, end]), passage, interface))
+    Some((
+        Grid::new(slabs, [BoundaryCondition::Free, end]),
+        passage,
+        interface,
+    ))
 }
 
 /// Projectile and target in uniaxial strain.
@@ -221,7 +225,7 @@ impl<'a> Solver<'a> for PlanarImpact<'a> {
             limits.end_time = PASSAGES * passage;
         }
         let back = BackFaceMotion {
-            free: grid.ends[1] == End::Free,
+            free: grid.ends[1] == BoundaryCondition::Free,
             ..BackFaceMotion::default()
         };
         Ok(Self {

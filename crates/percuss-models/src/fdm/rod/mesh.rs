@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use super::law::RodLaw;
 use crate::{
-    fdm::grid::{End, Grid, Slab},
+    fdm::grid::{BoundaryCondition, Grid, Slab},
     material::Material,
     options::{ChainOptions, ConstraintFactor, FdmOptions, constraint_factor},
-    problem::BackFace,
+    problem::RearFaceCondition,
     scenario::{Scenario, TargetBody, modelled_thickness},
 };
 
@@ -61,7 +61,7 @@ pub(super) fn build(scenario: &Scenario, options: &FdmOptions) -> Grid<RodLaw> {
         .unwrap_or(ChainOptions::PROJECTILE_ELEMENTS) as usize;
     let mut slabs = vec![slab(projectile, -rod.length, rod.length, cells)];
     slabs[0].velocity = scenario.impact_velocity;
-    let mut end = End::Free;
+    let mut end = BoundaryCondition::Free;
     let mut tip_pressure = 0.0;
     match &scenario.target {
         TargetBody::Layers {
@@ -97,28 +97,28 @@ pub(super) fn build(scenario: &Scenario, options: &FdmOptions) -> Grid<RodLaw> {
                 start += thickness;
             }
             end = match (back_face, layers.last()) {
-                (BackFace::Fixed, _) => End::Driven(0.0),
-                (BackFace::NonReflecting, Some(last)) => {
-                    End::Dashpot(last.material.bar_impedance() * area)
+                (RearFaceCondition::Fixed, _) => BoundaryCondition::Driven(0.0),
+                (RearFaceCondition::NonReflecting, Some(last)) => {
+                    BoundaryCondition::Dashpot(last.material.bar_impedance() * area)
                 }
-                (BackFace::Free, _) | (_, None) => End::Free,
+                (RearFaceCondition::Free, _) | (_, None) => BoundaryCondition::Free,
             };
         }
         TargetBody::RigidWall => {
             let wall = law(&rod.material, area, 1.0, options, scenario);
             slabs.push(slab(wall, 0.0, 0.0, 0));
-            end = End::Driven(0.0);
+            end = BoundaryCondition::Driven(0.0);
         }
         TargetBody::ConstantPressure(pressure) => tip_pressure = pressure * area,
     }
-    let mut grid = Grid::new(slabs, [End::Free, end]);
+    let mut grid = Grid::new(slabs, [BoundaryCondition::Free, end]);
     if let Some(last) = grid.nodes.last_mut() {
         if tip_pressure > 0.0 {
             last.friction = tip_pressure;
             grid.tip_pressure = tip_pressure;
         }
         // The boundary's own impedance stands for everything behind it, border shear included.
-        if let End::Dashpot(_) = end {
+        if let BoundaryCondition::Dashpot(_) = end {
             last.friction = 0.0;
         }
     }

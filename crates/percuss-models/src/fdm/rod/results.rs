@@ -86,7 +86,7 @@ fn warnings(rod: &Rod<'_>, result: &RunResult) -> Vec<String> {
     let mut warnings = Vec::new();
     match result.outcome {
         Outcome::OutOfTime => warnings.push(
-            "the run was ended before the shot was over: raise `fdm.end_time` or `fdm.max_steps`".to_owned(),
+            "the run was ended before the impact was over: raise `fdm.end_time` or `fdm.max_steps`".to_owned(),
         ),
         Outcome::Perforated => warnings.push(
             "the target is perforated: a column without a plug or a bulge overestimates its resistance; the residual velocity \
@@ -115,7 +115,7 @@ fn warnings(rod: &Rod<'_>, result: &RunResult) -> Vec<String> {
     let depth = result.depth_of_penetration.unwrap_or(0.0);
     if shear > 0.0 {
         warnings.push(format!(
-            "the depth rests on the target closure (constraint factor and border shear C = {}): `fdm.border_shear = 0.0` gives \
+            "the depth depends on the target resistance model (constraint factor and border shear C = {}): `fdm.border_shear = 0.0` gives \
              the other end of the range",
             significant(shear, 4)
         ));

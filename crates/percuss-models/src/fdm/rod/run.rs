@@ -8,7 +8,7 @@ use crate::{
     error::NumericalError,
     fdm::{
         audit::{self, AUDIT, REST_FRACTION},
-        grid::{End, Grid},
+        grid::{BoundaryCondition, Grid},
     },
     history::{Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
@@ -25,7 +25,7 @@ use crate::{
 
 /// Part of the initial energy that may still dissipate in a window of a run whose bodies touch.
 const QUIET_FRACTION: f64 = 1e-6;
-/// The same when they have parted: what rings inside them then changes neither depth nor speed.
+/// The same after separation: vibrations then change neither depth nor velocity.
 const PARTED_FRACTION: f64 = 1e-4;
 
 /// Projectile and target as rods.
@@ -105,7 +105,7 @@ impl Rod<'_> {
             if mass > 0.0 { momentum / mass } else { 0.0 }
         };
         // A target that is held vibrates about its place; one that is free flies at its mean speed.
-        let away = if self.grid.ends[1] == End::Free {
+        let away = if self.grid.ends[1] == BoundaryCondition::Free {
             mean(1)
         } else {
             0.0

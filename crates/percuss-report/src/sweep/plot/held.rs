@@ -1,6 +1,6 @@
 //! Figures of a sweep whose rows are in memory.
 
-use percuss::sweep::{Row, Sweep};
+use percuss::sweep::{Sweep, SweepRow};
 
 use super::{
     super::{columns::columns, manifest::Manifest, rows::Rows},
@@ -21,7 +21,7 @@ pub struct SweepChart {
 
 /// Charts of every number that comes of a sweep, as [`plot`](super::plot) draws it over the parameter that is named first: in the
 /// style that suits what is varied, then, of two parameters or more, in the other one. Parallel coordinates are no chart: [`parallel`](parallel_figure) draws them.
-pub fn charts(sweep: &Sweep, rows: &[Row]) -> Vec<SweepChart> {
+pub fn charts(sweep: &Sweep, rows: &[SweepRow]) -> Vec<SweepChart> {
     let manifest = Manifest::new(sweep);
     let of_number = |number: &SweepNumber| {
         let quantity = &number.quantity;
@@ -55,7 +55,7 @@ pub fn charts(sweep: &Sweep, rows: &[Row]) -> Vec<SweepChart> {
 }
 
 /// Parallel coordinates of the first number that comes of a sweep of more than two parameters.
-pub fn parallel_figure(sweep: &Sweep, rows: &[Row]) -> Option<Figure> {
+pub fn parallel_figure(sweep: &Sweep, rows: &[SweepRow]) -> Option<Figure> {
     let manifest = Manifest::new(sweep);
     let quantity = &numbers(sweep, rows).into_iter().next()?.quantity;
     let data = Data::new(&manifest, quantity, Rows::of(sweep, rows, quantity));
@@ -74,9 +74,9 @@ pub struct SweepNumber {
 }
 
 /// Results of the runs: neither inputs nor columns without values.
-pub fn numbers(sweep: &Sweep, rows: &[Row]) -> Vec<SweepNumber> {
+pub fn numbers(sweep: &Sweep, rows: &[SweepRow]) -> Vec<SweepNumber> {
     let manifest = Manifest::new(sweep);
-    let number = |column: &Column<Row>| SweepNumber {
+    let number = |column: &Column<SweepRow>| SweepNumber {
         quantity: column.name().to_owned(),
         label: quantity::label(column.name()),
         values: rows.iter().map(|row| column.number(row)).collect(),

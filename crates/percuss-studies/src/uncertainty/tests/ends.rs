@@ -1,11 +1,11 @@
-//! Shots without a result, threads, and analyses that end early.
+//! Runs without a result, threads, and analyses that end early.
 
 use std::sync::Mutex;
 
 use super::*;
 
 #[test]
-fn shots_that_fail_are_counted_and_left_out() {
+fn runs_that_fail_are_counted_and_left_out() {
     let kernel = Linear { fails_above: 236.0 };
     let found = analysed(&study(NORMALS), &kernel, &settings(1024));
     let failed = found
@@ -15,10 +15,10 @@ fn shots_that_fail_are_counted_and_left_out() {
         .count();
     // One normal variable in 15 is more than 1.5 deviations above its mean.
     assert!((60..77).contains(&failed), "{failed}");
-    assert_eq!(found.failures.shots, failed);
+    assert_eq!(found.failures.runs, failed);
     let depth = &found.quantities[0];
     assert_eq!(
-        (depth.statistics.shots, depth.without_value),
+        (depth.statistics.runs, depth.without_value),
         (1024 - failed, 0)
     );
     let rows = depth.indices.as_ref().unwrap().rows;
@@ -40,7 +40,7 @@ fn threads_make_no_difference_and_progress_reaches_its_end() {
     let study = study(NORMALS);
     let with = |threads| {
         let reached = Mutex::new((0, 0));
-        let watch = Watch {
+        let observer = Observer {
             stop: &AtomicBool::new(false),
             progress: &|done, total| {
                 let mut reached = reached.lock().unwrap();
@@ -52,7 +52,7 @@ fn threads_make_no_difference_and_progress_reaches_its_end() {
             .build()
             .unwrap();
         let chain = model("chain").unwrap();
-        let found = pool.install(|| analyse(&study, chain, &LINEAR, &settings(128), &watch));
+        let found = pool.install(|| analyse(&study, chain, &LINEAR, &settings(128), &observer));
         let (done, total) = *reached.lock().unwrap();
         assert_eq!((done, total), (6 + 128 * 5, 6 + 128 * 5));
         found.unwrap()
@@ -65,16 +65,16 @@ fn a_stopped_analysis_says_so_and_a_model_that_does_not_apply_why() {
     let study = study(NORMALS);
     let chain = model("chain").unwrap();
     let stop = AtomicBool::new(true);
-    let watch = |stop| Watch {
+    let observer = |stop| Observer {
         stop,
         progress: &|_, _| {},
     };
-    let ended = analyse(&study, chain, &LINEAR, &settings(64), &watch(&stop));
+    let ended = analyse(&study, chain, &LINEAR, &settings(64), &observer(&stop));
     assert!(matches!(ended, Err(Error::Cancelled { .. })));
     let concrete = model("forrestal_concrete").unwrap();
     let go = AtomicBool::new(false);
     let kernel = ScalarKernel::new(concrete);
-    let ended = analyse(&study, concrete, &kernel, &settings(64), &watch(&go));
+    let ended = analyse(&study, concrete, &kernel, &settings(64), &observer(&go));
     assert!(
         matches!(ended, Err(Error::NotApplicable { .. })),
         "{ended:?}"

@@ -82,6 +82,6 @@ fn indices_of_the_g_function_are_the_exact_ones() {
 fn a_constant_has_no_indices() {
     let rows = vec![vec![2.5; 5]; 64];
     let refused = indices(&rows, &["a", "b", "c"], 0).unwrap_err();
-    assert!(refused.contains("the same in all shots"), "{refused}");
+    assert!(refused.contains("the same in all runs"), "{refused}");
     assert!(indices(&rows[..3], &["a", "b", "c"], 0).is_err());
 }

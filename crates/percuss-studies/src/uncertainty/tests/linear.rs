@@ -27,7 +27,7 @@ fn a_linear_model_has_its_exact_statistics_and_indices() {
         let found = depth.statistics.percentile(percent);
         let exact = mean() + score * deviation;
         let off = (found.value - exact).abs() / deviation;
-        // The tails have fewer shots.
+        // The tails have fewer runs.
         assert!(
             off < if score.abs() > 2.0 { 0.03 } else { 0.01 },
             "{percent}: {off}"
@@ -61,7 +61,7 @@ fn a_linear_model_has_its_exact_statistics_and_indices() {
             .windows(2)
             .all(|pair| pair[0].length() >= pair[1].length())
     );
-    assert_eq!(found.shots, 1 + 6 + 5 * 4096);
+    assert_eq!(found.runs, 1 + 6 + 5 * 4096);
 }
 
 #[test]
@@ -78,7 +78,7 @@ fn correlated_parameters_have_their_exact_spread_and_no_indices() {
     assert!((depth.statistics.standard_deviation / deviation - 1.0).abs() < 3e-3);
     assert!(depth.indices.is_none());
     assert!(found.no_indices.unwrap().contains("correlated"));
-    assert_eq!(found.shots, 1 + 6 + 4096);
+    assert_eq!(found.runs, 1 + 6 + 4096);
 }
 
 #[test]
@@ -110,14 +110,14 @@ fn bands_hold_the_speed_and_spread_the_rest() {
     let found = analysed(&study(NORMALS), &LINEAR, &settings);
     let deviation = (part(1) + part(2)).sqrt();
     for band in &found.bands {
-        let exact = mean() + SLOPES[0] * (band.velocity_m_s - MEANS[0]);
+        let exact = mean() + SLOPES[0] * (band.impact_velocity_m_s - MEANS[0]);
         let statistics = band.quantities[0].statistics.as_ref().unwrap();
         assert!(
             (statistics.mean - exact).abs() < 0.02 * deviation,
             "{}",
-            band.velocity_m_s
+            band.impact_velocity_m_s
         );
         assert!((statistics.standard_deviation / deviation - 1.0).abs() < 0.02);
-        assert_eq!(band.shots, 256);
+        assert_eq!(band.runs, 256);
     }
 }

@@ -17,16 +17,16 @@ use crate::{
     model::model,
     outcome::Outcome,
     summary::ResultRecord,
-    sweep::{Kernel, Row, ScalarKernel, Shot, Stopped},
+    sweep::{Kernel, ScalarKernel, Stopped, SweepRow, SweepRun},
 };
 
 const CASE: &str = "
-projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', velocity = '230 m/s' }
+projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '230 m/s' }
 target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
 ";
 const NORMALS: &str = "
 [[uncertainty.parameter]]
-key = 'projectile.velocity'
+key = 'projectile.impact_velocity'
 normal = { mean = '230 m/s', standard_deviation = '4 m/s' }
 [[uncertainty.parameter]]
 key = 'target.thickness'
@@ -37,7 +37,7 @@ normal = { mean = 2.7, standard_deviation = 0.2 }
 ";
 const CORRELATION: &str = "
 [uncertainty.correlation]
-parameters = ['projectile.velocity', 'target.thickness']
+parameters = ['projectile.impact_velocity', 'target.thickness']
 matrix = [[1, 0.6], [0.6, 1]]
 ";
 const SLOPES: [f64; 3] = [0.5, -3.0, 10.0];
@@ -73,7 +73,7 @@ fn settings(samples: u64) -> Settings {
 
 /// A kernel whose depth is a linear function of speed, thickness and constraint factor.
 struct Linear {
-    /// Shots that are faster have no result.
+    /// Runs that are faster have no result.
     fails_above: f64,
 }
 
@@ -94,12 +94,12 @@ fn linear(scenario: &crate::Scenario) -> f64 {
 }
 
 impl Kernel for Linear {
-    fn rows(&self, shots: Vec<Shot>, stop: &AtomicBool) -> Result<Vec<Row>, Stopped> {
+    fn rows(&self, runs: Vec<SweepRun>, stop: &AtomicBool) -> Result<Vec<SweepRow>, Stopped> {
         if stop.load(Ordering::Relaxed) {
             return Err(Stopped);
         }
-        let row = |shot: Shot| {
-            let scenario = shot.scenario.unwrap();
+        let row = |run: SweepRun| {
+            let scenario = run.scenario.unwrap();
             let error = Error::Cancelled {
                 step: 0,
                 time_us: 0.0,
@@ -110,22 +110,22 @@ impl Kernel for Linear {
                 record.reason = None;
                 record.depth_of_penetration_mm = Some(linear(&scenario));
             }
-            Row {
-                index: shot.index,
-                inputs: shot.inputs,
+            SweepRow {
+                index: run.index,
+                inputs: run.inputs,
                 record: Ok(record),
             }
         };
-        Ok(shots.into_iter().map(row).collect())
+        Ok(runs.into_iter().map(row).collect())
     }
 }
 
 fn analysed(study: &Study, kernel: &dyn Kernel, settings: &Settings) -> Uncertainty {
-    let watch = Watch {
+    let observer = Observer {
         stop: &AtomicBool::new(false),
         progress: &|_, _| {},
     };
-    analyse(study, model("chain").unwrap(), kernel, settings, &watch).unwrap()
+    analyse(study, model("chain").unwrap(), kernel, settings, &observer).unwrap()
 }
 
 fn holds(found: Estimate, exact: f64, most: f64, name: &str) {

@@ -6,7 +6,7 @@ mod table;
 use std::{path::PathBuf, sync::atomic::AtomicBool};
 
 use clap::{Args, ValueEnum};
-use percuss::model_error::Verdict;
+use percuss::model_error::ErrorRecord;
 use percuss_research::{
     benchmark::{self, CheckedReference, Group, Grouping, Reference, RefusedReference, reference},
     benchmark_report::{self, BenchmarkResults, Origin},
@@ -122,7 +122,7 @@ struct BenchmarkRecord<'a> {
     findings: Vec<String>,
     statistics: Vec<Group>,
     variants: &'a [VariantResult],
-    verdicts: &'a [Verdict],
+    verdicts: &'a [ErrorRecord],
 }
 
 /// Result of the command and the files that it wrote.

@@ -56,7 +56,7 @@ pub fn text(compared: &BenchmarkResults, origin: &Origin, by: &[Grouping]) -> St
     }
     if by.is_empty() {
         for grouping in [Grouping::Speed, Grouping::Length, Grouping::Regime] {
-            let title = format!("median error in % by {}", grouping.in_words());
+            let title = format!("median error in % by {}", grouping.describe());
             let groups = benchmark::statistics(verdicts, grouping);
             add(&title, &medians(&groups, grouping));
         }
@@ -77,7 +77,7 @@ pub fn text(compared: &BenchmarkResults, origin: &Origin, by: &[Grouping]) -> St
 /// Errors in columns that fit 80 characters.
 fn errors(groups: &[Group]) -> Table {
     Table::of(groups)
-        .words("model", |group| group.contender)
+        .words("model", |group| group.candidate)
         .numbers("n", "", |group| group.errors.count.to_string())
         .numbers("median", "", |group| signed(group.errors.median))
         .numbers("P10-P90", "", |group| {
@@ -93,17 +93,17 @@ fn errors(groups: &[Group]) -> Table {
         .table()
 }
 
-/// One row per contender, one column per group.
+/// One row per candidate, one column per group.
 fn medians(groups: &[Group], grouping: Grouping) -> Table {
-    let mut contenders: Vec<&str> = groups.iter().map(|group| group.contender).collect();
-    contenders.dedup();
+    let mut candidates: Vec<&str> = groups.iter().map(|group| group.candidate).collect();
+    candidates.dedup();
     let values = grouping.values().into_iter();
     let values = values.filter(|value| groups.iter().any(|group| group.value == *value));
-    Table::of(&contenders)
-        .words("model", |contender| *contender)
+    Table::of(&candidates)
+        .words("model", |candidate| *candidate)
         .each(values, |rows, value| {
-            rows.numbers(value.clone(), "", |contender| {
-                let is_own = |group: &&Group| group.contender == *contender && group.value == value;
+            rows.numbers(value.clone(), "", |candidate| {
+                let is_own = |group: &&Group| group.candidate == *candidate && group.value == value;
                 let group = groups.iter().find(is_own);
                 group.map_or_else(|| number(None, 0), |group| signed(group.errors.median))
             })
@@ -111,13 +111,13 @@ fn medians(groups: &[Group], grouping: Grouping) -> Table {
         .table()
 }
 
-/// Contender as one line of NAME=VALUE pairs.
+/// Candidate as one line of NAME=VALUE pairs.
 pub fn one_line(group: &Group) -> String {
     let errors = &group.errors;
     format!(
-        "contender={} count={} median={} low={} high={} median_absolute={} within_25_percent={}\n",
+        "candidate={} count={} median={} low={} high={} median_absolute={} within_25_percent={}\n",
         group
-            .contender
+            .candidate
             .replace(": ", ":")
             .replace(", ", ",")
             .replace(' ', "-"),

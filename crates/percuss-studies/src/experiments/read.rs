@@ -1,0 +1,281 @@
+//! Files of tests.
+
+use std::{collections::BTreeMap, path::Path};
+
+use super::{
+    Experiment, Kind, Properties, Split, Strength, Struck,
+    columns::{COLUMNS, RIGID_WALL, SEMI_INFINITE},
+    header, materials,
+    row::{CsvRow, CsvTable},
+};
+use crate::{
+    document::read_text,
+    error::{Error, InputError},
+    material::{Library, Trust},
+    problem::Nose,
+    units::shorten,
+};
+
+/// Reads a file of tests whose materials a library has; [`COLUMNS`] says what it holds.
+///
+/// # Errors
+/// [`Error::Read`] when it cannot be read, [`Error::Input`] with the place when its content is not valid.
+pub fn read(path: impl AsRef<Path>, library: &Library) -> Result<Vec<Experiment>, Error> {
+    let path = path.as_ref();
+    read_str(&path.display().to_string(), &read_text(path)?, library)
+}
+
+/// Reads tests from a text; `name` stands for the file in messages.
+///
+/// # Errors
+/// [`Error::Input`] with the place when the text is not valid.
+pub fn read_str(name: &str, text: &str, library: &Library) -> Result<Vec<Experiment>, Error> {
+    let (table, records) = CsvTable::read(name, text)?;
+    header::check(&table)?;
+    let mut tests: Vec<Experiment> = Vec::new();
+    let mut rows: BTreeMap<String, CsvRow<'_>> = BTreeMap::new();
+    for record in records {
+        let row = CsvRow {
+            table: &table,
+            record,
+        };
+        let test = test(&row, library)?;
+        if rows.contains_key(&test.id) {
+            return Err(row
+                .error(
+                    "id",
+                    format!("a second test is named `{}`", shorten(&test.id)),
+                    "give it another id",
+                )
+                .into());
+        }
+        rows.insert(test.id.clone(), row);
+        tests.push(test);
+    }
+    for test in &tests {
+        let (Some(first), Some(row)) = (&test.duplicate_of, rows.get(&test.id)) else {
+            continue;
+        };
+        if first == &test.id || !rows.contains_key(first) {
+            return Err(row
+                .error(
+                    "duplicate_of",
+                    format!("no other test of this file is named `{}`", shorten(first)),
+                    "write the id of the row that it repeats, or leave it empty",
+                )
+                .into());
+        }
+    }
+    if tests.is_empty() {
+        return Err(table
+            .error(
+                0..0,
+                "",
+                "the file holds no test",
+                "write one row per test below the header",
+            )
+            .into());
+    }
+    Ok(tests)
+}
+
+fn test(row: &CsvRow<'_>, library: &Library) -> Result<Experiment, Box<InputError>> {
+    if row.record.len() != row.table.header.len() {
+        return Err(row.error(
+            "id",
+            format!(
+                "the row has {} fields, and the first line names {}",
+                row.record.len(),
+                row.table.header.len()
+            ),
+            "a field with a comma in it stands in double quotes",
+        ));
+    }
+    let kind = row
+        .word("kind", &Kind::ALL.map(|kind| (kind.name(), kind)))?
+        .ok_or_else(|| {
+            row.error(
+                "kind",
+                "`kind` is empty",
+                "allowed: taylor, ballistic_limit, depth, residual_velocity",
+            )
+        })?;
+    row.required("unit")?;
+    row.word("unit", &[(kind.unit(), ())])?;
+    let to_si = |value: f64| value / kind.shown(1.0);
+    let measured = to_si(row.required_number("measured")?);
+    if measured < 0.0 || (measured == 0.0 && kind != Kind::ResidualVelocity) {
+        return Err(row.error(
+            "measured",
+            format!("{} is out of range", row.text("measured")),
+            "only a residual velocity can be 0, and nothing less than that",
+        ));
+    }
+    let unusable = row.optional("unusable");
+    let usable = unusable.is_none();
+    let impact_velocity = match row.number("impact_velocity_m_s")? {
+        Some(velocity) => velocity,
+        None if kind == Kind::BallisticLimit => measured,
+        None => row.required_number("impact_velocity_m_s")?,
+    };
+    let scaled = |column: &str, factor: f64| row.number(column).map(|v| v.map(|v| v * factor));
+    let (length, mass) = (scaled("length_mm", 1e-3)?, scaled("mass_g", 1e-3)?);
+    if usable && length.is_some() == mass.is_some() {
+        return Err(row.error(
+            "mass_g",
+            "a projectile has either `length_mm` or `mass_g`",
+            "with the material's density one follows from the other: fill in one of them",
+        ));
+    }
+    let diameter = scaled("diameter_mm", 1e-3)?;
+    if usable {
+        row.required_number("diameter_mm")?;
+        row.required("projectile_material")?;
+    }
+    let test = Experiment {
+        id: row.required("id")?,
+        source: row.text("source").to_owned(),
+        read_at: row.text("read_at").to_owned(),
+        licence: row.text("licence").to_owned(),
+        kind,
+        projectile_class: row
+            .optional("projectile_class")
+            .unwrap_or_else(|| row.text("projectile_material").to_owned()),
+        projectile_materials: row
+            .text("projectile_material")
+            .split_whitespace()
+            .map(str::to_owned)
+            .collect(),
+        nose: nose(row)?,
+        length,
+        diameter,
+        mass,
+        temperature: row.number("temperature_k")?,
+        impact_velocity,
+        obliquity_deg: row.number("obliquity_deg")?.unwrap_or(0.0),
+        target: target(row, kind)?,
+        measured,
+        uncertainty: row.number("uncertainty")?.map(to_si),
+        trust: row
+            .word(
+                "trust",
+                &[("A", Trust::A), ("B", Trust::B), ("C", Trust::C)],
+            )?
+            .unwrap_or_default(),
+        split: row
+            .word(
+                "split",
+                &[Split::Blind, Split::Calibration].map(|split| (split.name(), split)),
+            )?
+            .unwrap_or(Split::Blind),
+        flag: row.optional("flag"),
+        duplicate_of: row.optional("duplicate_of"),
+        unusable,
+        note: row.text("note").to_owned(),
+    };
+    if usable {
+        materials::check(&test, row, library)?;
+    }
+    Ok(test)
+}
+
+fn nose(row: &CsvRow<'_>) -> Result<Nose, Box<InputError>> {
+    #[derive(Clone, Copy)]
+    enum Shape {
+        Flat,
+        Hemisphere,
+        Cone,
+        Ogive,
+    }
+    let shapes = [
+        ("flat", Shape::Flat),
+        ("hemisphere", Shape::Hemisphere),
+        ("cone", Shape::Cone),
+        ("ogive", Shape::Ogive),
+    ];
+    let shape = row.word("nose", &shapes)?.unwrap_or(Shape::Flat);
+    Ok(match shape {
+        Shape::Flat => Nose::Flat,
+        Shape::Hemisphere => Nose::Hemisphere,
+        Shape::Cone => Nose::Cone {
+            length_to_diameter: row.required_number("nose_ratio")?,
+        },
+        Shape::Ogive => Nose::Ogive {
+            crh: row.required_number("nose_ratio")?,
+        },
+    })
+}
+
+fn target(row: &CsvRow<'_>, kind: Kind) -> Result<Struck, Box<InputError>> {
+    let material = row.required("target_material")?;
+    let wall = material == RIGID_WALL;
+    if wall != (kind == Kind::Taylor) {
+        let (message, help) = if wall {
+            (
+                format!("a rigid wall has no {}", kind.quantity().describe()),
+                "write the material of the target",
+            )
+        } else {
+            (
+                "a Taylor test has a rigid wall".to_owned(),
+                "write rigid-wall",
+            )
+        };
+        return Err(row.error("target_material", message, help));
+    }
+    if wall {
+        return Ok(Struck::RigidWall);
+    }
+    let thickness = match row.required("thickness_mm")?.as_str() {
+        SEMI_INFINITE if kind == Kind::BallisticLimit => {
+            return Err(row.error(
+                "thickness_mm",
+                "a semi-infinite target has no ballistic limit",
+                "write its thickness",
+            ));
+        }
+        SEMI_INFINITE => None,
+        _ => row.number("thickness_mm")?.map(|mm| mm * 1e-3),
+    };
+    Ok(Struck::Body {
+        material,
+        thickness,
+        properties: properties(row)?,
+    })
+}
+
+fn properties(row: &CsvRow<'_>) -> Result<Option<Properties>, Box<InputError>> {
+    let any = COLUMNS
+        .iter()
+        .map(|column| column.name)
+        .filter(|name| name.starts_with("target_") && *name != "target_material")
+        .any(|name| !row.text(name).is_empty());
+    if !any {
+        return Ok(None);
+    }
+    let strength = match (
+        row.number("target_yield_mpa")?,
+        row.number("target_concrete_strength_mpa")?,
+    ) {
+        (Some(yield_stress), None) => Strength::Metal {
+            yield_stress: yield_stress * 1e6,
+            exponent: row.number("target_hardening_exponent")?.unwrap_or(0.0),
+        },
+        (None, Some(strength)) => Strength::Concrete(strength * 1e6),
+        _ => {
+            return Err(row.error(
+                "target_yield_mpa",
+                "a target with properties has either `target_yield_mpa` or `target_concrete_strength_mpa`",
+                "fill in one of them, or leave all columns target_density_kg_m3 to target_concrete_strength_mpa empty",
+            ));
+        }
+    };
+    Ok(Some(Properties {
+        density: row.required_number("target_density_kg_m3")?,
+        youngs_modulus: row.required_number("target_youngs_modulus_gpa")? * 1e9,
+        poissons_ratio: row.required_number("target_poissons_ratio")?,
+        strength,
+        ultimate_strength: row.number("target_ultimate_mpa")?.map(|mpa| mpa * 1e6),
+        brinell_hardness: row.number("target_brinell_hardness")?,
+    }))
+}

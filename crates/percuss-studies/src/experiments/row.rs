@@ -1,0 +1,177 @@
+//! A file of tests as a table: the fields of a row by name, and errors that name their place.
+
+use std::ops::Range;
+
+use crate::{
+    error::{InputError, Subject, nearest},
+    units::shorten,
+};
+
+/// A file of tests and which column stands where.
+pub(crate) struct CsvTable<'a> {
+    pub(crate) file: &'a str,
+    pub(crate) text: &'a str,
+    pub(crate) header: Vec<String>,
+}
+
+/// A row of it.
+pub(crate) struct CsvRow<'a> {
+    pub(crate) table: &'a CsvTable<'a>,
+    pub(crate) record: csv::StringRecord,
+}
+
+impl<'a> CsvTable<'a> {
+    /// The table and its rows that hold anything; `file` stands for it in messages.
+    pub(crate) fn read(
+        file: &'a str,
+        text: &'a str,
+    ) -> Result<(Self, Vec<csv::StringRecord>), Box<InputError>> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut table = CsvTable {
+            file,
+            text,
+            header: Vec::new(),
+        };
+        let mut reader = csv::ReaderBuilder::new()
+            .flexible(true)
+            .from_reader(text.as_bytes());
+        let parsed = reader.headers().cloned().and_then(|header| {
+            let records: Result<Vec<csv::StringRecord>, csv::Error> = reader.records().collect();
+            Ok((header, records?))
+        });
+        let (header, mut records) = parsed.map_err(|error| {
+            let message = format!("it is no table of comma-separated values: {error}");
+            table.error(0..0, "", message, "")
+        })?;
+        records.retain(|record| record.iter().any(|field| !field.trim().is_empty()));
+        table.header = header.iter().map(|name| name.trim().to_owned()).collect();
+        Ok((table, records))
+    }
+
+    pub(crate) fn error(
+        &self,
+        span: Range<usize>,
+        column: &str,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Box<InputError> {
+        Box::new(InputError {
+            subject: Subject::Case,
+            file: self.file.to_owned(),
+            text: self.text.to_owned(),
+            span,
+            key: column.to_owned(),
+            message: message.into(),
+            help: help.into(),
+        })
+    }
+}
+
+impl CsvRow<'_> {
+    /// Text of a field; empty where the file lacks the column.
+    pub(crate) fn text(&self, column: &str) -> &str {
+        let at = self.table.header.iter().position(|name| name == column);
+        at.and_then(|at| self.record.get(at)).map_or("", str::trim)
+    }
+
+    /// Text of a field, unless it is empty.
+    pub(crate) fn optional(&self, column: &str) -> Option<String> {
+        Some(self.text(column).to_owned()).filter(|text| !text.is_empty())
+    }
+
+    /// Text of a field that must not be empty.
+    pub(crate) fn required(&self, column: &str) -> Result<String, Box<InputError>> {
+        self.optional(column)
+            .ok_or_else(|| self.error(column, format!("`{column}` is empty"), "write its value"))
+    }
+
+    /// A number, unless the field is empty.
+    pub(crate) fn number(&self, column: &str) -> Result<Option<f64>, Box<InputError>> {
+        let text = self.text(column);
+        if text.is_empty() {
+            return Ok(None);
+        }
+        match text.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(Some(number)),
+            _ => Err(self.error(
+                column,
+                format!("`{}` is no number", shorten(text)),
+                "write a plain number such as 12.7; its unit is in the name of the column",
+            )),
+        }
+    }
+
+    /// A number that must be there.
+    pub(crate) fn required_number(&self, column: &str) -> Result<f64, Box<InputError>> {
+        self.required(column)?;
+        match self.number(column)? {
+            Some(number) => Ok(number),
+            None => Err(self.error(column, "a number is due here", "write its value")),
+        }
+    }
+
+    /// One of several words; `None` when the field is empty.
+    pub(crate) fn word<T: Copy>(
+        &self,
+        column: &str,
+        words: &[(&'static str, T)],
+    ) -> Result<Option<T>, Box<InputError>> {
+        let text = self.text(column);
+        if text.is_empty() {
+            return Ok(None);
+        }
+        if let Some((_, value)) = words.iter().find(|(word, _)| *word == text) {
+            return Ok(Some(*value));
+        }
+        let names: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        let near = nearest(text, names.iter().copied())
+            .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+        Err(self.error(
+            column,
+            format!("`{}` is no {}", shorten(text), column.replace('_', " ")),
+            format!("{near}allowed: {}", names.join(", ")),
+        ))
+    }
+
+    /// An error at a field; at the start of the row where the file lacks the column.
+    pub(crate) fn error(
+        &self,
+        column: &str,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Box<InputError> {
+        self.table.error(self.span(column), column, message, help)
+    }
+
+    /// Bytes of a field in the text of the file.
+    fn span(&self, column: &str) -> Range<usize> {
+        let start = self
+            .record
+            .position()
+            .map_or(0, |position| position.byte() as usize);
+        let start = start.min(self.table.text.len());
+        let at = self.table.header.iter().position(|name| name == column);
+        field_span(self.table.text, start, at.unwrap_or(0))
+    }
+}
+
+/// Bytes of field `index` of the record that begins at `start`, its quotes included; at least one byte where there is one.
+pub(crate) fn field_span(text: &str, start: usize, index: usize) -> Range<usize> {
+    // The reader counts line breaks that it skips to the record that follows.
+    let skipped = text[start..].find(|c| c != '\n' && c != '\r').unwrap_or(0);
+    let (mut begin, mut field, mut quoted) = (start + skipped, 0, false);
+    for (at, byte) in text.bytes().enumerate().skip(begin) {
+        match byte {
+            b'"' => quoted = !quoted,
+            b',' | b'\n' | b'\r' if !quoted => {
+                if field == index || byte != b',' {
+                    return begin..at.max(begin + 1);
+                }
+                field += 1;
+                begin = at + 1;
+            }
+            _ => {}
+        }
+    }
+    begin..text.len().max(begin)
+}

@@ -1,0 +1,295 @@
+//! Results of the runs of a model: perforation, ballistic limit, warnings.
+
+use super::{
+    Bracket, CurvePoint, LimitOutcome, ModelLimit, RearFace, fit_lambert_jonas,
+    search::{Passage, Sample, bracket},
+    warnings,
+};
+use crate::{
+    Error, Scenario,
+    analytic::InputLimit,
+    model::Model,
+    outcome::{Outcome, RunResult},
+    units::significant,
+};
+
+/// What is kept of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct LimitRun {
+    pub scheme: &'static str,
+    /// Residual velocity [m/s].
+    pub residual: Option<f64>,
+    /// Ballistic limit that the model states [m/s].
+    pub stated: Option<f64>,
+    pub warnings: Vec<String>,
+    /// How it ended without a result.
+    pub absent: Option<LimitOutcome>,
+}
+
+impl LimitRun {
+    pub(super) fn of(result: RunResult) -> Self {
+        Self {
+            scheme: result.scheme,
+            residual: result.residual_velocity,
+            stated: result.ballistic_limit,
+            warnings: result.warnings,
+            absent: None,
+        }
+    }
+
+    pub(super) fn failed(error: &Error) -> Self {
+        Self {
+            scheme: "",
+            residual: None,
+            stated: None,
+            warnings: Vec::new(),
+            absent: Some(match error {
+                Error::NotApplicable { .. } => LimitOutcome::NotApplicable,
+                _ => LimitOutcome::Failed,
+            }),
+        }
+    }
+}
+
+/// Why a model cannot be asked, at whatever speed, and what the search comes to then.
+pub(super) fn unsuited(model: &dyn Model, scenario: &Scenario) -> Option<(LimitOutcome, String)> {
+    if !model.validity().decides_perforation() {
+        let reason = "it does not say whether a target is perforated".to_owned();
+        return Some((LimitOutcome::NotApplicable, reason));
+    }
+    match RearFace::of(scenario) {
+        Some(face) => Some((LimitOutcome::NeverPerforates, face.impossible()?)),
+        None => Some((
+            LimitOutcome::NotApplicable,
+            "the target has no rear face to perforate".to_owned(),
+        )),
+    }
+}
+
+/// Whether a run perforates.
+pub(super) fn passage(result: &RunResult) -> Passage {
+    let why = match result.outcome {
+        Outcome::Separated => {
+            "the target runs away from the projectile, and whether it opens is not said"
+        }
+        Outcome::OutOfTime => "the run ended before the impact did",
+        Outcome::NotApplicable => "the model does not apply",
+        _ => "the model failed",
+    };
+    match result.outcome.perforated() {
+        Some(true) => Passage::Perforated,
+        Some(false) => Passage::Stopped,
+        None => Passage::Undecided(why.to_owned()),
+    }
+}
+
+/// Why a run gave no result.
+pub(super) fn reason(error: &Error) -> String {
+    match error {
+        Error::NotApplicable { refusal, .. } => refusal.to_string(),
+        other => other.to_string(),
+    }
+}
+
+/// The limit of a search [m/s]: what the model states where the bracket holds it, otherwise the middle of the bracket.
+pub(super) fn limit_of(samples: &[Sample<LimitRun>]) -> Option<f64> {
+    let (below, above) = bracket(samples)?;
+    let (low, high) = (samples[below].speed, samples[above].speed);
+    let stated = stated(samples).filter(|limit| (low..=high).contains(limit));
+    Some(stated.unwrap_or(0.5 * (low + high)))
+}
+
+/// What the model states at the lowest speed that perforated.
+fn stated(samples: &[Sample<LimitRun>]) -> Option<f64> {
+    let perforated = |sample: &&Sample<LimitRun>| sample.passage == Passage::Perforated;
+    samples.iter().find(perforated)?.run.as_ref()?.stated
+}
+
+/// Residual velocities of runs that perforated; zero where a plug has left and the projectile does not follow it.
+pub(super) fn curve(runs: &[Sample<LimitRun>]) -> Vec<CurvePoint> {
+    let through = runs
+        .iter()
+        .filter(|sample| sample.passage == Passage::Perforated);
+    through
+        .filter_map(|sample| {
+            Some(CurvePoint {
+                impact_velocity_m_s: sample.speed,
+                residual_velocity_m_s: sample.run.as_ref()?.residual?.max(0.0),
+            })
+        })
+        .collect()
+}
+
+/// The entry of a model without a limit.
+pub(super) fn without_limit(
+    model: &'static str,
+    outcome: LimitOutcome,
+    reason: String,
+) -> ModelLimit {
+    ModelLimit {
+        model,
+        scheme: "",
+        outcome,
+        reason: Some(reason),
+        ballistic_limit_m_s: None,
+        stated_limit_m_s: None,
+        input_limit: None,
+        expected_error: None,
+        bracket: None,
+        runs: 0,
+        curve: Vec::new(),
+        fit: None,
+        warnings: Vec::new(),
+    }
+}
+
+/// The entry of a model whose runs, in the order of their speeds, are these.
+pub(super) fn entry(
+    model: &'static str,
+    samples: &[Sample<LimitRun>],
+    curve: Vec<CurvePoint>,
+) -> ModelLimit {
+    let results = || samples.iter().filter_map(|sample| sample.run.as_ref());
+    let runs = results().count();
+    let scheme = results().map(|run| run.scheme).find(|s| !s.is_empty());
+    let scheme = scheme.unwrap_or("");
+    let stated = stated(samples);
+    let Some((below, above)) = bracket(samples) else {
+        let (outcome, reason) = no_bracket(samples);
+        return ModelLimit {
+            scheme,
+            runs,
+            stated_limit_m_s: stated,
+            warnings: warnings::speeds_without_answer(samples)
+                .into_iter()
+                .collect(),
+            ..without_limit(model, outcome, reason)
+        };
+    };
+    let found = Bracket {
+        stopped_m_s: samples[below].speed,
+        perforated_m_s: samples[above].speed,
+    };
+    let of_run = samples[above].run.as_ref();
+    let mut said = of_run.map_or_else(Vec::new, |run| run.warnings.clone());
+    said.extend(warnings::undecided_inside(&samples[below..=above]));
+    said.extend(warnings::stated_outside(stated, found));
+    said.extend(warnings::not_monotone(samples, above));
+    said.extend(warnings::speeds_without_answer(samples));
+    let limit = limit_of(samples);
+    let fit = fit_lambert_jonas(&curve);
+    said.extend(warnings::curve_starts_elsewhere(limit, fit));
+    ModelLimit {
+        scheme,
+        reason: None,
+        ballistic_limit_m_s: limit,
+        stated_limit_m_s: stated,
+        bracket: Some(found),
+        runs,
+        fit,
+        curve,
+        warnings: said,
+        ..without_limit(model, LimitOutcome::Found, String::new())
+    }
+}
+
+/// The entry of a model that starts from a limit, whose runs above it, in the order of their speeds, are these.
+pub(super) fn input_entry(
+    model: &'static str,
+    input: InputLimit,
+    samples: &[Sample<LimitRun>],
+) -> ModelLimit {
+    let runs = || samples.iter().filter_map(|sample| sample.run.as_ref());
+    let curve = curve(samples);
+    let input_limit = Some(input);
+    if curve.is_empty() && !samples.is_empty() {
+        let (outcome, reason) = no_bracket(samples);
+        return ModelLimit {
+            input_limit,
+            runs: runs().count(),
+            ..without_limit(model, outcome, reason)
+        };
+    }
+    let mut said = runs()
+        .next()
+        .map_or_else(Vec::new, |run| run.warnings.clone());
+    said.extend(warnings::speeds_without_answer(samples));
+    ModelLimit {
+        scheme: runs()
+            .map(|run| run.scheme)
+            .find(|scheme| !scheme.is_empty())
+            .unwrap_or(""),
+        input_limit,
+        runs: runs().count(),
+        fit: fit_lambert_jonas(&curve),
+        curve,
+        warnings: said,
+        ..without_limit(
+            model,
+            LimitOutcome::Input,
+            format!(
+                "it starts from the limit of {}, {} m/s, and predicts none",
+                input.origin_in_words(),
+                significant(input.ballistic_limit_m_s, 4)
+            ),
+        )
+    }
+}
+
+pub(super) fn speed(sample: &Sample<LimitRun>) -> String {
+    significant(sample.speed, 4)
+}
+
+/// What runs without a change from stopped to perforated say.
+fn no_bracket(samples: &[Sample<LimitRun>]) -> (LimitOutcome, String) {
+    let first = |wanted: fn(&Passage) -> bool| samples.iter().find(|s| wanted(&s.passage));
+    let stopped = samples
+        .iter()
+        .rfind(|sample| sample.passage == Passage::Stopped && sample.speed > 0.0);
+    let perforated = first(|passage| *passage == Passage::Perforated);
+    match (stopped, perforated) {
+        (Some(stopped), None) => (
+            LimitOutcome::NeverPerforates,
+            match samples
+                .last()
+                .is_some_and(|last| last.speed > stopped.speed)
+            {
+                true => format!(
+                    "it is stopped at every speed up to {} m/s, and at higher ones the model gives no answer",
+                    speed(stopped)
+                ),
+                false => format!(
+                    "it is stopped at every speed up to {} m/s; search further up",
+                    speed(stopped)
+                ),
+            },
+        ),
+        (None, Some(perforated)) => (
+            LimitOutcome::AlwaysPerforates,
+            format!(
+                "it perforates at every speed from {} m/s on; search further down",
+                speed(perforated)
+            ),
+        ),
+        (Some(stopped), Some(perforated)) => (
+            LimitOutcome::Undecided,
+            format!(
+                "it perforates at {} m/s and is stopped at {} m/s, above it: no change from stopped to perforated lies in the range",
+                speed(perforated),
+                speed(stopped)
+            ),
+        ),
+        (None, None) => {
+            let absent = samples.iter().filter_map(|s| Some((s, s.run.as_ref()?)));
+            let mut outcomes = absent.map(|(_, run)| run.absent);
+            let one = outcomes.next().flatten();
+            let all_same = one.is_some() && outcomes.all(|outcome| outcome == one);
+            let reason = samples.iter().find_map(|sample| match &sample.passage {
+                Passage::Undecided(reason) => Some(reason.clone()),
+                _ => None,
+            });
+            let outcome = one.filter(|_| all_same).unwrap_or(LimitOutcome::Undecided);
+            (outcome, reason.unwrap_or_default())
+        }
+    }
+}
