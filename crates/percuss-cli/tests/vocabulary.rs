@@ -35,7 +35,7 @@ const RETIRED: &[(&str, &str)] = &[
     ("a slip", "an input error"),
     ("told by", "termination criterion"),
     ("judgement", "benchmark"),
-    ("percuss benchmark", "percuss benchmark"),
+    ("percuss judge", "percuss benchmark"),
     ("eight tenths", "10th-90th percentile"),
     ("eight of ten", "10th-90th percentile"),
     ("nine in ten", "90th percentile"),
