@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-# Table 1 of the seed paper (docs/paper/paper.md): copper rod of 40 masses, column of 2024-T351 aluminium of 80 masses.
+# Table 1 of the seed paper (docs/reference/paper/paper.md): copper rod of 40 masses, column of 2024-T351 aluminium of 80 masses.
 ROD = 40
 COLUMN = 80
 AREA_M2 = math.pi / 4 * 4.8e-3**2

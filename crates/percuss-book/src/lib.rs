@@ -1,9 +1,9 @@
-//! The user guide as a book: the pages of `docs/` and of the cases.
+//! User guide as a book: pages of `docs/` and of the cases.
 //!
 //! `cargo run --manifest-path crates/percuss-book/Cargo.toml` builds it into `target/book`.
 
 mod formulae;
-mod stage;
+mod gather;
 
 use std::{
     error::Error,
@@ -24,7 +24,7 @@ pub fn repository() -> PathBuf {
 /// Those of the file system, and of a book that cannot be built.
 pub fn build(root: &Path, out: &Path) -> Result<PathBuf, Box<dyn Error>> {
     let pages = out.join("pages");
-    stage::gather(root, &pages)?;
+    gather::gather(root, &pages)?;
     let mut config: Config = fs::read_to_string(root.join("docs/book.toml"))?.parse()?;
     config.book.src = PathBuf::from(".");
     config.build.build_dir = std::path::absolute(out)?.join("html");

@@ -1,8 +1,8 @@
-//! Models by their names, and those that have the same to be said of them, in one line.
+//! Selection of models by name, and messages grouped by models.
 
 use percuss::model::{self, MODELS, Model};
 
-/// The models of these names in the order of the list; the quick ones where there are no names.
+/// Models of these names in the order of the list; without names, all models that do not take minutes.
 pub fn named(names: &[String]) -> Vec<&'static dyn Model> {
     if names.is_empty() {
         return model::fast_models();
@@ -12,7 +12,7 @@ pub fn named(names: &[String]) -> Vec<&'static dyn Model> {
     models.filter(is_named).collect()
 }
 
-/// Entries with the same text as one, all their models before it.
+/// Merges entries with the same text; the names of the models precede it.
 pub fn by_models<'a>(entries: impl IntoIterator<Item = (&'a str, String)>) -> Vec<String> {
     let mut groups: Vec<(Vec<&str>, String)> = Vec::new();
     for (model, text) in entries {

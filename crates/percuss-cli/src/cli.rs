@@ -1,44 +1,49 @@
-//! The commands and what they have in common.
+//! Command line: the list of commands and their common help.
 
 use std::{ffi::OsString, sync::atomic::AtomicBool};
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{
+    CommandFactory, Parser, Subcommand,
+    builder::StyledStr,
+    error::{ContextKind, ContextValue},
+};
 
 use crate::{
-    answer::{Answer, AtHand, Hear},
     commands::{
-        Calibrate, Compare, Completions, Converge, Judge, Limit, Man, Materials, Models, New,
+        Benchmark, Calibrate, Compare, Completions, Converge, Limit, Man, Materials, Models, New,
         Reproduce, Run, Schema, Serve, Sweep, Uncertainty, Validate,
     },
     failure::Failure,
+    response::{ProgressCallback, Response, VirtualFiles},
 };
 
 const ABOUT: &str = "First-order impact and penetration mechanics";
 
 const LONG_ABOUT: &str = "\
-First-order impact and penetration mechanics: what strikes what, how fast, how
-deep it goes, and how far to trust that.
+First-order impact and penetration mechanics: estimates of the depth of
+penetration, residual velocity and ballistic limit, with an estimated model
+error.
 
 A case is a TOML file in which every dimensional number carries its unit. A run
-gives the depth of penetration and the rest of the shot, balances the books of
-energy and momentum, and says what its numbers rest on.";
+reports the depth of penetration and all other results, its energy and momentum
+balance, and the assumptions behind the numbers.";
 
 const AFTER_HELP: &str = "\
 Examples:
-  percuss new my-shot                      write my-shot/scenario.toml
-  percuss run my-shot/scenario.toml        run it
-  percuss compare my-shot/scenario.toml    see what every model says of it
-  percuss limit my-shot/scenario.toml      find the speed that perforates it
-  percuss sweep my-sweep.toml --out rows   vary a case and keep a row a shot
-  percuss converge my-shot/scenario.toml   see whether its mesh is fine enough
-  percuss serve                            answer in a browser while you drag
-  percuss materials show copper            show what is known of a material
+  percuss new my-case                      write my-case/scenario.toml
+  percuss run my-case/scenario.toml        run it
+  percuss compare my-case/scenario.toml    compare the results of all models
+  percuss limit my-case/scenario.toml      find its ballistic limit
+  percuss sweep my-sweep.toml --out rows   vary a case; one row per run
+  percuss converge my-case/scenario.toml   check its mesh convergence
+  percuss serve                            interactive page in a browser
+  percuss materials show copper            show the record of a material
   percuss run --help                       explain one command
 
 Exit codes: 0 ok, 2 bad input, 3 numerical failure, 4 a file could not be read
 or written";
 
-/// Without the lines on commands that this build leaves out.
+/// Examples, without the commands that this build leaves out.
 fn after_help() -> String {
     let left_out = [
         ("  percuss serve ", cfg!(feature = "serve")),
@@ -52,7 +57,7 @@ fn after_help() -> String {
     lines.join("\n")
 }
 
-/// What the command line holds.
+/// Parsed command line.
 #[derive(Debug, Parser)]
 #[command(
     name = "percuss",
@@ -70,6 +75,29 @@ pub struct Cli {
     pub command: Command,
 }
 
+/// Former names of commands, with the names of today.
+const RENAMED: [(&str, &str); 1] = [("judge", "benchmark")];
+
+impl Cli {
+    /// Reads a command line, whose first word is the name of the program. The error for a former name has the name of today.
+    ///
+    /// # Errors
+    /// Those of the parser.
+    pub fn parse_line(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
+        Self::try_parse_from(words).map_err(|mut error| {
+            let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else {
+                return error;
+            };
+            if let Some((former, name)) = RENAMED.into_iter().find(|(former, _)| former == word) {
+                let tip = StyledStr::from(format!("the command `{former}` is now `{name}`"));
+                error.remove(ContextKind::SuggestedSubcommand);
+                error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
+            }
+            error
+        })
+    }
+}
+
 /// All commands. Adding one is one file in `commands/` and one line in each of the lists here.
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -81,7 +109,7 @@ pub enum Command {
     Uncertainty(Uncertainty),
     Converge(Converge),
     Validate(Validate),
-    Judge(Judge),
+    Benchmark(Benchmark),
     Serve(Serve),
     New(New),
     Models(Models),
@@ -103,7 +131,7 @@ impl Command {
             Self::Uncertainty(command) => command.run(),
             Self::Converge(command) => command.run(),
             Self::Validate(command) => command.run(),
-            Self::Judge(command) => command.run(),
+            Self::Benchmark(command) => command.run(),
             Self::Serve(command) => command.run(),
             Self::New(command) => command.run(),
             Self::Models(command) => command.run(),
@@ -116,33 +144,35 @@ impl Command {
     }
 }
 
-/// What a command line with `--json` finds out; with `--out` it writes what the command writes. It ends when `stop` becomes true, or
-/// when `hear` says so.
+/// Executes a command line with `--json`; with `--out` it writes the files of the command. It ends when `stop` becomes true, or when
+/// `on_progress` returns [`ControlFlow::Break`](std::ops::ControlFlow::Break).
 ///
 /// # Errors
 /// Those of the command, and [`Failure::CommandLine`].
-pub fn answer(
+pub fn execute(
     words: impl IntoIterator<Item = OsString>,
-    at_hand: &AtHand,
+    virtual_files: &VirtualFiles,
     stop: &AtomicBool,
-    hear: Hear<'_>,
-) -> Result<Answer, Failure> {
-    let cli = Cli::try_parse_from(words).map_err(Failure::CommandLine)?;
+    on_progress: ProgressCallback<'_>,
+) -> Result<Response, Failure> {
+    let cli = Cli::parse_line(words).map_err(Failure::CommandLine)?;
     match cli.command {
-        Command::Run(command) => command.answer(at_hand, stop, hear),
-        Command::Compare(command) => command.answer(at_hand, hear),
-        Command::Limit(command) => command.answer(at_hand, hear),
-        Command::Sweep(command) => command.answer(),
-        Command::Calibrate(command) => command.answer(at_hand, hear),
-        Command::Uncertainty(command) => command.answer(at_hand, stop, hear),
-        Command::Converge(command) => command.answer(at_hand, hear),
-        Command::Validate(command) => command.answer(hear),
-        Command::Judge(command) => command.answer(stop, hear),
-        Command::New(command) => command.answer(),
-        Command::Models(command) => command.answer(),
-        Command::Materials(command) => command.answer(at_hand),
-        Command::Schema(command) => command.answer(),
-        Command::Reproduce(command) => command.answer(hear),
-        Command::Serve(_) | Command::Completions(_) | Command::Man(_) => Err(Failure::no_answer()),
+        Command::Run(command) => command.execute(virtual_files, stop, on_progress),
+        Command::Compare(command) => command.execute(virtual_files, on_progress),
+        Command::Limit(command) => command.execute(virtual_files, on_progress),
+        Command::Sweep(command) => command.execute(),
+        Command::Calibrate(command) => command.execute(virtual_files, on_progress),
+        Command::Uncertainty(command) => command.execute(virtual_files, stop, on_progress),
+        Command::Converge(command) => command.execute(virtual_files, on_progress),
+        Command::Validate(command) => command.execute(on_progress),
+        Command::Benchmark(command) => command.execute(stop, on_progress),
+        Command::New(command) => command.execute(),
+        Command::Models(command) => command.execute(),
+        Command::Materials(command) => command.execute(virtual_files),
+        Command::Schema(command) => command.execute(),
+        Command::Reproduce(command) => command.execute(on_progress),
+        Command::Serve(_) | Command::Completions(_) | Command::Man(_) => {
+            Err(Failure::no_response())
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Error messages: what is wrong, where in the file, and what to do.
+//! Error messages: error, place in the file and remedy.
 
 use std::{
     io::{self, IsTerminal, Write},
@@ -16,12 +16,12 @@ use crate::terminal;
 /// Most characters of a key that are shown.
 const MAX_KEY: usize = 80;
 
-/// Writes a message to standard error. There is nowhere left to say that this failed.
+/// Writes a message to standard error. A failure to do so cannot be reported.
 pub fn print(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());
 }
 
-/// How messages look.
+/// Layout of messages.
 #[derive(Debug, Clone, Copy)]
 pub struct Look {
     /// Columns of a line.
@@ -31,13 +31,13 @@ pub struct Look {
 }
 
 impl Look {
-    /// What is read elsewhere than on a terminal.
+    /// Layout outside a terminal.
     pub const PLAIN: Self = Self {
         width: 100,
         coloured: false,
     };
 
-    /// What standard error asks for.
+    /// Layout for standard error.
     pub fn of_stderr() -> Self {
         let stderr = io::stderr();
         Self {

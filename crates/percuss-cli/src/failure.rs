@@ -1,4 +1,4 @@
-//! What can go wrong in a command, how it is said and which exit code it has.
+//! Failures of commands, with message and exit code.
 
 use std::{
     io,
@@ -26,12 +26,12 @@ pub enum Failure {
     Write {
         /// The file or folder.
         path: PathBuf,
-        /// Why, in words.
+        /// Reason.
         reason: String,
-        /// What to do; may be empty.
+        /// Remedy; may be empty.
         help: String,
     },
-    /// No model gave a result: the reasons, one a model.
+    /// No model gave a result: the reasons, one per model.
     NoResult(Vec<String>),
     /// Standard output could not be written.
     Output(io::Error),
@@ -42,25 +42,25 @@ pub enum Failure {
     },
     /// The user stopped a sweep.
     SweepStopped {
-        /// Shots that are there.
+        /// Completed runs.
         done: u64,
-        /// All shots.
+        /// All runs.
         shots: u64,
     },
-    /// The user stopped something that leaves nothing behind: its name.
+    /// The user stopped a computation without output: its name.
     Interrupted(&'static str),
     /// The command line asks for something that does not exist.
     Usage {
-        /// What is wrong.
+        /// Message.
         message: String,
-        /// What to do; may be empty.
+        /// Remedy; may be empty.
         help: String,
     },
     /// The command line asks for a material that does not exist.
     Material {
-        /// What is wrong.
+        /// Message.
         message: String,
-        /// What to do; may be empty.
+        /// Remedy; may be empty.
         help: String,
     },
     /// The command line cannot be read.
@@ -98,11 +98,11 @@ impl Failure {
         }
     }
 
-    /// What a command that gives no data answers to who asks for some.
-    pub(crate) fn no_answer() -> Self {
+    /// Failure of a command that has no result as data.
+    pub(crate) fn no_response() -> Self {
         Self::Usage {
-            message: "this command has no answer as data".to_owned(),
-            help: "run it as a command".to_owned(),
+            message: "this command has no result as data".to_owned(),
+            help: "run it in a terminal".to_owned(),
         }
     }
 
@@ -113,7 +113,7 @@ impl Failure {
             | Self::Material { .. }
             | Self::CommandLine(_)
             | Self::NoResult(_) => 2,
-            // What shells report of a program that Ctrl-C ended.
+            // Exit code of shells for a program that Ctrl-C ended.
             Self::Stopped { .. } | Self::SweepStopped { .. } | Self::Interrupted(_) => 130,
             Self::Library(Error::Numerical(_) | Error::Cancelled { .. }) | Self::Report(_) => 3,
             Self::Library(Error::Read { .. }) | Self::Write { .. } | Self::Output(_) => 4,
@@ -121,12 +121,12 @@ impl Failure {
         })
     }
 
-    /// Says on standard error what is wrong.
+    /// Prints the message to standard error.
     pub fn report(&self) {
         diagnostic::print(&self.text(Look::of_stderr()));
     }
 
-    /// What the program writes to standard error where that is no terminal.
+    /// Message without colours.
     pub fn plain_text(&self) -> String {
         self.text(Look::PLAIN)
     }
@@ -140,23 +140,18 @@ impl Failure {
                 message("no model applies to this case", "") + &lines(&reasons)
             }
             Self::Library(Error::Input(error)) => diagnostic::input_error(look, error),
-            Self::Library(Error::Read {
-                path,
-                reason,
-                source,
-            }) => {
+            Self::Library(error @ Error::Read { path, source, .. }) => {
                 let missing = source
                     .as_ref()
                     .is_some_and(|error| error.kind() == io::ErrorKind::NotFound);
-                let (reason, help) = match reason.split_once("; ") {
-                    Some(parts) => parts,
-                    None if missing && path.extension().is_some_and(|end| end == "csv") => {
-                        (&**reason, "give the path of a CSV file that exists")
+                let (what, remedy) = error.message_and_help();
+                let help = match remedy.as_str() {
+                    "" if missing && path.extension().is_some_and(|end| end == "csv") => {
+                        "give the path of a CSV file that exists"
                     }
-                    None if missing => (&**reason, "`percuss new NAME` writes a starter case"),
-                    None => (&**reason, ""),
+                    "" if missing => "`percuss new NAME` writes a starter case",
+                    remedy => remedy,
                 };
-                let what = format!("cannot read `{}`: {reason}", path.display());
                 message(&what, help)
             }
             Self::Library(error) => {
@@ -180,7 +175,7 @@ impl Failure {
                 )
             }
             Self::SweepStopped { done, shots } => message(
-                &format!("the sweep was stopped with {done} of {shots} shots done"),
+                &format!("the sweep was stopped with {done} of {shots} runs done"),
                 "the same command with `--resume` continues from there",
             ),
             Self::Interrupted(what) => {
@@ -199,7 +194,7 @@ impl Failure {
     }
 }
 
-/// Reasons below an error, one under the other.
+/// Reasons below an error, one per line.
 fn lines(reasons: &[String]) -> String {
     let line = |reason: &String| {
         let reason = terminal::wrap(reason, terminal::width() - 2, 4);

@@ -1,4 +1,4 @@
-//! A material as text for people.
+//! Terminal output of a material.
 
 use percuss::material::{Library, MaterialEntry};
 use percuss_report::{CardLine, MaterialCard};
@@ -7,7 +7,7 @@ use crate::terminal::{bold, width, wrap};
 
 const LABEL: usize = 24;
 
-/// Everything that is known of a material.
+/// All constants of a material.
 pub fn text(entry: &MaterialEntry, library: &Library) -> String {
     let card = MaterialCard::new(entry, library);
     let mut text = format!("{}\n", bold(&card.title));

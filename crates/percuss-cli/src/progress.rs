@@ -1,4 +1,4 @@
-//! Progress on standard error: nothing for what takes less than a second.
+//! Progress bar on standard error, shown after one second.
 
 use std::{
     ops::ControlFlow,
@@ -7,16 +7,16 @@ use std::{
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// How long something takes before it shows its progress.
-const PATIENCE: Duration = Duration::from_secs(1);
+/// Time before the progress is shown.
+const DELAY: Duration = Duration::from_secs(1);
 const STEPS: u64 = 1000;
 
-/// A bar that appears after a while, if standard error is a terminal.
+/// Progress bar that appears after a delay, if standard error is a terminal.
 pub struct Progress {
     bar: ProgressBar,
     start: Instant,
     wanted: bool,
-    /// Part that was done when it was first asked: a run that goes on from a checkpoint begins late.
+    /// Progress at the first update: a resumed run does not start at 0.
     first: Option<f64>,
     furthest: f64,
 }
@@ -36,14 +36,14 @@ impl Progress {
         }
     }
 
-    /// Says how far it has come: part done, 0 to 1, and a few words.
+    /// Shows the progress, 0 to 1, and a short text.
     pub fn update(&mut self, fraction: f64, words: &str) {
         let elapsed = self.start.elapsed();
         let first = *self.first.get_or_insert(fraction.clamp(0.0, 1.0));
-        if !self.wanted || elapsed < PATIENCE {
+        if !self.wanted || elapsed < DELAY {
             return;
         }
-        // An estimate that falls back would only puzzle.
+        // The estimate never decreases.
         self.furthest = self.furthest.max(fraction.clamp(0.0, 1.0));
         self.bar.set_position((self.furthest * STEPS as f64) as u64);
         self.bar.set_message(format!(
@@ -56,8 +56,8 @@ impl Progress {
         }
     }
 
-    /// What shows the progress of a command that a caller could end.
-    pub fn hear(&mut self) -> impl FnMut(f64, &str) -> ControlFlow<()> + Send {
+    /// Progress callback of a command.
+    pub fn callback(&mut self) -> impl FnMut(f64, &str) -> ControlFlow<()> + Send {
         |fraction, words| {
             self.update(fraction, words);
             ControlFlow::Continue(())

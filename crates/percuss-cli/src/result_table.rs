@@ -1,4 +1,4 @@
-//! The result of a run as text for people.
+//! Terminal output of a run.
 
 use percuss::{
     Scenario,
@@ -19,10 +19,10 @@ const LABEL: usize = 28;
 const GAP: usize = 2;
 /// Characters of a full bar.
 const BAR: f64 = 30.0;
-/// Part of the initial energy below which a line is rounding, not physics.
+/// Fraction of the initial energy below which a line is rounding error.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// Table, energy shares, books, what other models say under a heading of its own, and warnings.
+/// Results, energy distribution, balances, results of other models, and warnings.
 pub fn text(
     scenario: &Scenario,
     result: &RunResult,
@@ -44,8 +44,12 @@ pub fn text(
     text += &fragment_table::text(&record.fragments);
     if let Some(numerics) = &result.numerics {
         energy(numerics, &mut text);
-        let books = result_rows::book_rows(numerics, result.end_time.unwrap_or(0.0));
-        block("books and steps", &books, &mut text);
+        let balance = result_rows::balance_rows(numerics, result.end_time.unwrap_or(0.0));
+        block(
+            "energy balance, momentum balance and time steps",
+            &balance,
+            &mut text,
+        );
     }
     if let Some((heading, others)) = others {
         block(&wrap(&heading, width(), 0), &others, &mut text);
@@ -65,8 +69,8 @@ fn head(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text: &m
     if !result.scheme.is_empty() {
         line += &format!(", scheme {}", result.scheme);
     }
-    if let Some(resistance) = record.target_resistance {
-        line += &format!(", target resistance model {resistance}");
+    if let Some(closure) = record.target_resistance {
+        line += &format!(", target resistance model {closure}");
     }
     *text += &paragraph(&line);
     let choices = [&result.model_choice, &result.target_resistance_choice];
@@ -108,7 +112,7 @@ fn block(heading: &str, lines: &[Row], text: &mut String) {
     }
 }
 
-/// Rows of a label and a value; the values of a block stand below each other.
+/// Rows of a label and a value; the values of a block are aligned.
 fn rows(rows: &[Row]) -> String {
     let longest = rows.iter().map(|(label, _)| label.chars().count()).max();
     let column = LABEL.max(longest.unwrap_or(0) + GAP);

@@ -1,4 +1,4 @@
-//! The folder of a run: a copy of the case, the result, histories and figures.
+//! Output folder of a run: copy of the case, result, histories and figures.
 
 use std::{
     fs,
@@ -15,14 +15,14 @@ use percuss::{
 
 use crate::{failure::Failure, output};
 
-/// Name of the copy of the case: one that a user's own file is unlikely to have.
+/// Name of the copy of the case, unlikely to exist in the folder of a user.
 const CASE_COPY: &str = "case-as-run.toml";
 
-/// Makes a folder, and those it stands in, if it does not exist.
+/// Makes a folder and its parents, if they do not exist.
 pub fn make_folder(path: &Path) -> Result<(), Failure> {
     fs::create_dir_all(path).map_err(|error| {
         let reason = if path.exists() {
-            "it exists and is no folder".to_owned()
+            "it exists and is not a folder".to_owned()
         } else {
             error.to_string()
         };
@@ -34,21 +34,21 @@ pub fn make_folder(path: &Path) -> Result<(), Failure> {
     })
 }
 
-/// Whether a result has something to draw and write against time.
+/// Whether a result has time histories.
 pub fn has_history(result: &RunResult) -> bool {
     let history = result.history.as_ref();
     history.is_some_and(|history| !history.samples.is_empty())
 }
 
-/// A folder that can be written.
+/// Output folder with the list of its files.
 pub struct RunFolder {
     path: PathBuf,
     written: Vec<PathBuf>,
 }
 
 impl RunFolder {
-    /// Makes the folder, if one is wanted, and puts a copy of the case into it, which needs no other file, if there is one. To be called before runs that may
-    /// take long: a folder that cannot be written should be known at once.
+    /// Makes the folder, if one is requested, with a self-contained copy of the case, if there is one. Call it before a long run, so
+    /// that a folder that cannot be written is reported at once.
     pub fn wanted(path: Option<&Path>, case: Option<&Document>) -> Result<Option<Self>, Failure> {
         path.map(|path| Self::create(path, case)).transpose()
     }
@@ -70,7 +70,7 @@ impl RunFolder {
         &self.path
     }
 
-    /// Notes files that were written to it.
+    /// Adds files to the list.
     pub fn add(&mut self, files: impl IntoIterator<Item = PathBuf>) {
         self.written.extend(files);
     }
@@ -80,7 +80,7 @@ impl RunFolder {
         self.written
     }
 
-    /// Writes everything that a run gives; returns the files. Without a history there is neither file nor figure of one.
+    /// Writes the result, histories and figures of a run; returns the files.
     pub fn write(
         mut self,
         scenario: &Scenario,
@@ -108,7 +108,7 @@ impl RunFolder {
         Ok(self.written)
     }
 
-    /// Writes a comparison: numbers and figure; returns the files.
+    /// Writes numbers and figure of a comparison; returns the files.
     pub fn write_comparison(
         mut self,
         scenario: &Scenario,

@@ -1,4 +1,4 @@
-//! Shots that a command is given: the program's own, and files.
+//! Published tests of the program and of files.
 
 use std::path::{Path, PathBuf};
 
@@ -9,10 +9,10 @@ use percuss::{
 
 use crate::failure::Failure;
 
-/// What stands for the program's own shots in place of a file.
+/// Value that selects the tests of the program.
 pub const BUILT_IN: &str = "builtin";
 
-/// The shots of these files and of these kinds, all kinds when none is named; and what they come from.
+/// Tests of these files and kinds, with their sources; an empty list of kinds selects all.
 pub fn read(
     data: &[PathBuf],
     kinds: &[String],
@@ -21,7 +21,7 @@ pub fn read(
     let (mut shots, mut files): (Vec<Experiment>, Vec<String>) = (Vec::new(), Vec::new());
     for path in data {
         let (more, name) = if path.as_path() == Path::new(BUILT_IN) {
-            let own = format!("the program's own ({})", experiments::built_in().len());
+            let own = format!("tests of the program ({})", experiments::built_in().len());
             (experiments::built_in().to_vec(), own)
         } else {
             let read = experiments::read(path, library)?;
@@ -33,8 +33,8 @@ pub fn read(
             .find(|shot| shots.iter().any(|s| s.id == shot.id))
         {
             return Err(Failure::Usage {
-                message: format!("two files of --data have a shot named `{}`", twice.id),
-                help: "ids are unique over all files; rename it, or give one of the files only"
+                message: format!("two files of --data have a test with the id `{}`", twice.id),
+                help: "ids are unique over all files; rename it, or give only one of the files"
                     .to_owned(),
             });
         }
@@ -46,7 +46,7 @@ pub fn read(
     }
     if shots.is_empty() && !data.is_empty() {
         return Err(Failure::Usage {
-            message: format!("the data hold no shot of kind {}", kinds.join(" or ")),
+            message: format!("the data have no test of kind {}", kinds.join(" or ")),
             help: "leave out --kind, or add `--data builtin`".to_owned(),
         });
     }

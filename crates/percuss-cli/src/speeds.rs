@@ -1,4 +1,4 @@
-//! What `--velocity` takes: one speed, a list, an evenly spaced range, or the speeds of the case's experiments.
+//! Values of the option `--velocity`: one velocity, a list, an evenly spaced range, or the velocities of the experiments.
 
 use std::str::FromStr;
 
@@ -11,43 +11,43 @@ use percuss::{
 
 use crate::failure::Failure;
 
-/// Impact speeds to compute at.
+/// Impact velocities to compute.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Speeds {
-    /// These [m/s], rising.
+    /// Given velocities [m/s], in rising order.
     Given(Vec<f64>),
-    /// Those of the case's experiments.
+    /// Velocities of the experiments of the case.
     OfExperiments,
 }
 
-/// Most speeds at once.
+/// Largest number of velocities.
 const MOST: usize = 1000;
 const EXPERIMENTS: &str = "experiments";
 
-/// Why a text names no speeds.
+/// Error in a list of velocities.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SpeedsError {
     #[error("`{0}` is not a number\n{ALLOWED}")]
     NotANumber(String),
     #[error(
-        "`{unit}` is not a unit of speed: units are {}; one unit stands at the end and holds for all numbers\n{ALLOWED}",
+        "`{unit}` is not a unit of velocity: units are {}; one unit at the end applies to all numbers\n{ALLOWED}",
         units()
     )]
     UnknownUnit { unit: String },
-    #[error("{} m/s is out of range: speeds are {} to {} m/s", significant(*.0, 6), IMPACT_SPEED.min, IMPACT_SPEED.max)]
+    #[error("{} m/s is out of range: allowed are {} to {} m/s", significant(*.0, 6), IMPACT_SPEED.min, IMPACT_SPEED.max)]
     OutOfRange(f64),
     #[error("the range ends at {to}, which is not above its start at {from}\n{ALLOWED}")]
     NotRising { from: String, to: String },
-    #[error("the range does not say how many speeds\n{ALLOWED}")]
+    #[error("the range has no number of velocities\n{ALLOWED}")]
     NoCount,
-    #[error("`{0}` is not a number of speeds: a range has 2 to {MOST}\n{ALLOWED}")]
+    #[error("`{0}` is not a number of velocities: a range has 2 to {MOST}\n{ALLOWED}")]
     Count(String),
-    #[error("{0} speeds are too many: at most {MOST}")]
+    #[error("{0} velocities are too many: at most {MOST}")]
     TooMany(usize),
 }
 
 const ALLOWED: &str = "allowed: FROM..TO:COUNT such as 200..1500:27 or \"0.2..1.5 km/s:27\", a list such as 200,300,400, \
-                       one speed, or the word experiments; in m/s unless a unit follows";
+                       one velocity, or the word experiments; in m/s unless a unit follows";
 
 fn units() -> String {
     let symbols: Vec<&str> = OfVelocity::UNITS.iter().map(|unit| unit.symbol).collect();
@@ -55,7 +55,7 @@ fn units() -> String {
 }
 
 impl Speeds {
-    /// The speeds for a case [m/s], rising.
+    /// Velocities for a case [m/s], in rising order.
     pub fn of(&self, scenario: &Scenario) -> Result<Vec<f64>, Failure> {
         let Self::Given(speeds) = self else {
             let measured = scenario.experiments.iter();
@@ -64,7 +64,7 @@ impl Speeds {
             if speeds.is_empty() {
                 return Err(Failure::Usage {
                     message: "the case has no experiments with a velocity".to_owned(),
-                    help: "add `[[experiments]]` entries, or give speeds such as --velocity 200..1500:27"
+                    help: "add `[[experiments]]` entries, or give velocities such as --velocity 200..1500:27"
                         .to_owned(),
                 });
             }
@@ -118,7 +118,7 @@ fn range(from: &str, rest: &str) -> Result<Vec<f64>, SpeedsError> {
         .map(|count| count - 1)
         .ok_or_else(|| SpeedsError::Count(count.trim().to_owned()))?;
     let at = |i: u32| {
-        // Written so that both ends are met exactly.
+        // This form gives both ends exactly.
         let part = f64::from(i) / f64::from(intervals);
         first * (1.0 - part) + last * part
     };
@@ -133,7 +133,7 @@ fn list(text: &str) -> Result<Vec<f64>, SpeedsError> {
         .collect()
 }
 
-/// A text without the unit at its end, and the unit's factor.
+/// Splits the unit from the end of a text; returns the rest and the factor of the unit.
 fn with_unit(text: &str) -> Result<(&str, f64), SpeedsError> {
     let text = text.trim();
     // A unit starts with a letter after the last digit, comma or point; the `e` of an exponent has digits after it.

@@ -1,4 +1,4 @@
-//! Tables in the terminal, without lines between their rows.
+//! Tables for the terminal, without lines between rows.
 
 use comfy_table::{
     CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table as Terminal,
@@ -11,7 +11,7 @@ use crate::terminal::width;
 /// Spaces around a column and between two of them.
 const PADDING: usize = 3;
 
-/// A table that wraps its cells where the terminal is too narrow, but for those of some columns.
+/// Table that wraps its cells where the terminal is too narrow, except in some columns.
 pub fn wrapped(table: &Table, whole: impl IntoIterator<Item = usize>) -> String {
     let mut drawn = filled(table, heading);
     drawn
@@ -27,7 +27,7 @@ pub fn wrapped(table: &Table, whole: impl IntoIterator<Item = usize>) -> String 
     lines.chain(std::iter::once("\n".to_owned())).collect()
 }
 
-/// Tables of as many columns as fit beside the first one.
+/// Table split into blocks of the terminal's width; each block repeats the first column.
 pub fn blocks(table: &Table) -> String {
     let Some((first, columns)) = table.columns.split_first() else {
         return String::new();
@@ -51,7 +51,7 @@ pub fn blocks(table: &Table) -> String {
     blocks.map(|block| wrapped(&block, [])).collect()
 }
 
-/// A table without lines and units, and with so many spaces between its columns.
+/// Table without lines and units, with this number of spaces between columns.
 pub fn plain(table: &Table, spaces: u16) -> String {
     let mut drawn = filled(table, |column| column.heading.clone());
     drawn.load_style(NOTHING);
@@ -75,7 +75,7 @@ fn filled(table: &Table, heading: impl Fn(&Column) -> String) -> Terminal {
     drawn
 }
 
-/// A heading with its unit in a line of its own.
+/// Heading with the unit in a separate line.
 fn heading(column: &Column) -> String {
     match column.unit.as_str() {
         "" => column.heading.clone(),

@@ -10,15 +10,15 @@ use clap::builder::styling::{AnsiColor, Style};
 use comfy_table::Table;
 use percuss::Scenario;
 
-/// Widest line of running text: longer ones are hard to read.
+/// Largest width of running text.
 const MAX_WIDTH: usize = 100;
 
-/// Columns for running text: those of the terminal, 80 when output goes elsewhere.
+/// Width of running text: that of the terminal, 80 outside a terminal.
 pub fn width() -> usize {
     full_width().unwrap_or(80).clamp(30, MAX_WIDTH)
 }
 
-/// Columns of the terminal; `None` when output goes elsewhere.
+/// Width of the terminal; `None` outside a terminal.
 pub fn full_width() -> Option<usize> {
     Table::new().width().map(usize::from)
 }
@@ -48,7 +48,7 @@ pub fn yellow(text: impl Display) -> String {
     paint(text, AnsiColor::Yellow.on_default().bold())
 }
 
-/// Title of a case, or its name, in a line of its own.
+/// Title of a case, or its name, as one line.
 pub fn title(scenario: &Scenario) -> String {
     let title = match scenario.title.is_empty() {
         true => &scenario.name,
@@ -76,7 +76,7 @@ pub fn counted(count: usize, what: &str) -> String {
     }
 }
 
-/// Breaks a text into lines of at most `width` characters; lines after the first are set in by `indent`.
+/// Breaks a text into lines of at most `width` characters; lines after the first are indented by `indent`.
 pub fn wrap(text: &str, width: usize, indent: usize) -> String {
     let mut lines = String::new();
     let mut column = 0;

@@ -1,4 +1,4 @@
-//! A validation in the terminal.
+//! Terminal output of a validation.
 
 use percuss::{
     experiments::Kind,
@@ -15,11 +15,11 @@ use crate::{
 /// Spaces between columns.
 const SPACES: u16 = 2;
 
-/// What the command prints; `in_detail` breaks each kind down.
+/// Tables of a validation; `in_detail` adds tables by source, target and projectile.
 pub fn text(validation: &Validation, files: &[String], in_detail: bool) -> String {
     let mut text = format!(
         "{}\n{}\n",
-        bold("Validation on published shots"),
+        bold("Validation against published tests"),
         wrap(&format!("data: {}", files.join(", ")), width(), 2)
     );
     let repeated = validation
@@ -33,16 +33,16 @@ pub fn text(validation: &Validation, files: &[String], in_detail: bool) -> Strin
         .filter(|shot| shot.flag.is_some())
         .count();
     if repeated + suspect > 0 {
-        text += &format!("not counted: {suspect} suspect and {repeated} repeated rows\n");
+        text += &format!("not counted: {suspect} suspect and {repeated} repeated tests\n");
     }
-    text += "errors are relative, in %: predicted over measured, less 1\n";
+    text += "relative errors in %: predicted / measured - 1\n";
     for kind in Kind::ALL {
         if validation.tests.iter().any(|shot| shot.kind == kind) {
             text += &section(validation, kind, in_detail);
         }
     }
     if !in_detail {
-        let hint = "`--model NAME` breaks a model down by source, target and more; `--out DIR` writes all of it with figures. `axi` takes minutes and runs when it is named.";
+        let hint = "`--model NAME` prints tables of a model by source, target and more; `--out DIR` writes the whole report with figures. `axi` takes minutes and runs only when it is named.";
         text += &format!("\n{}\n", wrap(hint, width(), 0));
     }
     text
@@ -58,7 +58,7 @@ fn section(validation: &Validation, kind: Kind, in_detail: bool) -> String {
     if !models.is_empty() {
         text += &plain(&models, SPACES);
     }
-    // Models that are for something else are left out.
+    // Models that never give this quantity are left out.
     let shown = coverage
         .iter()
         .filter(|c| c.kind == kind && (in_detail || c.is_given()));
@@ -80,7 +80,7 @@ fn section(validation: &Validation, kind: Kind, in_detail: bool) -> String {
     text
 }
 
-/// What is to be said of the shots that a model is not counted on, without its name.
+/// Tests on which a model is not counted, with the reasons; without the name of the model.
 fn unused(coverage: &Coverage) -> String {
     let counted = coverage.count(Standing::Counted);
     let without: usize = [
@@ -109,15 +109,17 @@ fn unused(coverage: &Coverage) -> String {
         });
     let mut line = format!("{counted} of {} counted", coverage.total());
     if stopped > 0 {
-        line += &format!(", {stopped} stopped in the test, which leaves no relative error");
+        line += &format!(
+            ", {stopped} with a partial penetration in the test, where no relative error exists"
+        );
     }
     if without > 0 {
-        line += &format!(", {without} without a number{reason}");
+        line += &format!(", {without} without a prediction{reason}");
     }
     line
 }
 
-/// A group in one line for scripts.
+/// Group as one line of NAME=VALUE pairs.
 pub fn one_line(group: &Group) -> String {
     let errors = &group.errors;
     format!(

@@ -1,4 +1,4 @@
-//! Threads that compute many shots, and the request to end them.
+//! Thread pool, and the flag that stops it.
 
 use std::{
     process,
@@ -10,7 +10,7 @@ use std::{
 
 use crate::failure::Failure;
 
-/// As many threads as are asked for, or as there are cores.
+/// Thread pool with this number of threads, by default one per core.
 pub fn pool(threads: Option<u16>) -> Result<rayon::ThreadPool, Failure> {
     let mut pool = rayon::ThreadPoolBuilder::new();
     if let Some(threads) = threads {
@@ -18,15 +18,15 @@ pub fn pool(threads: Option<u16>) -> Result<rayon::ThreadPool, Failure> {
     }
     pool.build().map_err(|error| Failure::Usage {
         message: format!("cannot start the threads: {error}"),
-        help: "ask for fewer with --threads".to_owned(),
+        help: "give a smaller number with --threads".to_owned(),
     })
 }
 
-/// Becomes true on the first Ctrl-C, or request of the system to end; the second one ends the program at once.
+/// Flag that becomes true on the first Ctrl-C or termination request; the second one ends the program at once.
 pub fn stop_on_request() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
-    // Without a handler Ctrl-C just ends the program, which leaves no file half written.
+    // Without a handler Ctrl-C ends the program, which leaves no incomplete file.
     let _ = ctrlc::set_handler(move || {
         if flag.swap(true, Ordering::Relaxed) {
             process::exit(130);

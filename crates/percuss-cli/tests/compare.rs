@@ -46,8 +46,8 @@ fn the_table_starts_with_regime_and_recommendation() {
         "case shot, impact at 183 m/s",
         "\nregime       deforming projectile, a rigid wall: ",
         "\nrecommended  chain: ",
-        "length      [%]",
-        "off by",
+        "length          [%]",
+        "difference",
         "\n chain ★ ",
         "16.81 ± 0.1",
     ] {
@@ -61,13 +61,13 @@ fn the_table_starts_with_regime_and_recommendation() {
 }
 
 #[test]
-fn a_sweep_has_a_row_a_speed() {
+fn a_sweep_has_one_row_per_velocity() {
     let folder = shot(TAYLOR);
     let text = ok(&folder, &["--velocity", "89..183:3"]);
     for part in [
-        "3 speeds, 89 to 183 m/s",
-        "\n   136 ",
-        "off experiment by [%]",
+        "3 velocities, 89 to 183 m/s",
+        "\n      136 ",
+        "difference from experiment [%]",
     ] {
         assert!(text.contains(part), "{part:?} is not in:\n{text}");
     }
@@ -192,10 +192,10 @@ fn speeds_that_are_none_are_refused_with_what_is_allowed() {
     let folder = shot(OGIVE);
     for (speeds, words) in [
         ("fast", "`fast` is not a number"),
-        ("200..1500", "does not say how many speeds"),
+        ("200..1500", "the range has no number of velocities"),
         ("1500..200:27", "not above its start"),
-        ("200..1500:1", "`1` is not a number of speeds"),
-        ("200 mph", "`mph` is not a unit of speed"),
+        ("200..1500:1", "`1` is not a number of velocities"),
+        ("200 mph", "`mph` is not a unit of velocity"),
         ("20 km/s", "20000 m/s is out of range"),
         ("-5", "-5 m/s is out of range"),
     ] {
@@ -227,7 +227,7 @@ fn a_failure_is_told_and_named() {
 }
 
 #[test]
-fn a_sweep_has_a_reason_a_kind() {
+fn a_sweep_has_one_line_per_reason() {
     let text = ok(&shot(OGIVE), &["--velocity", "200..1500:14"]);
     let words = flat(&text);
     for part in [
@@ -257,12 +257,15 @@ source = 'a'
     assert!(sweep.contains("recommended  forrestal"), "{sweep}");
     assert!(sweep.contains("depth [mm]\n"), "{sweep}");
     assert!(
-        sweep.contains("\n1 experiment at another speed: `--velocity experiments`\n"),
+        sweep.contains("\n1 experiment at another velocity: `--velocity experiments`\n"),
         "{sweep}"
     );
     let own = ok(&folder, &[]);
-    assert!(own.contains("\n2 experiments at other speeds: "), "{own}");
-    assert!(!ok(&folder, &["--velocity", "experiments"]).contains("other speed"));
+    assert!(
+        own.contains("\n2 experiments at other velocities: "),
+        "{own}"
+    );
+    assert!(!ok(&folder, &["--velocity", "experiments"]).contains("other velocit"));
     // A limit that no model gives is shown all the same.
     let limit = format!("{BLUNT}[[experiments]]\nballistic_limit = '777 m/s'\nsource = 'a'\n");
     for speeds in ["100", "100,110"] {

@@ -200,7 +200,7 @@ fn the_reference_depth_of_the_papers_case_is_one_number() {
     assert!(spread.fold(0.0, f64::max) <= number(uncertainty));
 
     // The report that the program writes has it from its own data.
-    let report = fs::read_to_string(root().join("docs/judgement/judgement.md")).unwrap();
+    let report = fs::read_to_string(root().join("docs/reference/benchmark/benchmark.md")).unwrap();
     assert!(report.contains(&format!("{stated} at 230 m/s")), "{stated}");
     let fast = text.split("**").nth(3).unwrap();
     assert!(report.contains(&format!("{fast} at 600 m/s")), "{fast}");

@@ -36,7 +36,7 @@ fn help_fits_and_is_as_approved() {
         &["compare"],
         &["limit"],
         &["calibrate"],
-        &["judge"],
+        &["benchmark"],
         &["new"],
         &["models"],
         &["materials"],

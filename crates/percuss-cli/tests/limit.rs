@@ -48,7 +48,7 @@ fn the_table_has_limits_brackets_and_fits_and_says_who_has_none() {
         "plugging ★",
         "★ recommended: plugging: ",
         "models that predict a limit: ",
-        "no expected error of chain, fdm, plugging, awerbuch_bodner: fewer than 5 published limits",
+        "no estimated model error of chain, fdm, plugging, awerbuch_bodner: fewer than 5 published limits",
         "residual velocity above a given limit (an input, not a prediction of the limit)",
         "without a limit",
         "plate_cavity: not applicable, because it takes",
@@ -188,9 +188,9 @@ fn files_and_figures_are_written() {
     assert_eq!(read("curve.csv").lines().count(), 25);
     let figure = read("limit.svg");
     for part in [
-        "plugging, 131.4 m/s",
+        "plugging, limit 131.4 m/s",
         "experiment",
-        "measured limit, 184.5 m/s",
+        "measured limit 184.5 m/s",
     ] {
         assert!(figure.contains(part), "{part}");
     }
@@ -202,7 +202,7 @@ fn shots_need_no_case_and_separated_ones_have_no_likeliest_v50() {
     let text = ok(&folder, &["--shots", "shots.csv"]);
     assert!(
         flat(&text).contains(
-            "6 shots of shots.csv: 3 stopped, 3 went through; mixed results from 186 to 188 m/s"
+            "6 tests of shots.csv: 3 partial and 3 complete penetrations; zone of mixed results from 186 to 188 m/s"
         ),
         "{text}"
     );
@@ -276,7 +276,7 @@ fn the_expected_error_is_that_on_published_limits_of_the_same_kind() {
     let options = ["shot.toml", "--model", "plugging", "--points", "0"];
     let text = ok(&folder, &options);
     assert!(
-        flat(&text).contains("expected error of plugging: +"),
+        flat(&text).contains("estimated model error of plugging: +"),
         "{text}"
     );
     assert!(flat(&text).contains("noses on "), "{text}");

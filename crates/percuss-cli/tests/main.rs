@@ -2,13 +2,13 @@
 
 mod axi;
 mod bad_input;
+mod benchmark;
 mod calibrate;
 mod checkpoints;
 mod compare;
 mod docs;
 mod figures;
 mod help;
-mod judge;
 mod layout;
 mod limit;
 mod materials;
@@ -28,3 +28,4 @@ mod sweep_faults;
 mod sweep_plot;
 mod uncertainty;
 mod validate;
+mod vocabulary;

@@ -23,7 +23,7 @@ fn models_are_listed_and_shown() {
     let card = ok(folder.path(), &["models", "chain"]);
     for part in [
         "chain\n1-D discrete",
-        "made for\n",
+        "range of validity\n",
         "  - normal impact",
         "first choice for\n  - deforming projectiles",
         "options in [chain] of a case file\n  - ",

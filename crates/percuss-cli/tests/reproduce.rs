@@ -15,7 +15,7 @@ fn the_paper_is_told_as_text_as_data_and_as_a_folder() {
     assert_eq!((said.code, &object["work"]), (0, &"paper".into()));
     let items = object["items"].as_array().unwrap();
     for item in items {
-        let verdict = item["verdict"].as_str().unwrap();
+        let verdict = item["assessment"].as_str().unwrap();
         let known = [
             "reproduced",
             "reading_dependent",

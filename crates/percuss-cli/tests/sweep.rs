@@ -87,7 +87,7 @@ fn every_shot_is_a_row_and_one_that_fails_has_its_error() {
     let folder = folder();
     let said = ok(&folder, &["random.toml", "--out", "rows"]);
     assert!(
-        said.contains("50 shots") && said.contains("failed"),
+        said.contains("50 runs") && said.contains("failed"),
         "{said}"
     );
     merged(&folder, &["rows"]);
@@ -122,7 +122,7 @@ fn every_shot_is_a_row_and_one_that_fails_has_its_error() {
 }
 
 #[test]
-fn what_is_lost_or_damaged_is_computed_anew() {
+fn lost_and_damaged_blocks_are_computed_again() {
     let folder = folder();
     ok(&folder, &["random.toml", "--out", "rows"]);
     let whole = merged(&folder, &["rows"]);
@@ -139,7 +139,7 @@ fn what_is_lost_or_damaged_is_computed_anew() {
     .unwrap();
     let said = ok(&folder, &["status", "rows"]);
     assert!(
-        said.contains("42 of 50 shots done, 11 of 13 blocks"),
+        said.contains("42 of 50 runs done, 11 of 13 blocks"),
         "{said}"
     );
     assert!(said.contains("1 damaged file"), "{said}");
@@ -210,7 +210,10 @@ fn a_second_process_is_refused_and_ctrl_c_ends_the_first_cleanly() {
         said.stderr
     );
     let said = ok(&folder, &["status", "rows"]);
-    assert!(said.contains("a process is computing it now"), "{said}");
+    assert!(
+        said.contains("a process is computing this sweep now"),
+        "{said}"
+    );
     let said = interrupt(child);
     assert!(
         said.contains("the sweep was stopped with") && said.contains("--resume"),

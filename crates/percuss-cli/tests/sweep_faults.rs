@@ -333,7 +333,7 @@ fn a_folder_that_cannot_be_written_to_is_a_clear_error_and_can_be_read() {
     let output = run(&["status", "rows"]);
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(
-        output.status.success() && said.contains("2 of 4 shots done"),
+        output.status.success() && said.contains("2 of 4 runs done"),
         "{said}"
     );
     let output = run(&["plot", "rows"]);

@@ -65,27 +65,27 @@ fn one_parameter_makes_a_curve_and_words_make_one_each() {
         "column",
         "diverging",
         "expanding-cavity",
-        "projectile.impact_velocity [m/s]",
-        "24 shots",
+        "Impact velocity (m/s)",
+        "24 runs",
     ] {
         assert!(svg.contains(word), "{word}");
     }
-    assert!(svg.contains("depth of penetration [mm]"));
+    assert!(svg.contains("Depth of penetration (mm)"));
     assert!(!svg.contains("failed"));
     let more = ["--quantity", "peak_force_kn", "--style", "map"];
     let svg = drawn(&folder, &more, "map-peak_force_kn");
-    assert!(svg.contains("peak force [kN]") && svg.contains("chain.target_resistance"));
+    assert!(svg.contains("Peak force (kN)") && svg.contains("Target closure"));
     // Closures in a folder that lacks a block: what is missing is counted.
     fs::remove_file(folder.path().join("rows/block-000001.parquet")).unwrap();
     let svg = drawn(&folder, &[], &format!("curves-{DEPTH}"));
-    assert!(svg.contains("14 shots, 10 more not computed yet"), "{svg}");
+    assert!(svg.contains("14 runs, 10 more not computed yet"), "{svg}");
 }
 
 #[test]
 fn two_parameters_make_a_map() {
     let folder = computed("design = 'grid'", &[SPEEDS, LENGTHS]);
     let svg = drawn(&folder, &[], &format!("map-{DEPTH}"));
-    assert!(svg.contains("projectile.length [mm]") && svg.contains("56 shots"));
+    assert!(svg.contains("Projectile length (mm)") && svg.contains("56 runs"));
     // A cell for each shot: the runs of one colour make up all of them.
     let runs = svg.split("h-").count() - 1;
     assert!(runs > 20, "{runs}");
@@ -97,7 +97,7 @@ fn shots_that_failed_are_shown_and_counted() {
     let svg = drawn(&folder, &[], &format!("curves-{DEPTH}"));
     let failed = count(&svg, "failed (", ')');
     assert!((2..20).contains(&failed), "{failed}");
-    assert!(svg.contains(&format!("40 shots, {failed} failed")));
+    assert!(svg.contains(&format!("40 runs, {failed} failed")));
     let folder = computed(
         "design = 'sobol'\nsamples = 40",
         &[DRAWN_SPEEDS, RESISTANCE_MODELS, LENGTHS],
@@ -111,7 +111,7 @@ fn shots_that_failed_are_shown_and_counted() {
     let named = ["--x", "projectile.impact_velocity"];
     let svg = drawn(&folder, &named, &format!("curves-{DEPTH}"));
     assert_eq!(count(&svg, "failed (", ')'), failed);
-    assert!(svg.contains("over all of chain.target_resistance"));
+    assert!(svg.contains("over all values of Target closure"));
 }
 
 /// The number that stands between two texts.
@@ -135,7 +135,7 @@ fn a_request_that_does_not_fit_is_refused_with_what_does() {
     refused(
         &["--quantity", "depth"],
         [
-            "no result of the sweep is `depth`",
+            "the sweep has no result `depth`",
             "depth_of_penetration_mm, largest_depth_mm",
         ],
     );

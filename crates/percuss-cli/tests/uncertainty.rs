@@ -92,11 +92,11 @@ fn tables_json_and_pairs_say_the_same() {
 
     let text = flat(&ok(&folder, &arguments));
     for part in [
-        "statistics of 32 shots, seed 5, 133 shots in all",
+        "32 samples, seed 5, 133 runs in total",
         "normal, 230 ± 3 m/s",
         "probability of perforation 0 % (0 …",
-        "what moves the depth of penetration",
-        "first order",
+        "sensitivity of the depth of penetration",
+        "first-order",
         "The model's own error comes on top",
     ] {
         assert!(text.contains(part), "{part}\n{text}");
@@ -149,7 +149,10 @@ fn a_folder_holds_numbers_and_figures() {
         "found",
     ];
     let text = ok(&folder, &arguments);
-    assert!(text.contains("over speed, 256 shots each"), "{text}");
+    assert!(
+        text.contains("percentiles versus impact velocity, 256 runs each"),
+        "{text}"
+    );
     let found = folder.path().join("found");
     let figures = [
         "bands-residual-velocity",
@@ -230,7 +233,7 @@ fn what_cannot_be_computed_is_refused() {
                 "--quantity",
                 "plug_mass_g",
             ],
-            "no shot of model `chain` has a value of plug_mass_g",
+            "no run of model `chain` has a value of plug_mass_g",
         ),
         (
             &["case.toml", "--model", "forrestal_concrete"],

@@ -38,7 +38,7 @@ fn a_users_shots_take_the_place_of_the_programs() {
     let text = ok(folder.path(), &[]);
     for part in [
         "data: shots.csv (3)\n",
-        "not counted: 1 suspect and 0 repeated rows\n",
+        "not counted: 1 suspect and 0 repeated tests\n",
         "final lengths of Taylor rods (--kind taylor)\n",
         "copper ofhc-copper; copper",
         "by source",
@@ -85,7 +85,7 @@ fn the_report_is_written_whole_and_escaped() {
     let folder = folder_with(&SHOTS.replace("two,", "<i>two</i>,"));
     ok(folder.path(), &["--out", "report"]);
     let read = |name: &str| fs::read_to_string(folder.path().join("report").join(name)).unwrap();
-    let parts = ["prefers-color-scheme:dark", "What is blind and what is not"];
+    let parts = ["prefers-color-scheme:dark", "Blind predictions"];
     let tables = ["predictions.parquet", "statistics.parquet"];
     let report = folder.path().join("report");
     let [html, markdown] = whole_report(&report, "validation", &parts, &tables);
@@ -112,7 +112,7 @@ fn the_programs_own_shots_can_be_added() {
     );
     let text = ok(folder.path(), &["--data", "builtin", "--kind", "depth"]);
     assert!(
-        text.contains("data: shots.csv (3), the program's own (1132)\n"),
+        text.contains("data: shots.csv (3), tests of the program (1132)\n"),
         "{text}"
     );
     assert!(
@@ -183,9 +183,9 @@ fn wrong_arguments_are_refused() {
     assert!(refused(SHOTS, &["--model", "chian"]).contains("chain"));
     assert!(refused(SHOTS, &["--kind", "tailor"]).contains("taylor"));
     let empty = refused(SHOTS, &["--data", "shots.csv", "--kind", "depth"]);
-    assert!(empty.contains("no shot of kind depth"), "{empty}");
+    assert!(empty.contains("no test of kind depth"), "{empty}");
     let twice = refused(SHOTS, &["--data", "shots.csv", "--data", "shots.csv"]);
-    assert!(twice.contains("a shot named `one`"), "{twice}");
+    assert!(twice.contains("a test with the id `one`"), "{twice}");
     let folder = folder_with(SHOTS);
     let missing = percuss(folder.path(), ["validate", "--data", "none.csv"]);
     assert_eq!(missing.code, 4);

@@ -66,12 +66,14 @@ pub enum Error {
         remedy: String,
     },
     /// A file could not be read.
-    #[error("cannot read `{}`: {reason}", .path.display())]
+    #[error("cannot read `{}`: {}", .path.display(), with_remedy(.reason, .remedy))]
     Read {
         /// The file.
         path: PathBuf,
         /// Why, in words.
         reason: String,
+        /// What to do; may be empty.
+        remedy: String,
         /// The system's error, where there is one.
         #[source]
         source: Option<io::Error>,
@@ -125,8 +127,25 @@ impl Error {
             }
             Self::Checkpoint { remedy, .. } => (self.to_string(), remedy.clone()),
             Self::Calibration { reason, remedy } => (reason.clone(), remedy.clone()),
+            Self::Read {
+                path,
+                reason,
+                remedy,
+                ..
+            } => (
+                format!("cannot read `{}`: {reason}", path.display()),
+                remedy.clone(),
+            ),
             other => (other.to_string(), String::new()),
         }
+    }
+}
+
+/// Reason and remedy in one line.
+fn with_remedy(reason: &str, remedy: &str) -> String {
+    match remedy {
+        "" => reason.to_owned(),
+        remedy => format!("{reason}; {remedy}"),
     }
 }
 

@@ -1,4 +1,4 @@
-//! A case that was read, from a file or from values.
+//! Case from a file or from values.
 
 use std::{
     path::{Path, PathBuf},
@@ -67,7 +67,7 @@ impl Case {
         &self.scenario.title
     }
 
-    /// Its impact speed [m/s].
+    /// Impact velocity [m/s].
     #[getter]
     fn impact_velocity_m_s(&self) -> f64 {
         self.scenario.impact_velocity

@@ -1,4 +1,4 @@
-//! The program: its command line.
+//! Command line of the program.
 
 use std::{ffi::OsString, process::ExitCode};
 

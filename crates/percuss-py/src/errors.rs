@@ -1,4 +1,4 @@
-//! Failures as Python's exceptions, with the text that the program prints.
+//! Failures as Python exceptions, with the messages of the program.
 
 use percuss::{Error, Subject};
 use percuss_cli::Failure;
@@ -65,9 +65,15 @@ fn describe(failure: &Failure, attributes: &Bound<'_, PyDict>) -> PyResult<Optio
             attributes.set_item("help", &error.remedy)?;
             "NumericalError"
         }
-        Failure::Library(Error::Read { path, reason, .. }) => {
+        Failure::Library(Error::Read {
+            path,
+            reason,
+            remedy,
+            ..
+        }) => {
             attributes.set_item("filename", path)?;
             attributes.set_item("message", reason)?;
+            attributes.set_item("help", remedy)?;
             "ReadError"
         }
         Failure::Write { path, reason, .. } => {

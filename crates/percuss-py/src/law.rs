@@ -1,4 +1,4 @@
-//! Strength laws written in Python: slow, since every flow stress is a call into the interpreter.
+//! Strength laws in Python; slow, because every flow stress is a call into the interpreter.
 
 use std::{ops::ControlFlow, sync::Arc};
 

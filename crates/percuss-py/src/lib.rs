@@ -1,8 +1,7 @@
-//! The native half of the Python package `percuss`: cases, runs and sweeps, and the answers of commands as JSON.
+//! The native half of the Python package `percuss`: cases, runs and sweeps, and the results of commands as JSON.
 //!
 //! It knows no option by name: cases, sweeps and command lines pass through it as data.
 
-mod answer;
 mod case;
 mod command;
 mod errors;
@@ -10,23 +9,24 @@ mod field;
 mod first_error;
 mod history;
 mod law;
+mod monitor;
 mod resistance;
+mod response;
 mod run;
 mod si;
 mod sweep;
 mod tables;
-mod watch;
 
 /// The module that the package's Python files import.
 #[pyo3::pymodule]
 mod _percuss {
     #[pymodule_export]
     use crate::{
-        answer::{Answer, answer},
         case::Case,
         command::command,
         field::{Field, element_columns, result_fields, sample_columns, units},
         history::Column,
+        response::{Response, execute},
         run::{RunResult, run},
         sweep::{Sweep, SweepFolder, compute_sweep},
         tables::toml_text,

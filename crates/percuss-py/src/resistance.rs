@@ -1,4 +1,4 @@
-//! A law of resistance written in Python: slow, since every pressure is a call into the interpreter.
+//! Penetration resistance law in Python; slow, because every pressure is a call into the interpreter.
 
 use std::sync::Arc;
 

@@ -12,10 +12,10 @@ use percuss::{
     outcome::RunResult as Computed,
     summary::CaseResults,
 };
-use percuss_cli::{Failure, Ran};
+use percuss_cli::{Failure, RunOutput};
 use pyo3::{exceptions::PyValueError, prelude::*};
 
-use crate::{case::Case, errors::raise, history::Column, law::Laws, watch::Asker};
+use crate::{case::Case, errors::raise, history::Column, law::Laws, monitor::PythonMonitor};
 
 /// The result of a run.
 #[pyclass(frozen, module = "percuss._percuss")]
@@ -28,10 +28,10 @@ pub struct RunResult {
 
 impl RunResult {
     /// The result of a run that was a command line.
-    pub fn of(ran: &Ran) -> Self {
+    pub fn of(run_output: &RunOutput) -> Self {
         Self {
-            scenario: Arc::clone(&ran.scenario),
-            result: Arc::clone(&ran.result),
+            scenario: Arc::clone(&run_output.scenario),
+            result: Arc::clone(&run_output.result),
             solver_time: None,
         }
     }
@@ -59,18 +59,18 @@ pub fn run(
     };
     let scenario = laws.put_into(py, &case.get().scenario);
     let chosen = model::choose(model, &scenario).map_err(|error| raise(py, error))?;
-    let mut asker = Asker::new(progress.as_ref());
+    let mut monitor = PythonMonitor::new(progress.as_ref());
     let mut solver_time = Duration::ZERO;
     let result = py.detach(|| {
-        let mut hear = |now: Progress| -> ControlFlow<()> {
+        let mut on_progress = |now: Progress| -> ControlFlow<()> {
             laws.flow()?;
-            asker.ask(now.fraction, || {
+            monitor.report(now.fraction, || {
                 format!("{:.1} us, depth {:.3} mm", now.time * 1e6, now.depth * 1e3)
             })
         };
         let mut control = Control {
             record,
-            progress: Some(&mut hear),
+            progress: Some(&mut on_progress),
             ..Control::default()
         };
         let start = Instant::now();
@@ -81,7 +81,7 @@ pub fn run(
     if let Some(error) = laws.into_error() {
         return Err(error);
     }
-    let result = Arc::new(asker.finish(py, result)?);
+    let result = Arc::new(monitor.finish(py, result)?);
     Ok(RunResult {
         scenario,
         result,

@@ -1,4 +1,4 @@
-//! Plain numbers in tables of a case: where the schema of cases asks for a quantity, they get the SI unit of its dimension.
+//! Plain numbers in tables of a case: a quantity of the schema gets the SI unit of its dimension.
 
 use std::sync::LazyLock;
 

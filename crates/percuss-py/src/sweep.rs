@@ -1,4 +1,4 @@
-//! Sweeps: computed here, or block by block anywhere and put into a folder here.
+//! Sweeps, computed in this process or block by block on a cluster.
 
 use std::{
     path::{Path, PathBuf},
@@ -13,7 +13,7 @@ use percuss_cli::Failure;
 use percuss_report::sweep::{Block, SweepFolder as Folder};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyBytes};
 
-use crate::{errors::raise, watch::watched};
+use crate::{errors::raise, monitor::run_monitored};
 
 /// A sweep that was read and checked.
 #[pyclass(frozen, module = "percuss._percuss")]
@@ -131,12 +131,13 @@ pub fn compute_sweep(
         .iter()
         .map(|block| folder.manifest().shots_in(*block))
         .sum();
-    watched(py, progress.as_ref(), |board| {
+    run_monitored(py, progress.as_ref(), |progress_state| {
         let done = AtomicU64::new(0);
-        let hear = |rows: &[SweepRow]| {
+        let on_progress = |rows: &[SweepRow]| {
             let done = done.fetch_add(rows.len() as u64, Ordering::Relaxed) + rows.len() as u64;
-            // Whether to go on is asked of the board by the folder itself.
-            let _ = board.hear(done as f64 / due as f64, &format!("{done} of {due} shots"));
+            // Whether to go on is asked of the progress_state by the folder itself.
+            let _ = progress_state
+                .on_progress(done as f64 / due as f64, &format!("{done} of {due} shots"));
         };
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads.unwrap_or(0))
@@ -146,6 +147,8 @@ pub fn compute_sweep(
                 help: "ask for fewer threads".to_owned(),
             })?;
         let kernel = BatchKernel::new(sweep.model);
-        Ok(pool.install(|| folder.compute(sweep, &kernel, &blocks, board.stop(), &hear))?)
+        Ok(pool.install(|| {
+            folder.compute(sweep, &kernel, &blocks, progress_state.stop(), &on_progress)
+        })?)
     })
 }

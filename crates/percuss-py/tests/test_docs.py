@@ -66,5 +66,5 @@ def test_the_reference_is_what_the_docstrings_say() -> None:
 def test_every_function_has_an_example() -> None:
     lacking = [name for name in percuss.__all__ if name.islower() and not name.startswith("__")]
     lacking = [name for name in lacking if ">>>" not in (getattr(percuss, name).__doc__ or "")]
-    # Their examples go with a folder of rows, on the page about Python, as that of `judge`, which takes seconds, is one that runs there.
+    # Their examples go with a folder of rows, on the page about Python, as that of `benchmark`, which takes seconds, is one that runs there.
     assert lacking == ["merge", "plot"]

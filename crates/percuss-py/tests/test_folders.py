@@ -74,9 +74,9 @@ CALLS: dict[str, tuple[Callable[[Path], list[str]], Call]] = {
         lambda _: ["validate", "--model", "taylor", "--kind", "taylor"],
         lambda _, out: percuss.validate(model="taylor", kind="taylor", out=out),
     ),
-    "judge": (
-        lambda at: ["judge", "--reference", f"{at}/reference.csv"],
-        lambda at, out: percuss.judge(reference=at / "reference.csv", out=out),
+    "benchmark": (
+        lambda at: ["benchmark", "--reference", f"{at}/reference.csv"],
+        lambda at, out: percuss.benchmark(reference=at / "reference.csv", out=out),
     ),
 }
 
@@ -185,6 +185,6 @@ def test_a_starter_case_is_that_of_the_program(program: Program, tmp_path: Path)
 def test_the_reference_is_computed_where_it_lacks(tmp_path: Path) -> None:
     assert (ROOT / "crates/percuss-research/data/reference.csv").is_file()
     with pytest.raises(percuss.UsageError, match="--reference FILE"):
-        percuss.judge(compute=True)
+        percuss.benchmark(compute=True)
     with pytest.raises(percuss.UsageError, match="--compute"):
-        percuss.judge(cells=4)
+        percuss.benchmark(cells=4)

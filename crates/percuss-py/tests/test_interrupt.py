@@ -20,7 +20,7 @@ LONG = {
     " 'projectile.impact_velocity', 'uniform': {'from': '150 m/s', 'to': '400 m/s'}}]}, sys.argv[1])",
     "uncertainty": "percuss.uncertainty('cases/paper-table1-uncertainty/scenario.toml', samples=1048576)",
     "run with its folder": "percuss.run(case, 'axi', out=sys.argv[1])",
-    "judge": "percuss.judge(compute=True, study=sys.argv[1] + '.csv')",
+    "benchmark": "percuss.benchmark(compute=True, paper_case=sys.argv[1] + '.csv')",
     "reproduce": "percuss.reproduce('damping')",
     "calibrate": "percuss.calibrate(data='builtin', source='wilkins1973', model='wilkins_guinan', steps=1000000,"
     " fit={'materials.copper-woodward.strength.power_law.coefficient': '150..900 MPa'})",

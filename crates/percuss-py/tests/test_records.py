@@ -52,7 +52,7 @@ def records(tmp_path_factory: pytest.TempPathFactory) -> dict[type[Record], list
             percuss.calibrate(fit={**coefficient, f"{law}.exponent": (0.02, 0.4)}, **copper, ensembles=2, walkers=6, steps=20),
             percuss.calibrate(fit=coefficient, **copper, least_squares=True),
         ],
-        percuss.Judgement: [percuss.judge(reference=reference)],
+        percuss.Benchmark: [percuss.benchmark(reference=reference)],
         percuss.Reproduction: [percuss.reproduce("paper")],
         percuss.Material: [percuss.material("copper"), *percuss.materials()],
         percuss.Model: list(percuss.models()),
@@ -121,13 +121,13 @@ def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], 
     (limits,) = records[percuss.Limits]
     assert isinstance(limits, percuss.Limits)
     drawn.append(limits.plot_v50())
-    (judgement,) = records[percuss.Judgement]
-    assert isinstance(judgement, percuss.Judgement)
+    (benchmark,) = records[percuss.Benchmark]
+    assert isinstance(benchmark, percuss.Benchmark)
     for by in ("speed", "length", "regime", "materials", "uncertainty"):
-        assert {error.contender for error in judgement.errors(by)} == {error.contender for error in judgement.errors()}
-        save(judgement.plot(by), tmp_path / f"{by}.png")
+        assert {error.contender for error in benchmark.errors(by)} == {error.contender for error in benchmark.errors()}
+        save(benchmark.plot(by), tmp_path / f"{by}.png")
     with pytest.raises(percuss.UsageError, match="groups: speed, length"):
-        judgement.plot("moon")
+        benchmark.plot("moon")
     (found, _) = records[percuss.Calibration]
     assert isinstance(found, percuss.Calibration)
     drawn += [found.plot_posterior("coefficient"), found.plot_posterior("scatter"), found.plot_pair("coefficient", "exponent")]
@@ -149,7 +149,7 @@ def test_what_was_not_asked_for_is_not_drawn(tmp_path: Path) -> None:
     assert limits.to_pandas().empty and limits.plot_v50().lines
     with pytest.raises(ValueError, match="no case was searched"):
         limits.plot()
-    with pytest.raises(ValueError, match="no shots that scatter"):
+    with pytest.raises(ValueError, match="no test results were given"):
         percuss.limit("cases/weldox-460e-12mm-blunt/scenario.toml", model="plugging", points=0).plot_v50()
 
 
@@ -161,7 +161,7 @@ def test_damping_is_drawn_by_way_of_damping() -> None:
             shot = {"damping": "none", "impact_velocity_m_s": 230.0, "projectile_elements": 40, "depth_of_penetration_mm": 0.2}
             way = {**shot, "damping": "ratio 0.1", "depth_of_penetration_mm": 0.1}
             reference = [{"impact_velocity_m_s": 230.0, "depth_of_penetration_mm": 0.25}]
-            return json.dumps({"work": "damping", "findings": ["less"], "shots": [shot, way], "reference": reference})
+            return json.dumps({"work": "damping", "findings": ["less"], "runs": [shot, way], "reference": reference})
 
         def files(self) -> list[str]:
             return []

@@ -1,4 +1,4 @@
-//! Charts of areas that stand on each other.
+//! Charts of stacked areas.
 
 use kuva::plot::{
     StackedAreaPlot,

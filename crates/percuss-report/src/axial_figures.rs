@@ -1,4 +1,4 @@
-//! Figures along the axis of the shot.
+//! Figures along the axis of projectile and target.
 
 use percuss::history::{ElementState, History, Profile};
 
@@ -9,7 +9,7 @@ use crate::{
     stress_grid::{GAP, StressGrid, spacing},
 };
 
-/// Colours of a part: what leads in a chart, what stands beside it.
+/// Two colours per body.
 const COLORS: [[&str; 2]; 4] = [
     ["#0072b2", "#7fd0ff"],
     ["#d55e00", "#ffb84d"],
@@ -29,8 +29,8 @@ pub(crate) enum Along {
 impl Along {
     fn axis(self) -> Axis {
         Axis::new(match self {
-            Self::Initial => "initial position [mm], struck face at 0",
-            Self::Space => "position [mm], original face at 0",
+            Self::Initial => "Initial position, impact face at 0 (mm)",
+            Self::Space => "Position, original impact face at 0 (mm)",
         })
     }
 }
@@ -42,8 +42,8 @@ pub(crate) fn strain(history: &History, along: Along, caption: &str) -> Option<L
         "Strain along the axis at the end",
         along.axis(),
         Axis::new(match along {
-            Along::Initial => "strain, compression positive",
-            Along::Space => "equivalent plastic strain",
+            Along::Initial => "Strain, compression positive",
+            Along::Space => "Equivalent plastic strain",
         }),
     )
     .caption(format!("{caption}; at {} µs", significant(last.time * 1e6)));
@@ -72,7 +72,7 @@ pub(crate) fn strain(history: &History, along: Along, caption: &str) -> Option<L
     Some(chart.mark(Mark::vertical("", 0.0)))
 }
 
-/// Of a run in which anything became hotter.
+/// Temperature profile; `None` when nothing is heated.
 pub(crate) fn temperature(history: &History, along: Along, caption: &str) -> Option<LineChart> {
     let (first, last) = (history.profiles.first()?, history.profiles.last()?);
     let bodies = bodies(first, last);
@@ -88,7 +88,7 @@ pub(crate) fn temperature(history: &History, along: Along, caption: &str) -> Opt
         "temperature-profile",
         "Temperature along the axis at the end",
         along.axis(),
-        Axis::new("temperature [K]"),
+        Axis::new("Temperature (K)"),
     )
     .caption(format!("{caption}; at {} µs", significant(last.time * 1e6)));
     for body in &bodies {
@@ -116,13 +116,13 @@ pub(crate) fn stress(
     };
     let mega = |row: Vec<f64>| row.into_iter().map(|stress| stress * 1e-6).collect();
     let map = HeatMap::new(
-        ["stress-xt", "Axial stress over position and time"],
-        [along.axis(), Axis::new("time [µs]")],
+        ["stress-xt", "Axial stress versus position and time"],
+        [along.axis(), Axis::new("Time (µs)")],
         [
             (grid.positions.0 * 1e3, grid.positions.1 * 1e3),
             (grid.times.0 * 1e6, grid.times.1 * 1e6),
         ],
-        "stress [MPa], compression positive",
+        "Axial stress, compression positive (MPa)",
         grid.rows.into_iter().map(mega).collect(),
     )
     .caption(format!("{caption}{note}"));
@@ -140,8 +140,8 @@ pub(crate) fn shape(history: &History, caption: &str) -> Option<LineChart> {
     let chart = LineChart::new(
         "rod-shape",
         "Outline of the projectile at the start and at the end",
-        Axis::new("distance from the front end [mm]"),
-        Axis::new("radius [mm]"),
+        Axis::new("Distance from the front end (mm)"),
+        Axis::new("Radius (mm)"),
     )
     .caption(format!(
         "{caption}; end at {} µs",
@@ -156,7 +156,7 @@ pub(crate) fn shape(history: &History, caption: &str) -> Option<LineChart> {
     Some(chart.true_to_scale())
 }
 
-/// A part of the shot along the axis.
+/// Body along the axis.
 struct Body<'a> {
     part: usize,
     name: String,

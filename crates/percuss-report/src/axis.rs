@@ -5,7 +5,7 @@ const MARGIN: f64 = 0.04;
 /// Relative difference of numbers that an axis does not tell apart.
 const SAME: f64 = 1e-6;
 
-/// An axis: its label with the unit in square brackets, its scale and its range.
+/// Axis: label with the unit in parentheses, scale and range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     pub(crate) label: String,
@@ -47,7 +47,7 @@ impl Axis {
         self
     }
 
-    /// Writes names at 1, 2, 3, … in place of numbers.
+    /// Writes names at 1, 2, 3, … instead of numbers.
     pub fn names(mut self, names: impl IntoIterator<Item = String>) -> Self {
         self.names = names.into_iter().collect();
         self

@@ -2,7 +2,7 @@
 
 use percuss::{Scenario, scenario::TargetBody};
 
-/// The case in one line: its title, or what strikes what and, where it is one speed [m/s], how fast.
+/// Case in one line: its title, or projectile and target with the impact velocity [m/s], where there is one.
 pub(crate) fn caption(scenario: &Scenario, speed: Option<f64>) -> String {
     if !scenario.title.trim().is_empty() {
         return scenario.title.clone();

@@ -1,4 +1,4 @@
-//! A chart of any kind, and what it holds as data, for a page that draws it itself.
+//! Charts of any kind and their data for the page.
 
 use serde::Serialize;
 
@@ -15,11 +15,11 @@ type Extents = ((f64, f64), (f64, f64));
 pub enum Chart {
     /// Lines and markers.
     Lines(LineChart),
-    /// Areas that stand on each other.
+    /// Stacked areas.
     Areas(AreaChart),
-    /// A signed quantity over two axes.
+    /// Colour map of two axes.
     Map(HeatMap),
-    /// A value a row.
+    /// One value per row.
     Rows(RowChart),
     /// How often values fall into intervals.
     Histogram(Histogram),
@@ -56,7 +56,7 @@ macro_rules! kinds {
 
 kinds!(Lines: LineChart, Areas: AreaChart, Map: HeatMap, Rows: RowChart, Histogram: Histogram, Bars: BarRows);
 
-/// What a chart holds. Numbers have the precision of a drawing, seven digits; what is no number is null.
+/// Data of a chart. Numbers have seven digits; NaN is null.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ChartData {
     #[serde(flatten)]
@@ -159,7 +159,7 @@ struct BarRowData {
 }
 
 impl Chart {
-    /// What the chart holds.
+    /// Data of the chart.
     pub fn data(&self) -> ChartData {
         match self {
             Self::Lines(chart) => lines(chart),

@@ -1,4 +1,4 @@
-//! Bars that say which values the colours of a chart stand for.
+//! Colour bars.
 
 use kuva::render::{
     layout::ComputedLayout,

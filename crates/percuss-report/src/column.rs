@@ -11,10 +11,10 @@ pub(crate) use parquet_file::parquet_with;
 /// Name and content of a file.
 pub type File = (&'static str, Vec<u8>);
 
-/// How a value is read off a row.
+/// Reader of a value of a row.
 type Read<R, T> = Box<dyn Fn(&R) -> T>;
 
-/// What a column holds of a row.
+/// Value of a column.
 pub(crate) enum Value<R> {
     Float(Read<R, f64>),
     Integer(Read<R, i64>),

@@ -3,8 +3,11 @@
 use percuss::{Scenario, compare::Comparison, outcome::BandQuantity, summary::ResultRecord};
 
 use crate::{
-    Axis, Chart, Figure, LineChart, Mark, RowChart, Series, Style, caption::caption,
-    caption::significant, palette,
+    Axis, Chart, Figure, LineChart, Mark, RowChart, Series, Style,
+    caption::caption,
+    caption::significant,
+    names::{capitalized, with_unit},
+    palette,
 };
 
 /// Mark of a recommended model.
@@ -12,9 +15,9 @@ const RECOMMENDED: &str = "★";
 /// Width of the line of a model where it is recommended [px].
 const EMPHASIS: f64 = 4.0;
 
-/// Draws the leading quantity of a comparison as `compare`: against the impact speed, or model by model at a single speed.
+/// Draws the main quantity of a comparison as `compare`: versus impact velocity, or one row per model at a single velocity.
 ///
-/// A line is broken where its model gives nothing, and thick where the model is recommended. `None` when no model gives the
+/// A line is interrupted where its model has no result, and thick where the model is recommended. `None` when no model gives the
 /// quantity.
 pub fn compare_figure(scenario: &Scenario, comparison: &Comparison) -> Option<Figure> {
     compare_chart(scenario, comparison).map(|chart| chart.draw())
@@ -27,7 +30,7 @@ pub fn compare_chart(scenario: &Scenario, comparison: &Comparison) -> Option<Cha
     if !comparison.results.iter().any(given) {
         return None;
     }
-    // A ballistic limit is one number a model at any speed.
+    // A ballistic limit is independent of the impact velocity.
     if comparison.regime.len() == 1 || quantity == BandQuantity::BallisticLimit {
         Some(rows(scenario, comparison, quantity).into())
     } else {
@@ -36,16 +39,20 @@ pub fn compare_chart(scenario: &Scenario, comparison: &Comparison) -> Option<Cha
 }
 
 fn axis(quantity: BandQuantity) -> Axis {
-    Axis::new(format!("{} [{}]", quantity.describe(), quantity.unit()))
+    Axis::new(with_unit(quantity_name(quantity), quantity.unit()))
+}
+
+/// Full name of a quantity.
+fn quantity_name(quantity: BandQuantity) -> &'static str {
+    match quantity {
+        BandQuantity::DepthOfPenetration => "depth of penetration",
+        BandQuantity::ProjectileFinalLength => "final projectile length",
+        quantity => quantity.describe(),
+    }
 }
 
 fn title(quantity: BandQuantity) -> String {
-    let words = quantity.describe();
-    let mut letters = words.chars();
-    let first = letters
-        .next()
-        .map(|letter| letter.to_uppercase().to_string());
-    first.unwrap_or_default() + letters.as_str()
+    capitalized(quantity_name(quantity))
 }
 
 fn recommended(comparison: &Comparison, model: &str) -> Vec<bool> {
@@ -63,7 +70,7 @@ fn name(model: &str, recommended: &[bool]) -> String {
     }
 }
 
-/// Ends of the range of a quantity, where a model gives one.
+/// Ends of the range of a quantity, where a model has one.
 fn band(record: &ResultRecord, quantity: BandQuantity) -> Option<(f64, f64)> {
     let band = record.band.as_ref()?;
     (band.quantity == quantity).then_some((band.low, band.high))
@@ -74,7 +81,7 @@ fn lines(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -
     let mut chart = LineChart::new(
         "compare",
         format!("{} by model: {}", title(quantity), comparison.case),
-        Axis::new("impact speed [m/s]"),
+        Axis::new("Impact velocity (m/s)"),
         axis(quantity),
     )
     .caption(note(scenario, comparison));
@@ -185,7 +192,7 @@ fn rows(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) ->
     chart
 }
 
-/// The case in one line, and what the mark stands for.
+/// Case in one line, with the meaning of the star.
 fn note(scenario: &Scenario, comparison: &Comparison) -> String {
     let marked = comparison
         .recommended

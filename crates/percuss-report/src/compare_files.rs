@@ -1,4 +1,4 @@
-//! Files that hold the numbers of a comparison.
+//! Files of a comparison.
 
 use std::path::{Path, PathBuf};
 
@@ -21,7 +21,7 @@ struct Entry {
     recommended: bool,
 }
 
-/// Writes `compare.csv` and `compare.parquet` to a folder, which is made if it does not exist: a row a speed and model.
+/// Writes `compare.csv` and `compare.parquet` to a folder, which is made if it does not exist: one row per velocity and model.
 /// Files of these names are replaced.
 ///
 /// Column names end with the unit; both formats have the same columns and values. What a model does not give is empty or

@@ -2,9 +2,12 @@
 
 use percuss::converge::{ConvergenceStatus, MeshStudy};
 
-use crate::{Axis, Chart, Figure, LineChart, Mark, Series, Style};
+use crate::{
+    Axis, Chart, Figure, LineChart, Mark, Series, Style,
+    names::{result_column, with_unit},
+};
 
-/// Draws one quantity of a study against the number of elements along the projectile.
+/// Draws one quantity of a study versus the number of elements along the projectile.
 pub fn convergence_figure(case: &str, study: &MeshStudy, quantity: usize) -> Option<Figure> {
     convergence_chart(case, study, quantity).map(|chart| chart.draw())
 }
@@ -12,7 +15,7 @@ pub fn convergence_figure(case: &str, study: &MeshStudy, quantity: usize) -> Opt
 /// The chart that [`convergence_figure`] draws.
 pub fn convergence_chart(case: &str, study: &MeshStudy, quantity: usize) -> Option<Chart> {
     let quantity = study.quantities.get(quantity)?;
-    let name = quantity.name.replace('_', " ");
+    let (name, unit) = result_column(quantity.name);
     let points = study
         .meshes
         .iter()
@@ -21,8 +24,8 @@ pub fn convergence_chart(case: &str, study: &MeshStudy, quantity: usize) -> Opti
     let mut chart = LineChart::new(
         format!("convergence-{}", quantity.name.replace('_', "-")),
         format!("Convergence of the {name}: {case}"),
-        Axis::new("elements along the projectile").log(),
-        Axis::new(format!("{name} [{}]", quantity.unit)),
+        Axis::new("Elements along the projectile").log(),
+        Axis::new(with_unit(&name, unit)),
     )
     .series(Series::new("computed", points).style(Style::LineAndMarkers));
     if let ConvergenceStatus::Converging {
@@ -30,7 +33,7 @@ pub fn convergence_chart(case: &str, study: &MeshStudy, quantity: usize) -> Opti
     } = quantity.status
     {
         chart = chart.mark(Mark::horizontal(
-            format!("extrapolated, order {order:.2}"),
+            format!("Richardson extrapolation, order {order:.2}"),
             richardson,
         ));
     }

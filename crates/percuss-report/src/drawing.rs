@@ -1,4 +1,4 @@
-//! Figures that are drawn by hand.
+//! Figures drawn without the plotting library.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! What can go wrong when results are drawn or written.
+//! Errors of drawing and writing results.
 
 use std::{io, path::PathBuf};
 
@@ -38,9 +38,9 @@ pub enum ReportError {
     Sweep {
         /// The folder or file.
         path: PathBuf,
-        /// What is wrong, in words.
+        /// Reason.
         reason: String,
-        /// What to do.
+        /// Remedy.
         remedy: String,
     },
     /// A figure could not be turned into pixels.

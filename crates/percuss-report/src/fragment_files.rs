@@ -1,4 +1,4 @@
-//! File that holds the pieces that fly at the end of a run.
+//! File of the fragments at the end of a run.
 
 use std::path::{Path, PathBuf};
 
@@ -10,8 +10,8 @@ use crate::{
     replace_file::replace_file,
 };
 
-/// Writes `fragments.csv` to a folder, which is made if it does not exist: a row a piece, from the projectile's tail to the target's
-/// back. Nothing is written for a result without pieces. A file of this name is replaced.
+/// Writes `fragments.csv` to a folder, which is made if it does not exist: one row per fragment, from the tail of the projectile to the rear face of
+/// the target. Nothing is written for a result without fragments. A file of this name is replaced.
 ///
 /// # Errors
 /// [`ReportError::Write`]; [`ReportError::Table`].

@@ -1,4 +1,4 @@
-//! What all charts share: canvas, captions, axes, grid and the legend beside the plot, where it covers nothing.
+//! Canvas, captions, axes, grid and legend of all charts.
 
 use std::sync::Arc;
 

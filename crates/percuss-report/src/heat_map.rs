@@ -1,4 +1,4 @@
-//! Heat maps of a quantity over two axes.
+//! Heat maps of a quantity versus two axes.
 //!
 //! The plotting library's own take their colours from the extremes of the data, leave no cell empty and draw a rectangle per cell.
 

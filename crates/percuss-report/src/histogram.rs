@@ -78,9 +78,9 @@ impl Histogram {
         palette::symbol_color(4)
     }
 
-    /// The axis of the parts.
+    /// Axis of the fractions.
     pub(crate) fn y() -> Axis {
-        Axis::new("part of the shots [%]")
+        Axis::new("Fraction of the runs (%)")
     }
 
     /// Smallest and largest value on either axis.

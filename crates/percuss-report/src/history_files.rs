@@ -1,4 +1,4 @@
-//! Files that hold the history of a run.
+//! Files of the history of a run.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! Figures and history files of a run of `percuss`.
+//! Figures, tables and files of results of `percuss`.
 //!
 //! [`run_figures()`] draws a result that holds a time history, each figure as SVG and PNG; [`write_histories`] writes the
 //! history itself as CSV and Parquet. PNG and Parquet are the features `png` and `parquet`, both on by default. [`LineChart`], [`AreaChart`] and [`HeatMap`] give other figures the same looks.
@@ -55,6 +55,7 @@ mod limit_files;
 mod mark;
 mod material_card;
 mod measured;
+mod names;
 pub mod page;
 pub mod palette;
 #[cfg(feature = "png")]

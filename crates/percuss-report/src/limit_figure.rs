@@ -1,4 +1,4 @@
-//! Chart of speeds behind a target against impact speeds, and its figure.
+//! Chart of residual velocity versus impact velocity, and its figure.
 
 use percuss::{
     Scenario,
@@ -11,11 +11,11 @@ use crate::{
     palette,
 };
 
-/// Points of a curve that looks smooth.
+/// Points of a smooth curve.
 const POINTS: u32 = 200;
 
-/// Draws residual velocities of all models, their curves of Lambert and Jonas, and what was measured, as `limit`; `None` when no
-/// model found a limit or starts from one. Models that start from a limit have a curve without points: their limit is an input.
+/// Draws residual velocities of all models, their Lambert-Jonas curves, and measured values, as `limit`; `None` when no model has a
+/// limit. Models whose limit is an input have a dashed curve without points.
 pub fn limit_figure(scenario: &Scenario, limits: &Limits) -> Option<Figure> {
     limit_chart(scenario, limits).map(|chart| chart.draw())
 }
@@ -31,8 +31,8 @@ pub fn limit_chart(scenario: &Scenario, limits: &Limits) -> Option<Chart> {
     let mut chart = LineChart::new(
         "limit",
         format!("Residual velocity and ballistic limit: {}", limits.case),
-        Axis::new("impact speed [m/s]"),
-        Axis::new("residual velocity [m/s]"),
+        Axis::new("Impact velocity (m/s)"),
+        Axis::new("Residual velocity (m/s)"),
     )
     .caption(caption(scenario, None));
     for (symbol, (_, limit)) in found().enumerate() {
@@ -57,20 +57,20 @@ pub fn limit_chart(scenario: &Scenario, limits: &Limits) -> Option<Chart> {
         );
     }
     if let Some((value, _)) = limits.measured() {
-        let name = format!("measured limit, {} m/s", significant(value));
+        let name = format!("measured limit {} m/s", significant(value));
         chart = chart.mark(Mark::vertical(name, value));
     }
     Some(chart.into())
 }
 
-/// A model's points and curve; the point at its limit stands on the axis.
+/// Points and curve of a model; the point at its limit is on the axis.
 fn series(chart: LineChart, limit: &ModelLimit, symbol: usize) -> LineChart {
     let Some(at_limit) = limit.ballistic_limit_m_s else {
         return chart;
     };
     let points = limit.curve.iter();
     let points = points.map(|p| (p.impact_velocity_m_s, p.residual_velocity_m_s));
-    let name = format!("{}, {} m/s", limit.model, significant(at_limit));
+    let name = format!("{}, limit {} m/s", limit.model, significant(at_limit));
     let points = Series::new(name, std::iter::once((at_limit, 0.0)).chain(points));
     let chart = chart.series(points.style(Style::Markers).symbol(symbol));
     let (Some(fit), Some(last)) = (limit.fit, limit.curve.last()) else {
@@ -90,7 +90,7 @@ fn is_input(limit: &ModelLimit) -> bool {
     limit.outcome == LimitOutcome::Input && !limit.curve.is_empty()
 }
 
-/// The residual velocities of a model that starts from a limit.
+/// Residual velocities of a model whose limit is an input.
 fn input_curve(chart: LineChart, limit: &ModelLimit, symbol: usize) -> LineChart {
     let Some(input) = limit.input_limit else {
         return chart;
@@ -98,7 +98,7 @@ fn input_curve(chart: LineChart, limit: &ModelLimit, symbol: usize) -> LineChart
     let at = input.ballistic_limit_m_s;
     let points = limit.curve.iter();
     let points = points.map(|p| (p.impact_velocity_m_s, p.residual_velocity_m_s));
-    let name = format!("{}, given {} m/s", limit.model, significant(at));
+    let name = format!("{}, input {} m/s", limit.model, significant(at));
     let curve = Series::new(name, std::iter::once((at, 0.0)).chain(points));
     let color = palette::symbol_color(symbol);
     chart.series(curve.style(Style::Dashed).color(color))

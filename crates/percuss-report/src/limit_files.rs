@@ -1,4 +1,4 @@
-//! Files that hold the numbers of a search for ballistic limits.
+//! Files of ballistic limits.
 
 use std::path::{Path, PathBuf};
 
@@ -17,7 +17,7 @@ struct Point {
     fit: Option<LambertJonasFit>,
 }
 
-/// Writes `limit.csv`, a row a model, and `curve.csv`, a row a residual velocity, to a folder, which is made if it does not exist.
+/// Writes `limit.csv`, one row per model, and `curve.csv`, one row per residual velocity, to a folder, which is made if it does not exist.
 /// Files of these names are replaced. What a model does not give is empty.
 ///
 /// # Errors

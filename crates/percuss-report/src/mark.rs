@@ -1,4 +1,4 @@
-//! Lines across a plot that mark a value, and how those of one chart are told apart.
+//! Lines across a plot that mark a value.
 
 use kuva::plot::legend::{LegendEntry, LegendShape};
 use kuva::render::{
@@ -51,7 +51,7 @@ fn dashed(marks: &[Mark]) -> impl Iterator<Item = (&Mark, Option<&'static str>)>
     })
 }
 
-/// What the legend says of marks.
+/// Legend entries of marks.
 pub(crate) fn entries(marks: &[Mark]) -> impl Iterator<Item = LegendEntry> {
     dashed(marks)
         .filter(|(mark, _)| !mark.name.is_empty())

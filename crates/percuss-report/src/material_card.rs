@@ -1,4 +1,4 @@
-//! Everything that is known of a material, as a card that a terminal and a page show alike.
+//! All constants of a material, for the terminal and the page.
 
 use percuss::{
     material::{Library, Material, MaterialEntry, TulerButcher, references},
@@ -10,7 +10,7 @@ use crate::{
     table::Table,
 };
 
-/// What is known of a material, in sections.
+/// Constants of a material in sections.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MaterialCard {
     /// Its name.
@@ -24,7 +24,7 @@ pub struct MaterialCard {
 pub struct CardSection {
     /// Its heading.
     pub heading: String,
-    /// What stands in it.
+    /// Lines.
     pub lines: Vec<CardLine>,
 }
 
@@ -105,9 +105,8 @@ impl MaterialCard {
         let mut page = vec![
             Block::Title("Materials".to_owned()),
             Block::Text(
-                "Rival records of one material form a family; the one marked ★ answers to the family's name. Trust says how well the \
-                 numbers are established: A read in two independent places, B one secondary source that names its primary source, C \
-                 indicative."
+                "Alternative records of one material form a family; the name of the family selects the record marked ★. Trust grades the \
+                 numbers: A two independent sources, B one secondary source that names its primary source, C indicative."
                     .to_owned(),
             ),
         ];
@@ -171,7 +170,7 @@ fn names(entry: &MaterialEntry, card: &mut MaterialCard) {
     card.row("id", &entry.id);
     if let Some(family) = &material.family {
         let star = if material.recommended {
-            " ★ (this record answers to the family's name)"
+            " ★ (selected by the name of the family)"
         } else {
             ""
         };

@@ -1,4 +1,4 @@
-//! What was measured at the end of a shot, as lines across a chart against time.
+//! Measured final values as lines across a chart versus time.
 
 use percuss::{Scenario, history::History, outcome::BandQuantity};
 

@@ -10,7 +10,7 @@ pub const SERIES: [&str; 8] = [
 /// Colour of marks and other auxiliary lines.
 pub const MARK: &str = "#555555";
 
-/// Colour of what was measured.
+/// Colour of measured values.
 pub const EXPERIMENT: &str = "#000000";
 
 /// Colours that tell apart series with symbols: all but black, which is what was measured, and yellow, which is faint.
@@ -38,10 +38,10 @@ pub(crate) fn symbol_dashes(index: usize) -> Option<Dashes> {
     Some(Dashes { pattern, word })
 }
 
-/// Colour of shots that failed.
+/// Colour of failed runs.
 pub(crate) const FAILED: &str = "#b3001b";
 
-/// Colour of what has no value in a heat map.
+/// Colour of missing values in a heat map.
 pub const NO_VALUE: &str = "#b4b4b4";
 
 /// Colour of series `index`; after the last colour the first one returns.

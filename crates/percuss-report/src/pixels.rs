@@ -41,7 +41,7 @@ impl Figure {
     }
 }
 
-/// Draws an SVG over what is there.
+/// Draws an SVG over a picture.
 pub(crate) fn draw_over(pixels: &mut Pixmap, svg: &str, scale: f32) -> Result<(), ReportError> {
     let tree = tree("overlay", svg)?;
     resvg::render(

@@ -1,4 +1,4 @@
-//! Pieces of drawings that charts put beside what the plotting library draws.
+//! Drawing primitives that the plotting library lacks.
 
 use kuva::plot::legend::{LegendEntry, LegendShape};
 use kuva::render::{
@@ -64,7 +64,7 @@ pub(crate) fn bar(from: (f64, f64), to: (f64, f64), color: &str) -> Primitive {
     }
 }
 
-/// What the legend says of an area.
+/// Legend entry of an area.
 pub(crate) fn area_entry(name: &str, color: &str) -> LegendEntry {
     LegendEntry {
         label: plain(name, NAME_CHARS),

@@ -1,4 +1,4 @@
-//! Files that are complete or absent: a reader never sees half of one.
+//! Atomic replacement of files.
 
 use std::{
     fs,

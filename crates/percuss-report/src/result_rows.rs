@@ -1,4 +1,4 @@
-//! The result of a run as rows of a label and a value, for a terminal and a page alike.
+//! Result of a run as rows of a label and a value, for the terminal and the page.
 
 use percuss::{
     Scenario,
@@ -7,7 +7,7 @@ use percuss::{
     units::significant,
 };
 
-/// A label and a value with its unit.
+/// Label, and value with its unit.
 pub type Row = (String, String);
 
 #[derive(Default)]
@@ -19,14 +19,14 @@ impl Rows {
     }
 }
 
-/// The outcome and every result number that tables show, in the order of the record.
+/// Outcome and all result numbers of tables, in the order of the record.
 pub fn outcome_rows(scenario: &Scenario, result: &RunResult, record: &ResultRecord) -> Vec<Row> {
     let mut rows = Rows::default();
     rows.add("outcome", result.outcome.describe());
     if let Some(criterion) = &record.criterion {
-        rows.add("told by", criterion.as_str());
+        rows.add("termination criterion", criterion.as_str());
     }
-    rows.add("run ended because", result.termination.describe());
+    rows.add("termination", result.termination.describe());
     for field in RESULT_FIELDS {
         match (&field.number, field.name) {
             (Some(result_number), _) if result_number.role.is_result() => {
@@ -57,7 +57,7 @@ fn in_table(
         _ => None,
     };
     let Some(value) = of.of(record) else {
-        // A model that steps through time would have had them.
+        // Only a model that steps through time has these rows.
         result.numerics.as_ref()?;
         return match of.name {
             "time_to_rest_us" => Some("not reached".to_owned()),
@@ -76,11 +76,11 @@ fn in_table(
 fn expected_error(record: &ResultRecord) -> Option<Row> {
     let expected = record.expected_error.as_ref()?;
     let words = format!(
-        "{} against the axisymmetric reference, over the {} most similar shots of the judgement",
+        "{} against the axisymmetric reference, from the {} most similar benchmark cases",
         expected.describe(),
         expected.cases
     );
-    Some(("its expected error".to_owned(), words))
+    Some(("estimated model error".to_owned(), words))
 }
 
 fn band(record: &ResultRecord) -> Option<Row> {
@@ -94,22 +94,25 @@ fn band(record: &ResultRecord) -> Option<Row> {
     Some((format!("range of {}", band.quantity.describe()), range))
 }
 
-/// Numbers that a model alone has.
+/// Numbers that are specific to the model.
 pub fn detail_rows(result: &RunResult) -> Vec<Row> {
     let row = |detail: &Detail| (detail.name.to_owned(), number(detail.value, detail.unit));
     result.details.iter().map(row).collect()
 }
 
-/// How well the books balance, and the steps.
-pub fn book_rows(numerics: &Numerics, end_time: f64) -> Vec<Row> {
+/// Errors of the energy and momentum balances, and the time steps.
+pub fn balance_rows(numerics: &Numerics, end_time: f64) -> Vec<Row> {
     let off = |residual: f64, what: &str| match residual {
         0.0 => format!("0 of the initial {what}"),
         _ => format!("{residual:.1e} of the initial {what}"),
     };
     let mut rows = Rows::default();
-    rows.add("energy residual", off(numerics.energy_residual, "energy"));
     rows.add(
-        "momentum residual",
+        "energy balance error",
+        off(numerics.energy_residual, "energy"),
+    );
+    rows.add(
+        "momentum balance error",
         off(numerics.momentum_residual, "momentum"),
     );
     let steps = format!("{}, up to {}", numerics.steps, number(end_time * 1e6, "us"));
@@ -141,7 +144,7 @@ fn of_initial(value: f64, initial: f64, unit: &str) -> String {
     )
 }
 
-/// A share in percent: two decimals, and more for what would read as nothing.
+/// Share in per cent: two decimals, one significant digit for smaller shares.
 pub fn percentage(share: f64) -> String {
     let percent = 100.0 * share;
     if percent != 0.0 && percent.abs() < 0.005 {

@@ -1,4 +1,4 @@
-//! Charts of one value a row, each with its range.
+//! Charts of one value per row, with its range.
 
 use kuva::plot::forest::{ForestPlot, ForestRow};
 use serde::Serialize;

@@ -22,7 +22,7 @@ const CELLS: [usize; 2] = [300, 220];
 ///
 /// Against time: `depth-time` (a target that can be penetrated), `length-time` (a rigid wall, or a projectile that
 /// erodes), `velocity-time`, `force-time`, `energy-time`, and `gauge-stress-time` and `gauge-velocity-time` (a case with gauges). Along the axis: `strain-profile`, `temperature-profile` (where anything became hotter), `stress-xt` and
-/// `rod-shape`, or `final-shape` of a model that knows crater and projectile in two dimensions. A run in which nothing moves has but `strain-profile` and `rod-shape`.
+/// `rod-shape`, or `final-shape` of a two-dimensional model. A run without motion has only `strain-profile` and `rod-shape`.
 ///
 /// # Errors
 /// [`ReportError::NoHistory`] when the run kept no history.

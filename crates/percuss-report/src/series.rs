@@ -1,4 +1,4 @@
-//! What a line chart shows: series of points, and marks across the plot.
+//! Series of points of a line chart.
 
 /// How a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -51,17 +51,17 @@ pub(crate) fn shape_chart(scenario: &Scenario, shapes: &Shapes) -> LineChart {
     let mut chart = LineChart::new(
         "final-shape",
         if solid {
-            "Crater and projectile at the end"
+            "Final shape of crater and projectile"
         } else {
-            "Projectile at the end"
+            "Final shape of the projectile"
         },
-        Axis::new("distance from the axis [mm]"),
-        Axis::new("depth [mm]").downward(),
+        Axis::new("Distance from the axis (mm)"),
+        Axis::new("Depth (mm)").downward(),
     )
     .caption(caption(scenario, Some(scenario.impact_velocity)));
     if solid {
         let name = match scenario.target_thickness() {
-            Some(_) => "target, struck side",
+            Some(_) => "target, impact side",
             None => "crater",
         };
         chart = chart.series(Series::new(name, mirrored(&crater)));

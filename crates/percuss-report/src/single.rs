@@ -1,4 +1,4 @@
-//! Numbers as data of a drawing: in single precision, seven digits.
+//! Numbers of drawings in single precision.
 
 use serde::{Serialize, Serializer};
 

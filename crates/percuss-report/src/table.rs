@@ -1,4 +1,4 @@
-//! Tables: one value from which the terminal, HTML and Markdown make theirs.
+//! Tables for the terminal, HTML and Markdown.
 
 use percuss::units::significant;
 

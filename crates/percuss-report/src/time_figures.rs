@@ -1,4 +1,4 @@
-//! Figures against time.
+//! Figures versus time.
 
 use percuss::{
     history::{ElementState, History, Sample},
@@ -7,7 +7,7 @@ use percuss::{
 
 use crate::{AreaChart, Axis, LineChart, Mark, Series, Style, caption::significant};
 
-/// Colours of the lines of the energy book, in its order: dark for the projectile, light for the target.
+/// Colours of the terms of the energy balance, in its order: dark for the projectile, light for the target.
 const ENERGY_COLORS: [&str; 15] = [
     "#0072b2", "#56b4e9", // kinetic
     "#00664b", "#66d1b0", // elastic
@@ -20,7 +20,7 @@ const ENERGY_COLORS: [&str; 15] = [
     "#d7301f", // fracture
     "#9ecae9", "#b8e0c8", "#d98c5f", // plate around a plug: kinetic, elastic, plastic
 ];
-/// Lines of the energy book that never exceed this part of the initial energy are added up.
+/// Terms of the energy balance that never exceed this fraction of the initial energy are added up.
 const MINOR_ENERGY: f64 = 0.005;
 /// Width of lines that ring [px].
 const RINGING: f64 = 1.0;
@@ -29,11 +29,11 @@ const MINOR_COLOR: &str = "#d4d4d4";
 
 pub(crate) fn depth(history: &History, result: &RunResult, caption: &str) -> Option<LineChart> {
     let depth = result.depth_of_penetration?;
-    let chart = chart("depth-time", "Depth against time", "depth [mm]", caption)
+    let chart = chart("depth-time", "Depth versus time", "Depth (mm)", caption)
         .series(series("crater floor", history, |s| s.depth * 1e3))
-        .series(series("projectile's tip", history, |s| s.tip_position * 1e3).style(Style::Dashed))
+        .series(series("projectile tip", history, |s| s.tip_position * 1e3).style(Style::Dashed))
         .mark(Mark::horizontal(
-            format!("penetration {} mm", significant(depth * 1e3)),
+            format!("depth of penetration {} mm", significant(depth * 1e3)),
             depth * 1e3,
         ));
     Some(with_time_to_rest(chart, result))
@@ -51,8 +51,8 @@ pub(crate) fn length(history: &History, result: &RunResult, caption: &str) -> Op
     let unloaded = result.projectile_final_length? * 1e3;
     let chart = chart(
         "length-time",
-        "Length of the projectile against time",
-        "length [mm]",
+        "Projectile length versus time",
+        "Length (mm)",
         caption,
     )
     .series(series("projectile", history, |s| s.projectile_length * 1e3))
@@ -66,31 +66,31 @@ pub(crate) fn length(history: &History, result: &RunResult, caption: &str) -> Op
 pub(crate) fn velocity(history: &History, result: &RunResult, caption: &str) -> LineChart {
     let mut chart = chart(
         "velocity-time",
-        "Velocity against time",
-        "velocity [m/s]",
+        "Velocity versus time",
+        "Velocity (m/s)",
         caption,
     )
     .series(series("tip", history, |s| s.tip_velocity).width(RINGING))
     .series(series("tail", history, |s| s.tail_velocity));
     if history.samples.iter().any(|s| s.interface_velocity != 0.0) {
         let floor = series("crater floor", history, |s| s.interface_velocity);
-        // It coincides with the tip as long as they touch.
+        // It coincides with the tip while they are in contact.
         chart = chart.series(floor.style(Style::Dashed).width(RINGING));
     }
-    let mean = series("projectile's mean", history, |s| s.mean_velocity).color("#000000");
+    let mean = series("projectile mean", history, |s| s.mean_velocity).color("#000000");
     with_time_to_rest(chart.series(mean), result)
 }
 
-/// `None` when the model knows no force at either face, as for a target that is a given pressure.
+/// `None` when the model has no force at either face, as for a given pressure.
 pub(crate) fn force(history: &History, result: &RunResult, caption: &str) -> Option<LineChart> {
     let samples = || history.samples.iter();
     let struck = samples().any(|s| s.contact_force != 0.0);
-    // A wall is both faces in one.
+    // A rigid wall has only one face.
     let behind = samples().any(|s| s.back_force != 0.0)
         && samples().any(|s| s.back_force != s.contact_force);
-    let mut chart = chart("force-time", "Force against time", "force [kN]", caption);
+    let mut chart = chart("force-time", "Force versus time", "Force (kN)", caption);
     if struck {
-        let curve = series("projectile on target", history, |s| s.contact_force * 1e-3);
+        let curve = series("contact force", history, |s| s.contact_force * 1e-3);
         chart = chart.series(curve.width(RINGING));
     }
     let plane = result.details.iter().find(|d| d.name == PLANE_IMPACT);
@@ -127,20 +127,20 @@ pub(crate) fn gauges(history: &History, caption: &str) -> Vec<LineChart> {
     vec![
         of(
             "gauge-stress-time",
-            "Axial stress at gauges against time",
-            "axial stress, compression positive [MPa]",
+            "Axial stress at gauges versus time",
+            "Axial stress, compression positive (MPa)",
             |state| state.stress * 1e-6,
         ),
         of(
             "gauge-velocity-time",
-            "Velocity at gauges against time",
-            "velocity [m/s]",
+            "Velocity at gauges versus time",
+            "Velocity (m/s)",
             |state| state.velocity,
         ),
     ]
 }
 
-/// The energy book in percent of the initial energy; `None` when nothing moved.
+/// Energy balance in per cent of the initial energy; `None` when nothing moves.
 pub(crate) fn energy(history: &History, caption: &str) -> Option<AreaChart> {
     let samples = &history.samples;
     let initial = samples.first()?.energy.initial;
@@ -154,9 +154,9 @@ pub(crate) fn energy(history: &History, caption: &str) -> Option<AreaChart> {
     };
     let mut chart = AreaChart::new(
         "energy-time",
-        "Energy against time",
+        "Energy distribution versus time",
         time_axis(),
-        Axis::new("energy [% of initial]").range(0.0, 100.0),
+        Axis::new("Energy (% of initial)").range(0.0, 100.0),
         samples.iter().map(|sample| sample.time * 1e6),
     )
     .caption(caption);
@@ -179,7 +179,7 @@ pub(crate) fn energy(history: &History, caption: &str) -> Option<AreaChart> {
             ),
             _ => {
                 let most = significant(100.0 * MINOR_ENERGY);
-                (format!("others, each < {most} %"), MINOR_COLOR)
+                (format!("other terms, each < {most} %"), MINOR_COLOR)
             }
         };
         chart = chart.area(name, Some(color), samples.iter().map(sum));
@@ -188,7 +188,7 @@ pub(crate) fn energy(history: &History, caption: &str) -> Option<AreaChart> {
 }
 
 fn time_axis() -> Axis {
-    Axis::new("time [µs]").tight()
+    Axis::new("Time (µs)").tight()
 }
 
 fn chart(name: &str, title: &str, y_label: &str, caption: &str) -> LineChart {
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn every_line_of_the_energy_book_has_a_colour_of_its_own() {
+    fn every_line_of_the_energy_balance_has_its_own_colour() {
         let colors: std::collections::HashSet<_> = ENERGY_COLORS.iter().collect();
         assert_eq!(colors.len(), ENERGY_COLORS.len());
         assert!(!colors.contains(&MINOR_COLOR));

@@ -1,19 +1,19 @@
-//! Figure of shots that were stopped or went through, and of the probability of going through.
+//! Figure of partial and complete penetrations, with the probability of perforation and V50.
 
 use percuss::v50::{Estimate, Method, Test, V50, probability};
 
 use crate::{Axis, Figure, LineChart, Mark, Series, Style, caption::significant, palette};
 
-/// Points of a curve that looks smooth.
+/// Points of a smooth curve.
 const POINTS: u32 = 200;
 
-/// Draws shots, the likeliest chances of going through and V50 with its interval, as `v50`.
+/// Draws tests, the maximum-likelihood probability of perforation, and V50 with its interval, as `v50`.
 pub fn v50_figure(name: &str, shots: &[Test], v50: &V50) -> Figure {
     let mut chart = LineChart::new(
         "v50",
-        format!("Shots stopped and gone through: {name}"),
-        Axis::new("impact speed [m/s]"),
-        Axis::new("probability of going through").range(-0.05, 1.05),
+        format!("Partial and complete penetrations: {name}"),
+        Axis::new("Impact velocity (m/s)"),
+        Axis::new("Probability of perforation").range(-0.05, 1.05),
     )
     .caption(caption(v50));
     let (slowest, fastest) = shots
@@ -43,8 +43,8 @@ pub fn v50_figure(name: &str, shots: &[Test], v50: &V50) -> Figure {
         chart = chart.series(Series::new(method.describe(), curve).style(style));
     }
     for (words, perforated, color) in [
-        ("went through", true, palette::SERIES[1]),
-        ("stopped", false, palette::SERIES[2]),
+        ("complete penetration", true, palette::SERIES[1]),
+        ("partial penetration", false, palette::SERIES[2]),
     ] {
         let kind = shots.iter().filter(|shot| shot.perforated == perforated);
         let height = f64::from(u8::from(perforated));
@@ -69,7 +69,11 @@ fn marks(mut chart: LineChart, entry: &Estimate) -> LineChart {
         ));
     }
     if let (Some(low), Some(high)) = (entry.low_m_s, entry.high_m_s) {
-        let name = format!("95 % {} to {} m/s", significant(low), significant(high));
+        let name = format!(
+            "95 % interval {} to {} m/s",
+            significant(low),
+            significant(high)
+        );
         chart = chart.mark(Mark::vertical(name, low));
         chart = chart.mark(Mark::vertical("", high));
     }
@@ -78,7 +82,7 @@ fn marks(mut chart: LineChart, entry: &Estimate) -> LineChart {
 
 fn caption(v50: &V50) -> String {
     format!(
-        "{} shots, {} stopped and {} gone through",
+        "{} tests: {} partial and {} complete penetrations",
         v50.tests,
         v50.tests - v50.perforated,
         v50.perforated

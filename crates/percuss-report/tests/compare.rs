@@ -149,8 +149,8 @@ fn every_model_with_a_value_has_its_line() {
         "chain",
         "tate ★",
         "experiment",
-        "depth [mm]",
-        "impact velocity [m/s]",
+        "Depth of penetration (mm)",
+        "Impact velocity (m/s)",
     ] {
         assert!(figure.svg.contains(&format!(">{text}</text>")), "{text}");
     }
@@ -164,10 +164,10 @@ fn every_model_with_a_value_has_its_line() {
 }
 
 #[test]
-fn one_speed_gives_a_row_a_model() {
+fn one_velocity_gives_one_row_per_model() {
     let (scenario, comparison) = comparison(CASE, &[1000.0]);
     let figure = compare_figure(&scenario, &comparison).unwrap();
-    for text in ["chain", "tate ★", "experiment", "depth [mm]"] {
+    for text in ["chain", "tate ★", "experiment", "Depth of penetration (mm)"] {
         assert!(figure.svg.contains(&format!(">{text}</text>")), "{text}");
     }
     assert!(!figure.svg.contains(">forrestal</text>"));

@@ -1,4 +1,4 @@
-//! What damping does to the depth in the seed paper's case, which suspected it of its mismatch at high speed.
+//! Damping study: effect of damping on the depth of penetration in the case of the seed paper.
 
 use std::path::{Path, PathBuf};
 
@@ -17,10 +17,10 @@ use serde::Serialize;
 
 use crate::{
     paper::OnProgress,
-    paper_case::{self, ablation::REFERENCE},
+    paper_case::{self, variants::REFERENCE},
 };
 
-/// A way to damp: its name and the options that make it. Another one is one line here.
+/// Ways of damping: name and options.
 const WAYS: &[(&str, &str)] = &[
     ("none", ""),
     ("ratio 0.05", "damping_ratio = 0.05"),
@@ -35,22 +35,22 @@ const WAYS: &[(&str, &str)] = &[
     ("local 0.8", "local_damping = 0.8"),
 ];
 
-/// Impact speeds [m/s], on the paper's mesh.
+/// Impact velocities on the mesh of the paper [m/s].
 const SPEEDS: [f64; 8] = [100.0, 150.0, 230.0, 300.0, 400.0, 500.0, 600.0, 700.0];
 /// Elements along the projectile; the target has twice as many.
 const MESHES: [u32; 5] = [20, 40, 80, 160, 320];
 /// The paper's mesh.
 const PAPER_MESH: u32 = 40;
-/// Speeds of the study of meshes [m/s]: the paper's, at which nothing erodes, and one at which the rod erodes.
+/// Impact velocities of the mesh study [m/s]: that of the paper without erosion, and one with an eroding rod.
 const MESH_SPEEDS: [f64; 2] = [230.0, 600.0];
 
-/// A shot of the paper's case.
+/// Run of the case of the seed paper.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Shot {
+pub struct DampingRun {
     /// Way of damping.
     #[serde(rename = "damping")]
     pub way: &'static str,
-    /// Impact speed [m/s].
+    /// Impact velocity [m/s].
     #[serde(rename = "impact_velocity_m_s")]
     pub speed: f64,
     /// Elements along the projectile.
@@ -59,29 +59,29 @@ pub struct Shot {
     /// Depth of penetration [mm].
     #[serde(rename = "depth_of_penetration_mm")]
     pub depth_mm: f64,
-    /// Energy that damping and viscosity took, as a part of the impact energy.
+    /// Energy dissipated by damping and viscosity, as a fraction of the impact energy.
     #[serde(rename = "damped_energy")]
     pub damped: f64,
-    /// Energy that left with what eroded, as a part of the impact energy.
+    /// Energy of eroded material, as a fraction of the impact energy.
     #[serde(rename = "eroded_energy")]
     pub eroded: f64,
-    /// Relative change of the depth against the same shot without damping.
+    /// Relative change of the depth compared with the same run without damping.
     pub change: f64,
 }
 
-/// The study.
+/// Damping study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DampingStudy {
-    /// All shots.
-    pub shots: Vec<Shot>,
-    /// Depth by the axisymmetric reference [mm], where there is one, with its impact speed [m/s].
+    /// All runs.
+    pub runs: Vec<DampingRun>,
+    /// Impact velocity [m/s] and depth [mm] of the axisymmetric reference.
     pub reference: Vec<(f64, f64)>,
 }
 
 /// Computes the study.
 ///
 /// # Errors
-/// Those of the runs; [`Error::Cancelled`] when `progress` breaks off.
+/// Those of the runs; [`Error::Cancelled`] when `progress` stops the work.
 pub fn damping_study(progress: OnProgress<'_>) -> Result<DampingStudy, Error> {
     let speeds = SPEEDS.map(|speed| (speed, PAPER_MESH));
     let meshes = MESH_SPEEDS.map(|speed| MESHES.map(|elements| (speed, elements)));
@@ -89,11 +89,11 @@ pub fn damping_study(progress: OnProgress<'_>) -> Result<DampingStudy, Error> {
     places.sort_by(|a, b| a.1.cmp(&b.1).then(a.0.total_cmp(&b.0)));
     places.dedup();
     let total = (places.len() * WAYS.len()) as f64;
-    let mut shots: Vec<Shot> = Vec::new();
+    let mut runs: Vec<DampingRun> = Vec::new();
     for (speed, elements) in places {
         let mut undamped = f64::NAN;
         for (i, (way, options)) in WAYS.iter().enumerate() {
-            if progress(shots.len() as f64 / total).is_break() {
+            if progress(runs.len() as f64 / total).is_break() {
                 return Err(Error::Cancelled {
                     step: 0,
                     time_us: 0.0,
@@ -103,7 +103,7 @@ pub fn damping_study(progress: OnProgress<'_>) -> Result<DampingStudy, Error> {
             if i == 0 {
                 undamped = depth_mm;
             }
-            shots.push(Shot {
+            runs.push(DampingRun {
                 way,
                 speed,
                 elements,
@@ -117,12 +117,12 @@ pub fn damping_study(progress: OnProgress<'_>) -> Result<DampingStudy, Error> {
     let known = paper_case::built_in();
     let depth = |speed: &f64| Some((*speed, paper_case::depth(&known, *speed)?.depth_mm));
     Ok(DampingStudy {
-        shots,
+        runs,
         reference: paper_case::SPEEDS.iter().filter_map(depth).collect(),
     })
 }
 
-/// Depth [mm], and the parts of the energy that were damped away and that left with what eroded.
+/// Depth [mm], and the fractions of damped and eroded energy.
 fn run(speed: f64, elements: u32, options: &str) -> Result<(f64, f64, f64), Error> {
     let target = 2 * elements;
     let options = format!(
@@ -143,7 +143,7 @@ impl DampingStudy {
     /// [`ReportError::Write`]; [`ReportError::Figure`]; [`ReportError::Table`].
     pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, ReportError> {
         let name = "damping.csv";
-        let table = column::csv(name, &columns(), &self.shots)?;
+        let table = column::csv(name, &columns(), &self.runs)?;
         let mut written = vec![replace_file(folder, name, &table)?];
         let meshes = MESH_SPEEDS.map(|speed| self.meshes(speed));
         for figure in std::iter::once(self.speeds()).chain(meshes) {
@@ -152,19 +152,19 @@ impl DampingStudy {
         Ok(written)
     }
 
-    /// What it comes to, one line each.
+    /// Findings, one per line.
     pub fn findings(&self) -> Vec<String> {
         let percent = |part: f64| format!("{:+.1} %", 100.0 * part);
         let at = |way: &str, speed: f64, elements: u32| {
-            let mut shots = self.shots.iter();
-            shots.find(|s| s.way == way && s.speed == speed && s.elements == elements)
+            let mut runs = self.runs.iter();
+            runs.find(|s| s.way == way && s.speed == speed && s.elements == elements)
         };
         let mut lines = Vec::new();
         for (way, _) in &WAYS[1..] {
             let changes = MESH_SPEEDS.map(|speed| {
                 let change = |elements: u32| {
-                    let shot = at(way, speed, elements);
-                    let change = shot.map_or_else(String::new, |s| percent(s.change));
+                    let row = at(way, speed, elements);
+                    let change = row.map_or_else(String::new, |s| percent(s.change));
                     format!("{change} with {elements} elements")
                 };
                 let finest = MESHES[MESHES.len() - 1];
@@ -174,40 +174,40 @@ impl DampingStudy {
                     change(finest)
                 )
             });
-            lines.push(format!("{way}: the depth changes {}", changes.join(", ")));
+            lines.push(format!("{way}: change of the depth {}", changes.join(", ")));
         }
         for (speed, depth) in &self.reference {
-            if let Some(shot) = at(WAYS[0].0, *speed, PAPER_MESH) {
+            if let Some(row) = at(WAYS[0].0, *speed, PAPER_MESH) {
                 lines.push(format!(
-                    "{REFERENCE} at {speed} m/s: {} mm, where the undamped column gives {} mm: off by {}",
+                    "{REFERENCE} at {speed} m/s: {} mm, compared with {} mm by the undamped column: relative error {}",
                     significant(*depth, 3),
-                    significant(shot.depth_mm, 3),
-                    percent(shot.depth_mm / depth - 1.0)
+                    significant(row.depth_mm, 3),
+                    percent(row.depth_mm / depth - 1.0)
                 ));
             }
         }
         lines
     }
 
-    fn of(&self, way: &str, keep: impl Fn(&Shot) -> bool) -> Vec<&Shot> {
-        let shots = self.shots.iter();
-        shots.filter(|shot| shot.way == way && keep(shot)).collect()
+    fn of(&self, way: &str, keep: impl Fn(&DampingRun) -> bool) -> Vec<&DampingRun> {
+        let runs = self.runs.iter();
+        runs.filter(|row| row.way == way && keep(row)).collect()
     }
 
     fn speeds(&self) -> Figure {
         let mut chart = LineChart::new(
             "damping-speed",
-            "Depth against speed with damping: the seed paper's case",
-            Axis::new("impact speed [m/s]"),
-            Axis::new("depth of penetration [mm]").log(),
+            "Depth of penetration versus impact velocity with damping, case of the seed paper",
+            Axis::new("Impact velocity (m/s)"),
+            Axis::new("Depth of penetration (mm)").log(),
         )
         .caption(format!(
             "chain, column, {PAPER_MESH} and {} elements; {REFERENCE}: the axisymmetric reference",
             2 * PAPER_MESH
         ));
         for (index, (way, _)) in WAYS.iter().enumerate() {
-            let shots = self.of(way, |shot| shot.elements == PAPER_MESH);
-            let points = shots.iter().map(|shot| (shot.speed, shot.depth_mm));
+            let runs = self.of(way, |row| row.elements == PAPER_MESH);
+            let points = runs.iter().map(|row| (row.speed, row.depth_mm));
             chart = chart.series(
                 Series::new(*way, points)
                     .style(Style::LineAndMarkers)
@@ -223,17 +223,19 @@ impl DampingStudy {
     fn meshes(&self, speed: f64) -> Figure {
         let mut chart = LineChart::new(
             format!("damping-mesh-{speed}"),
-            format!("What damping changes, against the mesh: {speed} m/s"),
-            Axis::new("elements along the projectile").log(),
-            Axis::new("change of the depth [%]"),
+            format!("Change of the depth of penetration by damping versus mesh, {speed} m/s"),
+            Axis::new("Elements along the projectile").log(),
+            Axis::new("Change of the depth (%)"),
         )
-        .caption("the seed paper's case; chain, column; against the same mesh without damping");
+        .caption(
+            "case of the seed paper; chain, column; relative to the same mesh without damping",
+        );
         for (index, (way, _)) in WAYS.iter().enumerate().skip(1) {
-            let mut shots = self.of(way, |shot| shot.speed == speed);
-            shots.sort_by_key(|shot| shot.elements);
-            let points = shots
+            let mut runs = self.of(way, |row| row.speed == speed);
+            runs.sort_by_key(|row| row.elements);
+            let points = runs
                 .iter()
-                .map(|shot| (f64::from(shot.elements), 100.0 * shot.change));
+                .map(|row| (f64::from(row.elements), 100.0 * row.change));
             chart = chart.series(
                 Series::new(*way, points)
                     .style(Style::LineAndMarkers)
@@ -244,14 +246,16 @@ impl DampingStudy {
     }
 }
 
-fn columns() -> Vec<Column<Shot>> {
+fn columns() -> Vec<Column<DampingRun>> {
     vec![
-        Column::text("damping", |s: &Shot| s.way.to_owned()),
-        Column::float("impact_velocity_m_s", |s: &Shot| s.speed),
-        Column::integer("projectile_elements", |s: &Shot| i64::from(s.elements)),
-        Column::float("depth_of_penetration_mm", |s: &Shot| s.depth_mm),
-        Column::float("change", |s: &Shot| s.change),
-        Column::float("damped_energy", |s: &Shot| s.damped),
-        Column::float("eroded_energy", |s: &Shot| s.eroded),
+        Column::text("damping", |s: &DampingRun| s.way.to_owned()),
+        Column::float("impact_velocity_m_s", |s: &DampingRun| s.speed),
+        Column::integer("projectile_elements", |s: &DampingRun| {
+            i64::from(s.elements)
+        }),
+        Column::float("depth_of_penetration_mm", |s: &DampingRun| s.depth_mm),
+        Column::float("change", |s: &DampingRun| s.change),
+        Column::float("damped_energy", |s: &DampingRun| s.damped),
+        Column::float("eroded_energy", |s: &DampingRun| s.eroded),
     ]
 }

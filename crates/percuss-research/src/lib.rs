@@ -1,4 +1,5 @@
-//! The project's own research: what `percuss judge` and `percuss reproduce` compute. Nothing else needs it.
+//! Research of the project: the benchmark, the reproduction of the seed paper and the damping study, for `percuss benchmark` and
+//! `percuss reproduce` only.
 //!
 //! [`benchmark`] compares every depth model with the axisymmetric model, [`benchmark_report`] writes the comparison; [`paper_case`] is the
 //! seed paper's case by the axisymmetric model and by one-dimensional variants; [`paper`] checks the seed paper item by item, and [`damping`]

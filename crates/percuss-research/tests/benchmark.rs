@@ -2,17 +2,17 @@
 
 use percuss::model_error::{self, ErrorRecord};
 use percuss_research::{
-    benchmark::{self, reference, shots},
-    paper_case::{self, ablation},
+    benchmark::{self, cases, reference},
+    paper_case::{self, variants},
 };
 
 #[test]
 fn reference_depths_are_of_the_design_and_close_their_energy_balance() {
-    let (references, shots) = (reference::built_in(), shots());
+    let (references, cases) = (reference::built_in(), cases());
     for reference in &references {
         assert!(
-            shots.iter().any(|shot| reference.is_of(shot)),
-            "of no shot of the design: {reference:?}"
+            cases.iter().any(|case| reference.is_of(case)),
+            "of no case of the design: {reference:?}"
         );
         assert!(
             reference.energy_residual.abs() <= 0.01 && reference.depth_of_penetration_mm > 0.0,
@@ -20,19 +20,19 @@ fn reference_depths_are_of_the_design_and_close_their_energy_balance() {
         );
     }
     // One mesh says nothing of its error.
-    for shot in shots {
+    for case in cases {
         let meshes: Vec<u32> = references
             .iter()
-            .filter(|reference| reference.is_of(&shot))
+            .filter(|reference| reference.is_of(&case))
             .map(|reference| reference.cells_per_radius)
             .collect();
         let mut different = meshes.clone();
         different.sort_unstable();
         different.dedup();
-        assert_eq!(meshes.len(), different.len(), "twice on a mesh: {shot:?}");
+        assert_eq!(meshes.len(), different.len(), "twice on a mesh: {case:?}");
         assert!(
             references.is_empty() || meshes.len() >= 2,
-            "{shot:?}: {meshes:?}"
+            "{case:?}: {meshes:?}"
         );
     }
 }
@@ -40,11 +40,11 @@ fn reference_depths_are_of_the_design_and_close_their_energy_balance() {
 /// An entry that fails the convergence check is in no result, hence in no statistics, figures, findings or expected errors.
 #[test]
 fn a_refused_reference_is_left_out_of_the_stored_results() {
-    let checked = benchmark::check_references(&shots(), &reference::built_in());
+    let checked = benchmark::check_references(&cases(), &reference::built_in());
     let refused = checked.iter().filter(|entry| entry.estimate.is_err());
     assert!(refused.clone().count() > 10);
     for entry in refused {
-        let stored = model_error::records().iter().any(|v| entry.shot.is_of(v));
+        let stored = model_error::records().iter().any(|v| entry.case.is_of(v));
         assert!(!stored, "{entry:?}");
     }
 }
@@ -54,7 +54,7 @@ fn the_study_of_the_papers_case_closes_its_energy_balance_on_every_mesh() {
     let rows = paper_case::built_in();
     for &speed in paper_case::SPEEDS {
         for &(cells, radius) in paper_case::VARIANTS {
-            let of = |row: &&paper_case::Study| {
+            let of = |row: &&paper_case::PaperCaseRow| {
                 row.impact_velocity_m_s == speed
                     && row.cells_per_radius == cells
                     && row.target_radius_mm == radius
@@ -83,7 +83,7 @@ const SAME: f64 = 1e-6;
 
 #[test]
 fn the_stored_results_are_those_of_the_models() {
-    let now = benchmark::compare(&shots(), &reference::built_in()).unwrap();
+    let now = benchmark::compare(&cases(), &reference::built_in()).unwrap();
     let stored = model_error::records();
     let key = |verdict: &ErrorRecord| {
         let ErrorRecord {
@@ -118,15 +118,16 @@ fn the_stored_results_are_those_of_the_models() {
 
 #[test]
 fn every_variant_of_the_ablation_answers() {
-    let lines = ablation::ablation(&[]).unwrap();
+    let lines = variants::compute(&[]).unwrap();
     assert_eq!(lines.len(), 8 * paper_case::SPEEDS.len(), "{lines:?}");
     assert!(
         lines.iter().all(|line| line.depth_of_penetration_mm > 0.0),
         "{lines:?}"
     );
     let depth = |speed: f64, name: &str| {
-        let own =
-            |line: &&ablation::Line| line.impact_velocity_m_s == speed && line.variant == name;
+        let own = |line: &&variants::VariantResult| {
+            line.impact_velocity_m_s == speed && line.variant == name
+        };
         lines.iter().find(own).unwrap().depth_of_penetration_mm
     };
     for &speed in paper_case::SPEEDS {

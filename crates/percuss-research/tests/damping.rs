@@ -5,11 +5,11 @@ use std::{fs, ops::ControlFlow, path::Path};
 use percuss_research::damping::{DampingStudy, damping_study};
 
 fn change(study: &DampingStudy, way: &str, speed: f64, elements: u32) -> String {
-    let mut shots = study.shots.iter();
-    let shot = shots
+    let mut runs = study.runs.iter();
+    let run = runs
         .find(|s| s.way == way && s.speed == speed && s.elements == elements)
         .unwrap_or_else(|| panic!("{way} {speed} {elements}"));
-    format!("{:+.1} %", 100.0 * shot.change).replace('-', "\u{2212}")
+    format!("{:+.1} %", 100.0 * run.change).replace('-', "\u{2212}")
 }
 
 #[test]
@@ -32,9 +32,9 @@ fn the_numbers_of_the_page_are_those_of_the_study() {
         assert!(page.contains(&row), "{row}");
     }
     // What is damped is booked, and without damping nothing is.
-    for shot in &study.shots {
-        assert_eq!(shot.way == "none", shot.damped == 0.0, "{shot:?}");
-        assert!((0.0..0.6).contains(&shot.damped), "{shot:?}");
+    for run in &study.runs {
+        assert_eq!(run.way == "none", run.damped == 0.0, "{run:?}");
+        assert!((0.0..0.6).contains(&run.damped), "{run:?}");
     }
     assert_eq!(study.reference.len(), 2);
     assert_eq!(study.findings().len(), 9);
@@ -44,7 +44,7 @@ fn the_numbers_of_the_page_are_those_of_the_study() {
     let table = fs::read_to_string(folder.path().join("damping.csv")).unwrap();
     let mut columns: Vec<&str> = table.lines().next().unwrap().split(',').collect();
     columns.sort_unstable();
-    let json = serde_json::to_value(&study.shots[0]).unwrap();
+    let json = serde_json::to_value(&study.runs[0]).unwrap();
     let mut names: Vec<&String> = json.as_object().unwrap().keys().collect();
     names.sort_unstable();
     assert_eq!(names, columns);

@@ -1,8 +1,8 @@
-//! The page in `docs/paper/` is what `percuss reproduce paper` writes today.
+//! The page in `docs/reference/paper/` is what `percuss reproduce paper` writes today.
 
 use std::{fs, ops::ControlFlow, path::Path};
 
-use percuss_research::paper::{Verdict, reproduce};
+use percuss_research::paper::{Assessment, reproduce};
 
 /// Words are compared as words, numbers as numbers: the last digits may differ between C libraries.
 fn assert_same(old: &str, new: &str) {
@@ -20,7 +20,7 @@ fn assert_same(old: &str, new: &str) {
         };
         assert!(
             same,
-            "docs/paper/paper.md has `{a}` where `{b}` comes out: run `percuss reproduce paper --out docs/paper`"
+            "docs/reference/paper/paper.md has `{a}` where `{b}` comes out: run `percuss reproduce paper --out docs/reference/paper`"
         );
     }
     assert_eq!(old.len(), new.len());
@@ -29,7 +29,7 @@ fn assert_same(old: &str, new: &str) {
 #[test]
 fn the_page_in_the_docs_is_up_to_date() {
     let reproduction = reproduce(&mut |_| ControlFlow::Continue(())).unwrap();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/paper/paper.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference/paper/paper.md");
     assert_same(&fs::read_to_string(path).unwrap(), &reproduction.page());
 
     let verdict = |place: &str, start: &str| {
@@ -39,21 +39,27 @@ fn the_page_in_the_docs_is_up_to_date() {
             .find(|item| item.place == place && item.statement.starts_with(start));
         found
             .unwrap_or_else(|| panic!("no item {place}: {start}"))
-            .verdict
+            .assessment
     };
-    assert_eq!(verdict("Table 1", "penetrator mass"), Verdict::Reproduced);
-    assert_eq!(verdict("Table 1", "time step 4.85e-9"), Verdict::Reproduced);
+    assert_eq!(
+        verdict("Table 1", "penetrator mass"),
+        Assessment::Reproduced
+    );
+    assert_eq!(
+        verdict("Table 1", "time step 4.85e-9"),
+        Assessment::Reproduced
+    );
     assert_eq!(
         verdict("Table 1", "95 time steps"),
-        Verdict::ReadingDependent
+        Assessment::ReadingDependent
     );
     assert_eq!(
         verdict("Fig. 8", "40–80 elements are converged (published, chain)"),
-        Verdict::Contradicted
+        Assessment::Contradicted
     );
     assert_eq!(
         verdict("Fig. 11", "agrees with Woodward's shots"),
-        Verdict::CannotBeKnown
+        Assessment::CannotBeKnown
     );
 }
 

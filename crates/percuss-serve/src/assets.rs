@@ -1,4 +1,4 @@
-//! Scripts and styles of the page, built beforehand and part of the program.
+//! Scripts and styles of the page, embedded in the program.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 

@@ -1,4 +1,4 @@
-//! Ready cases: those of the project's folder `cases`, as part of the program.
+//! Example cases of the folder `cases`, embedded in the program.
 
 use serde::Serialize;
 

@@ -1,4 +1,4 @@
-//! Constants of the materials that a case names: numbers that can be varied and fitted under keys of their own.
+//! Constants of the materials of a case, with the keys under which they can be varied and fitted.
 
 use std::collections::BTreeMap;
 

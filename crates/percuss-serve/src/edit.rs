@@ -1,4 +1,4 @@
-//! Changes of a form, made in the text of a case: comments and order stay as they are.
+//! Edits of a form in the text of a case; comments and order are kept.
 
 use serde::Deserialize;
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value};

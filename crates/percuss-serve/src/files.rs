@@ -1,4 +1,4 @@
-//! Files of an answer to take away: histories, figures, numbers.
+//! Files for download: histories, figures, results.
 
 use axum::{
     extract::{Request, State},
@@ -9,11 +9,12 @@ use percuss::summary::CaseResults;
 use percuss_report::{Chart, history_files};
 
 use crate::{
-    answer, http,
+    events::pretty,
+    http,
+    job::{Stop, Workers},
     problem::Problem,
     request::{self, CaseRequest},
-    stream::pretty,
-    worker::{Stop, Workers},
+    response,
 };
 
 /// Cells of the x–t diagram of a figure along the axis and along time.
@@ -52,7 +53,7 @@ fn file(
     chosen: &percuss::model::ChosenModel,
     stop: &Stop,
 ) -> Result<(&'static str, Vec<u8>), Problem> {
-    let result = answer::run(scenario, chosen, stop, None)?;
+    let result = response::run(scenario, chosen, stop, None)?;
     if name == "result.json" {
         let results = CaseResults::new(scenario, &[result]);
         return Ok(("application/json", pretty(&results).into_bytes()));
@@ -60,7 +61,7 @@ fn file(
     let unknown = || {
         Problem::with_status(
             StatusCode::NOT_FOUND,
-            "this model makes no such file of this case",
+            "this model gives no such file for this case",
             "",
         )
     };
@@ -74,7 +75,7 @@ fn file(
         };
         return Ok((kind, content));
     };
-    let charts = answer::charts(scenario, &result, Some(CELLS))?;
+    let charts = response::charts(scenario, &result, Some(CELLS))?;
     let chart: &Chart = charts
         .iter()
         .find(|chart| chart.name() == figure)

@@ -1,4 +1,4 @@
-//! The keys of a case as fields of a form, from the schema of case files.
+//! Fields of the form, from the schema of case files.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! The page as it is sent: with its first answer, so that the first paint shows it.
+//! The page with the results of its first case.
 
 use axum::{extract::State, http::StatusCode, response::Response};
 use percuss::{
@@ -10,33 +10,32 @@ use serde::Serialize;
 use std::sync::Arc;
 
 use crate::{
-    Bounds, StartCase,
-    answer::Answer,
-    assets, cases,
+    RequestLimits, StartCase, assets, cases,
     form::{self, Field},
     http,
+    response::CaseResponse,
 };
 
-/// Rows of the first answer that the page shows before its script runs.
+/// Rows of results that the page shows before its script runs.
 const FIRST_ROWS: usize = 12;
-/// Characters of a value that takes more room than others.
+/// Length of a long value [characters].
 const LONG: usize = 36;
 
 /// The page as text.
 #[derive(Debug)]
 pub(crate) struct Index(String);
 
-/// What the page knows from the start.
+/// Initial data of the page.
 #[derive(Serialize)]
 struct Start<'a> {
     version: &'static str,
     name: &'a str,
-    answer: &'a Answer,
+    answer: &'a CaseResponse,
     fields: Vec<Field>,
     models: Vec<ModelRecord>,
     materials: Vec<MaterialRecord<'a>>,
     cases: Vec<cases::ReadyCase>,
-    bounds: BoundsRecord,
+    bounds: LimitsRecord,
     experiment_color: &'static str,
 }
 
@@ -58,13 +57,13 @@ struct MaterialRecord<'a> {
 }
 
 #[derive(Serialize)]
-struct BoundsRecord {
+struct LimitsRecord {
     elements: usize,
     seconds: u64,
 }
 
 impl Index {
-    pub(crate) fn new(case: &StartCase, answer: &Answer, bounds: &Bounds) -> Self {
+    pub(crate) fn new(case: &StartCase, answer: &CaseResponse, bounds: &RequestLimits) -> Self {
         let start = Start {
             version: env!("CARGO_PKG_VERSION"),
             name: &case.name,
@@ -73,7 +72,7 @@ impl Index {
             models: MODELS.iter().map(|model| model_record(*model)).collect(),
             materials: Library::built_in().iter().map(material_record).collect(),
             cases: cases::all(),
-            bounds: BoundsRecord {
+            bounds: LimitsRecord {
                 elements: bounds.elements,
                 seconds: bounds.seconds,
             },
@@ -83,7 +82,7 @@ impl Index {
         let data = serde_json::to_string(&start).unwrap_or_default();
         let data = data.replace('<', "\\u003c");
         let mut first: Vec<&Row> = answer.rows[0].iter().take(FIRST_ROWS).collect();
-        // Numbers before sentences.
+        // Long values come last.
         first.sort_by_key(|(_, value)| is_long(value));
         let rows: String = first.into_iter().map(row).collect();
         let page = assets::template()

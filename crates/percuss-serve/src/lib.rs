@@ -1,8 +1,8 @@
-//! A page that answers while its user drags: `percuss` in a browser, served by the program itself.
+//! Web server and page of `percuss serve`: a case with live results in a browser.
 //!
-//! [`Server::bind`] checks the options, computes the first answer and takes the address; [`Server::run`] serves until the program
-//! ends. Everything that the page needs is part of the program. The page reads no files, and answers come from the same reader
-//! and the same models as on the command line.
+//! [`Server::bind`] checks the options, computes the first case and binds the address; [`Server::run`] serves until the program
+//! ends. Everything that the page needs is part of the program. The page reads no files. It uses the same reader and
+//! the same models as the command line.
 //!
 //! ```
 //! use percuss_serve::{Options, Server};
@@ -13,26 +13,26 @@
 //! # Ok::<(), percuss_serve::ServeError>(())
 //! ```
 
-mod answer;
 mod assets;
-mod bounds;
 mod cases;
 mod constants;
 mod edit;
+mod events;
 mod files;
 mod form;
-mod gate;
+mod host_guard;
 mod http;
 mod index;
-mod listen;
+mod job;
+mod limits;
 mod options;
 mod pages;
 mod problem;
 mod request;
-mod stream;
+mod response;
+mod server;
 mod study;
-mod worker;
 
-pub use bounds::Bounds;
-pub use listen::Server;
+pub use limits::RequestLimits;
 pub use options::{Options, ServeError, StartCase};
+pub use server::Server;

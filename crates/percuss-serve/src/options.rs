@@ -1,31 +1,31 @@
-//! What a server is told to do, and what can keep it from doing so.
+//! Options of a server, and errors at its start.
 
 use std::{
     io,
     net::{IpAddr, Ipv4Addr, SocketAddr},
 };
 
-use crate::{Bounds, problem::Problem};
+use crate::{RequestLimits, problem::Problem};
 
-/// Fewest characters of a token: enough that nobody guesses it.
+/// Smallest number of characters of a token.
 const LEAST_TOKEN: usize = 16;
-/// Most characters of a token.
+/// Largest number of characters of a token.
 const MOST_TOKEN: usize = 200;
 
-/// How a server is set up.
+/// Options of a server.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// Address to listen on; port 0 takes a free one.
     pub address: SocketAddr,
-    /// Whether an address that other machines reach is allowed.
+    /// Whether an address is allowed that other machines can reach.
     pub allow_remote: bool,
-    /// What every request has to know; none on an address that this machine alone reaches.
+    /// Token of every request; `None` on a loopback address.
     pub token: Option<String>,
-    /// Names by which browsers may address the server, beside IP addresses and `localhost`.
+    /// Allowed host names, besides IP addresses and `localhost`.
     pub host_names: Vec<String>,
-    /// What a request may ask for.
-    pub bounds: Bounds,
-    /// The case that the page opens on; the seed paper's when not given.
+    /// Limits of a request.
+    pub bounds: RequestLimits,
+    /// First case of the page; that of the seed paper when not given.
     pub case: Option<StartCase>,
 }
 
@@ -45,7 +45,7 @@ impl Default for Options {
             allow_remote: false,
             token: None,
             host_names: Vec::new(),
-            bounds: Bounds::default(),
+            bounds: RequestLimits::default(),
             case: None,
         }
     }
@@ -91,7 +91,7 @@ pub enum ServeError {
         address: IpAddr,
     },
     /// Other machines may reach the address, and nothing keeps strangers out.
-    #[error("{address} is not a loopback address, and there is no token to keep strangers out")]
+    #[error("{address} is not a loopback address, and there is no token")]
     NoToken {
         /// The address.
         address: IpAddr,
@@ -109,7 +109,7 @@ pub enum ServeError {
     Case(#[from] percuss::Error),
     /// The first case has no answer.
     #[error("{message}")]
-    NoAnswer {
+    NoResult {
         /// What is wrong.
         message: String,
         /// What to do.
@@ -132,7 +132,7 @@ pub enum ServeError {
 impl From<Problem> for ServeError {
     fn from(problem: Problem) -> Self {
         let (message, help) = problem.into_message_and_help();
-        Self::NoAnswer { message, help }
+        Self::NoResult { message, help }
     }
 }
 
@@ -141,18 +141,18 @@ impl ServeError {
     pub fn help(&self) -> String {
         match self {
             Self::Remote { .. } => {
-                "serve on 127.0.0.1, to which `ssh -L` leads from elsewhere; or say `--allow-remote` and give `--token-file`"
+                "serve on 127.0.0.1 and use `ssh -L` from other machines; or give `--allow-remote` and `--token-file`"
                     .to_owned()
             }
             Self::NoToken { .. } => {
-                "give `--token-file FILE` with a long random word in it, for example from `openssl rand -hex 24`".to_owned()
+                "give `--token-file FILE` with a long random text, for example from `openssl rand -hex 24`".to_owned()
             }
             Self::Token { .. } => "for example from `openssl rand -hex 24`".to_owned(),
             Self::Case(error) => error.message_and_help().1,
-            Self::NoAnswer { help, .. } => help.clone(),
+            Self::NoResult { help, .. } => help.clone(),
             Self::Listen { address, source } => match source.kind() {
                 io::ErrorKind::AddrInUse => format!(
-                    "something else listens on port {}: give another one, or `--port 0` for one that is free",
+                    "port {} is in use: give another one, or `--port 0` for a free one",
                     address.port()
                 ),
                 _ => String::new(),

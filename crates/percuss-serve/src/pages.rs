@@ -1,4 +1,4 @@
-//! Reports as pages: materials with their sources, and the validation of all models.
+//! Pages of the materials and of the validation report.
 
 use std::{
     ops::ControlFlow,
@@ -17,7 +17,7 @@ use percuss_report::{
 use serde::Deserialize;
 use serde_json::json;
 
-use crate::{assets, http, problem::Problem, request, stream, worker::Workers};
+use crate::{assets, events, http, job::Workers, problem::Problem, request};
 
 /// `GET /materials`.
 pub(crate) async fn materials() -> Response {
@@ -52,7 +52,7 @@ impl Validation {
             Some(html) => http::report(html.clone()),
             None => Problem::with_status(
                 axum::http::StatusCode::NOT_FOUND,
-                "the validation was not computed yet",
+                "the validation is not computed yet",
                 "the page computes it: press `Validation` there",
             )
             .into_response(),
@@ -68,11 +68,11 @@ impl Validation {
         if let Err(problem) = request::read::<Empty>(request).await {
             return problem.into_response();
         }
-        stream::respond(&workers, move |stop, tell| {
+        events::respond(&workers, move |stop, events| {
             if report.0.get().is_none() {
                 let progress = |fraction: f64| {
-                    tell.progress(fraction, "published shots");
-                    match tell.is_alone() {
+                    events.progress(fraction, "published shots");
+                    match events.is_disconnected() {
                         true => ControlFlow::Break(()),
                         false => stop.flow(),
                     }

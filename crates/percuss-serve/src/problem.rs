@@ -1,4 +1,4 @@
-//! What is wrong with a request, as the page shows it: the same words as on the command line.
+//! Problem with a request, with the same messages as on the command line.
 
 use axum::{
     http::StatusCode,
@@ -9,16 +9,16 @@ use serde::Serialize;
 
 use crate::http;
 
-/// What is wrong, where, and what to do.
+/// Message, place and remedy.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Problem {
     #[serde(skip)]
     pub(crate) status: StatusCode,
     message: String,
     help: String,
-    /// Dotted key of the case; empty when there is none.
+    /// Dotted key of the case; may be empty.
     key: String,
-    /// Where in the case, if it is known.
+    /// Place in the case, if it is known.
     place: Option<Box<Place>>,
 }
 
@@ -28,7 +28,7 @@ struct Place {
     /// Counted from 1.
     line: usize,
     text: String,
-    /// Characters before what is meant, and how many those are.
+    /// First character and number of characters of the marked text.
     column: usize,
     length: usize,
 }
@@ -44,7 +44,7 @@ impl Problem {
         }
     }
 
-    /// The request is not one that the page makes.
+    /// Malformed request.
     pub(crate) fn bad_request(message: impl Into<String>) -> Self {
         Self::new(StatusCode::BAD_REQUEST, message, "reload the page")
     }
@@ -53,22 +53,22 @@ impl Problem {
         Self::new(status, message, help)
     }
 
-    /// The request cannot be met as it stands.
+    /// Request that cannot be fulfilled.
     pub(crate) fn refused(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self::new(StatusCode::UNPROCESSABLE_ENTITY, message, help)
     }
 
-    /// What is wrong.
+    /// Message.
     pub(crate) fn message(&self) -> &str {
         &self.message
     }
 
-    /// What is wrong, and what to do.
+    /// Message and remedy.
     pub(crate) fn into_message_and_help(self) -> (String, String) {
         (self.message, self.help)
     }
 
-    /// The case asks for more than a page may.
+    /// Case beyond the limits of the page.
     pub(crate) fn too_large(message: String, help: String, key: &str) -> Self {
         Self {
             key: key.to_owned(),
@@ -76,12 +76,12 @@ impl Problem {
         }
     }
 
-    /// All places to compute are taken.
+    /// All workers are busy.
     pub(crate) fn busy(runs: usize) -> Self {
         Self::new(
             StatusCode::SERVICE_UNAVAILABLE,
-            format!("{runs} runs are under way, the most at a time"),
-            "cancel one, or try again when one has ended",
+            format!("{runs} runs are in progress, which is the limit"),
+            "cancel one, or try again later",
         )
     }
 
@@ -89,12 +89,12 @@ impl Problem {
     pub(crate) fn too_slow(seconds: u64) -> Self {
         Self::new(
             StatusCode::UNPROCESSABLE_ENTITY,
-            format!("the run was ended after {seconds} s"),
-            "ask for less, give a coarser mesh, start the page with a larger `--max-seconds`, or use the command line",
+            format!("the run was stopped at the time limit of {seconds} s"),
+            "reduce the study, use a coarser mesh, restart the page with a larger `--max-seconds`, or use the command line",
         )
     }
 
-    /// Nobody waits for the answer any more.
+    /// Cancelled run.
     pub(crate) fn cancelled() -> Self {
         Self::new(StatusCode::CONFLICT, "the run was cancelled", "")
     }
@@ -103,7 +103,7 @@ impl Problem {
     pub(crate) fn fault() -> Self {
         Self::new(
             StatusCode::INTERNAL_SERVER_ERROR,
-            "the program failed on this case: that is a fault of its own",
+            "the program failed on this case because of an internal error",
             "please report it with the case",
         )
     }

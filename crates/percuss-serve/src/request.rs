@@ -15,9 +15,9 @@ use serde::{Deserialize, de::DeserializeOwned};
 use tokio::time;
 
 use crate::{
-    Bounds,
-    bounds::{ARRIVAL, BODY, PATIENT_BODY},
+    RequestLimits,
     edit::{self, Edit},
+    limits::{ARRIVAL, BODY, LARGEST_READ_BODY},
     problem::Problem,
 };
 
@@ -28,35 +28,35 @@ pub(crate) struct CaseRequest {
     /// Name of the case.
     #[serde(default)]
     pub(crate) name: String,
-    /// The text of the case.
+    /// Text of the case.
     pub(crate) case: String,
-    /// What its form changes.
+    /// Edits of the form.
     #[serde(default)]
     pub(crate) edits: Vec<Edit>,
-    /// Model to compute with; one that suits the case when not given.
+    /// Model; the default of the case when not given.
     #[serde(default)]
     pub(crate) model: Option<String>,
-    /// Impact speeds to compare models at [m/s]: first, last and how many; the case's own when not given.
+    /// Impact velocities for a comparison [m/s]: first, last and number; that of the case when not given.
     #[serde(default)]
     pub(crate) speeds: Option<(f64, f64, usize)>,
-    /// How the uncertainty of the case is computed.
+    /// Settings of the uncertainty analysis.
     #[serde(default)]
     pub(crate) uncertainty: Sampling,
-    /// The text of a sweep file, in which the case is varied whatever base it names.
+    /// Text of a sweep file; the case replaces its base.
     #[serde(default)]
     pub(crate) sweep: String,
-    /// How numbers of the case are fitted to what was measured.
+    /// Settings of the calibration.
     #[serde(default)]
     pub(crate) fit: Fitting,
-    /// Charts that are to be seen while a slider moves: the answer has no others, and their curves have fewer points.
+    /// Visible charts while a slider moves: the response has only these, with fewer points.
     #[serde(default)]
     pub(crate) in_view: Option<Vec<String>>,
-    /// File that is asked for.
+    /// Requested file.
     #[serde(default)]
     pub(crate) file: Option<String>,
 }
 
-/// Shots of an analysis of uncertainty.
+/// Settings of an uncertainty analysis.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct Sampling {
@@ -79,11 +79,11 @@ impl Default for Sampling {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct Fitting {
-    /// The text of a file of parameters.
+    /// Text of a file of parameters.
     pub(crate) file: String,
     /// Scatter about the model, as `--noise` of the command line takes it.
     pub(crate) noise: String,
-    /// Steps of the walkers that sample the posterior; least squares only when not given.
+    /// Steps of the walkers; least squares only when not given.
     pub(crate) steps: Option<usize>,
     pub(crate) seed: u64,
     /// Sources that test the result.
@@ -102,19 +102,19 @@ impl Default for Fitting {
     }
 }
 
-/// A case that was understood.
+/// Case with its resolved scenario.
 pub(crate) struct ReadCase {
     pub(crate) text: String,
     pub(crate) scenario: Scenario,
 }
 
 impl CaseRequest {
-    /// The text with what the form changes.
+    /// Text with the edits of the form.
     pub(crate) fn edited(&self) -> Result<String, Problem> {
         edit::apply(&self.case, &self.edits)
     }
 
-    /// Reads the edited text, as the command line reads a file.
+    /// Reads the edited text with the reader of the command line.
     pub(crate) fn read(&self, text: String) -> Result<ReadCase, Problem> {
         let scenario = case::load_str(self.name(), &text)?;
         Ok(ReadCase { text, scenario })
@@ -128,11 +128,11 @@ impl CaseRequest {
         }
     }
 
-    /// The model that is asked for, or the default one of the case, within bounds.
+    /// Requested model, or the default of the case, within the limits.
     pub(crate) fn model(
         &self,
         scenario: &Scenario,
-        bounds: &Bounds,
+        bounds: &RequestLimits,
     ) -> Result<ChosenModel, Problem> {
         let chosen = model::choose(self.model.as_deref(), scenario)?;
         bounds.check(chosen.model, scenario)?;
@@ -177,7 +177,7 @@ async fn body(request: Request) -> Result<Vec<u8>, Problem> {
     }
 }
 
-/// All of a body; nothing of one that is too large or breaks off.
+/// Whole body; `None` if it is too large or incomplete.
 async fn whole(mut body: Body) -> Option<Vec<u8>> {
     let (mut bytes, mut length) = (Vec::new(), 0_usize);
     while let Some(frame) = poll_fn(|context| Pin::new(&mut body).poll_frame(context)).await {
@@ -185,7 +185,7 @@ async fn whole(mut body: Body) -> Option<Vec<u8>> {
             continue;
         };
         length += data.len();
-        if length > PATIENT_BODY {
+        if length > LARGEST_READ_BODY {
             return None;
         }
         if length <= BODY {
@@ -195,9 +195,9 @@ async fn whole(mut body: Body) -> Option<Vec<u8>> {
     (length <= BODY).then_some(bytes)
 }
 
-/// What a request says.
+/// Reads a request.
 pub(crate) async fn read<T: DeserializeOwned>(request: Request) -> Result<T, Problem> {
     let bytes = body(request).await?;
     serde_json::from_slice(&bytes)
-        .map_err(|error| Problem::bad_request(format!("the request is not understood: {error}")))
+        .map_err(|error| Problem::bad_request(format!("the request is not valid: {error}")))
 }

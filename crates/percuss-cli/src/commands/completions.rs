@@ -1,3 +1,5 @@
+//! `percuss completions`: shell completions.
+
 use clap::{Args, Command};
 use clap_complete::{Shell, generate};
 

@@ -1,3 +1,5 @@
+//! `percuss converge`: mesh convergence of a case.
+
 use std::path::PathBuf;
 
 use clap::{Args, builder::PossibleValuesParser};
@@ -13,46 +15,46 @@ use percuss_report::{
 };
 
 use crate::{
-    answer::{Answer, AtHand, Hear},
     failure::Failure,
+    file_list::FileList,
     output,
     progress::Progress,
+    response::{ProgressCallback, Response, VirtualFiles},
     run_folder::RunFolder,
     table::blocks,
     terminal::{bold, width, wrap},
-    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
 Run a case on successively finer meshes, each with twice the elements of the
-last, and say whether its results converge: the observed order, the value
-extrapolated to zero element length (Richardson) and the grid-convergence
-index, the uncertainty of the finest mesh with a factor of safety of 1.25.
+last, and assess the mesh convergence of its results: observed order, value
+extrapolated to zero element length (Richardson) and grid-convergence index,
+the uncertainty of the finest mesh with a factor of safety of 1.25.
 
 Convergence is confirmed by two successive observed orders that agree within
 0.5 and lie between 0.5 and 2.2. That takes four meshes: with three, or with
-orders that change, the order is printed and no uncertainty is claimed.
+orders that change, the order is printed without an uncertainty.
 
-A result whose differences do not shrink, or whose limit is next to nothing of
-its value, does not converge.
+A result does not converge if its differences do not decrease, or if its
+extrapolated value is negligible against its value.
 
 With --out DIR the study is written as convergence.json and its figures as SVG
 and PNG.";
 
 const AFTER_HELP: &str = "\
 Examples:
-  percuss converge my-shot/scenario.toml
-  percuss converge my-shot/scenario.toml --levels 5 --out convergence
-  percuss converge my-shot/scenario.toml --json
+  percuss converge my-case/scenario.toml
+  percuss converge my-case/scenario.toml --levels 5 --out convergence
+  percuss converge my-case/scenario.toml --json
 
 Exit codes: 0 ok, 2 bad input or a model that does not apply, 3 numerical
 failure, 4 a file could not be read or written";
 
-/// Refine the mesh of a case and judge its convergence
+/// Refine the mesh of a case and assess its convergence
 #[derive(Debug, Args)]
 #[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
 pub struct Converge {
-    /// Case file; its own mesh is the coarsest one
+    /// Case file; its mesh is the coarsest one
     #[arg(value_name = "CASE.toml")]
     case: PathBuf,
     /// Model to compute with; `percuss models` describes them
@@ -71,8 +73,8 @@ pub struct Converge {
     out: Option<PathBuf>,
 }
 
-/// What the command found out and wrote.
-struct Found {
+/// Result of the command and the files that it wrote.
+struct ConvergenceOutput {
     scenario: Scenario,
     study: MeshStudy,
     files: Vec<PathBuf>,
@@ -81,9 +83,9 @@ struct Found {
 impl Converge {
     pub fn run(&self) -> Result<(), Failure> {
         let mut progress = Progress::new(true);
-        let found = self.find(&AtHand::default(), &mut progress.hear());
+        let found = self.find(&VirtualFiles::default(), &mut progress.callback());
         progress.finish();
-        let Found {
+        let ConvergenceOutput {
             scenario,
             study,
             files,
@@ -106,20 +108,28 @@ impl Converge {
         );
         text += &table(&study);
         text += &statuses(&study);
-        Written::new(&files).print_under(text)
+        FileList::new(&files).print_under(text)
     }
 
-    /// What the command prints with --json.
-    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Answer, Failure> {
-        let found = self.find(at_hand, hear)?;
-        Answer::json_of(&found.study, found.files)
+    /// Output of --json.
+    pub fn execute(
+        &self,
+        virtual_files: &VirtualFiles,
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<Response, Failure> {
+        let found = self.find(virtual_files, on_progress)?;
+        Response::json_of(&found.study, found.files)
     }
 
-    fn find(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Found, Failure> {
-        let scenario = case::scenario(&at_hand.read(&self.case)?)?;
+    fn find(
+        &self,
+        virtual_files: &VirtualFiles,
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<ConvergenceOutput, Failure> {
+        let scenario = case::scenario(&virtual_files.read(&self.case)?)?;
         let model = model::model(&self.model)?;
         let mut folder = RunFolder::wanted(self.out.as_deref(), None)?;
-        let study = self.compute(model, &scenario, hear)?;
+        let study = self.compute(model, &scenario, on_progress)?;
         if let Some(folder) = &mut folder {
             folder.put("convergence.json", output::json(&study)?.as_bytes())?;
             for i in 0..study.quantities.len() {
@@ -128,7 +138,7 @@ impl Converge {
                 }
             }
         }
-        Ok(Found {
+        Ok(ConvergenceOutput {
             scenario,
             study,
             files: folder.map_or_else(Vec::new, RunFolder::written),
@@ -139,11 +149,11 @@ impl Converge {
         &self,
         model: &dyn Model,
         scenario: &Scenario,
-        hear: Hear<'_>,
+        on_progress: ProgressCallback<'_>,
     ) -> Result<MeshStudy, Failure> {
         let mut report = |now: model::Progress| {
             let words = format!("{:.1} us on the current mesh", now.time * 1e6);
-            hear(now.fraction, &words)
+            on_progress(now.fraction, &words)
         };
         let mut control = Control {
             record: false,
@@ -171,7 +181,7 @@ fn table(study: &MeshStudy) -> String {
             number(index, 3),
         ]
     };
-    // Orders, limits and indices stand below the meshes.
+    // Orders, extrapolated values and indices are below the meshes.
     let mut table = Table::of(&study.meshes)
         .words("elements", |mesh| {
             format!("{}–{}", mesh.projectile_elements, mesh.target_elements)

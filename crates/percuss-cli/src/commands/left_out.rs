@@ -1,10 +1,12 @@
+//! Commands and options that this build leaves out.
+
 use std::ffi::OsString;
 
 use clap::Args;
 
-#[cfg(not(feature = "parquet"))]
-use crate::answer::Answer;
 use crate::failure::Failure;
+#[cfg(not(feature = "parquet"))]
+use crate::response::Response;
 
 /// Not part of this build
 #[cfg(not(feature = "serve"))]
@@ -37,7 +39,7 @@ impl Sweep {
         Err(refuse("`percuss sweep`", "parquet"))
     }
 
-    pub fn answer(&self) -> Result<Answer, Failure> {
+    pub fn execute(&self) -> Result<Response, Failure> {
         Err(refuse("`percuss sweep`", "parquet"))
     }
 }

@@ -1,3 +1,5 @@
+//! `percuss man`: manual pages.
+
 use std::{fs, path::PathBuf};
 
 use clap::{Args, Command};

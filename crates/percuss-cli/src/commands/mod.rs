@@ -1,4 +1,4 @@
-//! One file a command: its arguments, its help and what it does.
+//! Commands, one file per command: arguments, help and execution.
 
 mod calibrate;
 mod compare;
@@ -34,7 +34,7 @@ pub use man::Man;
 pub use materials::Materials;
 pub use models::Models;
 pub use new::New;
-pub use research::{Judge, Reproduce};
+pub use research::{Benchmark, Reproduce};
 pub use run::Run;
 pub use schema::Schema;
 #[cfg(feature = "serve")]

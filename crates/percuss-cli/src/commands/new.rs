@@ -1,3 +1,5 @@
+//! `percuss new`: a starter case.
+
 use std::{
     fs::OpenOptions,
     io::{self, Write},
@@ -6,30 +8,30 @@ use std::{
 
 use clap::Args;
 
-use crate::{answer::Answer, failure::Failure, output, run_folder::make_folder};
+use crate::{failure::Failure, output, response::Response, run_folder::make_folder};
 
-/// The case that `percuss new` writes: it runs as it is, and shows every option, at its default or with an example.
+/// The case that `percuss new` writes: valid, with every option at its default or with an example.
 const STARTER: &str = include_str!("new/starter.toml");
 
 const AFTER_HELP: &str = "\
 Examples:
-  percuss new my-shot
-  percuss new cases/my-shot
-  percuss new my-shot --force
+  percuss new my-case
+  percuss new cases/my-case
+  percuss new my-case --force
 
 Exit codes: 0 ok, 2 bad input, 4 the file could not be written";
 
 /// Write a starter case
 ///
-/// Writes NAME/scenario.toml: a case that runs as it is, with every option of a
-/// case file explained and commented out, at its default or with an example. A
-/// file that exists is not overwritten without --force.
+/// Writes NAME/scenario.toml: a valid case, with every option of a case file
+/// explained and commented out, at its default or with an example. An existing
+/// file is not overwritten without --force.
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment, after_help = AFTER_HELP)]
 pub struct New {
-    /// Folder of the case, made if it does not exist; its name is the case's
+    /// Folder of the case, made if it does not exist; its name is that of the case
     name: PathBuf,
-    /// Overwrite a case that exists
+    /// Overwrite an existing case
     #[arg(long)]
     force: bool,
 }
@@ -38,7 +40,7 @@ impl New {
     pub fn run(&self) -> Result<(), Failure> {
         let mut shown = self.put()?.display().to_string();
         if shown.starts_with('-') {
-            // Or `percuss run` would take it for an option.
+            // Otherwise `percuss run` reads it as an option.
             shown.insert_str(0, "./");
         }
         output::print(&format!(
@@ -47,10 +49,10 @@ impl New {
         ))
     }
 
-    /// The case file that it writes.
-    pub fn answer(&self) -> Result<Answer, Failure> {
+    /// Case file that the command writes.
+    pub fn execute(&self) -> Result<Response, Failure> {
         let path = self.put()?;
-        Answer::json_of(&path, vec![path.clone()])
+        Response::json_of(&path, vec![path.clone()])
     }
 
     /// Writes the case; returns its file.
@@ -58,7 +60,7 @@ impl New {
         if self.name.as_os_str().is_empty() {
             return Err(Failure::Usage {
                 message: "the name of the case is empty".to_owned(),
-                help: "for example: percuss new my-shot".to_owned(),
+                help: "for example: percuss new my-case".to_owned(),
             });
         }
         make_folder(&self.name)?;

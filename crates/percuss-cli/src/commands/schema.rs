@@ -1,14 +1,16 @@
+//! `percuss schema`: JSON Schema of case files.
+
 use clap::Args;
 use percuss::case;
 
-use crate::{answer::Answer, failure::Failure, output};
+use crate::{failure::Failure, output, response::Response};
 
 const LONG_ABOUT: &str = "\
-Print the JSON Schema (draft 2020-12) of case files: every key with what it
-means, the units allowed and the values allowed.
+Print the JSON Schema (draft 2020-12) of case files: every key with its
+description, the allowed units and the allowed values.
 
-Editors check and complete case files with it. Those that use Taplo, such as
-Visual Studio Code with Even Better TOML, take it from the first line of a file:
+Editors check and complete case files with it. Editors that use Taplo, such as
+Visual Studio Code with Even Better TOML, read it from the first line of a file:
   #:schema percuss.schema.json
 where the path is relative to the file.";
 
@@ -28,8 +30,8 @@ impl Schema {
         output::print_json(&case::schema())
     }
 
-    /// What the command prints.
-    pub fn answer(&self) -> Result<Answer, Failure> {
-        Answer::json_of(&case::schema(), Vec::new())
+    /// Output of the command.
+    pub fn execute(&self) -> Result<Response, Failure> {
+        Response::json_of(&case::schema(), Vec::new())
     }
 }

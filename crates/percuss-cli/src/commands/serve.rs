@@ -1,3 +1,5 @@
+//! `percuss serve`: the interactive page.
+
 use std::{
     fs,
     net::{IpAddr, Ipv4Addr, SocketAddr},
@@ -6,76 +8,75 @@ use std::{
 
 use clap::Args;
 use percuss::case;
-use percuss_serve::{Bounds, Options, ServeError, Server, StartCase};
+use percuss_serve::{Options, RequestLimits, ServeError, Server, StartCase};
 
 use crate::{failure::Failure, output};
 
 const LONG_ABOUT: &str = "\
-Serve a page that answers while its sliders move: the case as a form and as
-text, time histories, the stress over position and time, every model that
-applies, and convergence, ballistic limits, sweeps, uncertainty and calibrations
-on demand. Everything that the page needs is part of the program, and nothing
-leaves the machine.
+Serve a page that recomputes the case while its sliders move: the case as a form
+and as text, time histories, stress versus position and time, and all applicable
+models; convergence, ballistic limits, sweeps, uncertainty and calibrations on
+demand. The page is part of the program and loads nothing from a network.
 
-Only this machine reaches the page. To serve it to others, give an address,
---allow-remote and a token that they have to know; there is no encryption, so
-that `ssh -L` or a proxy with TLS is the better way over a network.
+By default only this machine can open the page. To serve it to other machines,
+give an address, --allow-remote and a token. The connection is not encrypted:
+over a network, use `ssh -L` or a proxy with TLS.
 
-The page reads no files: a case that names material files has to be given with
-its materials in its own `materials` table.";
+The page reads no files: a case that names material files must have its
+materials in its own `materials` table.";
 
 const AFTER_HELP: &str = "\
 Examples:
   percuss serve
-  percuss serve my-shot/scenario.toml --port 8080
+  percuss serve my-case/scenario.toml --port 8080
   percuss serve --address 0.0.0.0 --allow-remote --token-file token.txt
 
 Exit codes: 0 ok, 2 bad input or an address that is not safe, 4 a file could not
 be read";
 
-/// Serve a page that answers while you drag
+/// Serve an interactive page for the browser
 #[derive(Debug, Args)]
 #[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
 pub struct Serve {
-    /// Case file to open the page on; the seed paper's when not given
+    /// Case file to open the page with [default: the case of the seed paper]
     #[arg(value_name = "CASE.toml")]
     case: Option<PathBuf>,
-    /// Port to listen on; 0 takes a free one
+    /// Port to listen on; 0 selects a free one
     #[arg(long, value_name = "PORT", default_value_t = 7355)]
     port: u16,
     /// Address to listen on
     #[arg(long, value_name = "IP", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     address: IpAddr,
-    /// Allow an address that other machines reach
+    /// Allow an address that other machines can reach
     #[arg(long, requires = "token_file")]
     allow_remote: bool,
-    /// File that holds the token which the page asks for
+    /// File with the token that opens the page
     #[arg(long, value_name = "FILE")]
     token_file: Option<PathBuf>,
-    /// Name by which browsers may address the page, beside IP addresses and localhost; may be given several times
+    /// Host name of the page, in addition to IP addresses and localhost; may be given several times
     #[arg(long, value_name = "NAME")]
     host_name: Vec<String>,
-    /// Most elements of projectile and target together
-    #[arg(long, value_name = "N", default_value_t = Bounds::default().elements)]
+    /// Largest number of elements of projectile and target together
+    #[arg(long, value_name = "N", default_value_t = RequestLimits::default().elements)]
     max_elements: usize,
-    /// Longest time that a run or a study may take, in seconds
-    #[arg(long, value_name = "S", default_value_t = Bounds::default().seconds)]
+    /// Time limit of a run or a study, in seconds
+    #[arg(long, value_name = "S", default_value_t = RequestLimits::default().seconds)]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=86_400))]
     max_seconds: u64,
-    /// Most runs and studies at a time [default: one a core]
+    /// Largest number of simultaneous runs and studies [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     max_runs: Option<u16>,
 }
 
 impl Serve {
     pub fn run(&self) -> Result<(), Failure> {
-        let bounds = Bounds::default();
+        let bounds = RequestLimits::default();
         let options = Options {
             address: SocketAddr::new(self.address, self.port),
             allow_remote: self.allow_remote,
             token: self.token_file.as_deref().map(token).transpose()?,
             host_names: self.host_name.clone(),
-            bounds: Bounds {
+            bounds: RequestLimits {
                 elements: self.max_elements,
                 seconds: self.max_seconds,
                 runs: self.max_runs.map_or(bounds.runs, usize::from),
@@ -103,7 +104,7 @@ fn token(path: &Path) -> Result<String, Failure> {
     Ok(text.lines().next().unwrap_or_default().trim().to_owned())
 }
 
-/// A case that is valid, with the name that all commands give it.
+/// Valid case with its name.
 fn start_case(path: &Path) -> Result<StartCase, Failure> {
     let scenario = case::load(path)?;
     Ok(StartCase {
@@ -117,6 +118,7 @@ fn read(path: &Path) -> Result<String, Failure> {
         Failure::Library(percuss::Error::Read {
             path: path.to_path_buf(),
             reason: error.to_string(),
+            remedy: String::new(),
             source: Some(error),
         })
     })

@@ -1,3 +1,5 @@
+//! `percuss validate`: models compared with published tests.
+
 use std::{ops::ControlFlow, path::PathBuf, sync::Mutex};
 
 use clap::{Args, builder::PossibleValuesParser};
@@ -12,28 +14,26 @@ use percuss_report::validation::{self, Origin};
 use serde::Serialize;
 
 use crate::{
-    answer::{Answer, Hear},
     failure::Failure,
+    file_list::FileList,
     output,
     progress::Progress,
+    response::{ProgressCallback, Response},
     run_folder::make_folder,
     shot_data, terminal, validation_table,
-    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
-Compute every published shot with every model that applies to it, and say how
-far off each is: bias, root mean square, median and worst of the relative
-errors, by model, material record, source, target, projectile and regime.
-A model that may take minutes, which `axi` is, runs only when it is asked for by
-name.
+Compare all applicable models with published tests: bias, root mean square,
+median and largest of the relative errors, by model, material record, source,
+target, projectile and regime. A model that may take minutes, such as `axi`,
+runs only when --model names it.
 
-The program brings Taylor tests, ballistic limits of plates and a few single
-shots, each with the place where it was read. Suspect and repeated rows are
-computed and not counted.
+The program contains Taylor tests, ballistic limits of plates and single tests,
+each with its source. Suspect and repeated tests are computed and not counted.
 
-With --data FILE the shots of a CSV file take their place; `--data builtin`
-adds the program's own to them. Columns a file needs: id, kind,
+With --data FILE the tests of a CSV file are used instead; `--data builtin`
+adds those of the program. Required columns: id, kind,
 projectile_material, diameter_mm, length_mm or mass_g, impact_velocity_m_s,
 target_material, measured, unit.
 
@@ -45,26 +45,26 @@ Examples:
   percuss validate
   percuss validate --model chain --kind taylor
   percuss validate --out validation
-  percuss validate --data my-shots.csv --data builtin
+  percuss validate --data tests.csv --data builtin
   percuss validate --json > validation.json
 
 Exit codes: 0 ok, 2 bad input, 4 a file could not be read or written";
 
-/// Compare models with published shots
+/// Compare models with published tests
 #[derive(Debug, Args)]
 #[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
 pub struct Validate {
-    /// Model to validate; all that answer at once when not given
+    /// Model to validate [default: all except those that may take minutes]
     #[arg(long, value_name = "NAME")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: Vec<String>,
-    /// CSV file of shots, or `builtin` for the program's own
+    /// CSV file of tests, or `builtin` for the tests of the program
     #[arg(long, value_name = "FILE")]
     data: Vec<PathBuf>,
-    /// File of materials that the shots name, beside the library
+    /// File of materials for the tests, in addition to the library
     #[arg(long, value_name = "FILE.toml")]
     materials: Vec<PathBuf>,
-    /// Kind of shot; all of them when not given
+    /// Kind of test [default: all kinds]
     #[arg(long, value_name = "KIND")]
     #[arg(value_parser = PossibleValuesParser::new(Kind::ALL.map(Kind::name)))]
     kind: Vec<String>,
@@ -74,18 +74,18 @@ pub struct Validate {
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]
     json: bool,
-    /// No table and no progress: one line of NAME=VALUE pairs a model and kind
+    /// No table and no progress: one line of NAME=VALUE pairs per model and kind
     #[arg(long, short)]
     quiet: bool,
 }
 
-/// What `--json` prints. The names are stable.
+/// Output of `--json`. The names are stable.
 #[derive(Serialize)]
-struct Record {
+struct ValidationRecord {
     percuss_version: &'static str,
     data: Vec<String>,
     models: Vec<&'static str>,
-    shots: usize,
+    tests: usize,
     statistics: Vec<Group>,
     coverage: Vec<CoverageRecord>,
     predictions: Vec<PredictionRecord>,
@@ -95,15 +95,15 @@ struct Record {
 struct CoverageRecord {
     model: &'static str,
     kind: Kind,
-    shots: usize,
+    tests: usize,
     counted: usize,
     commonest_reason: Option<String>,
 }
 
-/// What the command found out and wrote.
-struct Found {
+/// Result of the command and the files that it wrote.
+struct ValidationOutput {
     validation: Validation,
-    /// What the shots come from.
+    /// Sources of the tests.
     data: Vec<String>,
     files: Vec<PathBuf>,
 }
@@ -111,14 +111,14 @@ struct Found {
 impl Validate {
     pub fn run(&self) -> Result<(), Failure> {
         let mut progress = Progress::new(!self.quiet);
-        let found = self.find(&mut progress.hear());
+        let found = self.find(&mut progress.callback());
         progress.finish();
-        let Found {
+        let ValidationOutput {
             validation,
             data,
             files,
         } = found?;
-        let written = Written::new(&files);
+        let written = FileList::new(&files);
         if self.json {
             return written.print_json(&record(&validation, data), self.quiet);
         }
@@ -133,29 +133,29 @@ impl Validate {
         written.print_under(text)
     }
 
-    /// What the command prints with --json.
-    pub fn answer(&self, hear: Hear<'_>) -> Result<Answer, Failure> {
-        let found = self.find(hear)?;
-        Answer::json_of(&record(&found.validation, found.data), found.files)
+    /// Output of --json.
+    pub fn execute(&self, on_progress: ProgressCallback<'_>) -> Result<Response, Failure> {
+        let found = self.find(on_progress)?;
+        Response::json_of(&record(&found.validation, found.data), found.files)
     }
 
-    fn find(&self, hear: Hear<'_>) -> Result<Found, Failure> {
+    fn find(&self, on_progress: ProgressCallback<'_>) -> Result<ValidationOutput, Failure> {
         let (models, library) = (self.models()?, self.library()?);
         let (shots, data) = self.shots(&library)?;
         if let Some(out) = &self.out {
             make_folder(out)?;
         }
-        let validation = self.compute(&models, &shots, &library, &mut *hear)?;
+        let validation = self.compute(&models, &shots, &library, &mut *on_progress)?;
         let mut files = Vec::new();
         if let Some(out) = &self.out {
             let origin = Origin {
                 files: data.clone(),
                 command: self.command(),
             };
-            let _ = hear(1.0, "drawing figures");
+            let _ = on_progress(1.0, "drawing figures");
             files = validation::write(out, &validation, &origin)?;
         }
-        Ok(Found {
+        Ok(ValidationOutput {
             validation,
             data,
             files,
@@ -185,7 +185,7 @@ impl Validate {
         Ok(models)
     }
 
-    /// The shots and what they come from.
+    /// Tests with their sources.
     fn shots(&self, library: &Library) -> Result<(Vec<Experiment>, Vec<String>), Failure> {
         let built_in = [PathBuf::from(shot_data::BUILT_IN)];
         let data = if self.data.is_empty() {
@@ -201,23 +201,23 @@ impl Validate {
         models: &[&'static dyn Model],
         shots: &[Experiment],
         library: &Library,
-        hear: Hear<'_>,
+        on_progress: ProgressCallback<'_>,
     ) -> Result<Validation, Failure> {
-        let hear = Mutex::new(hear);
+        let on_progress = Mutex::new(on_progress);
         let words = format!(
             "{}, {}",
-            terminal::counted(shots.len(), "shot"),
+            terminal::counted(shots.len(), "test"),
             terminal::counted(models.len(), "model")
         );
-        let report = |fraction: f64| match hear.try_lock() {
-            Ok(mut hear) => hear(fraction, &words),
-            // Who listens to another thread has no need of this one.
+        let report = |fraction: f64| match on_progress.try_lock() {
+            Ok(mut on_progress) => on_progress(fraction, &words),
+            // Another thread is reporting: this report is left out.
             Err(_) => ControlFlow::Continue(()),
         };
         Ok(validate::run(models, shots, library, &report)?)
     }
 
-    /// The command as a user would type it.
+    /// Command line that repeats this command.
     fn command(&self) -> String {
         let mut words = vec!["percuss validate".to_owned()];
         words.extend(self.model.iter().map(|name| format!("--model {name}")));
@@ -230,19 +230,19 @@ impl Validate {
     }
 }
 
-fn record(validation: &Validation, data: Vec<String>) -> Record {
-    Record {
+fn record(validation: &Validation, data: Vec<String>) -> ValidationRecord {
+    ValidationRecord {
         percuss_version: env!("CARGO_PKG_VERSION"),
         data,
         models: validation.models.clone(),
-        shots: validation.tests.len(),
+        tests: validation.tests.len(),
         statistics: validation.all_statistics(),
         coverage: validate::coverage(validation)
             .into_iter()
             .map(|coverage| CoverageRecord {
                 model: coverage.model,
                 kind: coverage.kind,
-                shots: coverage.total(),
+                tests: coverage.total(),
                 counted: coverage.count(Standing::Counted),
                 commonest_reason: coverage.reason.map(|(reason, _)| reason),
             })

@@ -1,4 +1,4 @@
-//! Text files that users write: reading them, and the name that stands for one in messages.
+//! Text files of users: reading, and the name of a case in messages.
 
 use std::{fs::File, io::Read, path::Path};
 
@@ -20,13 +20,18 @@ pub(super) fn case_name(path: &Path) -> String {
     }
 }
 
-/// Reads a text file of a sensible size, saying plainly what is wrong with it.
+/// Reads a text file of limited size.
+///
+/// # Errors
+/// [`Error::Read`] with the reason, and the remedy where there is one.
 pub fn read_text(path: &Path) -> Result<String, Error> {
-    let fail = |reason: String, source| Error::Read {
+    let fail_with = |reason: String, remedy: String, source| Error::Read {
         path: path.to_path_buf(),
         reason,
+        remedy,
         source,
     };
+    let fail = |reason: String, source| fail_with(reason, String::new(), source);
     let metadata = std::fs::metadata(path).map_err(|error| {
         let reason = match error.kind() {
             std::io::ErrorKind::NotFound if path.is_symlink() => {
@@ -39,12 +44,11 @@ pub fn read_text(path: &Path) -> Result<String, Error> {
     })?;
     if metadata.is_dir() {
         let scenario = path.join("scenario.toml");
-        let hint = if scenario.is_file() {
-            format!("; did you mean `{}`?", scenario.display())
-        } else {
-            String::new()
+        let remedy = match scenario.is_file() {
+            true => format!("did you mean `{}`?", scenario.display()),
+            false => String::new(),
         };
-        return Err(fail(format!("it is a directory{hint}"), None));
+        return Err(fail_with("it is a directory".to_owned(), remedy, None));
     }
     if !metadata.is_file() {
         return Err(fail("it is not a regular file".to_owned(), None));
@@ -66,8 +70,7 @@ pub fn read_text(path: &Path) -> Result<String, Error> {
             .iter()
             .filter(|&&b| b == b'\n')
             .count();
-        let reason =
-            format!("byte {offset} in line {line} is not UTF-8 text; save the file as UTF-8");
-        fail(reason, None)
+        let reason = format!("byte {offset} in line {line} is not UTF-8 text");
+        fail_with(reason, "save the file as UTF-8".to_owned(), None)
     })
 }

@@ -81,10 +81,14 @@ pub(super) fn library_of(case: &Case, document: &Document) -> Result<Library, Er
         };
         let table = match load_materials(folder.join(relative)) {
             // The case names the file, so the place in the case is what a user has to look at.
-            Err(Error::Read { path, reason, .. }) => {
-                let message = format!("cannot read `{}`: {reason}", path.display());
+            Err(error @ Error::Read { .. }) => {
+                let (message, remedy) = error.message_and_help();
                 let help = "paths in `material_files` are relative to the case file";
-                return Err(refuse(&message, help).into());
+                let help = match remedy.as_str() {
+                    "" => help.to_owned(),
+                    remedy => format!("{remedy}; {help}"),
+                };
+                return Err(refuse(&message, &help).into());
             }
             other => other?,
         };

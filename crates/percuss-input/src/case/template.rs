@@ -54,6 +54,7 @@ impl Template {
         let table = Table::try_from(case).map_err(|error| Error::Read {
             path: name.into(),
             reason: error.to_string(),
+            remedy: String::new(),
             source: None,
         })?;
         Ok(Self {

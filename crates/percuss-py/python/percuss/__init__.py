@@ -1,7 +1,7 @@
-"""First-order impact and penetration mechanics: what strikes what, how fast, how deep it goes, and how far to trust that.
+"""First-order impact and penetration mechanics: estimates of penetration depth, residual velocity and ballistic limit.
 
-The runs, comparisons and studies of the program ``percuss``, with the same names and the same numbers. Cases are data: the tables of a case file,
-from a file or as keyword arguments. Numbers in code are in SI units; the names of results end with their unit.
+The package has the runs, comparisons and studies of the program ``percuss``, with the same names and numbers. A case is a file, or the tables of a
+case file as keyword arguments. Numbers in code are in SI units; the names of results end with their unit.
 
 Examples
 --------
@@ -15,7 +15,10 @@ Examples
 ('rebounded', 0.2034)
 """
 
+from typing import NoReturn
+
 from ._percuss import VERSION as __version__
+from .benchmarks import Benchmark, benchmark
 from .calibration import Calibration, calibrate
 from .case import Case, load
 from .commands import ResistanceLaw, StrengthLaw, compare, converge, limit, run, validate
@@ -31,7 +34,6 @@ from .errors import (
     WriteError,
 )
 from .history import Gauge, History, Profile, SiColumns
-from .judgement import Judgement, judge
 from .library import Material, Model, material, materials, model, models, new, schema
 from .progress import Progress
 from .record import Record, Records, Result
@@ -42,6 +44,7 @@ from .spread import Uncertainty, uncertainty
 from .sweeps import Drawing, SweepResult, merge, plot, sweep
 
 __all__ = [
+    "Benchmark",
     "Calibration",
     "Case",
     "CaseError",
@@ -51,7 +54,6 @@ __all__ = [
     "Drawing",
     "Gauge",
     "History",
-    "Judgement",
     "Limits",
     "Material",
     "MaterialError",
@@ -77,10 +79,10 @@ __all__ = [
     "Validation",
     "WriteError",
     "__version__",
+    "benchmark",
     "calibrate",
     "compare",
     "converge",
-    "judge",
     "limit",
     "load",
     "material",
@@ -97,3 +99,12 @@ __all__ = [
     "uncertainty",
     "validate",
 ]
+
+#: Former names, with the names of today.
+_RENAMED = {"judge": "benchmark"}
+
+
+def __getattr__(name: str) -> NoReturn:
+    if name in _RENAMED:
+        raise AttributeError(f"`percuss.{name}` is now `percuss.{_RENAMED[name]}`")
+    raise AttributeError(f"module `percuss` has no attribute `{name}`")

@@ -1,4 +1,4 @@
-"""Calibration: numbers of cases fitted to what was measured."""
+"""Calibration of material constants and model options against experiments."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from . import _percuss, study_plots
-from .ask import CaseLike, Path, native_answer, several
+from .command_line import CaseLike, Path, execute, several
 from .errors import UsageError
 from .progress import Progress
 from .record import Record, Result, shown, table_html
@@ -17,26 +17,26 @@ from .samples import Sample
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: What is known of a number beforehand: a range such as ``"20..300 MPa"``, its ends, or a distribution as a file has it.
+#: Prior of a parameter: a range such as ``"20..300 MPa"``, its ends, or a distribution as in a file.
 Prior: TypeAlias = str | tuple[float, float] | Mapping[str, Any]
 
-# Stands where a command line names the file of priors that are at hand.
+# Name of the virtual file of priors on the command line.
 _PRIORS = "fit.toml"
 
 
 class Calibration(Result):
-    """Numbers fitted to measured values, with the uncertainty that is left: the values of ``percuss calibrate --json``, and the sample.
+    """Calibrated parameters with their uncertainty: the values of ``percuss calibrate --json``, and the sample.
 
-    A row a parameter; ``sample.to_pandas()`` has a row a state of the posterior.
+    One row per parameter; ``sample.to_pandas()`` has one row per state of the posterior.
 
     Attributes
     ----------
     model : str
         Name of the model.
     runs : int
-        Runs of it.
+        Number of runs.
     parameters : list of Record
-        What was fitted: ``key``, ``unit``, ``prior`` (2.5, 50 and 97.5 %), ``best`` with its ``standard_error``, and the ``posterior`` with
+        Calibrated parameters: ``key``, ``unit``, ``prior`` (2.5, 50 and 97.5 %), ``best`` with its ``standard_error``, and the ``posterior`` with
         ``mean``, ``standard_deviation``, ``quantiles`` (2.5, 50 and 97.5 %), ``r_hat``, ``bulk_effective_size`` and ``tail_effective_size``. Values are in
         the unit.
     scatter : Record
@@ -44,18 +44,18 @@ class Calibration(Result):
     correlations : list of list of float
         Correlations of the parameters, in their order.
     findings : list of Record
-        Parameters that the data do not determine, in ``words``.
+        Parameters that the data do not identify, in ``words``.
     training, hold_out : Record or None
-        How well the values that were fitted to, and those that were kept out, are met: ``count``, ``rms_before``, ``rms``, ``bias``
-        (relative errors) and how many are ``inside`` their 95 % bands.
+        Errors on the fitted and the held-out values: ``count``, ``rms_before``, ``rms``, ``bias``
+        (relative errors) and the number ``inside`` their 95 % intervals.
     predictions : list of Record
-        Every measured value with what the model says of it, in ``unit``.
+        Measured and predicted values, in ``unit``.
     left_out : list of Record
         Values that were not used, with the reason.
     materials : Record
-        The calibrated materials by their ids, as ``materials`` of a case takes them.
+        Calibrated materials by id, in the form of ``materials`` of a case.
     warnings : list of str
-        What to know before relying on the numbers.
+        Warnings.
     """
 
     percuss_version: str
@@ -74,16 +74,16 @@ class Calibration(Result):
     left_out: list[Record]
     materials: Record
 
-    _native: _percuss.Answer
+    _native: _percuss.Response
 
     @property
     def sample(self) -> Sample:
-        """States of the posterior: ``ensemble``, ``step``, ``walker``, a column a parameter in its unit, and the ``scatter``.
+        """States of the posterior: ``ensemble``, ``step``, ``walker``, one column per parameter in its unit, and the ``scatter``.
 
         Raises
         ------
         ValueError
-            When there is none, after ``least_squares=True``.
+            When the posterior was not sampled (``least_squares=True``).
         """
         if self.sampling is None:
             raise ValueError("the posterior was not sampled: leave out least_squares")
@@ -113,15 +113,15 @@ class Calibration(Result):
         return rows
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws the error of every measured value before and after the fit, with the bands in which 95 % are expected [%]."""
+        """Draws the relative error of every measured value before and after calibration, with 95 % predictive intervals [%]."""
         return study_plots.predictions(self, ax)
 
     def plot_posterior(self, parameter: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draws what the sample says of a parameter, its prior beside it; of the first when not named."""
+        """Draws the posterior and the prior of a parameter; of the first when not named."""
         return study_plots.posterior(self, parameter, ax)
 
     def plot_pair(self, x: str, y: str, ax: Axes | None = None) -> Axes:
-        """Draws the sample over two parameters: how they depend on each other."""
+        """Draws the joint posterior of two parameters."""
         return study_plots.pair(self, x, y, ax)
 
     def _repr_html_(self) -> str:
@@ -157,41 +157,41 @@ def calibrate(
     out: Path | None = None,
     progress: Progress | bool | None = None,
 ) -> Calibration:
-    """Fits numbers of cases to what was measured: constants of materials, options of models.
+    """Calibrates material constants and model options against experiments.
 
     Parameters
     ----------
     cases : Case, path or sequence of them, optional
-        Cases with ``experiments``; may be left out when ``data`` is given.
+        Cases with ``experiments``; optional when ``data`` is given.
     fit : mapping, str, path or sequence of them
-        What is fitted. A mapping from keys such as ``"chain.constraint_factor"`` to what is known of them: a range with its unit such as
-        ``"20..300 MPa"``, in which the number is evenly likely, the ends of a plain number, or a distribution such as
-        ``{"normal": {"mean": "90 MPa", "standard_deviation": "20 MPa"}}``. Otherwise what ``--fit`` takes.
+        Parameters to fit. A mapping from keys such as ``"chain.constraint_factor"`` to their priors: the range of a uniform prior with its
+        unit such as ``"20..300 MPa"``, its ends as plain numbers, or a distribution such as
+        ``{"normal": {"mean": "90 MPa", "standard_deviation": "20 MPa"}}``. Otherwise values of ``--fit``.
     data : path or sequence of paths, optional
-        CSV files of shots; ``"builtin"`` is the program's own.
+        CSV files of tests; ``"builtin"`` selects those of the program.
     materials : path or sequence of paths, optional
-        Files of materials that the shots name, beside the library.
+        Files of materials for the tests, in addition to the library.
     kind, source : str or sequence of str, optional
-        Kinds of shots and sources to take; all of them when not given.
+        Kinds of tests and sources to use; all when not given.
     hold_out : str or sequence of str, optional
-        Sources to keep out of the fit and to test it with.
+        Sources that are not fitted and test the result.
     model : str, optional
-        Model that computes the cases; ``chain`` when not given.
+        Model to calibrate; ``chain`` when not given.
     noise : str or float, optional
-        Scatter of measured values about the model: ``"estimated"`` (the default), ``"stated"`` for stated uncertainties alone, or a part of
-        the value such as ``"2 %"`` or 0.02.
+        Relative scatter of measured values about the model: ``"estimated"`` (the default), ``"stated"`` for the stated uncertainties alone, or
+        a fraction such as ``"2 %"`` or 0.02.
     least_squares : bool
         Least squares only, without a sample of the posterior.
     ensembles, walkers, steps : int, optional
-        How the posterior is sampled; 4 ensembles of four walkers a parameter, 12 at least, and 600 steps when not given.
+        Sampling of the posterior; by default 4 ensembles, four walkers per parameter (at least 12) and 600 steps.
     seed : int, optional
-        Decides over everything drawn at random; 0 when not given.
+        Seed of the random numbers; 0 when not given.
     name : str, optional
-        Id of the calibrated material; the old one with ``-calibrated`` when not given.
+        Id of the calibrated material; the original id with ``-calibrated`` when not given.
     out : path, optional
         Folder for the numbers, the calibrated materials and the figures, as ``percuss calibrate --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
-        As of :func:`percuss.run`.
+        As in :func:`percuss.run`.
 
     Returns
     -------
@@ -203,7 +203,7 @@ def calibrate(
     CaseError, MaterialError
         When a case, the data or a parameter is not valid; the message has the place.
     UsageError
-        When nothing is left to fit to, or the model fails everywhere.
+        When no measured value is left, or the model fails everywhere.
 
     Examples
     --------
@@ -218,7 +218,7 @@ def calibrate(
     ('MPa', 6)
     """
     lines, texts = _fitted(fit)
-    found = native_answer(
+    found = execute(
         "calibrate",
         of=cases,
         texts=texts,
@@ -243,7 +243,7 @@ def calibrate(
 
 
 def _fitted(fit: Any) -> tuple[list[Any], dict[str, str]]:
-    """What is fitted as the command line has it, and the text of the file of priors that it names."""
+    """Values of --fit, and the text of the file of priors that they name."""
     if not isinstance(fit, Mapping):
         return several(fit), {}
     lines: list[Any] = []
@@ -256,7 +256,7 @@ def _fitted(fit: Any) -> tuple[list[Any], dict[str, str]]:
         elif isinstance(prior, Sequence) and len(prior) == 2:
             lines.append(f"{key}={'..'.join(repr(float(end)) for end in prior)}")
         else:
-            raise UsageError(f"`{key}`: {prior!r} is no prior; give a range such as \"20..300 MPa\", two numbers, or a distribution")
+            raise UsageError(f"`{key}`: {prior!r} is not a prior; give a range such as \"20..300 MPa\", two numbers, or a distribution")
     if not tables:
         return lines, {}
     return [*lines, _PRIORS], {_PRIORS: _percuss.toml_text({"parameter": tables})}

@@ -1,4 +1,4 @@
-"""Cases: what strikes what, how fast, and by which options."""
+"""Impact cases: projectile, target, impact velocity and model options."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from . import _percuss
 class Case:
     """A case built in code: the tables of a case file as keyword arguments.
 
-    Nothing here knows the keys: they are those of a case file, and so are their defaults and the messages about them.
+    Keys, defaults and messages are those of a case file.
 
     Parameters
     ----------
     name : str
-        Name of the case, which messages show in place of a file.
+        Name of the case, which messages show instead of a file.
     **tables
         The tables and values of a case file: ``projectile``, ``target``, ``chain``, ``materials`` and so on. A quantity is a text
-        with its unit, such as ``"4.8 mm"``, or a number in SI units. What is ``None`` is left out. Paths in ``material_files`` are
+        with its unit, such as ``"4.8 mm"``, or a number in SI units. ``None`` leaves a value out. Paths in ``material_files`` are
         relative to the working directory.
 
     Raises
@@ -63,7 +63,7 @@ class Case:
         text : str
             TOML, as a case file has it.
         name : str
-            Name of the case, which messages show in place of a file.
+            Name of the case, which messages show instead of a file.
         folder : path, optional
             What paths in ``material_files`` are relative to; the working directory when not given.
         """
@@ -105,7 +105,7 @@ class Case:
 
     @property
     def impact_velocity_m_s(self) -> float:
-        """Impact speed [m/s]."""
+        """Impact velocity [m/s]."""
         return self._native.impact_velocity_m_s
 
     @property

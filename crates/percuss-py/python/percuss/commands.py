@@ -1,4 +1,4 @@
-"""The commands of the program as functions: one a command, which passes its options on as they are."""
+"""Commands of the program as functions, one function per command with the same options."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
 from . import _percuss
-from .ask import CaseLike, Path, Speed, native_answer, several, speeds, with_unit
+from .command_line import CaseLike, Path, Speed, execute, several, speeds, with_unit
 from .case import Case, native
 from .errors import UsageError
 from .progress import Progress, watching
@@ -65,16 +65,16 @@ def run(
     resume : bool
         Whether to continue from the checkpoint in ``out``; without one there, the run starts at the beginning.
     progress : callable or bool, optional
-        Called with the part done, 0 to 1, and a few words; ``True`` and ``False`` show a bar or none. When not given, a bar of tqdm
-        is shown after a second, where tqdm is installed and somebody sees it.
+        Called with the progress, 0 to 1, and a short text; ``True`` and ``False`` show a bar or none. When not given, a bar of tqdm
+        is shown after a second, in a notebook or terminal with tqdm.
     projectile_law, target_law : callable, optional
-        A strength law in Python that takes the place of the material's own: flow stress [Pa] from plastic strain, strain rate [1/s] and
+        A strength law in Python that replaces that of the material: flow stress [Pa] from plastic strain, strain rate [1/s] and
         temperature [K]. Slow: the solver calls it for every flowing element and step, three times for the slopes, so a run takes
-        hundreds of times as long. What it raises ends the run.
+        hundreds of times as long. An exception in it ends the run.
     resistance_law : callable, optional
-        A law in Python that takes the place of the target's resistance to penetration: pressure on the crater floor [Pa], inertia of the
+        A law in Python that replaces the target resistance: pressure on the crater floor [Pa], inertia of the
         target included, from the floor's depth [m] and the speed at which it advances [m/s]. For model ``chain`` with the target
-        closure ``expanding-cavity``, which is that of a thick target of one metal. Slow: the solver calls it once or twice a step.
+        resistance model ``expanding-cavity``, for thick targets of one metal. Slow: the solver calls it once or twice a step.
 
     Returns
     -------
@@ -84,7 +84,7 @@ def run(
     Raises
     ------
     NotApplicableError
-        When the model is not made for the case; :func:`compare` says which are.
+        When the model does not apply to the case; :func:`compare` lists the models that apply.
     NumericalError
         When the solution fails or its balances do not close.
 
@@ -98,18 +98,18 @@ def run(
     written: dict[str, Any] = {"field": field, "fields": fields, "animation": animation, "frames": frames, "resume": resume}
     if out is not None or checkpoint is not None or any(value not in (None, False) for value in written.values()):
         if any(law is not None for law in laws):
-            raise UsageError("files are written of runs with the library's laws alone: leave out `out`, or put the law into the library")
+            raise UsageError("files can be written only for runs with laws of the library: leave out `out`, or add the law to the library")
         every = f"{float(checkpoint)!r} s" if isinstance(checkpoint, (int, float)) else checkpoint
-        answer = native_answer("run", of=case, model=model, out=out, checkpoint=every, progress=progress, **written)
-        ran = answer.run()
-        assert ran is not None
-        return RunResult(ran, answer)
-    at_hand = case._native if isinstance(case, Case) else native(case)
+        response = execute("run", of=case, model=model, out=out, checkpoint=every, progress=progress, **written)
+        run_output = response.run()
+        assert run_output is not None
+        return RunResult(run_output, response)
+    native_case = case._native if isinstance(case, Case) else native(case)
     if progress is False or callable(progress):
-        hear = progress or None
-        return RunResult(_percuss.run(at_hand, model, history, hear, *laws))
+        on_progress = progress or None
+        return RunResult(_percuss.run(native_case, model, history, on_progress, *laws))
     with watching(progress) as bar:
-        return RunResult(_percuss.run(at_hand, model, history, bar, *laws))
+        return RunResult(_percuss.run(native_case, model, history, bar, *laws))
 
 
 def compare(
@@ -120,21 +120,21 @@ def compare(
     out: Path | None = None,
     progress: Progress | bool | None = None,
 ) -> Comparison:
-    """Runs every model on a case and sets their results side by side.
+    """Runs every model on a case and compares their results.
 
     Parameters
     ----------
     case : Case or path
         The case, or its file.
     velocity : float, sequence of float or str, optional
-        Impact speeds [m/s], or what ``--velocity`` takes, such as ``"200..1500:27"`` or ``"experiments"``; the case's own when
+        Impact velocities [m/s], or a value of ``--velocity`` such as ``"200..1500:27"`` or ``"experiments"``; that of the case when
         not given.
     model : str or sequence of str, optional
-        Models to compare; all that answer at once when not given.
+        Models to compare; all except those that may take minutes when not given.
     out : path, optional
         Folder for a copy of the case, the numbers and the figure, as ``percuss compare --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
-        As of :func:`run`.
+        As in :func:`run`.
 
     Examples
     --------
@@ -142,7 +142,7 @@ def compare(
     >>> [choice.model for choice in comparison.recommended[0].models]
     ['chain']
     """
-    found = native_answer("compare", of=case, velocity=speeds(velocity), model=several(model), out=out, progress=progress)
+    found = execute("compare", of=case, velocity=speeds(velocity), model=several(model), out=out, progress=progress)
     return Comparison(found)
 
 
@@ -158,28 +158,28 @@ def limit(
     out: Path | None = None,
     progress: Progress | bool | None = None,
 ) -> Limits:
-    """Finds the ballistic limit of a case by every model that can tell, or V50 from shots that scatter.
+    """Finds the ballistic limit of a case with all applicable models, or V50 from test results.
 
     Parameters
     ----------
     case : Case or path, optional
-        The case, or its file; may be left out when ``shots`` is given.
+        The case, or its file; optional when ``shots`` is given.
     velocity : tuple of float or str, optional
-        Lowest and highest impact speed to search [m/s]; 0 to 2000 m/s when not given.
+        Lowest and highest impact velocity to search [m/s]; 0 to 2000 m/s when not given.
     tolerance : float or str, optional
-        How far apart the stopped and the perforating shot may be [m/s], or a part such as ``"0.2 %"``; 0.1 m/s when not given.
+        Largest bracket between partial and complete penetration [m/s], or a percentage such as ``"0.2 %"``; 0.1 m/s when not given.
     points : int, optional
         Residual velocities to compute above the limit; 12 when not given.
     model : str or sequence of str, optional
-        Models to search with; all that answer at once when not given.
+        Models to search with; all except those that may take minutes when not given.
     shots : path, optional
-        CSV file of shots with the columns ``impact_velocity_m_s`` and ``perforated``.
+        CSV file of tests with the columns ``impact_velocity_m_s`` and ``perforated``.
     span : float or str, optional
-        Widest span of the shots that V50 may be the mean of [m/s].
+        Largest span of the velocities that V50 is the mean of [m/s].
     out : path, optional
         Folder for a copy of the case, the numbers and the figures, as ``percuss limit --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
-        As of :func:`run`.
+        As in :func:`run`.
 
     Examples
     --------
@@ -188,8 +188,8 @@ def limit(
     'found'
     """
     if isinstance(velocity, tuple):
-        impact_velocity = "..".join(repr(float(end)) for end in velocity)
-    found = native_answer(
+        velocity = "..".join(repr(float(end)) for end in velocity)
+    found = execute(
         "limit",
         of=case,
         velocity=velocity,
@@ -212,20 +212,20 @@ def converge(
     out: Path | None = None,
     progress: Progress | bool | None = None,
 ) -> Convergence:
-    """Refines the mesh of a case and judges its convergence.
+    """Refines the mesh of a case and assesses its convergence.
 
     Parameters
     ----------
     case : Case or path
-        The case, or its file; its own mesh is the coarsest one.
+        The case, or its file; its mesh is the coarsest one.
     model : str, optional
         Name of the model; ``chain`` when not given.
     levels : int, optional
-        Number of meshes, 3 to 8, each twice as fine as the last; 4 when not given. Three give one order, which confirms nothing.
+        Number of meshes, 3 to 8, each twice as fine as the last; 4 when not given. Three meshes give one observed order, which does not confirm convergence.
     out : path, optional
         Folder for the study and its figures, as ``percuss converge --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
-        As of :func:`run`.
+        As in :func:`run`.
 
     Examples
     --------
@@ -233,7 +233,7 @@ def converge(
     >>> [mesh.projectile_elements for mesh in study.meshes]
     [40, 80, 160]
     """
-    return Convergence(native_answer("converge", of=case, model=model, levels=levels, out=out, progress=progress))
+    return Convergence(execute("converge", of=case, model=model, levels=levels, out=out, progress=progress))
 
 
 def validate(
@@ -245,22 +245,22 @@ def validate(
     out: Path | None = None,
     progress: Progress | bool | None = None,
 ) -> Validation:
-    """Computes every published shot with every model that applies to it, and says how far off each is.
+    """Compares all applicable models with published tests.
 
     Parameters
     ----------
     model : str or sequence of str, optional
-        Models to validate; all that answer at once when not given.
+        Models to validate; all except those that may take minutes when not given.
     kind : str or sequence of str, optional
-        Kinds of shots; all of them when not given.
+        Kinds of tests; all when not given.
     data : path or sequence of paths, optional
-        CSV files of shots in place of the program's own, which are named ``builtin``.
+        CSV files of tests; ``builtin`` selects those of the program.
     materials : path or sequence of paths, optional
-        Files of materials that the shots name, beside the library.
+        Files of materials for the tests, in addition to the library.
     out : path, optional
         Folder for the report with its figures, and the numbers, as ``percuss validate --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
-        As of :func:`run`.
+        As in :func:`run`.
 
     Examples
     --------
@@ -268,7 +268,7 @@ def validate(
     >>> validation.models
     ['taylor']
     """
-    found = native_answer(
+    found = execute(
         "validate",
         model=several(model),
         kind=several(kind),

@@ -1,4 +1,4 @@
-"""What can go wrong: every message is the one that the program ``percuss`` prints, with its place and its remedy."""
+"""Exceptions, with the messages of the program ``percuss``."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class NumericalError(PercussError, ArithmeticError):
 
 
 class NotApplicableError(PercussError, ValueError):
-    """The model is not made for the case.
+    """The model does not apply to the case.
 
     Attributes
     ----------
@@ -80,6 +80,7 @@ class UsageError(PercussError, ValueError):
 
 class _FileError(PercussError, OSError):
     message: str = ""
+    help: str = ""
 
     def __str__(self) -> str:
         # An OSError with the name of a file would write its own text.
@@ -87,12 +88,12 @@ class _FileError(PercussError, OSError):
 
 
 class ReadError(_FileError):
-    """A file could not be read; ``filename`` names it, ``message`` says why."""
+    """A file could not be read; ``filename`` is its path, ``message`` the reason and ``help`` the remedy."""
 
 
 class WriteError(_FileError):
-    """A file or folder could not be written; ``filename`` names it, ``message`` says why."""
+    """A file or folder could not be written; ``filename`` is its path, ``message`` the reason and ``help`` the remedy."""
 
 
 class ClusterError(PercussError, RuntimeError):
-    """A cluster was lost before a sweep was done; what was done is kept."""
+    """A cluster was lost during a sweep; computed rows are kept."""

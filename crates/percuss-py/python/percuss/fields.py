@@ -1,4 +1,4 @@
-"""Names, units and descriptions of results and histories, as the library has them."""
+"""Names, units and descriptions of results and histories, from the library."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class _Columns:
-    """Arrays by name: attributes, made when they are asked for, and read-only."""
+    """Read-only arrays as attributes, created on first access."""
 
     def names(self) -> list[str]:
         """Names of the columns, which end with the unit."""
@@ -59,7 +59,7 @@ class _Columns:
 
 
 class _Rows(_Columns):
-    """Columns of a result's memory, in the units that files have too."""
+    """Columns of the memory of a result, in the units of the files."""
 
     _fields: dict[str, _percuss.Field]
 
@@ -82,7 +82,7 @@ class _Rows(_Columns):
         return array
 
     def _refuse_si_name(self, name: str) -> None:
-        """Names the new column of a name that stood for SI units."""
+        """Error for the name of an SI column, with the name of the column."""
         for field in self._fields.values():
             if field.si_name == name:
                 raise AttributeError(f"no column is named `{name}`: `{field.name}` is in {field.unit}, and `si.{name}` in SI units")
@@ -110,7 +110,7 @@ class SiColumns(_Columns):
 
 
 class Profile(ElementColumns, _Rows):
-    """State along the axis at one moment: a value per element, from the projectile's tail to the target's rear face.
+    """State along the axis at one time: one value per element, from the projectile tail to the rear face of the target.
 
     Attributes
     ----------
@@ -146,9 +146,9 @@ class Profile(ElementColumns, _Rows):
 
 
 class Gauge(ElementColumns, _Rows):
-    """State of the material at a gauge of the case against time, a value per moment of the history.
+    """State of the material at a gauge versus time, one value per sample of the history.
 
-    The gauge moves with the material; its values are not a number once that has eroded.
+    The gauge moves with the material; its values are NaN after erosion.
 
     Attributes
     ----------
@@ -173,11 +173,11 @@ class Gauge(ElementColumns, _Rows):
         return self._native.gauge_column(self._index, si_name)
 
     def __repr__(self) -> str:
-        return f"<Gauge {self.name!r}, {len(self.part)} moments>"
+        return f"<Gauge {self.name!r}, {len(self.part)} samples>"
 
 
 class History(SampleColumns, _Rows):
-    """Scalars against time. A long run thins its history out, so the steps between moments are not all alike.
+    """Scalars versus time. Long runs keep fewer samples, so the time steps are not uniform.
 
     Names and units are those of the files ``history.csv`` and ``history.parquet``. ``history.si`` has the columns in SI units.
 
@@ -215,7 +215,7 @@ class History(SampleColumns, _Rows):
         return {name: Gauge(self._native, index, name) for index, name in names}
 
     def __repr__(self) -> str:
-        return f"<History of {len(self)} moments, {self._native.profiles()} profiles>"
+        return f"<History of {len(self)} samples, {self._native.profiles()} profiles>"
 
 
 _TIME = History._fields["time_us"]

@@ -1,25 +1,25 @@
-"""What the program knows: models, materials, the keys of a case, and a case to start from."""
+"""Models, materials, schema of case files, and the starter case."""
 
 from __future__ import annotations
 
 from pathlib import Path as FilePath
 from typing import Any
 
-from .ask import CaseLike, Path, answer, native_answer
+from .command_line import CaseLike, Path, answer, execute
 from .record import Record, Records
 
 
 class Material(Record):
-    """What is known of a material: the values of ``percuss materials --json``.
+    """Record of a material: the values of ``percuss materials --json``.
 
     Attributes
     ----------
     id, name, family, state, trust, note : str
-        Its names, how far its numbers are established, and what to know of them.
+        Names, trust grade and note.
     sources : list of str
         Keys of the bibliography.
     strength : Record
-        The strength law and its constants, as a case file has them.
+        The strength law and its constants, as in a case file.
     bar_wave_speed_m_s, bar_impedance_kg_m2_s : float
         Speed of elastic waves in a bar [m/s] and its impedance per area [kg/(m2 s)].
     """
@@ -41,18 +41,18 @@ class Material(Record):
 
 
 class Model(Record):
-    """What a model is made for: the values of ``percuss models --json``.
+    """Description and range of validity of a model: the values of ``percuss models --json``.
 
     Attributes
     ----------
     name, summary : str
-        Its name and what it is.
+        Name and description.
     validity : Record
-        What it is made for: ``projectile``, ``targets``, ``noses``, ``projectile_materials``, ``target_materials``, ``ranges``, ``notes``.
+        Range of validity: ``projectile``, ``targets``, ``noses``, ``projectile_materials``, ``target_materials``, ``ranges``, ``notes``.
     options : list of str
         Keys of its table in a case.
     page : str
-        Where its equations, sources and checks are, in the folder of the project.
+        Page with its equations, sources and checks, in the folder of the project.
     """
 
     name: str
@@ -70,12 +70,12 @@ class Model(Record):
 
 
 def materials(search: str | None = None, *, case: CaseLike | None = None, file: Path | None = None) -> Records[Material]:
-    """The materials that a case can name.
+    """Lists the materials of the library.
 
     Parameters
     ----------
     search : str, optional
-        Words that id, family, name or state of the materials hold, such as ``"aluminium"``; all materials when not given.
+        Words to search for in id, family, name and state, such as ``"aluminium"``; all materials when not given.
     case : Case or path, optional
         Case whose materials are included, and those of the files that it names.
     file : path, optional
@@ -94,19 +94,19 @@ def materials(search: str | None = None, *, case: CaseLike | None = None, file: 
 
 
 def material(name: str, *, case: CaseLike | None = None, file: Path | None = None) -> Material:
-    """Everything that is known of one material, by its id or its family.
+    """Returns all constants of a material, by its id or its family.
 
     Parameters
     ----------
     name : str
         Id or family.
     case, file : optional
-        As of :func:`materials`.
+        As in :func:`materials`.
 
     Raises
     ------
     MaterialError
-        When none has the name.
+        When the name is unknown.
 
     Examples
     --------
@@ -117,7 +117,7 @@ def material(name: str, *, case: CaseLike | None = None, file: Path | None = Non
 
 
 def models() -> Records[Model]:
-    """The models, with what each of them is made for.
+    """Lists the models with their ranges of validity.
 
     Examples
     --------
@@ -128,7 +128,7 @@ def models() -> Records[Model]:
 
 
 def model(name: str) -> Model:
-    """Everything that a model is made for, and its options in a case.
+    """Returns the range of validity of a model and its options in a case.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def model(name: str) -> Model:
     Raises
     ------
     UsageError
-        When none has the name.
+        When the name is unknown.
 
     Examples
     --------
@@ -149,7 +149,7 @@ def model(name: str) -> Model:
 
 
 def schema() -> dict[str, Any]:
-    """The JSON Schema (draft 2020-12) of case files: every key with what it means, and the units and values allowed.
+    """The JSON Schema (draft 2020-12) of case files: every key with its description, allowed units and allowed values.
 
     Examples
     --------
@@ -161,7 +161,7 @@ def schema() -> dict[str, Any]:
 
 
 def new(name: Path, *, force: bool = False) -> FilePath:
-    """Writes a starter case: it runs as it is, with every option of a case file explained and commented out.
+    """Writes a starter case: a valid case with every option of a case file explained and commented out.
 
     Parameters
     ----------
@@ -183,9 +183,9 @@ def new(name: Path, *, force: bool = False) -> FilePath:
     Examples
     --------
     >>> import tempfile
-    >>> file = percuss.new(tempfile.mkdtemp() + "/my-shot")
+    >>> file = percuss.new(tempfile.mkdtemp() + "/my-case")
     >>> percuss.load(file).name
-    'my-shot'
+    'my-case'
     """
-    (file,) = native_answer("new", name, force=force).files()
+    (file,) = execute("new", name, force=force).files()
     return FilePath(file)

@@ -1,4 +1,4 @@
-"""Figures on axes of matplotlib, which is imported when a figure is asked for."""
+"""Figures on matplotlib axes; matplotlib is imported on first use."""
 
 from __future__ import annotations
 
@@ -15,21 +15,27 @@ if TYPE_CHECKING:
     from .sweeps import SweepResult
 
 def label(name: str) -> str:
-    """A name in words with the unit that it ends with.
+    """Label of a column: its name with the unit in parentheses.
 
     Examples
     --------
     >>> label("depth_mm"), label("residual_velocity_m_s"), label("strain")
-    ('depth [mm]', 'residual velocity [m/s]', 'strain')
+    ('Depth (mm)', 'Residual velocity (m/s)', 'Strain')
     """
     for end, unit in _percuss.units():
         if name.endswith(end):
-            return f"{name.removesuffix(end).replace('_', ' ')} [{unit}]"
-    return name.replace("_", " ")
+            return f"{_title(name.removesuffix(end))} ({unit})"
+    return _title(name)
+
+
+def _title(name: str) -> str:
+    """Words of a name with a capital first letter."""
+    words = name.replace("_", " ")
+    return words[:1].upper() + words[1:]
 
 
 def new_axes(ax: Axes | None, size: tuple[float, float] | None = None) -> Axes:
-    """These axes, or new ones, of a size [in] that is not the usual one where it is given."""
+    """Given axes, or new axes of a size [in]."""
     if ax is not None:
         return ax
     import matplotlib.pyplot
@@ -38,7 +44,7 @@ def new_axes(ax: Axes | None, size: tuple[float, float] | None = None) -> Axes:
 
 
 def plain_logarithmic(ax: Axes) -> None:
-    """Makes the axis from left to right logarithmic, with numbers as they are."""
+    """Makes the horizontal axis logarithmic with plain numbers."""
     ax.set_xscale("log")
     ax.xaxis.set_major_formatter("{x:g}")
     ax.xaxis.set_minor_formatter("{x:g}")
@@ -49,7 +55,7 @@ def history(result: RunResult, what: str, ax: Axes | None, **style: Any) -> Axes
     ax = new_axes(ax)
     style.setdefault("label", result.model)
     ax.plot(history.time_us, history[what], **style)
-    ax.set(xlabel="time [us]", ylabel=label(what), title=result.case)
+    ax.set(xlabel="Time (us)", ylabel=label(what), title=result.case)
     return ax
 
 
@@ -59,10 +65,10 @@ def stress(result: RunResult, ax: Axes | None) -> Axes:
     ax = new_axes(ax)
     profiles = result.history.profiles
     every = numpy.concatenate([p.stress_mpa for p in profiles])
-    # The largest stresses belong to a few elements under the contact: the waves are what a figure is to show.
+    # The largest stresses are in a few elements at the contact; the scale is that of the waves.
     top = float(numpy.percentile(numpy.abs(every), 99.5)) or 1.0
     drawn: Any = None
-    # A body by itself: nothing is drawn across a gap.
+    # One plot per body: nothing is drawn across a gap.
     for part in numpy.unique(numpy.concatenate([p.part for p in profiles])):
         rows = [(p, p.part == part) for p in profiles]
         counts = {int(chosen.sum()) for _, chosen in rows}
@@ -73,11 +79,11 @@ def stress(result: RunResult, ax: Axes | None) -> Axes:
         if len(counts) == 1 and min(counts) > 1:
             drawn = ax.pcolormesh(numpy.array(position), numpy.array(time), numpy.array(value), shading="nearest", rasterized=True, **style)
         else:
-            # Elements that come and go make no grid.
+            # A changing number of elements gives no grid.
             x, y, c = (numpy.concatenate(values) for values in (position, time, value))
             drawn = ax.scatter(x, y, c=c, s=4, marker="s", linewidths=0, **style)
-    ax.figure.colorbar(drawn, ax=ax, label="axial stress, compression positive [MPa]", extend="both")
-    ax.set(xlabel="position, struck face at 0 [mm]", ylabel="time [us]", title=result.case)
+    ax.figure.colorbar(drawn, ax=ax, label="Axial stress, compression positive (MPa)", extend="both")
+    ax.set(xlabel="Position, impact face at 0 (mm)", ylabel="Time (us)", title=result.case)
     return ax
 
 
@@ -108,14 +114,14 @@ def comparison(comparison: Comparison, ax: Axes | None) -> Axes:
     shots = [(e.impact_velocity_m_s, e.value) for e in measured if e.impact_velocity_m_s is not None]
     if shots:
         ax.plot(*zip(*shots, strict=True), "k+", label="experiment")
-    ax.set(xlabel="impact velocity [m/s]", ylabel=words, title=title)
+    ax.set(xlabel="Impact velocity (m/s)", ylabel=words, title=title)
     ax.legend()
     return ax
 
 
 def limits(limits: Limits, ax: Axes | None) -> Axes:
     if "results" not in limits:
-        raise ValueError("no case was searched: `plot_v50` draws the shots")
+        raise ValueError("no case was searched: `plot_v50` draws the tests")
     ax = new_axes(ax)
     for model in limits.results:
         given = model.ballistic_limit_m_s is None
@@ -124,12 +130,12 @@ def limits(limits: Limits, ax: Axes | None) -> Axes:
         limit = model.input_limit.ballistic_limit_m_s if given else model.ballistic_limit_m_s
         points = [(limit, 0.0)]
         points += [(p.impact_velocity_m_s, p.residual_velocity_m_s) for p in model.curve or []]
-        label = f"{model.model}, {'given ' if given else ''}{limit:.4g} m/s"
+        label = f"{model.model}, {'input limit ' if given else ''}{limit:.4g} m/s"
         ax.plot(*zip(*points, strict=True), label=label, linestyle="--" if given else "-", marker=None if given else ".")
     for experiment in limits.experiments:
         if experiment.quantity == "ballistic_limit_m_s":
             ax.axvline(experiment.value, color="k", linestyle="--", label=f"measured, {experiment.value:.4g} m/s")
-    ax.set(xlabel="impact velocity [m/s]", ylabel="residual velocity [m/s]", title=limits.case)
+    ax.set(xlabel="Impact velocity (m/s)", ylabel="Residual velocity (m/s)", title=limits.case)
     if ax.lines:
         ax.legend()
     return ax
@@ -139,7 +145,7 @@ def v50(limits: Limits, ax: Axes | None) -> Axes:
     import numpy
 
     if limits.v50 is None or limits.shots is None:
-        raise ValueError("no shots that scatter were given: `shots` names a file of them")
+        raise ValueError("no test results were given: `shots` names a file of them")
     ax = new_axes(ax)
     speeds = [shot.impact_velocity_m_s for shot in limits.shots]
     margin = 0.15 * (max(speeds) - min(speeds))
@@ -148,21 +154,21 @@ def v50(limits: Limits, ax: Axes | None) -> Axes:
         value, deviation = estimate.v50_m_s, estimate.standard_deviation_m_s
         if value is None or not deviation:
             continue
-        chances = [_chance(estimate.method, (speed - value) / deviation) for speed in at]
-        (line,) = ax.plot(at, chances, label=f"{estimate.method}: {value:.4g} m/s")
+        probabilities = [_probability(estimate.method, (speed - value) / deviation) for speed in at]
+        (line,) = ax.plot(at, probabilities, label=f"{estimate.method}: {value:.4g} m/s")
         if estimate.low_m_s is not None and estimate.high_m_s is not None:
             ax.hlines(0.5, estimate.low_m_s, estimate.high_m_s, color=line.get_color(), alpha=0.4, linewidth=5)
-    for perforated, colour, words in ((True, "C3", "went through"), (False, "C2", "stopped")):
+    for perforated, colour, words in ((True, "C3", "complete penetration"), (False, "C2", "partial penetration")):
         chosen = [shot.impact_velocity_m_s for shot in limits.shots if shot.perforated is perforated]
         ax.plot(chosen, [float(perforated)] * len(chosen), "o", color=colour, mfc="none", label=words)
     level = f"{100 * limits.v50.confidence:g} %"
-    ax.set(xlabel="impact velocity [m/s]", ylabel="chance of going through", title=f"V50 of {len(speeds)} shots, {level} intervals")
+    ax.set(xlabel="Impact velocity (m/s)", ylabel="Probability of perforation", title=f"V50 of {len(speeds)} tests, {level} intervals")
     ax.legend()
     return ax
 
 
-def _chance(method: str, standardised: float) -> float:
-    """Chance of going through at a speed by how many standard deviations it lies above V50."""
+def _probability(method: str, standardised: float) -> float:
+    """Probability of perforation at a number of standard deviations above V50."""
     if method == "logit":
         return 1 / (1 + math.exp(-standardised * math.pi / math.sqrt(3)))
     return 0.5 * math.erfc(-standardised / math.sqrt(2))
@@ -174,12 +180,12 @@ def convergence(study: Convergence, quantity: str | None, ax: Axes | None) -> Ax
     elements = [mesh.projectile_elements + mesh.target_elements for mesh in study.meshes]
     name = chosen.name.replace("_", " ")
     ax.plot(elements, chosen.values, marker="o", label=name)
-    if "richardson" in chosen.verdict:
-        ax.axhline(chosen.verdict.richardson, color="0.5", linestyle="--", label="extrapolated (Richardson)")
+    if "richardson" in chosen.status:
+        ax.axhline(chosen.status.richardson, color="0.5", linestyle="--", label="Richardson extrapolation")
     ax.set_xscale("log")
     ax.set_xticks(elements, [str(count) for count in elements])
     ax.set_xticks([], minor=True)
-    ax.set(xlabel="elements", ylabel=f"{name} [{chosen.unit}]")
+    ax.set(xlabel="Elements", ylabel=f"{_title(name)} ({chosen.unit})")
     ax.legend()
     return ax
 
@@ -193,7 +199,7 @@ def validation(validation: Validation, ax: Axes | None) -> Axes:
         ax.plot(*zip(*points, strict=True), ".", label=name)
     ax.axhline(1.0, color="k", linewidth=1)
     plain_logarithmic(ax)
-    ax.set(xlabel=f"measured [{', '.join(units)}]", ylabel="predicted / measured")
+    ax.set(xlabel=f"Measured ({', '.join(units)})", ylabel="Predicted / measured")
     ax.legend()
     return ax
 
@@ -201,7 +207,7 @@ def validation(validation: Validation, ax: Axes | None) -> Axes:
 def sweep(sweep: SweepResult, x: str, y: str, colour: str | None, ax: Axes | None) -> Axes:
     ax = new_axes(ax)
     rows = sweep.to_pandas()
-    # Names of inputs are keys of the case with a unit as the user wrote it: they are drawn as they are.
+    # Names of inputs are keys of the case with the unit of the user: they are not changed.
     if colour is None:
         ax.plot(rows[x], rows[y], ".")
     else:

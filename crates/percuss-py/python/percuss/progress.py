@@ -1,4 +1,4 @@
-"""Progress of what takes longer than a second."""
+"""Progress bar of computations that take longer than a second."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, TypeAlias
 
-#: Called now and then with the part done, 0 to 1, and a few words; what it raises ends the computation.
+#: Callback with the progress, 0 to 1, and a short text; an exception in it ends the computation.
 Progress: TypeAlias = Callable[[float, str], None]
 
-#: How long something takes before it shows its progress [s].
-PATIENCE = 1.0
+#: Time before the progress is shown [s].
+DELAY = 1.0
 
 
 class _Bar:
-    """A bar of tqdm that appears after a while."""
+    """Bar of tqdm that appears after a delay."""
 
     def __init__(self) -> None:
         self.start = time.monotonic()
@@ -24,10 +24,10 @@ class _Bar:
 
     def __call__(self, fraction: float, words: str) -> None:
         if self.bar is None:
-            if time.monotonic() - self.start < PATIENCE:
+            if time.monotonic() - self.start < DELAY:
                 return
             self.bar = _tqdm()(total=1.0, leave=False, bar_format="{percentage:3.0f} %|{bar}| {desc}")
-        # An estimate that falls back would only puzzle.
+        # The estimate never decreases.
         self.bar.n = max(self.bar.n, min(fraction, 1.0))
         self.bar.set_description_str(words, refresh=False)
         self.bar.refresh()
@@ -38,7 +38,7 @@ class _Bar:
 
 
 def _tqdm() -> Any:
-    """The bar of a notebook where it can be drawn, otherwise that of a terminal."""
+    """Bar of a notebook if it can be drawn, otherwise that of a terminal."""
     try:
         import ipywidgets  # noqa: F401
         from tqdm.auto import tqdm
@@ -48,7 +48,7 @@ def _tqdm() -> Any:
 
 
 def _is_watched() -> bool:
-    """Whether somebody sees a bar, and one can be drawn."""
+    """Whether a bar can be drawn and is visible."""
     if not ("ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty())):
         return False
     try:
@@ -60,7 +60,7 @@ def _is_watched() -> bool:
 
 @contextmanager
 def watching(progress: Progress | bool | None) -> Iterator[Progress | None]:
-    """What is told of progress: a callable as it is, a bar for ``None`` where one is seen, or for ``True``."""
+    """Progress callback: the given callable, or a bar for ``True`` and, where it is visible, for ``None``."""
     if callable(progress):
         yield progress
     elif progress is False or (progress is None and not _is_watched()):

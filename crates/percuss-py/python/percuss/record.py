@@ -1,4 +1,4 @@
-"""Records: what the program prints as JSON, with its names as attributes."""
+"""Records of the JSON output, with its names as attributes."""
 
 from __future__ import annotations
 
@@ -16,10 +16,9 @@ if TYPE_CHECKING:
 
 
 class Record:
-    """Values with names, which end with their unit.
+    """Named values; the names end with the unit.
 
-    Attributes are those of the JSON that the program prints. A table within is a record too, a list of tables a list of
-    records. A number that does not exist is ``None``.
+    Attributes are those of the JSON output. A table is a record, a list of tables is a list of records. A missing number is ``None``.
 
     Examples
     --------
@@ -36,7 +35,7 @@ class Record:
         self._data = data
 
     def __getattr__(self, name: str) -> Any:
-        # Asked for what is no attribute yet; names of Python's own protocols are never keys.
+        # Names with an underscore belong to protocols of Python and are never keys.
         if not name.startswith("_"):
             data = self._data
             if name in data:
@@ -70,11 +69,11 @@ class Record:
         return list(self._data)
 
     def to_dict(self) -> dict[str, Any]:
-        """The values as the program prints them."""
+        """Values as in the JSON output."""
         return self._data
 
     def _shown(self) -> list[tuple[str, str]]:
-        """Names and values for people: scalars only, and what is there."""
+        """Names and values of the scalars that are not ``None``."""
         scalar = (str, bool, int, float)
         return [(name, shown(value)) for name, value in self._data.items() if isinstance(value, scalar)]
 
@@ -86,39 +85,39 @@ class Record:
         return table_html(["", ""], [[name, value] for name, value in self._shown()])
 
 
-class Answered(Record):
-    """What a command found out, and the files that it wrote."""
+class CommandRecord(Record):
+    """Result of a command and the files that it wrote."""
 
-    _native: _percuss.Answer | _percuss.RunResult
+    _native: _percuss.Response | _percuss.RunResult
     _files: tuple[Path, ...] = ()
 
-    def __init__(self, answer: _percuss.Answer) -> None:
-        super().__init__(json.loads(answer.json()))
-        self._native = answer
-        self._files = written(answer)
+    def __init__(self, response: _percuss.Response) -> None:
+        super().__init__(json.loads(response.json()))
+        self._native = response
+        self._files = written(response)
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """The files that were written, in the order of writing; none where no folder ``out`` was given. Pictures of fields are named by
-        their folder, fields by the file that lists them."""
+        """Written files in the order of writing; empty without a folder ``out``. Pictures of fields are listed by their folder, fields by
+        the file that lists them."""
         return self._files
 
 
-class Result(Answered):
-    """What a command found out: values by name, and a table of the most of them.
+class Result(CommandRecord):
+    """Result of a command: named values, and a table.
 
-    What a row of the table is, the classes say that have the names of the commands.
+    The class of each command describes the rows of its table.
     """
 
     def _rows(self) -> list[dict[str, Any]]:
         raise NotImplementedError
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The table of pandas; a table within a row becomes columns with joined names such as ``band.low``."""
+        """Table of pandas; nested tables become columns with joined names such as ``band.low``."""
         return frame(self._rows())
 
     def to_arrow(self) -> pyarrow.Table:
-        """The table of Arrow, with the same columns."""
+        """Table of Arrow with the same columns."""
         return table(self._rows())
 
 
@@ -126,9 +125,9 @@ R = TypeVar("R", bound=Record)
 
 
 class Records(list[R]):
-    """A list of records, which is a table as well."""
+    """List of records with a table."""
 
-    #: Names that people see.
+    #: Names of the displayed columns.
     _names: tuple[str, ...]
 
     def __init__(self, records: Iterable[R], *names: str) -> None:
@@ -136,31 +135,31 @@ class Records(list[R]):
         self._names = names
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A row a record."""
+        """One row per record."""
         return frame([record.to_dict() for record in self])
 
     def to_arrow(self) -> pyarrow.Table:
-        """A row a record."""
+        """One row per record."""
         return table([record.to_dict() for record in self])
 
     def _repr_html_(self) -> str:
         return table_html(list(self._names), [[shown(record._data.get(name)) for name in self._names] for record in self])
 
 
-def written(answer: _percuss.Answer) -> tuple[Path, ...]:
-    """The files that a command wrote."""
-    return tuple(Path(file) for file in answer.files())
+def written(response: _percuss.Response) -> tuple[Path, ...]:
+    """Files that a command wrote."""
+    return tuple(Path(file) for file in response.files())
 
 
 def frame(rows: list[dict[str, Any]]) -> pandas.DataFrame:
-    """A table of pandas, a row a record."""
+    """Table of pandas, one row per record."""
     import pandas
 
     return pandas.DataFrame(columns(rows))
 
 
 def table(rows: list[dict[str, Any]]) -> pyarrow.Table:
-    """A table of Arrow, a row a record."""
+    """Table of Arrow, one row per record."""
     import pyarrow
 
     return pyarrow.table(columns(rows))
@@ -175,7 +174,7 @@ def _wrapped(value: Any) -> Any:
 
 
 def shown(value: Any) -> str:
-    """A value for people: floats to six digits."""
+    """Value as text, floats to six digits."""
     if value is None:
         return "–"
     if isinstance(value, list):
@@ -184,7 +183,7 @@ def shown(value: Any) -> str:
 
 
 def columns(rows: list[dict[str, Any]]) -> dict[str, list[Any]]:
-    """Columns of records: tables within become columns with joined names; what a record lacks is ``None``.
+    """Columns of records: nested tables become columns with joined names; missing values are ``None``.
 
     Examples
     --------
@@ -198,7 +197,7 @@ def columns(rows: list[dict[str, Any]]) -> dict[str, list[Any]]:
 
 
 def _flat(row: dict[str, Any], tables: set[str]) -> dict[str, Any]:
-    """One level of names, joined by points. A table that is missing leaves nothing, not even its name."""
+    """Flat names, joined by points. A missing table is left out."""
     values: dict[str, Any] = {}
     for name, value in row.items():
         if isinstance(value, dict):
@@ -209,7 +208,7 @@ def _flat(row: dict[str, Any], tables: set[str]) -> dict[str, Any]:
 
 
 def table_html(head: list[str], rows: list[list[str]], caption: str = "") -> str:
-    """A table of HTML; everything in it is text."""
+    """Table of HTML; all cells are text."""
     text = "<table>"
     if caption:
         text += f"<caption style='text-align:left'>{html.escape(caption)}</caption>"

@@ -1,11 +1,11 @@
-"""Published works, worked through."""
+"""Reproduction of published works."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
 from . import report_plots
-from .ask import Path, native_answer
+from .command_line import Path, execute
 from .progress import Progress
 from .record import Record, Result, table_html
 
@@ -14,75 +14,75 @@ if TYPE_CHECKING:
 
 
 class Reproduction(Result):
-    """A published work and what holds of it: the values of ``percuss reproduce --json``.
+    """Reproduction of a published work: the values of ``percuss reproduce --json``.
 
-    A row a statement of the paper, or a shot of the study of damping.
+    One row per statement of the paper, or per run of the damping study.
 
     Attributes
     ----------
     work : str
         ``paper`` or ``damping``.
     items : list of Record
-        Of the paper, its statements: ``place``, ``statement``, ``verdict`` (``reproduced``, ``reading_dependent``, ``contradicted`` or
+        Of the paper, its statements: ``place``, ``statement``, ``assessment`` (``reproduced``, ``reading_dependent``, ``contradicted`` or
         ``cannot_be_known``) and the ``finding`` with its numbers.
     tables : list of Record
         Of the paper, the numbers behind them: ``title``, ``columns``, ``rows``.
     findings : list of str
-        Of damping, what it does, in words.
-    shots : list of Record
-        Of damping, every shot: way of ``damping``, ``impact_velocity_m_s``, ``projectile_elements``, ``depth_of_penetration_mm``, its relative
-        ``change``, and the parts of the energy that were damped and eroded.
+        Of the damping study, its findings.
+    runs : list of Record
+        Of the damping study, every run: way of ``damping``, ``impact_velocity_m_s``, ``projectile_elements``, ``depth_of_penetration_mm``, its relative
+        ``change``, and the fractions of damped and eroded energy.
     reference : list of Record
-        Of damping, the depths by the axisymmetric reference.
+        Of the damping study, the depths by the axisymmetric reference.
     """
 
     percuss_version: str
     work: str
 
     def _rows(self) -> list[dict[str, Any]]:
-        return list(self._data["items" if self.work == "paper" else "shots"])
+        return list(self._data["items" if self.work == "paper" else "runs"])
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws how many statements of the paper came to which verdict; of damping, depth against impact speed by way of damping."""
-        return report_plots.verdicts(self, ax) if self.work == "paper" else report_plots.damping(self, ax)
+        """Draws the number of statements per assessment; of the damping study, depth versus impact velocity by way of damping."""
+        return report_plots.assessments(self, ax) if self.work == "paper" else report_plots.damping(self, ax)
 
     def _repr_html_(self) -> str:
         if self.work == "damping":
-            return table_html([""], [[words] for words in self.findings], "damping in the seed paper's case")
-        names = ["place", "statement", "verdict", "finding"]
-        rows = [[item[name].replace("_", " ") if name == "verdict" else item[name] for name in names] for item in self.items]
+            return table_html([""], [[words] for words in self.findings], "damping in the case of the seed paper")
+        names = ["place", "statement", "assessment", "finding"]
+        rows = [[item[name].replace("_", " ") if name == "assessment" else item[name] for name in names] for item in self.items]
         return table_html(names, rows, "the seed paper, item by item")
 
 
 def reproduce(work: str, *, out: Path | None = None, progress: Progress | bool | None = None) -> Reproduction:
-    """Works through a publication item by item and says what holds.
+    """Reproduces a publication item by item.
 
     Parameters
     ----------
     work : str
-        ``paper``, the seed paper: copper rods on thick 2024-T351 by a 1-D discrete element model; or ``damping``, what damping does to the
-        depth in its case, which it suspected of its mismatch at high speed.
+        ``paper``, the seed paper: copper rods on thick 2024-T351 by a 1-D discrete element model; or ``damping``, the effect of
+        damping on the depth of penetration in its case.
     out : path, optional
         Folder for the page, its figures and tables, as ``percuss reproduce --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
-        As of :func:`percuss.run`.
+        As in :func:`percuss.run`.
 
     Returns
     -------
     Reproduction
-        What became of every statement, with numbers.
+        Assessment of every statement, with numbers.
 
     Raises
     ------
     UsageError
-        When no work has the name.
+        When the work is unknown.
     NumericalError
         When a run fails.
 
     Examples
     --------
     >>> found = percuss.reproduce("paper")
-    >>> [item.verdict for item in found.items].count("reproduced") > 0
+    >>> [item.assessment for item in found.items].count("reproduced") > 0
     True
     """
-    return Reproduction(native_answer("reproduce", work, out=out, progress=progress))
+    return Reproduction(execute("reproduce", work, out=out, progress=progress))

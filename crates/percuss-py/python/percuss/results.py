@@ -1,4 +1,4 @@
-"""What commands find out, as small classes with the names of the program's JSON."""
+"""Results of commands, with the names of the JSON output."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ class RunResult(ResultValues, Result):
 
     _native: _percuss.RunResult
 
-    def __init__(self, native: _percuss.RunResult, answer: _percuss.Answer | None = None) -> None:
+    def __init__(self, native: _percuss.RunResult, response: _percuss.Response | None = None) -> None:
         self._native = native
-        self._files = () if answer is None else written(answer)
+        self._files = () if response is None else written(response)
 
     def __getattr__(self, name: str) -> Any:
         if name == "_data":
-            # Read when it is first asked for: many runs are asked for one number or for their history only.
+            # Read on first access: many runs need only one number or their history.
             whole = json.loads(self._native.json())
             (result,) = whole.pop("results")
             self._data = whole | result
@@ -51,60 +51,60 @@ class RunResult(ResultValues, Result):
         Raises
         ------
         AttributeError
-            When the run kept none: a formula, or ``history=False``.
+            When the run has none: a formula, or ``history=False``.
         """
         if self._native.samples() is None:
-            raise ValueError(f"the run by model `{self.model}` kept no history")
+            raise ValueError(f"the run by model `{self.model}` has no history")
         return History(self._native)
 
     def _rows(self) -> list[dict[str, Any]]:
         return [self._data]
 
     def plot(self, what: str = "depth_mm", ax: Axes | None = None, **style: Any) -> Axes:
-        """Draws a column of the history against time [us].
+        """Draws a column of the history versus time [us].
 
         Parameters
         ----------
         what : str
             Name of the column, such as ``depth_mm``, ``tip_velocity_m_s`` or ``contact_force_kn``.
         ax : matplotlib axes, optional
-            Where to draw; new axes when not given.
+            Axes of the figure; new axes when not given.
         **style
-            What ``Axes.plot`` takes.
+            Arguments of ``Axes.plot``.
         """
         return plots.history(self, what, ax, **style)
 
     def plot_stress(self, ax: Axes | None = None) -> Axes:
-        """Draws the axial stress [MPa] over position [mm] and time [us]."""
+        """Draws the axial stress [MPa] versus position [mm] and time [us]."""
         return plots.stress(self, ax)
 
     def _repr_html_(self) -> str:
         rows = [[name, value] for name, value in self._shown()]
         if self.expected_error is not None:
             error = self.expected_error
-            ends = f"{100 * error.low:+.0f} % to {100 * error.high:+.0f} % for eight of ten of {error.cases} benchmark cases like this one"
-            rows.append(["expected error of the depth", f"median {100 * error.median:+.0f} %, {ends}"])
+            ends = f"10th-90th percentile {100 * error.low:+.0f} % to {100 * error.high:+.0f} %, from {error.cases} similar benchmark cases"
+            rows.append(["estimated model error of the depth", f"median {100 * error.median:+.0f} %, {ends}"])
         rows += [["warning", warning] for warning in self.warnings]
         return table_html(["", ""], rows, f"{self.case}, model {self.model}")
 
 
-# Each value of the program's JSON is an attribute.
+# Each value of the JSON output is an attribute.
 fields.add_values(RunResult, _percuss.result_fields())
 
 
 class Comparison(Result):
-    """What every model says of a case: the values of ``percuss compare --json``. A row a speed and model.
+    """Results of all models on a case: the values of ``percuss compare --json``. One row per velocity and model.
 
     Attributes
     ----------
     regime, recommended : list of Record
-        The regime and the models to rely on, an entry a speed.
+        Regime and recommended models, one entry per velocity.
     quantities : list of str
-        Names of the quantities that tell most of the case, the leading one first.
+        Names of the relevant quantities, the main one first.
     experiments : list of Record
-        What was measured.
+        Measured values.
     results : list of Record
-        An entry a speed and model, with the names of :class:`RunResult`; ``reason`` says why a model gives no result.
+        One entry per velocity and model, with the names of :class:`RunResult`; ``reason`` is that of a missing result.
     """
 
     case: str
@@ -119,13 +119,13 @@ class Comparison(Result):
         return list(self._data["results"])
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws the leading quantity: by model at one speed, against the speed at many."""
+        """Draws the main quantity: by model at one velocity, versus velocity at many."""
         return plots.comparison(self, ax)
 
     def _repr_html_(self) -> str:
         quantities = self.quantities
         chosen = {choice.model for at in self.recommended for choice in at.models}
-        # What a model says comes before why others say nothing.
+        # Results come before missing results.
         results = sorted(self.results, key=lambda r: r.reason is not None)
         rows = [
             [f"{r.model} ★" if r.model in chosen else r.model, shown(r.impact_velocity_m_s), *(shown(r[q]) for q in quantities), r.outcome.replace("_", " "), r.reason or ""]
@@ -140,25 +140,25 @@ class Limits(Result):
     Attributes
     ----------
     searched_m_s : list of float
-        Lowest and highest impact speed of the search [m/s].
+        Lowest and highest impact velocity of the search [m/s].
     rear_face : Record or None
         ``condition`` of the rear face (``free``, ``fixed`` or ``non-reflecting``), and whether it is ``assumed`` because the case gives
         none.
     recommended : list of Record
-        The ``model`` to rely on, and ``because`` of what; may be empty. ``note`` says what to know of it.
+        Recommended ``model`` and the reason (``because``); may be empty. ``note`` has remarks.
     range : Record or None
         ``lowest_m_s`` and ``highest_m_s`` of the ``models`` that predict a limit.
     experiments : list of Record
-        What was measured.
+        Measured values.
     results : list of Record
         One entry per model: ``ballistic_limit_m_s``, its ``expected_error`` from published limits of the same kind, ``bracket``, ``curve``
-        of residual velocities and the ``fit`` to it. A model with the outcome ``input`` starts from ``input_limit`` and predicts no
+        of residual velocities and the ``fit`` to it. A model with the outcome ``input`` takes ``input_limit`` and predicts no
         limit.
     v50 : Record or None
-        V50 of shots that scatter, when a file of them was given: ``estimates``, an entry a ``method`` with ``v50_m_s`` and the ends of
+        V50 of test results, when a file was given: ``estimates``, one entry per ``method`` with ``v50_m_s`` and the ends of
         its interval, ``low_m_s`` and ``high_m_s`` [m/s].
     shots : list of Record or None
-        Those shots: ``impact_velocity_m_s`` [m/s] and whether they ``perforated``.
+        These tests: ``impact_velocity_m_s`` [m/s] and ``perforated``.
     """
 
     case: str
@@ -177,11 +177,11 @@ class Limits(Result):
         return list(self._data.get("results", []))
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws residual velocity against impact velocity for every model that found a limit; dashed above a limit that is an input."""
+        """Draws residual versus impact velocity for every model with a limit; dashed where the limit is an input."""
         return plots.limits(self, ax)
 
     def plot_v50(self, ax: Axes | None = None) -> Axes:
-        """Draws the shots, the likeliest chances of going through, and V50 with its interval."""
+        """Draws the tests, the maximum-likelihood probability of perforation, and V50 with its interval."""
         return plots.v50(self, ax)
 
     def _repr_html_(self) -> str:
@@ -193,7 +193,7 @@ class Limits(Result):
                 for r in self.results
             ]
             face = self.rear_face
-            assumed = f", rear face taken as {face.condition}" if face is not None and face.assumed else ""
+            assumed = f", assumed rear face: {face.condition}" if face is not None and face.assumed else ""
             text += table_html(["model", "outcome", "ballistic_limit_m_s", "reason"], rows, f"{self.case}{assumed}")
         if self.v50 is not None:
             names = ["method", "v50_m_s", "low_m_s", "high_m_s", "standard_deviation_m_s", "reason"]
@@ -204,7 +204,7 @@ class Limits(Result):
 
 
 class Convergence(Result):
-    """A case on finer and finer meshes: the values of ``percuss converge --json``. A row a mesh.
+    """Mesh convergence of a case: the values of ``percuss converge --json``. One row per mesh.
 
     Attributes
     ----------
@@ -218,7 +218,7 @@ class Convergence(Result):
     quantities: list[Record]
 
     def plot(self, quantity: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draws a quantity, the first when not named, against the number of elements."""
+        """Draws a quantity, the first when not named, versus the number of elements."""
         return plots.convergence(self, quantity, ax)
 
     def _rows(self) -> list[dict[str, Any]]:
@@ -237,16 +237,16 @@ class Convergence(Result):
 
 
 class Validation(Result):
-    """Models against published shots: the values of ``percuss validate --json``. A row a prediction.
+    """Models compared with published tests: the values of ``percuss validate --json``. One row per prediction.
 
     Attributes
     ----------
     data, models : list of str
-        What the shots come from, and the models.
-    shots : int
-        Number of shots.
+        Sources of the tests, and the models.
+    tests : int
+        Number of tests.
     statistics, coverage, predictions : list of Record
-        Errors by group, how many shots each model could be tested on, and every prediction beside its measurement.
+        Errors by group, number of tests per model, and every prediction with its measured value.
     """
 
     percuss_version: str
@@ -261,7 +261,7 @@ class Validation(Result):
         return list(self._data["predictions"])
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws predicted against measured values of the counted predictions."""
+        """Draws predicted versus measured values of the counted predictions."""
         return plots.validation(self, ax)
 
     def _repr_html_(self) -> str:
@@ -271,5 +271,5 @@ class Validation(Result):
             for group in self.statistics
             if group.grouping == "all"
         ]
-        head = ["model", "kind", "shots", *(f"{error.replace('_', ' ')} [%]" for error in errors)]
+        head = ["model", "kind", "tests", *(f"{error.replace('_', ' ')} [%]" for error in errors)]
         return table_html(head, rows, f"{self.tests} tests: {', '.join(self.data)}")

@@ -1,4 +1,4 @@
-"""Samples that a study rests on: arrays that look at the memory of the result."""
+"""Samples of a study as arrays."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ if TYPE_CHECKING:
 
 
 class Sample(_Columns):
-    """A row a shot, or a row a state of the posterior. Columns are read-only arrays that are not copied.
+    """One row per run, or per state of the posterior. Columns are read-only views of the memory of the result.
 
-    ``sample["projectile.impact_velocity_m_s"]`` gives a column whose name is no word of Python; :meth:`names` lists all. What a shot does not
-    have is not a number.
+    ``sample["projectile.impact_velocity_m_s"]`` gives a column by its name; :meth:`names` lists all. Missing values
+    are NaN.
 
     Attributes
     ----------
     outcome : list of str
-        How each shot ended; empty for a posterior.
+        Outcome of each run; empty for a posterior.
     """
 
-    def __init__(self, native: _percuss.Answer) -> None:
+    def __init__(self, native: _percuss.Response) -> None:
         self._native = native
 
     @property
     def outcome(self) -> list[str]:
-        """How each shot ended."""
+        """Outcome of each run."""
         return self._native.outcomes()
 
     def names(self) -> list[str]:

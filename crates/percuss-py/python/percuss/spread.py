@@ -1,4 +1,4 @@
-"""What the uncertainty of a case's numbers does to its results."""
+"""Propagation of uncertain input parameters to the results of a case."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _percuss, study_plots
-from .ask import CaseLike, Path, Speed, native_answer, several, speeds
+from .command_line import CaseLike, Path, Speed, execute, several, speeds
 from .progress import Progress
 from .record import Record, Result, shown, table_html
 from .samples import Sample
@@ -16,37 +16,36 @@ if TYPE_CHECKING:
 
 
 class Uncertainty(Result):
-    """Spread, chances and sensitivities of a case's results: the values of ``percuss uncertainty --json``, and the shots behind them.
+    """Statistics and sensitivities of the results: the values of ``percuss uncertainty --json``, and the sample.
 
-    A row a quantity; ``draws.to_pandas()`` has a row a shot.
+    One row per quantity; ``draws.to_pandas()`` has one row per run.
 
-    The spread is that of the inputs. The error of the model itself is not in it and comes on top; ``nominal.expected_error`` names it
-    where it is known.
+    The spread is due to the inputs. It does not include the model error; ``nominal.expected_error`` is an estimate of it where one exists.
 
     Attributes
     ----------
     case, model : str
         Names of the case and the model.
-    samples, shots : int
-        Shots that the statistics rest on, and all that were computed.
+    samples, runs : int
+        Number of samples, and number of all runs.
     inputs : list of Record
-        The uncertain numbers: ``key``, ``unit``, ``distribution``, and ``low``, ``median`` and ``high``, of which 5, 50 and 95 % lie below.
+        Uncertain parameters: ``key``, ``unit``, ``distribution``, and the percentiles 5, 50 and 95 as ``low``, ``median`` and ``high``.
     correlated : bool
-        Whether they depend on each other.
+        Whether they are correlated.
     nominal : Record
-        The shot with every uncertain number at its median: ``outcome``, ``expected_error``, ``warnings``.
+        Run with every parameter at its median: ``outcome``, ``expected_error``, ``warnings``.
     failures : Record
-        ``shots`` without a result, which are left out, and the first few ``reasons``.
+        Number of ``runs`` without a result, which are left out, and the first few ``reasons``.
     perforation : Record or None
         ``probability`` of perforation with ``low`` and ``high``, the ends of its 95 % interval.
     quantities : list of Record
-        What is said of each result: ``statistics`` with ``percentiles``, ``tornado``, and the Sobol' ``indices``.
+        Analysis of each result: ``statistics`` with ``percentiles``, ``tornado``, and the Sobol' ``indices``.
     no_indices : str or None
-        Why there are no Sobol' indices.
+        Reason of missing Sobol' indices.
     bands : list of Record
-        The same statistics at each impact speed ``impact_velocity_m_s`` [m/s] that was asked for.
+        The same statistics at each requested impact velocity ``impact_velocity_m_s`` [m/s].
     warnings : list of str
-        What to know before relying on the numbers.
+        Warnings.
     """
 
     case: str
@@ -65,22 +64,22 @@ class Uncertainty(Result):
     bands: list[Record]
     warnings: list[str]
 
-    _native: _percuss.Answer
+    _native: _percuss.Response
 
     @property
     def draws(self) -> Sample:
-        """The shots of the sample: their inputs in the units of the case, and their results."""
+        """Runs of the sample: inputs in the units of the case, and results."""
         return Sample(self._native)
 
     def quantity(self, name: str | None = None) -> Record:
-        """What is said of a result, by its name such as ``depth_of_penetration_mm``; of the first when not given."""
+        """Returns the analysis of a result by its name, such as ``depth_of_penetration_mm``; of the first when not given."""
         for quantity in self.quantities:
             if name in (None, quantity.quantity):
                 return quantity
-        raise KeyError(f"nothing is said of `{name}`; quantities: {', '.join(q.quantity for q in self.quantities)}")
+        raise KeyError(f"there is no quantity `{name}`; quantities: {', '.join(q.quantity for q in self.quantities)}")
 
     def percentile(self, percent: float, name: str | None = None) -> float:
-        """Value that a part of the shots lies below: 1, 5, 25, 50, 75, 95 or 99 %."""
+        """Returns a percentile: 1, 5, 25, 50, 75, 95 or 99."""
         return study_plots.percentile(self.quantity(name).statistics, percent)
 
 
@@ -93,29 +92,29 @@ class Uncertainty(Result):
         return rows
 
     def plot(self, quantity: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draws how often which value of a quantity came out; of the first when not named."""
+        """Draws the histogram of a quantity; of the first when not named."""
         return study_plots.histogram(self, quantity, ax)
 
     def plot_tornado(self, quantity: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draws a quantity with each parameter at its 5th and 95th percentile and all others at their medians."""
+        """Draws the tornado chart of a quantity: each parameter at its 5th and 95th percentile, all others at their medians."""
         return study_plots.tornado(self, quantity, ax)
 
     def plot_indices(self, quantity: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draws which part of a quantity's variance each parameter causes, alone and with others."""
+        """Draws the first-order and total-effect Sobol' indices of a quantity."""
         return study_plots.indices(self, quantity, ax)
 
     def plot_bands(self, quantity: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draws median and bands of a quantity against impact speed [m/s]; the study needs a ``velocity``."""
+        """Draws median and percentile bands of a quantity versus impact velocity [m/s]; the study needs a ``velocity``."""
         return study_plots.bands(self, quantity, ax)
 
     def plot_perforation(self, ax: Axes | None = None) -> Axes:
-        """Draws the chance of perforation [%] against impact speed [m/s]; the study needs a ``velocity``."""
+        """Draws the probability of perforation [%] versus impact velocity [m/s]; the study needs a ``velocity``."""
         return study_plots.perforation(self, ax)
 
     def _repr_html_(self) -> str:
         rows = [[name, *(shown(row[name]) for row in self._rows())] for name in (self._rows() or [{}])[0] if name != "quantity"]
         if self.perforation is not None:
-            rows.append(["chance of perforation [%]", shown(100 * self.perforation.probability)])
+            rows.append(["probability of perforation [%]", shown(100 * self.perforation.probability)])
         rows += [["warning", warning] for warning in self.warnings]
         return table_html(
             ["", *(quantity.quantity for quantity in self.quantities)], rows, f"{self.case}, model {self.model}, {self.samples} shots"
@@ -147,7 +146,7 @@ def uncertainty(
         Shots that the statistics rest on, a power of two at best; 1024 when not given. The indices of d parameters take
         ``samples * (d + 1)`` more.
     seed : int, optional
-        Decides over everything drawn at random; 0 when not given.
+        Seed of the random numbers; 0 when not given.
     quantity : str or sequence of str, optional
         Results to look at, such as ``peak_force_kn``; the main ones that vary when not given.
     velocity : float, sequence of float or str, optional
@@ -159,7 +158,7 @@ def uncertainty(
     out : path, optional
         Folder for a copy of the case, the numbers and the figures, as ``percuss uncertainty --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
-        As of :func:`percuss.run`.
+        As in :func:`percuss.run`.
 
     Returns
     -------
@@ -183,7 +182,7 @@ def uncertainty(
     >>> len(spread.draws)
     16
     """
-    found = native_answer(
+    found = execute(
         "uncertainty",
         of=case,
         model=model,

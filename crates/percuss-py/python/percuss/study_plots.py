@@ -15,12 +15,12 @@ if TYPE_CHECKING:
     from .record import Record
     from .spread import Uncertainty
 
-#: Most measured values that are named beside a figure.
+#: Largest number of named values in a figure.
 _NAMED = 45
 
 
 def percentile(statistics: Record, percent: float) -> float:
-    """Value that a part of the shots lies below."""
+    """Returns a percentile of statistics."""
     for at in statistics.percentiles:
         if at.percent == percent:
             return float(at.value)
@@ -29,7 +29,7 @@ def percentile(statistics: Record, percent: float) -> float:
 
 
 def short(key: str) -> str:
-    """A key without the middle of it.
+    """Key without its middle parts.
 
     Examples
     --------
@@ -48,16 +48,16 @@ def histogram(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes
     ax.hist(values[~numpy.isnan(values)], bins="auto", color="0.8", edgecolor="white")
     statistics = of.statistics
     marks = [
-        ("5 % below", percentile(statistics, 5), "C0", ":"),
+        ("5th percentile", percentile(statistics, 5), "C0", ":"),
         ("mean", statistics.mean, "C0", "-"),
-        ("95 % below", percentile(statistics, 95), "C0", ":"),
+        ("95th percentile", percentile(statistics, 95), "C0", ":"),
     ]
     if of.nominal is not None:
-        marks.append(("all at median", of.nominal, "C3", "--"))
+        marks.append(("at median inputs", of.nominal, "C3", "--"))
     for name, value, colour, style in marks:
         ax.axvline(value, color=colour, linestyle=style, label=f"{name}: {value:.4g}")
     # Room for the legend above the bars.
-    ax.set(xlabel=words, ylabel="shots", title=f"{found.case}, model {found.model}", ylim=(0, 1.5 * ax.get_ylim()[1]))
+    ax.set(xlabel=words, ylabel="Runs", title=f"{found.case}, model {found.model}", ylim=(0, 1.5 * ax.get_ylim()[1]))
     ax.legend(fontsize="small")
     return ax
 
@@ -71,7 +71,7 @@ def tornado(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
     for end, colour in (("at_low", "C0"), ("at_high", "C1")):
         ends = [middle if bar[end] is None else bar[end] for bar in of.tornado]
         part = "5th" if end == "at_low" else "95th"
-        ax.barh(names, [value - middle for value in ends], left=middle, color=colour, label=f"at its {part} percentile")
+        ax.barh(names, [value - middle for value in ends], left=middle, color=colour, label=f"parameter at its {part} percentile")
     ax.axvline(middle, color="k", linewidth=1)
     # The longest bar at the top, room for the legend below.
     ax.set(xlabel=words, title=found.case, ylim=(len(names) + 0.3, -0.6))
@@ -90,11 +90,11 @@ def indices(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
         values = [estimate.value for estimate in estimates]
         beyond = [[e.value - e.low for e in estimates], [e.high - e.value for e in estimates]]
         places = [place + lane for place in range(len(rows))]
-        words = "alone (first order)" if name == "first_order" else "with others as well (total)"
+        words = "first-order index" if name == "first_order" else "total-effect index"
         ax.barh(places, values, height=0.38, xerr=beyond, label=words, error_kw={"linewidth": 1})
     ax.set_yticks(range(len(rows)), [short(row.key) for row in rows])
     words = label(of.quantity)
-    ax.set(xlabel=f"part of the variance of {words}", title=found.case)
+    ax.set(xlabel="Fraction of variance", title=f"{found.case}: {words}")
     ax.legend()
     return ax
 
@@ -109,10 +109,10 @@ def bands(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
     ax = new_axes(ax)
     speed = [speed for speed, _ in given]
     line = {percent: [percentile(s, percent) for _, s in given] for percent in (5, 25, 50, 75, 95)}
-    ax.fill_between(speed, line[5], line[95], color="C0", alpha=0.2, linewidth=0, label="90 % of the shots")
-    ax.fill_between(speed, line[25], line[75], color="C0", alpha=0.35, linewidth=0, label="50 %")
+    ax.fill_between(speed, line[5], line[95], color="C0", alpha=0.2, linewidth=0, label="5th-95th percentile")
+    ax.fill_between(speed, line[25], line[75], color="C0", alpha=0.35, linewidth=0, label="25th-75th percentile")
     ax.plot(speed, line[50], color="C0", label="median")
-    ax.set(xlabel="impact velocity [m/s]", ylabel=words, title=found.case)
+    ax.set(xlabel="Impact velocity (m/s)", ylabel=words, title=found.case)
     ax.legend()
     return ax
 
@@ -120,13 +120,13 @@ def bands(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
 def perforation(found: Uncertainty, ax: Axes | None) -> Axes:
     decided = [(band.impact_velocity_m_s, band.perforation) for band in found.bands if band.perforation is not None]
     if not decided:
-        raise ValueError("the study has no chances over speed: give it a `velocity`")
+        raise ValueError("the study has no probabilities versus velocity: give it a `velocity`")
     ax = new_axes(ax)
     speed = [speed for speed, _ in decided]
     low, high = [100 * p.low for _, p in decided], [100 * p.high for _, p in decided]
-    ax.fill_between(speed, low, high, alpha=0.25, linewidth=0, label="95 % interval of the number of shots")
+    ax.fill_between(speed, low, high, alpha=0.25, linewidth=0, label="95 % interval of the finite sample")
     ax.plot(speed, [100 * p.probability for _, p in decided], label=f"model {found.model}")
-    ax.set(xlabel="impact velocity [m/s]", ylabel="chance of perforation [%]", title=found.case)
+    ax.set(xlabel="Impact velocity (m/s)", ylabel="Probability of perforation (%)", title=found.case)
     ax.legend()
     return ax
 
@@ -136,11 +136,11 @@ def predictions(found: Calibration, ax: Axes | None) -> Axes:
     given = [p for p in found.predictions if p.best is not None]
 
     def error(prediction: Record, value: float) -> float:
-        # A speed behind the target may be 0: what it is off is a part of the impact speed.
+        # A residual velocity may be 0: its error is relative to the impact velocity.
         scale = prediction.impact_velocity_m_s if prediction.unit == "m/s" else prediction.measured
         return float(100 * (value - prediction.measured) / scale)
 
-    for held_out, colour, words in ((False, "C0", "fitted to"), (True, "C1", "held out")):
+    for held_out, colour, words in ((False, "C0", "fitted"), (True, "C1", "held out")):
         rows = [(place, p) for place, p in enumerate(given) if p.held_out is held_out]
         if not rows:
             continue
@@ -151,17 +151,17 @@ def predictions(found: Calibration, ax: Axes | None) -> Axes:
         before = [(place, error(p, p.before)) for place, p in rows if p.before is not None]
         if before:
             ax.plot([e for _, e in before], [place for place, _ in before], "o", color="0.6", mfc="none", ms=4)
-        ax.plot([error(p, p.best) for _, p in rows], places, "o", color=colour, ms=4, label=f"{words}: best values")
-    ax.plot([], [], "o", color="0.6", mfc="none", ms=4, label="before")
+        ax.plot([error(p, p.best) for _, p in rows], places, "o", color=colour, ms=4, label=f"{words}: best fit")
+    ax.plot([], [], "o", color="0.6", mfc="none", ms=4, label="before calibration")
     if any(p.predictive_band is not None for p in given):
-        ax.plot([], [], color="0.7", linewidth=5, label="95 % of measured values")
+        ax.plot([], [], color="0.7", linewidth=5, label="95 % predictive interval")
     ax.axvline(0, color="k", linewidth=1)
     if len(given) <= _NAMED:
         ax.set_yticks(range(len(given)), [p.id for p in given], fontsize="small")
     else:
         ax.set_yticks([])
     # From the top, with room for the legend below.
-    ax.set(xlabel="model − measured [%]", title=f"model {found.model}", ylim=(1.2 * len(given), -0.6))
+    ax.set(xlabel="Predicted / measured − 1 (%)", title=f"model {found.model}", ylim=(1.2 * len(given), -0.6))
     ax.legend(fontsize="small", loc="lower right", ncols=2)
     return ax
 
@@ -169,10 +169,10 @@ def predictions(found: Calibration, ax: Axes | None) -> Axes:
 def _axis(found: Calibration, name: str | None) -> tuple[str, str, float]:
     """Column of the sample, words for an axis, and the best value."""
     if name == "scatter":
-        return "scatter", "relative scatter", float(found.scatter.best)
+        return "scatter", "Relative scatter", float(found.scatter.best)
     parameter = found.parameter(name)
     words = parameter.key.rsplit(".", 1)[-1].replace("_", " ")
-    return parameter.key, f"{words} [{parameter.unit}]" if parameter.unit else words, float(parameter.best)
+    return parameter.key, f"{words} ({parameter.unit})" if parameter.unit else words, float(parameter.best)
 
 
 def posterior(found: Calibration, name: str | None, ax: Axes | None) -> Axes:
@@ -184,10 +184,10 @@ def posterior(found: Calibration, name: str | None, ax: Axes | None) -> Axes:
         shown = ax.get_xlim()
         low, _, high = found.parameter(key).prior
         ax.axvspan(low, high, color="C2", alpha=0.12, zorder=0, label=f"prior, 95 %: {low:.4g} to {high:.4g}")
-        # A prior that is much wider would leave the posterior a line.
+        # A much wider prior does not widen the axis.
         ax.set_xlim(shown)
     ax.axvline(best, color="C0", label=f"best: {best:.4g}")
-    ax.set(xlabel=words, ylabel="density", title=f"model {found.model}")
+    ax.set(xlabel=words, ylabel="Probability density", title=f"model {found.model}")
     ax.legend()
     return ax
 

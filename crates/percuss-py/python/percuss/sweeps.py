@@ -1,4 +1,4 @@
-"""Sweeps: a case many times with some of its numbers varied, here or on a cluster."""
+"""Sweeps of a case, on this machine or on a cluster."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 from . import _percuss, cluster, plots
-from .ask import Path, answer, native_answer, several
+from .command_line import Path, answer, execute, several
 from .case import Case
 from .errors import UsageError
 from .progress import Progress, watching
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class SweepResult:
-    """The folder of a sweep: a row a shot, in Parquet files. It stands for its path wherever one is due."""
+    """Folder of a sweep: one row per run, in Parquet files. It can be used as a path."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = FilePath(folder)
@@ -32,34 +32,34 @@ class SweepResult:
 
     @property
     def status(self) -> Record:
-        """How far the folder has come, as ``percuss sweep status`` says it: ``shots_done``, ``blocks_done``, ``blocks_damaged``, ``running`` and the ``manifest``."""
+        """Progress of the folder, as printed by ``percuss sweep status``: ``shots_done``, ``blocks_done``, ``blocks_damaged``, ``running`` and the ``manifest``."""
         return Record(answer("sweep status", self.folder))
 
     @property
     def manifest(self) -> Record:
-        """What the folder holds the results of."""
+        """Manifest of the sweep."""
         manifest: Record = self.status.manifest
         return manifest
 
     @property
     def complete(self) -> bool:
-        """Whether all shots are there."""
+        """Whether all runs are complete."""
         status = self.status
         return bool(status.shots_done == status.manifest.shots)
 
     def files(self) -> list[FilePath]:
-        """The files of the blocks that are there, in the order of the shots."""
+        """Files of the computed blocks, in the order of the runs."""
         return [self.folder / f"block-{block:06}.parquet" for block in self.status.blocks_done]
 
     def to_arrow(self) -> pyarrow.Table:
-        """All rows that are there as a table of Arrow, in the order of the shots."""
+        """All computed rows as a table of Arrow, in the order of the runs."""
         import pyarrow
         import pyarrow.parquet
 
         return pyarrow.concat_tables(pyarrow.parquet.read_table(file) for file in self.files())
 
     def to_pandas(self) -> pandas.DataFrame:
-        """All rows that are there as a table of pandas, in the order of the shots."""
+        """All computed rows as a table of pandas, in the order of the runs."""
         rows: pandas.DataFrame = self.to_arrow().to_pandas()
         return rows
 
@@ -68,7 +68,7 @@ class SweepResult:
         return merge(self, out)
 
     def plot(self, x: str, y: str, colour: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draws a column against another one, a dot a shot, coloured by a third; :func:`percuss.plot` chooses what suits the sweep."""
+        """Draws a column versus another one, one dot per shot, coloured by a third; :func:`percuss.plot` chooses what suits the sweep."""
         return plots.sweep(self, x, y, colour, ax)
 
     def __repr__(self) -> str:
@@ -118,7 +118,7 @@ def sweep(
     client : distributed.Client, optional
         A Dask cluster to compute on.
     progress : callable or bool, optional
-        As of :func:`percuss.run`.
+        As in :func:`percuss.run`.
 
     Returns
     -------
@@ -230,7 +230,7 @@ def plot(
     UsageError
         When the folders hold no rows, or what is asked for does not fit the sweep.
     """
-    return Drawing(native_answer("sweep plot", *several(folders), out=out, quantity=quantity, style=style, x=x, y=y))
+    return Drawing(execute("sweep plot", *several(folders), out=out, quantity=quantity, style=style, x=x, y=y))
 
 
 def _written(sweep: Mapping[str, Any], out: FilePath) -> FilePath:

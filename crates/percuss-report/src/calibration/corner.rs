@@ -1,11 +1,11 @@
-//! The posterior seen along each parameter and along each pair of them.
+//! Corner plot of the posterior: each parameter and each pair of parameters.
 //!
 //! The plotting library's histograms over two axes leave seams between their cells.
 
 use percuss::{calibrate::Sample, statistics::sorted};
 
 use super::{
-    Column,
+    ParameterColumn,
     panel::{HEADS, Panel},
 };
 use crate::{Figure, drawing::Drawing, palette};
@@ -17,16 +17,16 @@ const LEFT: f64 = 92.0;
 const ABOVE: f64 = 66.0;
 const BELOW: f64 = 56.0;
 const RIGHT: f64 = 24.0;
-/// Narrowest figure: titles have to fit [px].
+/// Smallest width, for the title [px].
 const NARROWEST: f64 = 520.0;
 /// Intervals of a histogram, and of either axis of a map.
 const BARS: usize = 40;
 const CELLS: usize = 34;
-/// Part of the sample that is shown: the rest would leave the middle small.
+/// Shown fraction of the sample.
 const SHOWN: f64 = 0.998;
 
 /// Draws histograms of the parameters and maps of pairs of them, as `corner`.
-pub(super) fn figure(sample: &Sample, columns: &[Column]) -> Figure {
+pub(super) fn figure(sample: &Sample, columns: &[ParameterColumn]) -> Figure {
     let count = columns.len() as f64;
     let side = count * PANEL + (count - 1.0) * GAP;
     let width = (LEFT + side + RIGHT).max(NARROWEST);
@@ -61,7 +61,7 @@ pub(super) fn figure(sample: &Sample, columns: &[Column]) -> Figure {
             panel.frame(&mut drawing, x_label, y_label);
         }
     }
-    let caption = format!("{} states; blue: the best values", values[0].len());
+    let caption = format!("{} samples; blue: best fit", values[0].len());
     drawing.finish("corner", ("Posterior of the parameters", &caption), HEADS)
 }
 

@@ -8,18 +8,18 @@ mod trace;
 
 use percuss::calibrate::{Calibration, ParameterRecord};
 
-use crate::{Chart, Figure};
+use crate::{Chart, Figure, names};
 
 pub use files::{tables, write};
 
-/// The figures of a calibration: measured values and predictions; of a sample its traces and its projections on pairs as well.
+/// Figures of a calibration: measured values and predictions, and traces and projections of the sample.
 pub fn figures(calibration: &Calibration) -> Vec<Figure> {
     let mut figures = vec![predictive::chart(calibration).draw()];
     figures.extend(sample_figures(calibration));
     figures
 }
 
-/// The chart among them: measured values and predictions.
+/// Chart of measured values and predictions.
 pub fn chart(calibration: &Calibration) -> Chart {
     predictive::chart(calibration).into()
 }
@@ -36,11 +36,11 @@ pub fn sample_figures(calibration: &Calibration) -> Vec<Figure> {
     ]
 }
 
-/// A parameter of the sample, or the scatter.
-struct Column {
-    /// Its place in a state.
+/// Parameter of the sample, or the scatter.
+struct ParameterColumn {
+    /// Index in a state.
     index: usize,
-    /// Name without the tables that it stands in, with its unit.
+    /// Name with unit.
     label: String,
     /// The best value.
     best: f64,
@@ -48,7 +48,7 @@ struct Column {
     logarithm: bool,
 }
 
-impl Column {
+impl ParameterColumn {
     fn value(&self, stored: f64) -> f64 {
         match self.logarithm {
             true => 100.0 * stored.exp(),
@@ -57,12 +57,12 @@ impl Column {
     }
 }
 
-fn columns(calibration: &Calibration) -> Vec<Column> {
+fn columns(calibration: &Calibration) -> Vec<ParameterColumn> {
     let parameters = &calibration.parameters;
-    let mut columns: Vec<Column> = parameters
+    let mut columns: Vec<ParameterColumn> = parameters
         .iter()
         .enumerate()
-        .map(|(index, parameter)| Column {
+        .map(|(index, parameter)| ParameterColumn {
             index,
             label: label(parameter),
             best: parameter.best,
@@ -70,9 +70,9 @@ fn columns(calibration: &Calibration) -> Vec<Column> {
         })
         .collect();
     if calibration.scatter.estimated {
-        columns.push(Column {
+        columns.push(ParameterColumn {
             index: parameters.len(),
-            label: "scatter [%]".to_owned(),
+            label: "Scatter (%)".to_owned(),
             best: 100.0 * calibration.scatter.best,
             logarithm: true,
         });
@@ -81,10 +81,8 @@ fn columns(calibration: &Calibration) -> Vec<Column> {
 }
 
 fn label(parameter: &ParameterRecord) -> String {
-    let name = parameter.key.rsplit('.').next().unwrap_or(&parameter.key);
-    let name = name.replace('_', " ");
-    match parameter.unit.as_str() {
-        "" => name,
-        unit => format!("{name} [{unit}]"),
-    }
+    let name = names::parameter(&parameter.key);
+    // The material is the same in all panels, and its id makes the label too long.
+    let name = name.split(", ").next().unwrap_or(&name);
+    names::with_unit(name, &parameter.unit)
 }

@@ -1,4 +1,4 @@
-//! Small charts that share a figure.
+//! Panels of a figure.
 
 use kuva::render::render_utils::generate_ticks;
 

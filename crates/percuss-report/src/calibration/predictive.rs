@@ -1,4 +1,4 @@
-//! Measured values against what the calibrated model says of them.
+//! Errors of the calibrated model on the measured values.
 
 use percuss::{
     calibrate::{Calibration, Prediction},
@@ -7,21 +7,21 @@ use percuss::{
 
 use crate::{Axis, LineChart, Mark, Series, Style, palette};
 
-/// The relative errors over the impact speed with their 95 % predictive bands, as `predictive`.
+/// Relative errors versus impact velocity with 95 % predictive intervals, as `predictive`.
 pub(super) fn chart(calibration: &Calibration) -> LineChart {
     let mut chart = LineChart::new(
         "predictive",
         format!(
-            "Model {} after calibration, less what was measured",
+            "Relative error of model {} after calibration",
             calibration.model
         ),
-        Axis::new("impact speed [m/s]"),
-        Axis::new("error [% of the measured value]"),
+        Axis::new("Impact velocity (m/s)"),
+        Axis::new("Predicted / measured - 1 (%)"),
     )
     .caption(caption(calibration))
     .mark(Mark::horizontal("", 0.0));
     for (name, held_out, color) in [
-        ("fitted to", false, palette::SERIES[0]),
+        ("fitted", false, palette::SERIES[0]),
         ("held out", true, palette::SERIES[1]),
     ] {
         let of_kind = || {
@@ -47,7 +47,7 @@ pub(super) fn chart(calibration: &Calibration) -> LineChart {
         let error = p.before? - p.measured;
         Some((p.impact_velocity_m_s, percent(p, error)))
     });
-    let before = Series::new("before the fit", before);
+    let before = Series::new("before calibration", before);
     chart.series(before.style(Style::Cloud).color("#9a9a9a"))
 }
 
@@ -63,7 +63,7 @@ fn percent(prediction: &Prediction, difference: f64) -> f64 {
 fn caption(calibration: &Calibration) -> String {
     let of = |quality: &percuss::calibrate::Quality| {
         let inside = quality.inside.map_or_else(String::new, |inside| {
-            format!(", {inside} of them within their bars")
+            format!(", {inside} within their intervals")
         });
         format!(
             "RMS error {:.1} % over {} values{inside}",
@@ -72,7 +72,7 @@ fn caption(calibration: &Calibration) -> String {
         )
     };
     let bars = match calibration.sample {
-        Some(_) => "; bars: where 95 % of measured values are expected",
+        Some(_) => "; error bars: 95 % predictive interval",
         None => "",
     };
     let held_out = calibration
@@ -81,5 +81,5 @@ fn caption(calibration: &Calibration) -> String {
         .map_or_else(String::new, |quality| {
             format!("; held out: {}", of(quality))
         });
-    format!("fitted to: {}{held_out}{bars}", of(&calibration.training))
+    format!("fitted: {}{held_out}{bars}", of(&calibration.training))
 }

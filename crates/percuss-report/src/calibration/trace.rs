@@ -1,9 +1,9 @@
-//! Traces: how the ensembles moved through each parameter.
+//! Traces of the walkers.
 
 use percuss::calibrate::Sample;
 
 use super::{
-    Column,
+    ParameterColumn,
     panel::{HEADS, Panel},
 };
 use crate::{Figure, drawing::Drawing, frame::WIDTH, palette};
@@ -19,7 +19,7 @@ const BURN_IN: &str = "#ececec";
 const POINTS: usize = 800;
 
 /// Draws the first walker of each ensemble over the steps, as `trace`.
-pub(super) fn figure(sample: &Sample, columns: &[Column]) -> Figure {
+pub(super) fn figure(sample: &Sample, columns: &[ParameterColumn]) -> Figure {
     let count = columns.len() as f64;
     let height = ABOVE + count * PANEL + (count - 1.0) * GAP + BELOW;
     let mut drawing = Drawing::new(WIDTH, height);
@@ -30,7 +30,7 @@ pub(super) fn figure(sample: &Sample, columns: &[Column]) -> Figure {
             .map(|ensemble| sample.steps(ensemble, column.index))
             .collect();
         let every = (steps / POINTS).max(1);
-        // What is drawn decides on the range: a walker that strayed in the burn-in would flatten the rest.
+        // The burn-in does not widen the range.
         let shown = series
             .iter()
             .flatten()
@@ -65,7 +65,7 @@ pub(super) fn figure(sample: &Sample, columns: &[Column]) -> Figure {
         panel.frame(&mut drawing, last.then_some("step"), Some(&column.label));
     }
     let caption = format!(
-        "one of {} walkers of each of {} ensembles; the grey steps are not kept",
+        "one of {} walkers per ensemble, {} ensembles; grey: burn-in",
         sampling.walkers, sampling.ensembles
     );
     drawing.finish("trace", ("Traces of the sample", &caption), HEADS)

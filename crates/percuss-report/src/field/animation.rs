@@ -1,4 +1,4 @@
-//! Pictures one after another as a GIF.
+//! Animation of pictures as a GIF.
 
 use std::{borrow::Cow, collections::HashMap};
 

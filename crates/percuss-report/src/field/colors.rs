@@ -1,4 +1,4 @@
-//! From values to colours.
+//! Colours of field values.
 
 use super::{FieldQuantity, raster::Paint};
 use crate::palette;

@@ -1,4 +1,4 @@
-//! One body of a picture on a grid of nodes that is coarser than the pixels: where it is, and the values in it.
+//! Body of a picture on a grid of nodes coarser than the pixels.
 
 /// Nodes along the size of a particle.
 const NODES: f32 = 2.0;

@@ -123,8 +123,8 @@ fn draw(title: &str, caption: &str, colors: Colors, view: View, height: f64) -> 
     let mut head = Head::new("field", title);
     head.caption = caption.to_owned();
     let axes = [
-        &Axis::new("distance from the axis [mm]").range(x.0, x.1),
-        &Axis::new("depth [mm]").range(y.0, y.1).downward(),
+        &Axis::new("Distance from the axis (mm)").range(x.0, x.1),
+        &Axis::new("Depth (mm)").range(y.0, y.1).downward(),
     ];
     let frame = Frame {
         height,

@@ -1,4 +1,4 @@
-//! What the pictures of a field can show.
+//! Field quantities of pictures.
 
 /// A field over the material points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -21,7 +21,7 @@ pub enum FieldQuantity {
 }
 
 impl FieldQuantity {
-    /// All of them.
+    /// All quantities.
     pub const ALL: [Self; 7] = [
         Self::PlasticStrain,
         Self::Temperature,
@@ -52,16 +52,16 @@ impl FieldQuantity {
             .find(|quantity| quantity.name() == name)
     }
 
-    /// Its name in words, and its unit in square brackets.
+    /// Name with the unit in parentheses.
     pub(crate) fn label(self) -> &'static str {
         match self {
-            Self::PlasticStrain => "equivalent plastic strain",
-            Self::Temperature => "temperature [K]",
-            Self::VonMisesStress => "von Mises stress [MPa]",
-            Self::Pressure => "pressure [MPa]",
-            Self::Speed => "speed [m/s]",
-            Self::Density => "density [kg/m³]",
-            Self::Damage => "damage",
+            Self::PlasticStrain => "Equivalent plastic strain",
+            Self::Temperature => "Temperature (K)",
+            Self::VonMisesStress => "Von Mises stress (MPa)",
+            Self::Pressure => "Pressure (MPa)",
+            Self::Speed => "Speed (m/s)",
+            Self::Density => "Density (kg/m³)",
+            Self::Damage => "Damage",
         }
     }
 

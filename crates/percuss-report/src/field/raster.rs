@@ -1,4 +1,4 @@
-//! Material points as a picture of the bodies that they make up.
+//! Pictures of bodies from material points.
 
 use super::{layer::Layer, vtp::Points};
 

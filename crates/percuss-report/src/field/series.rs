@@ -1,4 +1,4 @@
-//! A series of fields on disk: one file a frame and the collection that ParaView opens, at any time of a run.
+//! A series of fields on disk: one file per frame, and the collection that ParaView opens, at any time of a run.
 
 use std::{
     fmt::Write,

@@ -47,7 +47,7 @@ pub enum Block<'a> {
     Text(String),
     /// A list.
     List(Vec<String>),
-    /// Addresses and what is said of them.
+    /// Links with their texts.
     Links(Vec<(String, String)>),
     /// A table.
     Table(Table),

@@ -1,4 +1,4 @@
-//! The columns of a sweep: inputs, outcome, every scalar result, warnings and errors.
+//! Columns of a sweep: inputs, outcome, scalar results, warnings and errors.
 
 use percuss::{
     model_error::ModelErrorEstimate,

@@ -1,4 +1,4 @@
-//! Computing what a folder lacks.
+//! Folder of a sweep: its state, and the computation of missing blocks.
 
 use std::{
     fs::{self, File, TryLockError},
@@ -13,10 +13,9 @@ use percuss::sweep::{Kernel, Sweep, SweepRow};
 use rayon::prelude::*;
 
 use super::{
-    block_file,
+    block_file, checksum,
     columns::columns,
     manifest::{self, Manifest},
-    seal,
 };
 use crate::{ReportError, column, replace_file::replace_file_durably};
 
@@ -34,18 +33,18 @@ pub struct SweepFolder {
 /// How far a folder has come.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Status {
-    /// What it holds the results of.
+    /// Manifest of the sweep.
     pub manifest: Manifest,
-    /// Blocks that are there.
+    /// Completed blocks.
     pub done: Vec<u64>,
-    /// Blocks whose file is damaged; they are computed anew.
+    /// Blocks whose file is damaged; they are computed again.
     pub damaged: Vec<u64>,
     /// Whether a process is computing it.
     pub running: bool,
 }
 
 impl Status {
-    /// Shots that are there.
+    /// Completed runs.
     pub fn shots_done(&self) -> u64 {
         self.done
             .iter()
@@ -217,9 +216,9 @@ impl Block {
             return Ok(None);
         };
         let name = block_file(block);
-        let notes = seal::notes(&Manifest::new(sweep), block);
+        let notes = checksum::notes(&Manifest::new(sweep), block);
         let mut content = column::parquet_with(&name, &columns(sweep), &rows, &notes)?;
-        seal::close(&mut content);
+        checksum::close(&mut content);
         Ok(Some(Self { content, rows }))
     }
 }
@@ -275,7 +274,7 @@ pub(super) fn state(folder: &Path, manifest: &Manifest, block: u64) -> State {
 }
 
 fn state_of(content: Bytes, manifest: &Manifest, block: u64) -> State {
-    if !seal::is_whole(&content) {
+    if !checksum::is_whole(&content) {
         return State::Damaged;
     }
     let Ok(reader) = SerializedFileReader::new(content) else {
@@ -285,8 +284,9 @@ fn state_of(content: Bytes, manifest: &Manifest, block: u64) -> State {
     let fields = metadata.schema_descr().columns();
     let names = fields.iter().map(|field| field.name());
     let notes = metadata.key_value_metadata();
-    let name = notes.and_then(|notes| notes.iter().find(|note| note.key == seal::BLOCK));
-    let of_block = name.is_some_and(|name| name.value == Some(seal::block_name(manifest, block)));
+    let name = notes.and_then(|notes| notes.iter().find(|note| note.key == checksum::BLOCK));
+    let of_block =
+        name.is_some_and(|name| name.value == Some(checksum::block_name(manifest, block)));
     let whole = of_block
         && metadata.num_rows() as u64 == manifest.shots_in(block)
         && reader.num_row_groups() == 1

@@ -1,4 +1,4 @@
-//! What a folder holds the results of.
+//! Manifest of a folder: identity of its sweep.
 
 use std::{fs, path::Path};
 
@@ -11,32 +11,32 @@ use crate::ReportError;
 /// Name of the file.
 pub(super) const NAME: &str = "manifest.json";
 
-/// What a folder holds the results of: two folders of the same manifest hold the same rows.
+/// Identity of a sweep: two folders with the same manifest have the same rows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// Version of this layout.
     pub format: u32,
     /// Version of the program that computes it.
     pub percuss_version: String,
-    /// One line that says what the sweep is.
+    /// Title of the sweep.
     pub title: String,
     /// Name of the case that is varied.
     pub case: String,
     /// Name of the model.
     pub model: String,
-    /// How the shots are chosen.
+    /// Design of experiments.
     pub design: String,
-    /// What decides over everything drawn at random.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// Number of shots.
+    /// Number of runs.
     pub shots: u64,
-    /// Shots in a block; the last may have fewer.
+    /// Runs per block; the last block may have fewer.
     pub block_size: u64,
     /// Hash of the sweep file without its comments (FNV-1a, 128 bits).
     pub sweep_hash: String,
     /// Hash of the base case and its material files without their comments.
     pub case_hash: String,
-    /// What is varied, in the order of the sweep file.
+    /// Varied parameters, in the order of the sweep file.
     pub parameters: Vec<Varied>,
     /// The columns of every file.
     pub columns: Vec<ColumnName>,

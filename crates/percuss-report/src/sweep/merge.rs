@@ -1,4 +1,4 @@
-//! One file of all rows.
+//! Merge of all rows into one file.
 
 use std::{
     fs::File,

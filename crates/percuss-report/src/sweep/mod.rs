@@ -1,8 +1,9 @@
-//! The folder of a sweep: `manifest.json`, which says what is computed, and one Parquet file a block of shots.
+//! Folder of a sweep: `manifest.json`, and one Parquet file per block of runs.
 //!
 //! A block's file is complete or absent, and the same whoever writes it: a sweep that was ended, in whatever way, goes on with
 //! the blocks that are missing.
 
+mod checksum;
 mod columns;
 mod folder;
 mod manifest;
@@ -10,7 +11,6 @@ mod merge;
 mod parts;
 mod plot;
 mod rows;
-mod seal;
 mod table;
 
 pub use folder::{Block, Status, SweepFolder, status};

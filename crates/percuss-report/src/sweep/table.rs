@@ -1,4 +1,4 @@
-//! The rows of a sweep as one table.
+//! Rows of a sweep as one table.
 
 use percuss::sweep::{Sweep, SweepRow};
 

@@ -1,4 +1,4 @@
-//! Figures over a range of impact speeds.
+//! Figures versus impact velocity.
 
 use percuss::{
     Scenario,
@@ -7,9 +7,14 @@ use percuss::{
 };
 
 use super::stem;
-use crate::{Axis, LineChart, Mark, Series, Style, caption::caption, palette};
+use crate::{
+    Axis, LineChart, Mark, Series, Style,
+    caption::caption,
+    names::{capitalized, with_unit},
+    palette,
+};
 
-/// Percentiles against speed, with what was measured.
+/// Percentiles versus impact velocity, with measured values.
 pub(super) fn bands(
     scenario: &Scenario,
     found: &Uncertainty,
@@ -39,16 +44,20 @@ pub(super) fn bands(
     let color = palette::SERIES[0];
     let mut chart = LineChart::new(
         format!("bands-{}", stem(what.name)),
-        format!("Spread of the {} over speed: {}", what.label, found.case),
-        Axis::new("impact speed [m/s]"),
-        Axis::new(format!("{} [{}]", what.label, what.unit.symbol)),
+        format!(
+            "{} versus impact velocity: {}",
+            capitalized(what.label),
+            found.case
+        ),
+        Axis::new("Impact velocity (m/s)"),
+        Axis::new(with_unit(what.label, what.unit.symbol)),
     )
     .caption(format!(
-        "{}; bands hold 50 % and 90 % of the shots, the speed itself is exact",
+        "{}; bands: 25th-75th and 5th-95th percentile; the velocity itself is exact",
         caption(scenario, None)
     ))
     .series(
-        Series::new("median (25 to 75 % darker)", percentile(50.0))
+        Series::new("median (25th-75th percentile darker)", percentile(50.0))
             .color(color)
             .band(between(5.0, 95.0)),
     )
@@ -58,7 +67,7 @@ pub(super) fn bands(
             .band(between(25.0, 75.0)),
     )
     .series(
-        Series::new("5 and 95 %", percentile(5.0))
+        Series::new("5th and 95th percentile", percentile(5.0))
             .color(color)
             .width(0.8)
             .style(Style::Dashed),
@@ -103,7 +112,7 @@ fn of_name(quantity: BandQuantity) -> &'static str {
     }
 }
 
-/// Chance of perforation against speed; `None` where no shot perforates, or nothing decides.
+/// Probability of perforation versus impact velocity; `None` where no run perforates.
 pub(super) fn perforation(scenario: &Scenario, found: &Uncertainty) -> Option<LineChart> {
     let decided: Vec<_> = found
         .bands
@@ -117,12 +126,12 @@ pub(super) fn perforation(scenario: &Scenario, found: &Uncertainty) -> Option<Li
     let band = decided.iter().map(|(_, p)| (100.0 * p.low, 100.0 * p.high));
     let mut chart = LineChart::new(
         "perforation",
-        format!("Chance of perforation: {}", found.case),
-        Axis::new("impact speed [m/s]"),
-        Axis::new("chance of perforation [%]").range(-4.0, 104.0),
+        format!("Probability of perforation: {}", found.case),
+        Axis::new("Impact velocity (m/s)"),
+        Axis::new("Probability of perforation (%)").range(-4.0, 104.0),
     )
     .caption(format!(
-        "{}; band: 95 % interval, for the number of shots is finite",
+        "{}; band: 95 % interval due to the finite number of runs",
         caption(scenario, None)
     ))
     .series(Series::new(format!("model {}", found.model), curve).band(band));

@@ -1,4 +1,4 @@
-//! Figures of the spread of a quantity and of what causes it.
+//! Figures of the distribution and the sensitivity of a quantity.
 
 use percuss::{
     Scenario,
@@ -7,11 +7,14 @@ use percuss::{
 };
 
 use super::stem;
-use crate::{Axis, Bar, BarRows, Histogram, Mark, caption::caption, palette};
+use crate::{
+    Axis, Bar, BarRows, Histogram, Mark, caption::caption, names,
+    names::with_unit as label_with_unit, palette,
+};
 
 fn axis(quantity: &QuantityResult) -> Axis {
     let what = quantity.what();
-    Axis::new(format!("{} [{}]", what.label, what.unit.symbol))
+    Axis::new(label_with_unit(what.label, what.unit.symbol))
 }
 
 fn title(start: &str, quantity: &QuantityResult, found: &Uncertainty) -> String {
@@ -24,7 +27,7 @@ fn with_unit(value: f64, unit: &str) -> String {
         .to_owned()
 }
 
-/// How often which value came out, with mean, percentiles and the nominal shot.
+/// Histogram with mean, percentiles and the result at median inputs.
 pub(super) fn histogram(
     scenario: &Scenario,
     found: &Uncertainty,
@@ -39,7 +42,7 @@ pub(super) fn histogram(
             value,
         )
     };
-    let title = title("Spread of the", quantity, found);
+    let title = title("Distribution of the", quantity, found);
     let mut chart = Histogram::new(
         format!("histogram-{}", stem(quantity.quantity)),
         title,
@@ -47,22 +50,22 @@ pub(super) fn histogram(
         values,
     )
     .caption(format!(
-        "{}; {} shots, model {}, standard deviation {}",
+        "{}; {} runs, model {}, standard deviation {}",
         caption(scenario, None),
         statistics.runs,
         found.model,
         with_unit(statistics.standard_deviation, what.unit.symbol)
     ))
-    .mark(named("5 % below", statistics.percentile(5.0).value))
+    .mark(named("5th percentile", statistics.percentile(5.0).value))
     .mark(named("mean", statistics.mean))
-    .mark(named("95 % below", statistics.percentile(95.0).value));
+    .mark(named("95th percentile", statistics.percentile(95.0).value));
     if let Some(nominal) = quantity.nominal {
-        chart = chart.mark(named("all at median", nominal));
+        chart = chart.mark(named("at median inputs", nominal));
     }
     chart
 }
 
-/// What each parameter does alone, from low to high.
+/// Tornado chart: effect of each parameter from its 5th to its 95th percentile.
 pub(super) fn tornado(
     scenario: &Scenario,
     found: &Uncertainty,
@@ -75,17 +78,17 @@ pub(super) fn tornado(
     let name = format!("tornado-{}", stem(quantity.quantity));
     let mut chart = BarRows::new(
         name,
-        title("What moves the", quantity, found),
+        title("Tornado chart of the", quantity, found),
         axis(quantity),
         1,
     )
     .caption(format!(
-        "{}; each parameter at its 5th and 95th percentile, all others at their medians",
+        "{}; one parameter at a time, all others at their medians",
         caption(scenario, None)
     ))
-    .color("at its 5th percentile", low_color)
-    .color("at its 95th percentile", high_color)
-    .mark(Mark::vertical("all at their medians", nominal));
+    .color("at 5th percentile", low_color)
+    .color("at 95th percentile", high_color)
+    .mark(Mark::vertical("at median inputs", nominal));
     for TornadoBar {
         key,
         at_low,
@@ -108,7 +111,7 @@ pub(super) fn tornado(
             bar(*at_low, input.low, low_color),
             bar(*at_high, input.high, high_color),
         ];
-        chart = chart.row(found.label(key), bars.into_iter().flatten());
+        chart = chart.row(names::parameter(key), bars.into_iter().flatten());
     }
     chart
 }
@@ -122,15 +125,15 @@ pub(super) fn indices(
     let indices = quantity.indices.as_ref()?;
     let [first_color, total_color] = [palette::SERIES[2], palette::SERIES[4]];
     let name = format!("indices-{}", stem(quantity.quantity));
-    let x = Axis::new("part of the variance");
+    let x = Axis::new("Fraction of variance");
     let mut chart = BarRows::new(name, title("Sobol' indices of the", quantity, found), x, 2)
         .caption(format!(
-            "{}; {} rows of points, with 95 % intervals",
+            "{}; {} sample rows, 95 % intervals",
             caption(scenario, None),
             indices.rows
         ))
-        .color("alone (first order)", first_color)
-        .color("with others as well (total)", total_color)
+        .color("first-order index", first_color)
+        .color("total-effect index", total_color)
         .mark(Mark::vertical("", 0.0));
     let mut sorted: Vec<_> = indices.parameters.iter().collect();
     sorted.sort_by(|a, b| b.total.value.total_cmp(&a.total.value));
@@ -146,7 +149,7 @@ pub(super) fn indices(
             bar(0, index.first_order, first_color),
             bar(1, index.total, total_color),
         ];
-        chart = chart.row(found.label(&index.key), bars);
+        chart = chart.row(names::parameter(&index.key), bars);
     }
     Some(chart)
 }

@@ -1,4 +1,4 @@
-//! Tables of an analysis of uncertainty.
+//! Tables of an uncertainty analysis.
 
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ struct Spread {
     statistics: Option<Statistics>,
 }
 
-/// What is said of a parameter and a quantity.
+/// Sensitivity of a quantity to a parameter.
 struct Influence {
     quantity: &'static str,
     key: String,
@@ -29,8 +29,8 @@ struct Influence {
     total: Option<Estimate>,
 }
 
-/// Writes `samples.csv` (a row a shot), `statistics.csv` (a row a quantity), `sensitivity.csv` (a row a quantity and parameter)
-/// and, where there are speeds, `bands.csv` (a row a speed and quantity) to a folder, which is made if it does not exist. Files
+/// Writes `samples.csv` (one row per run), `statistics.csv` (one row per quantity), `sensitivity.csv` (one row per quantity and parameter)
+/// and, where there are velocities, `bands.csv` (one row per velocity and quantity) to a folder, which is made if it does not exist. Files
 /// of these names are replaced. What does not exist is empty.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! Figures and tables of an analysis of uncertainty.
+//! Figures and tables of an uncertainty analysis.
 
 mod bands;
 mod figures;

@@ -1,36 +1,36 @@
-//! What the validation report says, in which order.
+//! Content of the validation report.
 
 use percuss::{
     experiments::{Experiment, Kind, Split},
     validate::{Grouping, Standing, Validation, statistics, without_tests},
 };
 
-use super::{Origin, figures::Drawn, tables};
+use super::{Origin, figures::ModelFigure, tables};
 use crate::{page::Block, table::Table};
 
 pub(super) fn page<'a>(
     validation: &Validation,
     origin: &Origin,
-    figures: &'a [Drawn],
+    figures: &'a [ModelFigure],
 ) -> Vec<Block<'a>> {
     let mut page = vec![
-        Block::Title("Validation on published shots".to_owned()),
+        Block::Title("Validation against published tests".to_owned()),
         Block::Text(format!(
-            "Every model of percuss {} on every shot that it applies to. Shots: {}. Written by: {}",
+            "Every model of percuss {} on every published test to which it applies. Tests: {}. Command: {}",
             env!("CARGO_PKG_VERSION"),
             origin.files.join(", "),
             origin.command
         )),
         Block::List(counts(validation)),
-        Block::Heading("How to read the numbers".to_owned()),
+        Block::Heading("Definitions".to_owned()),
         Block::List(
             [
-                "The error of a prediction is predicted over measured, less 1: positive where the model gives too much.",
-                "Bias is the mean error, RMS the root of its mean square, median the median magnitude; the worst error comes with its shot.",
-                "A shot counts once, with the main material record of its projectile. Rival records stand apart in the tables by material record.",
-                "Rods that were heated have a line of their own, as few models take them: the others are compared at room temperature.",
-                "Suspect rows, repeated rows and projectiles that were stopped (measured 0) are computed, listed and not counted.",
-                "predictions.csv and predictions.parquet hold every number with the place where its shot was read.",
+                "Relative error = predicted / measured - 1.",
+                "Bias: mean error. RMS: root mean square error. Median: median absolute error. Worst: largest absolute error, with its test.",
+                "A test counts once, with the main material record of its projectile. Alternative records are in the tables by material record.",
+                "Heated rods have a separate line, because few models apply to them. All others are compared at room temperature.",
+                "Suspect tests, repeated tests and partial penetrations (measured residual velocity 0) are computed and listed, but not counted.",
+                "predictions.csv and predictions.parquet contain all numbers, with the source of each test.",
             ]
             .map(str::to_owned)
             .to_vec(),
@@ -42,20 +42,20 @@ pub(super) fn page<'a>(
         }
     }
     page.extend(blind(validation));
-    page.push(Block::Heading("Suspect rows".to_owned()));
+    page.push(Block::Heading("Suspect tests".to_owned()));
     let suspects = tables::suspects(validation);
     if suspects.is_empty() {
-        page.push(Block::Text("There are none.".to_owned()));
+        page.push(Block::Text("None.".to_owned()));
     } else {
         page.push(Block::Text(
-            "Far from their series or out of order with a neighbour. No statistic counts them."
+            "Tests far from their series or out of order with a neighbour. They are in no statistics."
                 .to_owned(),
         ));
         page.push(Block::Table(suspects));
     }
     page.push(Block::Heading("Sources".to_owned()));
     page.push(Block::Table(tables::sources(validation)));
-    page.push(Block::WebOnly(every_shot(validation)));
+    page.push(Block::WebOnly(every_test(validation)));
     page
 }
 
@@ -69,9 +69,9 @@ fn counts(validation: &Validation) -> Vec<String> {
         .map(|(kind, count)| format!("{count} {}", kind.describe()))
         .collect();
     vec![
-        format!("{} shots: {}", shots.len(), kinds.join(", ")),
+        format!("{} tests: {}", shots.len(), kinds.join(", ")),
         format!(
-            "{} repeat others, {} are suspect, of {} no case can be made, {} struck at an angle",
+            "{} repeat others, {} are suspect, {} cannot be made a case, {} are oblique",
             count(&|shot| shot.duplicate_of.is_some()),
             count(&|shot| shot.flag.is_some()),
             count(&|shot| shot.unusable.is_some()),
@@ -79,9 +79,9 @@ fn counts(validation: &Validation) -> Vec<String> {
         ),
         format!("models: {}", validation.models.join(", ")),
         match without_tests(validation).as_slice() {
-            [] => "every model has a shot that is counted".to_owned(),
+            [] => "every model has a counted test".to_owned(),
             models => format!(
-                "{} of {} models have no counted shot yet: {}",
+                "{} of {} models have no counted test yet: {}",
                 models.len(),
                 validation.models.len(),
                 models.join(", ")
@@ -96,7 +96,7 @@ fn heading(kind: Kind) -> String {
     first.chain(words.chars().skip(1)).collect()
 }
 
-fn section<'a>(validation: &Validation, kind: Kind, figures: &'a [Drawn]) -> Vec<Block<'a>> {
+fn section<'a>(validation: &Validation, kind: Kind, figures: &'a [ModelFigure]) -> Vec<Block<'a>> {
     let mut blocks = vec![Block::Heading(heading(kind))];
     let table = tables::models(validation, kind);
     if table.is_empty() {
@@ -106,7 +106,7 @@ fn section<'a>(validation: &Validation, kind: Kind, figures: &'a [Drawn]) -> Vec
         blocks.extend(breakdown(validation, kind));
     }
     blocks.push(Block::Folded(
-        "What became of the shots, and why".to_owned(),
+        "Use of the tests, with reasons".to_owned(),
         vec![Block::Table(tables::coverage(validation, kind))],
     ));
     for &model in &validation.models {
@@ -118,7 +118,7 @@ fn section<'a>(validation: &Validation, kind: Kind, figures: &'a [Drawn]) -> Vec
     blocks
 }
 
-/// Tables by one more property: the most telling ones open, the others folded.
+/// Tables by further properties; the main ones are open, the others folded.
 fn breakdown<'a>(validation: &Validation, kind: Kind) -> Vec<Block<'a>> {
     let groupings: &[Grouping] = match kind {
         Kind::Taylor => &[
@@ -149,7 +149,7 @@ fn breakdown<'a>(validation: &Validation, kind: Kind) -> Vec<Block<'a>> {
     blocks
 }
 
-/// Why predictions are not blind: a line for the rows of data, and one a model and reason.
+/// Predictions that are not blind: one line for the data, and one per model and reason.
 fn not_blind(validation: &Validation) -> Vec<String> {
     let fitted = validation
         .tests
@@ -161,7 +161,7 @@ fn not_blind(validation: &Validation) -> Vec<String> {
     let mut lines = Vec::new();
     if !sources.is_empty() {
         lines.push(format!(
-            "Every model on {}: a constant of the library may have been fitted to it.",
+            "Every model on {}: a constant of the library may have been fitted to these data.",
             sources.join(", ")
         ));
     }
@@ -198,20 +198,20 @@ fn blind<'a>(validation: &Validation) -> Vec<Block<'a>> {
             .count()
     };
     vec![
-        Block::Heading("What is blind and what is not".to_owned()),
+        Block::Heading("Blind predictions".to_owned()),
         Block::Text(
-            "The split is by source and model. A prediction is blind when no constant that the program ships was fitted to the source of \
-             its shot, and neither a constant nor the form of the model was chosen on it. All are blind but these, whose rows are in the \
-             tables and stand apart in the table by split:"
+            "The split is by source and model. A prediction is blind if no constant of the program was fitted to the source of its test and \
+             neither a constant nor the form of the model was selected with it. All predictions are blind except these, which have \
+             separate lines in the table by split:"
                 .to_owned(),
         ),
         Block::List(exceptions),
-        Block::Text("Further:".to_owned()),
+        Block::Text("Notes:".to_owned()),
         Block::List(vec![
-            "Properties of a plate (yield stress, hardening) come with its row of data: they are measured or handbook values, not fitted to limits."
+            "Properties of a plate (yield stress, hardening) are part of its test data: measured or handbook values, not fitted to limits."
                 .to_owned(),
-            "A ballistic limit is computed for an impact at the measured limit, as the regime is judged there; a test makes sure that no \
-             limit depends on that speed."
+            "A ballistic limit is computed for the regime at the measured limit. The result is independent of that velocity, which a test of \
+             the program checks."
                 .to_owned(),
             format!(
                 "Predictions counted: {}; failed: {}.",
@@ -223,8 +223,8 @@ fn blind<'a>(validation: &Validation) -> Vec<Block<'a>> {
     ]
 }
 
-fn every_shot<'a>(validation: &Validation) -> Vec<Block<'a>> {
-    let mut blocks = vec![Block::Heading("Every shot".to_owned())];
+fn every_test<'a>(validation: &Validation) -> Vec<Block<'a>> {
+    let mut blocks = vec![Block::Heading("Every test".to_owned())];
     for kind in Kind::ALL {
         let table = tables::shots(validation, kind);
         if !table.is_empty() {

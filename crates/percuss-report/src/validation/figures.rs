@@ -1,4 +1,4 @@
-//! Parity plots and residuals, one of each a kind of shot and model.
+//! Parity plots and residuals, one each per kind of test and model.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,20 +9,20 @@ use percuss::{
 
 use crate::{Axis, Figure, LineChart, Mark, Series, Style, palette};
 
-/// Fewest points that are worth a figure.
+/// Smallest number of points of a figure.
 const FEWEST: usize = 3;
 /// Half width of the band that is drawn around perfect agreement.
 const BAND: f64 = 0.1;
 
-/// A figure and what it is of.
-pub(super) struct Drawn {
+/// Figure with its kind of test and model.
+pub(super) struct ModelFigure {
     pub(super) kind: Kind,
     pub(super) model: &'static str,
     pub(super) drawing: Figure,
 }
 
 /// Draws all figures, in the order of kinds and models.
-pub(super) fn draw(validation: &Validation) -> Vec<Drawn> {
+pub(super) fn draw(validation: &Validation) -> Vec<ModelFigure> {
     let mut drawn = Vec::new();
     for kind in Kind::ALL {
         let symbols = symbols(validation, kind);
@@ -40,7 +40,7 @@ pub(super) fn draw(validation: &Validation) -> Vec<Drawn> {
                 parity(validation, kind, model, &groups, &symbols),
                 residuals(validation, kind, model, &groups, &symbols),
             ] {
-                drawn.push(Drawn {
+                drawn.push(ModelFigure {
                     kind,
                     model,
                     drawing,
@@ -56,10 +56,10 @@ const FLAGGED: &str = " suspect, not counted";
 
 type Groups<'a> = BTreeMap<String, Vec<&'a Prediction>>;
 
-/// Names of groups in the order of their symbols, which hold in all figures of a kind of shot.
+/// Names of groups in the order of their symbols, the same in all figures of a kind of test.
 type Symbols = BTreeSet<String>;
 
-/// The group of a prediction by what tells most about it: the material record of a Taylor rod, otherwise the projectile.
+/// Group of a prediction: the material record of a Taylor rod, otherwise the projectile.
 fn group(validation: &Validation, prediction: &Prediction) -> Option<String> {
     let shot = validation.test(prediction);
     match prediction.standing {
@@ -122,7 +122,7 @@ fn what(kind: Kind) -> (&'static str, &'static str) {
     }
 }
 
-/// What makes shots of different sizes comparable: the length of a Taylor rod; nothing else.
+/// Scale of a prediction: the initial length of a Taylor rod, otherwise 1.
 fn scale(validation: &Validation, prediction: &Prediction) -> f64 {
     let shot = validation.test(prediction);
     match (shot.kind, shot.length) {
@@ -140,8 +140,8 @@ fn parity(
 ) -> Figure {
     let (stem, title) = what(kind);
     let unit = match kind {
-        Kind::Taylor => "over the length before".to_owned(),
-        _ => format!("[{}]", kind.unit()),
+        Kind::Taylor => "final length / initial length".to_owned(),
+        _ => format!("({})", kind.unit()),
     };
     let point = |p: &Prediction| {
         let scale = scale(validation, p);
@@ -158,7 +158,7 @@ fn parity(
     let (low, high) = ((low - margin).max(0.0), high + margin);
     let axis = |label: String| Axis::new(label).range(low, high);
     let line = |factor: f64, style| {
-        // From border to border of the square, whichever comes first.
+        // Clipped to the square.
         let ends = [low.max(low / factor), high.min(high / factor)];
         Series::new("", ends.map(|x| (x, factor * x)))
             .style(style)
@@ -167,11 +167,11 @@ fn parity(
     };
     let chart = LineChart::new(
         format!("parity-{stem}-{}", model.replace('_', "-")),
-        format!("{title}: {model} against measurement"),
-        axis(format!("measured {unit}")),
-        axis(format!("predicted {unit}")),
+        format!("{title}: {model} versus measurement"),
+        axis(format!("Measured {unit}")),
+        axis(format!("Predicted {unit}")),
     )
-    .caption("dashed: 10 % above and below")
+    .caption("dashed lines: ±10 %")
     .series(line(1.0, Style::Line))
     .series(line(1.0 + BAND, Style::Dashed))
     .series(line(1.0 - BAND, Style::Dashed));
@@ -189,16 +189,16 @@ fn residuals(
     symbols: &Symbols,
 ) -> Figure {
     let (stem, title) = what(kind);
-    // A limit has no impact speed but itself.
+    // The abscissa of a ballistic limit is the measured limit.
     let speed = match kind {
-        Kind::BallisticLimit => "measured limit",
-        _ => "impact speed",
+        Kind::BallisticLimit => "Measured limit",
+        _ => "Impact velocity",
     };
     let chart = LineChart::new(
         format!("residuals-{stem}-{}", model.replace('_', "-")),
-        format!("{title}: error of {model} against {speed}"),
-        Axis::new(format!("{speed} [m/s]")),
-        Axis::new("predicted over measured, less 1 [%]"),
+        format!("{title}: relative error of {model}"),
+        Axis::new(format!("{speed} (m/s)")),
+        Axis::new("Predicted / measured - 1 (%)"),
     )
     .mark(Mark::horizontal("", 0.0))
     .mark(Mark::horizontal("", 100.0 * BAND))
@@ -210,7 +210,5 @@ fn residuals(
     let chart = series(groups, symbols, point)
         .into_iter()
         .fold(chart, LineChart::series);
-    chart
-        .caption("lines: agreement, 10 % above and below")
-        .draw()
+    chart.caption("lines: 0 and ±10 %").draw()
 }

@@ -14,10 +14,10 @@ use crate::{
     page::{self, html},
 };
 
-/// What a report says of itself: where its shots come from.
+/// Origin of a report: its tests and command.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Origin {
-    /// Files of shots, or what stands for the built-in ones.
+    /// Files of tests, or the name of the built-in ones.
     pub files: Vec<String>,
     /// The command that made the report.
     pub command: String,
@@ -25,10 +25,10 @@ pub struct Origin {
 
 /// Writes the report to a folder, which is made if it does not exist. Files of these names are replaced:
 ///
-/// - `validation.html`: the whole report in one file, with every shot and its citation;
-/// - `validation.md` with one PNG a figure: the same without the single shots;
-/// - `predictions.csv`, `predictions.parquet`: a row a shot, material record and model, with citation;
-/// - `statistics.csv`, `statistics.parquet`: a row a group.
+/// - `validation.html`: the whole report in one file, with every test and its citation;
+/// - `validation.md` with one PNG per figure: the same without the single tests;
+/// - `predictions.csv`, `predictions.parquet`: one row per test, material record and model, with citation;
+/// - `statistics.csv`, `statistics.parquet`: one row per group.
 ///
 /// # Errors
 /// [`ReportError::Write`]; [`ReportError::Figure`]; [`ReportError::Table`].

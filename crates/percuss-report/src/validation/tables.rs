@@ -27,7 +27,7 @@ fn of_kind(validation: &Validation, kind: Kind, grouping: Grouping) -> Vec<Group
     groups
 }
 
-/// Columns of errors, of which each row has some.
+/// Columns of error statistics.
 fn errors<R>(rows: Rows<'_, R>, of: impl Fn(&R) -> &Errors) -> Rows<'_, R> {
     rows.numbers("n", "", |row| of(row).count.to_string())
         .numbers("bias", "%", |row| signed(of(row).bias))
@@ -36,16 +36,16 @@ fn errors<R>(rows: Rows<'_, R>, of: impl Fn(&R) -> &Errors) -> Rows<'_, R> {
         .numbers("worst", "%", |row| signed(of(row).worst))
 }
 
-/// Errors of the models on shots of a kind, one row per model.
+/// Errors of the models on tests of a kind, one row per model.
 pub fn models(validation: &Validation, kind: Kind) -> Table {
     let groups = of_kind(validation, kind, Grouping::All);
     let rows = Table::of(&groups).words("model", Group::model_in_words);
     errors(rows, |group| &group.errors)
-        .words("worst shot", |group| group.errors.worst_id.clone())
+        .words("worst test", |group| group.errors.worst_id.clone())
         .table()
 }
 
-/// Errors on shots of a kind by a property of the shots, one row per model and value of the property.
+/// Errors on tests of a kind by a property of the tests, one row per model and value of the property.
 pub fn by_property(validation: &Validation, kind: Kind, grouping: Grouping) -> Table {
     let groups = of_kind(validation, kind, grouping);
     let heading = format!("by {}", grouping.describe());
@@ -53,13 +53,13 @@ pub fn by_property(validation: &Validation, kind: Kind, grouping: Grouping) -> T
     errors(rows, |group| &group.errors).table()
 }
 
-/// One row a group and model; the groups together, for the models to be compared.
+/// One row per group and model, sorted by groups.
 pub(super) fn groups(validation: &Validation, kind: Kind, grouping: Grouping) -> Table {
     let mut groups = of_kind(validation, kind, grouping);
     // A stable sort: within a group the models keep their order.
     groups.sort_by(|a, b| a.value.cmp(&b.value));
     let of_value = groups.chunk_by(|a, b| a.value == b.value);
-    // The value stands in the first row of its group.
+    // Only the first row of a group has its value.
     let rows: Vec<(bool, &Group)> = of_value
         .flat_map(|group| group.iter().enumerate().map(|(i, group)| (i == 0, group)))
         .collect();
@@ -73,17 +73,17 @@ pub(super) fn groups(validation: &Validation, kind: Kind, grouping: Grouping) ->
         })
         .words("model", |(_, group)| group.model);
     errors(rows, |(_, group)| &group.errors)
-        .words("worst shot", |(_, group)| group.errors.worst_id.clone())
+        .words("worst test", |(_, group)| group.errors.worst_id.clone())
         .table()
 }
 
-/// What became of the shots of a kind, for the models that give what it measures.
+/// Use of the tests of a kind, for the models that predict the measured quantity.
 pub(super) fn coverage(validation: &Validation, kind: Kind) -> Table {
     const STANDINGS: [&str; 8] = [
         "counted",
         "suspect",
         "repeated",
-        "stopped",
+        "partial penetration",
         "no case",
         "not given",
         "does not apply",
@@ -93,29 +93,29 @@ pub(super) fn coverage(validation: &Validation, kind: Kind) -> Table {
     coverage.retain(|coverage| coverage.kind == kind && coverage.is_given());
     Table::of(&coverage)
         .words("model", |coverage| coverage.model)
-        .numbers("shots", "", |coverage| coverage.total().to_string())
+        .numbers("tests", "", |coverage| coverage.total().to_string())
         .each(
             STANDINGS.into_iter().zip(Standing::ALL),
             |rows, (name, standing)| {
                 rows.numbers(name, "", |coverage| coverage.count(standing).to_string())
             },
         )
-        .words("commonest reason", |coverage| {
+        .words("most frequent reason", |coverage| {
             let reason = coverage.reason.as_ref();
             reason.map_or_else(String::new, |(reason, count)| format!("{reason} ({count})"))
         })
         .table()
 }
 
-/// Suspect rows, with what the models say of them.
+/// Suspect tests with the errors of the models.
 pub(super) fn suspects(validation: &Validation) -> Table {
     let suspects = validation.tests.iter().enumerate();
     let suspects: Vec<(usize, &Experiment)> =
         suspects.filter(|(_, shot)| shot.flag.is_some()).collect();
     Table::of(&suspects)
-        .words("shot", |(_, shot)| shot.id.clone())
+        .words("test", |(_, shot)| shot.id.clone())
         .words("source", |(_, shot)| shot.source.clone())
-        .words("why", |(_, shot)| shot.flag.clone().unwrap_or_default())
+        .words("reason", |(_, shot)| shot.flag.clone().unwrap_or_default())
         .numbers("measured", "", |(_, shot)| {
             significant(shot.kind.shown(shot.measured), 5)
         })
@@ -126,7 +126,7 @@ pub(super) fn suspects(validation: &Validation) -> Table {
         .table()
 }
 
-/// Errors of all models that gave a number for a shot with its main record.
+/// Errors of all models with a prediction for a test with its main record.
 fn answers(validation: &Validation, shot: usize) -> String {
     let of_shot = validation
         .predictions
@@ -139,7 +139,7 @@ fn answers(validation: &Validation, shot: usize) -> String {
     of_shot.filter_map(answer).collect::<Vec<_>>().join(", ")
 }
 
-/// Works that the shots come from.
+/// Sources of the tests.
 pub(super) fn sources(validation: &Validation) -> Table {
     let mut groups: BTreeMap<&str, Vec<&Experiment>> = BTreeMap::new();
     for shot in &validation.tests {
@@ -156,10 +156,10 @@ pub(super) fn sources(validation: &Validation) -> Table {
                 format!("{}. {}. {}", work.label, work.title, work.place)
             })
         })
-        .numbers("shots", "", |(_, shots)| shots.len().to_string())
+        .numbers("tests", "", |(_, shots)| shots.len().to_string())
         .words("split", |(_, shots)| all(shots, |shot| shot.split.name()))
         .words("licence", |(_, shots)| all(shots, |shot| &shot.licence))
-        .words("what was read", |(source, _)| {
+        .words("data", |(source, _)| {
             let work = references().get(*source);
             work.map_or_else(String::new, |work| work.note.clone())
         })
@@ -174,7 +174,7 @@ fn words<'a>(words: impl Iterator<Item = &'a str>) -> String {
     words.join(", ")
 }
 
-/// Every shot of a kind with every record: a column a model that gave any number.
+/// Every test of a kind with every record, with one column per model with predictions.
 pub(super) fn shots(validation: &Validation, kind: Kind) -> Table {
     let gave = |model: &str| {
         validation
@@ -202,11 +202,11 @@ pub(super) fn shots(validation: &Validation, kind: Kind) -> Table {
         .collect();
     let unit = kind.unit();
     Table::of(&rows)
-        .words("shot", |(shot, ..)| shot.id.clone())
+        .words("test", |(shot, ..)| shot.id.clone())
         .words("source", |(shot, ..)| shot.source.clone())
         .words("record", |(_, record, _)| *record)
         .words("target", |(shot, ..)| shot.target.name())
-        .numbers("speed", "m/s", |(shot, ..)| {
+        .numbers("impact velocity", "m/s", |(shot, ..)| {
             significant(shot.impact_velocity, 5)
         })
         .numbers("measured", unit, |(shot, ..)| {
@@ -219,12 +219,12 @@ pub(super) fn shots(validation: &Validation, kind: Kind) -> Table {
                 prediction.map_or_else(String::new, |prediction| answer(prediction))
             })
         })
-        .words("not counted because", |(shot, ..)| {
+        .words("reason of exclusion", |(shot, ..)| {
             let repeats = || shot.duplicate_of.as_ref().map(|id| format!("repeats {id}"));
             let reason = shot.no_case().or(shot.flag.clone()).or_else(repeats);
             reason.unwrap_or_default()
         })
-        .words("read at", |(shot, ..)| shot.read_at.clone())
+        .words("place in the source", |(shot, ..)| shot.read_at.clone())
         .table()
 }
 

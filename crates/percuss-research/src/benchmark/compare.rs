@@ -1,4 +1,4 @@
-//! Depths by all models beside those by the reference.
+//! Depths by all models compared with the reference.
 
 use percuss::{
     Error, Scenario,
@@ -8,29 +8,32 @@ use percuss::{
 };
 use rayon::prelude::*;
 
-use super::{check_references, reference::Reference, shot::Shot};
+use super::{case::BenchmarkCase, check_references, reference::Reference};
 
-/// Runs every candidate on every shot whose reference passes its check. A candidate that fails on a shot is left out there.
+/// Runs every candidate on every case whose reference passes its check. Failed runs are left out.
 ///
 /// # Errors
-/// [`Error::Input`] when a shot's materials are not in the library.
-pub fn compare(shots: &[Shot], references: &[Reference]) -> Result<Vec<ErrorRecord>, Error> {
+/// [`Error::Input`] when a case's materials are not in the library.
+pub fn compare(
+    cases: &[BenchmarkCase],
+    references: &[Reference],
+) -> Result<Vec<ErrorRecord>, Error> {
     let candidates = candidates();
-    let checked = check_references(shots, references);
+    let checked = check_references(cases, references);
     let compared: Result<Vec<Vec<ErrorRecord>>, Error> = checked
         .par_iter()
-        .filter_map(|entry| Some((&entry.shot, entry.estimate.ok()?)))
-        .map(|(shot, reference)| {
-            let scenario = shot.scenario()?;
+        .filter_map(|entry| Some((&entry.case, entry.estimate.ok()?)))
+        .map(|(case, reference)| {
+            let scenario = case.scenario()?;
             let regime = Regime::of(&scenario).projectile;
             let depths = candidates.iter().filter_map(|candidate| {
                 let depth = depth(candidate, &scenario)?;
                 Some(ErrorRecord {
                     candidate: candidate.name.to_owned(),
-                    projectile: shot.projectile.clone(),
-                    target: shot.target.clone(),
-                    length_to_diameter: shot.length_to_diameter,
-                    impact_velocity_m_s: shot.speed,
+                    projectile: case.projectile.clone(),
+                    target: case.target.clone(),
+                    length_to_diameter: case.length_to_diameter,
+                    impact_velocity_m_s: case.speed,
                     regime,
                     depth_of_penetration_mm: depth * 1e3,
                     reference_depth_mm: reference.depth_mm,
@@ -43,7 +46,7 @@ pub fn compare(shots: &[Shot], references: &[Reference]) -> Result<Vec<ErrorReco
     Ok(compared?.into_iter().flatten().collect())
 }
 
-/// The results as the CSV file that the library stores.
+/// Results as the CSV file that the library stores.
 ///
 /// # Errors
 /// Those of the CSV writer.

@@ -1,25 +1,25 @@
-//! Depth of a shot by the reference, and the convergence check that a reference has to pass before it counts.
+//! Depth of a case by the reference, and the convergence check of the reference.
 
 use serde::Serialize;
 
-use super::{Reference, Shot};
+use super::{BenchmarkCase, Reference};
 use percuss::richardson::{CREDIBLE_ORDERS, OnMesh, Trend, extrapolate, trend};
 
 /// Order of the dominant error. Contact on a grid keeps bodies about 0.8 of a cell apart, which makes a projectile wider by as much: a
 /// rigid flat rod (L/D 3, 17600 kg/m³, 300 m/s, perfectly plastic target of 300 MPa) goes 5.96 and 7.14 mm deep on 4 and 8 cells per
 /// radius, 8.32 mm extrapolated, and 8.58 mm by \[forrestal1988\] with a flat nose.
 const FORMAL_ORDER: f64 = 1.0;
-/// Largest change by an extrapolation, as a part of the depth on the finest one.
-const STEEPEST: f64 = 0.25;
-/// Largest spread of three meshes that give no extrapolation, as a part of the depth on the finest one.
+/// Largest change by an extrapolation, as a fraction of the depth on the finest mesh.
+const LARGEST_EXTRAPOLATION: f64 = 0.25;
+/// Largest spread of three meshes without an extrapolation, as a fraction of the depth on the finest mesh.
 const AGREEMENT: f64 = 0.1;
 
-/// Depth of a shot by the reference.
+/// Depth of a case by the reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
     /// Depth of penetration, extrapolated in the cell size where the meshes allow it [mm].
     pub depth_mm: f64,
-    /// Uncertainty that the cell size leaves, either way [mm].
+    /// Half width of the uncertainty due to the cell size [mm].
     pub uncertainty_mm: f64,
 }
 
@@ -28,16 +28,16 @@ pub struct Estimate {
 pub enum Refusal {
     /// Fewer than three meshes.
     TooFewMeshes,
-    /// Three meshes give no extrapolation and do not agree.
+    /// Three meshes without an extrapolation do not agree.
     NotConverged {
-        /// What their sequence is.
+        /// Trend of the sequence.
         trend: Trend,
-        /// Largest difference as a part of the depth on the finest mesh.
+        /// Largest difference as a fraction of the depth on the finest mesh.
         spread: f64,
     },
     /// The extrapolation changes the depth by more than its limit.
     TooSteep {
-        /// Change as a part of the depth on the finest mesh.
+        /// Change as a fraction of the depth on the finest mesh.
         change: f64,
     },
     /// A shorter rod of the same materials and velocity goes deeper, beyond both uncertainties.
@@ -68,42 +68,44 @@ impl Refusal {
             Self::TooSteep { change } => format!(
                 "the extrapolation changes the depth by {:+.0} %, more than {:.0} %",
                 100.0 * change,
-                100.0 * STEEPEST
+                100.0 * LARGEST_EXTRAPOLATION
             ),
             Self::ShorterRodDeeper {
                 length_to_diameter,
                 depth_mm,
-            } => format!("the rod of L/D {length_to_diameter} goes deeper ({depth_mm:.3} mm)"),
+            } => format!(
+                "the shorter rod of L/D {length_to_diameter} penetrates deeper ({depth_mm:.3} mm)"
+            ),
         }
     }
 }
 
-/// The reference of one shot, checked.
+/// Reference of one case with the result of its check.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CheckedReference {
-    /// The shot.
-    pub shot: Shot,
+    /// The case.
+    pub case: BenchmarkCase,
     /// Depth [mm] on every mesh by cells per radius, from coarse to fine.
     pub meshes: Vec<OnMesh>,
-    /// Its depth, or why it does not count.
+    /// Depth, or the reason why the reference does not count.
     pub estimate: Result<Estimate, Refusal>,
 }
 
 impl CheckedReference {
-    /// The shot with the reason why it has no reference that counts.
+    /// Case with the reason why its reference does not count.
     pub fn refused(&self) -> Option<RefusedReference> {
         let refusal = self.estimate.err()?;
         Some(RefusedReference {
-            projectile: self.shot.projectile.clone(),
-            target: self.shot.target.clone(),
-            length_to_diameter: self.shot.length_to_diameter,
-            impact_velocity_m_s: self.shot.speed,
+            projectile: self.case.projectile.clone(),
+            target: self.case.target.clone(),
+            length_to_diameter: self.case.length_to_diameter,
+            impact_velocity_m_s: self.case.speed,
             reason: refusal.describe(),
         })
     }
 }
 
-/// A shot that is left out of all statistics.
+/// Case that is left out of all statistics.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RefusedReference {
     /// Id of the projectile's material.
@@ -114,21 +116,24 @@ pub struct RefusedReference {
     pub length_to_diameter: f64,
     /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
-    /// Why its reference does not count.
+    /// Reason why its reference does not count.
     pub reason: String,
 }
 
-/// Checks the reference of every shot that has one.
+/// Checks the reference of every case that has one.
 ///
-/// Beside the check of each shot's meshes ([`depth_of`]), a longer rod must not stop short of a shorter one of the same materials and
+/// Besides the check of the meshes of each case ([`depth_of`]), the depth of a longer rod must not be below that of a shorter one of the same materials and
 /// velocity by more than both uncertainties; the longer rod, which has the coarser meshes, is refused.
-pub fn check_references(shots: &[Shot], references: &[Reference]) -> Vec<CheckedReference> {
-    let alone: Vec<CheckedReference> = shots
+pub fn check_references(
+    cases: &[BenchmarkCase],
+    references: &[Reference],
+) -> Vec<CheckedReference> {
+    let alone: Vec<CheckedReference> = cases
         .iter()
-        .filter_map(|shot| {
-            let meshes = meshes(references, shot);
+        .filter_map(|case| {
+            let meshes = meshes(references, case);
             (!meshes.is_empty()).then(|| CheckedReference {
-                shot: shot.clone(),
+                case: case.clone(),
                 estimate: depth_of(&meshes),
                 meshes,
             })
@@ -138,20 +143,20 @@ pub fn check_references(shots: &[Shot], references: &[Reference]) -> Vec<Checked
     for entry in &mut checked {
         let Ok(own) = entry.estimate else { continue };
         let shorter = alone.iter().filter(|other| {
-            let Shot {
+            let BenchmarkCase {
                 projectile,
                 target,
                 length_to_diameter,
                 speed,
-            } = &other.shot;
-            (projectile, target) == (&entry.shot.projectile, &entry.shot.target)
-                && *speed == entry.shot.speed
-                && *length_to_diameter < entry.shot.length_to_diameter
+            } = &other.case;
+            (projectile, target) == (&entry.case.projectile, &entry.case.target)
+                && *speed == entry.case.speed
+                && *length_to_diameter < entry.case.length_to_diameter
         });
         let mut deeper = shorter.filter_map(|other| {
             let depth = other.estimate.ok()?;
             let gap = depth.depth_mm - own.depth_mm - depth.uncertainty_mm - own.uncertainty_mm;
-            (gap > 0.0).then_some((other.shot.length_to_diameter, depth.depth_mm))
+            (gap > 0.0).then_some((other.case.length_to_diameter, depth.depth_mm))
         });
         if let Some((length_to_diameter, depth_mm)) = deeper.next_back() {
             entry.estimate = Err(Refusal::ShorterRodDeeper {
@@ -163,11 +168,11 @@ pub fn check_references(shots: &[Shot], references: &[Reference]) -> Vec<Checked
     checked
 }
 
-/// Depths of a shot by cells per radius, from coarse to fine.
-fn meshes(references: &[Reference], shot: &Shot) -> Vec<OnMesh> {
+/// Depths of a case by cells per radius, from coarse to fine.
+fn meshes(references: &[Reference], case: &BenchmarkCase) -> Vec<OnMesh> {
     let own = references
         .iter()
-        .filter(|row| row.is_of(shot) && row.depth_of_penetration_mm.is_finite());
+        .filter(|row| row.is_of(case) && row.depth_of_penetration_mm.is_finite());
     let mut meshes: Vec<OnMesh> = own
         .map(|row| OnMesh {
             cells: f64::from(row.cells_per_radius),
@@ -183,7 +188,7 @@ fn meshes(references: &[Reference], shot: &Shot) -> Vec<OnMesh> {
 ///
 /// - **Monotone**, with an observed order of [`CREDIBLE_ORDERS`]: extrapolated at that order, but at most at the formal order 1
 ///   of contact, and refused where that changes the depth by more than 25 %. The uncertainty is the whole change.
-/// - **Without such an order**: not extrapolated. The finest one counts, with the largest difference as its uncertainty, where
+/// - **Without such an order**: not extrapolated. The finest mesh counts, with the largest difference as its uncertainty, where
 ///   that is at most 10 %.
 ///
 /// # Errors
@@ -198,7 +203,7 @@ pub fn depth_of(meshes: &[OnMesh]) -> Result<Estimate, Refusal> {
     {
         let depth_mm = extrapolate(medium, fine, order.min(FORMAL_ORDER));
         let change = depth_mm / fine.value - 1.0;
-        if change.abs() > STEEPEST {
+        if change.abs() > LARGEST_EXTRAPOLATION {
             return Err(Refusal::TooSteep { change });
         }
         return Ok(Estimate {

@@ -1,7 +1,7 @@
-//! The convergence check on made-up sequences of meshes, and on the stored reference.
+//! Tests of the convergence check on made-up sequences of meshes and on the stored reference.
 
 use super::*;
-use crate::benchmark::{reference, shots};
+use crate::benchmark::{cases, reference};
 
 fn on(meshes: &[(u32, f64)]) -> Vec<OnMesh> {
     let meshes = meshes.iter();
@@ -105,7 +105,7 @@ fn a_long_rod_that_stops_short_of_a_shorter_one_is_refused() {
         rows
     };
     let refused = |long: f64| {
-        let checked = check_references(&shots(), &references(long));
+        let checked = check_references(&cases(), &references(long));
         assert_eq!(checked.len(), 2);
         assert!(checked[0].estimate.is_ok());
         checked[1].estimate.err()
@@ -125,17 +125,17 @@ fn a_long_rod_that_stops_short_of_a_shorter_one_is_refused() {
 /// by 65.2 and 25.7 on 8. No such extrapolation is a reference.
 #[test]
 fn two_meshes_that_finer_runs_contradict_are_no_reference() {
-    let checked = check_references(&shots(), &reference::built_in());
-    assert!(checked.len() == shots().len());
+    let checked = check_references(&cases(), &reference::built_in());
+    assert!(checked.len() == cases().len());
     for (projectile, target, speed, contradicted) in [
         ("4340-johnson-cook", "6061-t6-lesuer", 150.0, 0.567),
         ("ofhc-copper-johnson-cook", "6061-t6-lesuer", 1500.0, 92.6),
         ("4340-johnson-cook", "weldox-460-e-borvik", 1500.0, 34.7),
     ] {
         let entry = checked.iter().find(|entry| {
-            (entry.shot.projectile.as_str(), entry.shot.target.as_str()) == (projectile, target)
-                && entry.shot.length_to_diameter == 10.0
-                && entry.shot.speed == speed
+            (entry.case.projectile.as_str(), entry.case.target.as_str()) == (projectile, target)
+                && entry.case.length_to_diameter == 10.0
+                && entry.case.speed == speed
         });
         let entry = entry.unwrap();
         let coarse = &entry.meshes[..2];
@@ -155,7 +155,7 @@ fn two_meshes_that_finer_runs_contradict_are_no_reference() {
 /// Every entry that counts rests on three meshes.
 #[test]
 fn no_stored_entry_on_fewer_meshes_counts() {
-    let checked = check_references(&shots(), &reference::built_in());
+    let checked = check_references(&cases(), &reference::built_in());
     for entry in checked {
         assert!(
             entry.meshes.len() >= 3 || entry.estimate.is_err(),

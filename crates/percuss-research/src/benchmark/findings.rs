@@ -1,4 +1,4 @@
-//! Results of the benchmark in words.
+//! Findings of the benchmark as sentences.
 
 use percuss::{
     model_error::{
@@ -10,31 +10,31 @@ use percuss::{
 
 use super::{Errors, is_sharp, statistics::CLOSE};
 
-/// Whether a model solves equations of motion along the axis, as opposed to a formula or a rod that moves as a whole.
+/// Whether a model solves equations of motion along the axis, unlike formulae and rigid rods.
 fn is_one_dimensional(candidate: &Candidate) -> bool {
     matches!(candidate.model.name(), "chain" | "fdm")
 }
 
-/// The paper's closure.
+/// Target resistance model of the seed paper.
 const PAPER: &str = "chain: column";
-/// The closure whose forms were chosen with the reference in view.
+/// Target resistance model whose forms were selected with the reference cases.
 const NOT_BLIND: &str = "chain: expanding-cavity";
 
-/// Sentences that answer whether one dimension is enough: who errs least, how the paper's closure does, and where a one-dimensional
-/// closure has a median error of at most [`CLOSE`], either way.
+/// Sentences on the accuracy of one-dimensional models: the most accurate one, that of the seed paper, and where the median absolute error
+/// is at most [`CLOSE`].
 pub fn findings(verdicts: &[ErrorRecord]) -> Vec<String> {
     if verdicts.is_empty() {
-        return vec!["There is no reference to judge by.".to_owned()];
+        return vec!["There is no reference depth to compare with.".to_owned()];
     }
-    let shots = count_shots(verdicts);
-    let sharp = count_shots(verdicts.iter().filter(|verdict| is_sharp(verdict)));
+    let cases = count_cases(verdicts);
+    let sharp = count_cases(verdicts.iter().filter(|verdict| is_sharp(verdict)));
     let mut sentences = vec![format!(
-        "{shots} shots have a reference that passes its convergence check on three meshes: {sharp} are known within 10 %."
+        "{cases} cases have a reference that passes its convergence check on three meshes; the uncertainty of {sharp} is at most 10 %."
     )];
     let all = |_: &ErrorRecord| true;
-    if let Some((closure, errors)) = best(verdicts, is_one_dimensional, shots, all) {
+    if let Some((closure, errors)) = best(verdicts, is_one_dimensional, cases, all) {
         sentences.push(format!(
-            "Of the one-dimensional models and closures, `{}` errs least: {}.",
+            "Most accurate one-dimensional model: `{}`, {}.",
             closure.name,
             words(&errors)
         ));
@@ -42,30 +42,30 @@ pub fn findings(verdicts: &[ErrorRecord]) -> Vec<String> {
     }
     if errors_of(verdicts, NOT_BLIND, all).is_some() {
         sentences.push(format!(
-            "No constant of any model was fitted to the reference, but the forms of the parts of `{NOT_BLIND}` were chosen with it in \
-             view: its errors are not blind."
+            "No constant of any model was fitted to the reference. The functional forms of `{NOT_BLIND}` were selected with these cases, \
+             so its errors are not blind."
         ));
     }
     if let Some(errors) = errors_of(verdicts, PAPER, all) {
         sentences.push(format!(
-            "The paper's own closure, `{PAPER}` with constraint factor and border shear: {}.",
+            "Target resistance model of the seed paper, `{PAPER}` with constraint factor and border shear: {}.",
             words(&errors)
         ));
         sentences.push(where_close(verdicts, PAPER));
     }
-    if let Some((formula, errors)) = best(verdicts, |c| !is_one_dimensional(c), shots, all) {
+    if let Some((formula, errors)) = best(verdicts, |c| !is_one_dimensional(c), cases, all) {
         sentences.push(format!(
-            "Of the others that answer at least half of the shots, `{}` errs least: {}.",
+            "Most accurate other model with results for at least half of the cases: `{}`, {}.",
             formula.name,
             words(&errors)
         ));
     }
     for &regime in ProjectileRegime::ALL {
         let own = |verdict: &ErrorRecord| verdict.regime == regime;
-        let shots = count_shots(verdicts.iter().filter(|verdict| own(verdict)));
-        if let Some((candidate, errors)) = best(verdicts, |_| true, shots, own) {
+        let cases = count_cases(verdicts.iter().filter(|verdict| own(verdict)));
+        if let Some((candidate, errors)) = best(verdicts, |_| true, cases, own) {
             sentences.push(format!(
-                "On {} projectiles ({shots} shots) `{}` errs least of all: {}.",
+                "Most accurate model for {} projectiles ({cases} cases): `{}`, {}.",
                 regime.describe(),
                 candidate.name,
                 words(&errors)
@@ -75,8 +75,8 @@ pub fn findings(verdicts: &[ErrorRecord]) -> Vec<String> {
     sentences
 }
 
-fn count_shots<'a>(verdicts: impl IntoIterator<Item = &'a ErrorRecord>) -> usize {
-    let mut shots: Vec<_> = verdicts
+fn count_cases<'a>(verdicts: impl IntoIterator<Item = &'a ErrorRecord>) -> usize {
+    let mut cases: Vec<_> = verdicts
         .into_iter()
         .map(|v| {
             let numbers = (
@@ -86,9 +86,9 @@ fn count_shots<'a>(verdicts: impl IntoIterator<Item = &'a ErrorRecord>) -> usize
             (&v.projectile, &v.target, numbers)
         })
         .collect();
-    shots.sort_unstable();
-    shots.dedup();
-    shots.len()
+    cases.sort_unstable();
+    cases.dedup();
+    cases.len()
 }
 
 fn errors_of(
@@ -102,18 +102,18 @@ fn errors_of(
     Errors::of(own.map(ErrorRecord::error))
 }
 
-/// The candidate with the smallest median magnitude of error among those that answer at least half of the shots.
+/// Candidate with the smallest median absolute error among those with results for at least half of the cases.
 fn best(
     verdicts: &[ErrorRecord],
     wanted: impl Fn(&Candidate) -> bool,
-    shots: usize,
+    cases: usize,
     of: impl Fn(&ErrorRecord) -> bool,
 ) -> Option<(&'static Candidate, Errors)> {
     candidates()
         .iter()
         .filter(|candidate| wanted(candidate))
         .filter_map(|candidate| Some((candidate, errors_of(verdicts, candidate.name, &of)?)))
-        .filter(|(_, errors)| 2 * errors.count >= shots)
+        .filter(|(_, errors)| 2 * errors.count >= cases)
         .min_by(|a, b| a.1.median_absolute.total_cmp(&b.1.median_absolute))
 }
 
@@ -123,7 +123,7 @@ fn words(errors: &Errors) -> String {
         percent => format!("{percent:+.0} %").replace('-', "\u{2212}"),
     };
     format!(
-        "median error {}, {} to {} for eight of ten, median magnitude {:.0} %, {:.0} % of {} shots within 25 %",
+        "median error {}, 10th-90th percentile {} to {}, median absolute error {:.0} %, {:.0} % of {} cases within 25 %",
         signed(errors.median),
         signed(errors.low),
         signed(errors.high),
@@ -133,7 +133,7 @@ fn words(errors: &Errors) -> String {
     )
 }
 
-/// Lengths and speeds at which the median magnitude of a candidate's error is small.
+/// Lengths and velocities at which the median absolute error of a candidate is at most [`CLOSE`].
 fn where_close(verdicts: &[ErrorRecord], candidate: &str) -> String {
     let (mut close, mut all) = (0, 0);
     let mut places = Vec::new();
@@ -159,6 +159,6 @@ fn where_close(verdicts: &[ErrorRecord], candidate: &str) -> String {
         false => format!(": {}", places.join("; ")),
     };
     format!(
-        "Its median magnitude is at most 25 % in {close} of {all} combinations of speed and length{places}."
+        "Its median absolute error is at most 25 % in {close} of {all} combinations of velocity and length{places}."
     )
 }

@@ -1,18 +1,18 @@
 //! Benchmark of every depth model against the axisymmetric model, over a design of experiments.
 
+mod case;
 mod compare;
 mod estimate;
 mod findings;
 pub mod reference;
 pub mod resume;
-mod shot;
 mod statistics;
 
+pub use case::{BenchmarkCase, DIAMETER, PAIRS, cases};
 pub use compare::{compare, to_csv};
 pub use estimate::{
     CheckedReference, Estimate, Refusal, RefusedReference, check_references, depth_of,
 };
 pub use findings::findings;
 pub use reference::Reference;
-pub use shot::{DIAMETER, PAIRS, Shot, shots};
 pub use statistics::{CLOSE, Errors, Group, Grouping, SHARP, is_sharp, pair_name, statistics};

@@ -1,4 +1,4 @@
-//! Rows that take long, computed side by side and kept in a CSV file as they are done: a run that is broken off goes on where it was.
+//! Resumable computation of the rows of a CSV file: jobs run in parallel and each row is appended when it is complete.
 
 use std::{
     fs::OpenOptions,
@@ -17,25 +17,25 @@ use percuss::{
 };
 use serde::{Serialize, de::DeserializeOwned};
 
-/// A row of a file, and how it is computed.
+/// Computation of one row of a file.
 pub(crate) trait Job: Sync {
-    /// The row.
+    /// Row.
     type Row: Serialize + DeserializeOwned + Send;
 
-    /// What it is, in words.
+    /// Description.
     fn name(&self) -> String;
 
-    /// Whether a row is the answer.
+    /// Whether a row is the result of this job.
     fn is_done_by(&self, row: &Self::Row) -> bool;
 
     /// Computes the row.
     fn compute(&self, control: &mut Control<'_>) -> Result<Self::Row, Error>;
 }
 
-/// Hears of every job that is done: how many are, of how many, and the row or why there is none.
+/// Callback for every completed job: number of completed jobs, number of all jobs, and the row or the error.
 pub type Report<'a, Row> = dyn Fn(usize, usize, Result<&Row, String>) + Sync + 'a;
 
-/// Rows of a file; none where there is no file.
+/// Rows of a file; empty where there is no file.
 ///
 /// # Errors
 /// [`Error::Read`].
@@ -50,8 +50,7 @@ pub(crate) fn rows<Row: DeserializeOwned>(file: &Path) -> Result<Vec<Row>, Error
     }
 }
 
-/// Computes all jobs whose row a file does not have yet and appends each as it is done, until `stop` becomes true. A job that fails
-/// stops no other.
+/// Computes all jobs whose row a file lacks and appends each row, until `stop` becomes true. A failed job does not stop the others.
 ///
 /// # Errors
 /// [`Error::Read`] when the file cannot be read or written; [`Error::Cancelled`] when it was stopped.
@@ -79,7 +78,7 @@ pub(crate) fn complete<J: Job>(
                     if ending() {
                         return;
                     }
-                    // Jobs side by side use the machine better than the threads of one: each gets a pool of one thread.
+                    // Parallel jobs use the machine better than the threads of one job: each job gets a pool of one thread.
                     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
                     let computed = match pool {
                         Ok(pool) => pool.install(|| compute(*job, &ending)),
@@ -123,7 +122,7 @@ pub(crate) fn complete<J: Job>(
     }
 }
 
-/// The row of a job, which is broken off when `ending` says so.
+/// Computes the row of a job until `ending` returns true.
 fn compute<J: Job>(job: &J, ending: &dyn Fn() -> bool) -> Result<J::Row, Error> {
     let mut watch = |_: Progress| match ending() {
         true => ControlFlow::Break(()),
@@ -153,6 +152,7 @@ fn unreadable(file: &Path, error: &dyn std::fmt::Display) -> Error {
     Error::Read {
         path: file.to_path_buf(),
         reason: error.to_string(),
+        remedy: String::new(),
         source: None,
     }
 }

@@ -1,4 +1,4 @@
-//! Errors of every candidate, by what may decide them.
+//! Error statistics of every candidate by velocity, length, regime, materials and uncertainty of the reference.
 
 use percuss::{
     model_error::{
@@ -12,27 +12,27 @@ use serde::Serialize;
 
 use super::PAIRS;
 
-/// Uncertainty over depth up to which a reference is called sharp: well below the errors that are computed with it.
+/// Largest relative uncertainty of a sharp reference, well below the errors that are computed with it.
 pub const SHARP: f64 = 0.1;
 
-/// Magnitude of a relative error up to which a depth is called right.
+/// Largest absolute relative error of a close depth.
 pub const CLOSE: f64 = 0.25;
 
-/// What verdicts are grouped by.
+/// Property by which results are grouped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Grouping {
-    /// All of a candidate together.
+    /// All cases.
     All,
-    /// Impact speed.
+    /// Impact velocity.
     Speed,
     /// Length of the projectile over its diameter.
     Length,
-    /// What the projectile does.
+    /// Regime of the projectile.
     Regime,
     /// Materials.
     Pair,
-    /// How well the reference itself is known.
+    /// Uncertainty of the reference.
     Reference,
 }
 
@@ -41,29 +41,29 @@ pub enum Grouping {
 pub struct Group {
     /// Name of the candidate.
     pub candidate: &'static str,
-    /// What it is grouped by.
+    /// Grouping property.
     pub grouping: Grouping,
-    /// The group.
+    /// Value of the property.
     pub value: String,
-    /// Its errors.
+    /// Error statistics.
     #[serde(flatten)]
     pub errors: Errors,
 }
 
-/// Statistics of relative errors: plain numbers, positive where the candidate goes too deep.
+/// Statistics of relative errors (depth by the model / reference - 1).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Errors {
-    /// How many shots.
+    /// Number of cases.
     pub count: usize,
     /// Median.
     pub median: f64,
-    /// A tenth lies below.
+    /// 10th percentile.
     pub low: f64,
-    /// A tenth lies above.
+    /// 90th percentile.
     pub high: f64,
-    /// Median of the magnitudes.
+    /// Median absolute error.
     pub median_absolute: f64,
-    /// Part of the shots with an error of at most [`CLOSE`], either way.
+    /// Fraction of the cases with an absolute error of at most [`CLOSE`].
     pub within_25_percent: f64,
 }
 
@@ -88,7 +88,7 @@ impl Errors {
 }
 
 impl Grouping {
-    /// All of them.
+    /// All groupings.
     pub const ALL: &'static [Self] = &[
         Self::All,
         Self::Speed,
@@ -98,15 +98,15 @@ impl Grouping {
         Self::Reference,
     ];
 
-    /// What groups are by, in words.
+    /// Name of the property.
     pub fn describe(self) -> &'static str {
         match self {
-            Self::All => "all shots",
-            Self::Speed => "speed",
+            Self::All => "all cases",
+            Self::Speed => "impact velocity",
             Self::Length => "L/D",
             Self::Regime => "regime",
             Self::Pair => "materials",
-            Self::Reference => "the reference's own uncertainty",
+            Self::Reference => "uncertainty of the reference",
         }
     }
 
@@ -141,7 +141,7 @@ impl Grouping {
     }
 }
 
-/// Whether the reference of a shot is known within [`SHARP`].
+/// Whether the reference of a case is known within [`SHARP`].
 pub fn is_sharp(verdict: &ErrorRecord) -> bool {
     verdict.reference_uncertainty_mm <= SHARP * verdict.reference_depth_mm
 }
@@ -163,7 +163,7 @@ fn sharp_name(sharp: bool) -> String {
     let percent = 100.0 * SHARP;
     match sharp {
         true => format!("within {percent} %"),
-        false => format!("over {percent} %"),
+        false => format!("above {percent} %"),
     }
 }
 

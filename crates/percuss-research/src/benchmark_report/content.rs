@@ -1,56 +1,56 @@
-//! What the report says, in which order.
+//! Content of the benchmark report.
 
 use percuss_report::page::Block;
 
-use super::{Benchmark, Origin, figures::Drawn, tables};
+use super::{BenchmarkResults, Origin, figures::BenchmarkFigures, tables};
 use crate::{
     benchmark::{self, Estimate, Grouping},
     paper_case,
 };
 
 pub(super) fn page<'a>(
-    compared: &Benchmark,
+    compared: &BenchmarkResults,
     origin: &Origin,
-    figures: &'a Drawn,
+    figures: &'a BenchmarkFigures,
 ) -> Vec<Block<'a>> {
     let verdicts = &compared.verdicts;
     let mut page = vec![
         Block::Title("Depth models against the axisymmetric reference".to_owned()),
         Block::Text(format!(
-            "Every depth model of percuss {} on every shot of the design. Reference: {}. Written by: {}",
+            "Every depth model of percuss {} on every case of the benchmark. Reference: {}. Command: {}",
             env!("CARGO_PKG_VERSION"),
             origin.reference,
             origin.command
         )),
-        Block::Heading("In plain words".to_owned()),
+        Block::Heading("Findings".to_owned()),
         Block::List(benchmark::findings(verdicts).iter().map(|line| line.replace('`', "")).collect()),
-        Block::Heading("How to read the numbers".to_owned()),
+        Block::Heading("Definitions".to_owned()),
         Block::List(
             [
-                "An error is depth by the model over depth by the reference, less 1: positive where the model goes too deep.",
-                "The reference is model axi. Three meshes that are monotone with an observed order of 0.5 to 2.2 are extrapolated in the cell \
-                 size, by at most 25 %. Otherwise the finest one counts where they agree within 10 %. Fewer meshes are no reference.",
-                "A shot whose reference fails this check, or whose rod stops short of a shorter one, is in none of the numbers.",
-                "Medians are over shots; a tenth of the errors lies below the lower end of a range and a tenth above the upper one.",
-                "The last column is the part of the shots with an error of at most 25 %, either way.",
-                "A model that does not apply to a shot is not counted there: numbers of models with different n are of different shots.",
+                "Relative error = depth by the model / depth by the reference - 1: positive where the model is too deep.",
+                "The reference is the model axi on three meshes. Monotone depths with an observed order of 0.5 to 2.2 are extrapolated in the \
+                 cell size, by at most 25 %. Otherwise the finest mesh counts if the meshes agree within 10 %.",
+                "A case is left out of all numbers if its reference fails this check or if a shorter rod penetrates deeper.",
+                "Medians and percentiles are over cases.",
+                "The last column is the fraction of the cases with an absolute error of at most 25 %.",
+                "Models with different n are compared on different cases, because a model counts only where it applies.",
             ]
             .map(str::to_owned)
             .to_vec(),
         ),
-        Block::Heading("All shots".to_owned()),
+        Block::Heading("All cases".to_owned()),
         Block::Table(tables::groups(verdicts, Grouping::All)),
     ];
     let refused = tables::refused(&compared.references);
     if !refused.is_empty() {
         let title = format!(
-            "{} shots left out: their reference fails its check",
+            "{} cases left out: their reference fails its check",
             refused.len()
         );
         page.push(Block::Folded(title, vec![Block::Table(refused)]));
     }
     page.extend(figures.maps.iter().map(Block::Figure));
-    page.push(Block::Heading("By what may decide".to_owned()));
+    page.push(Block::Heading("Errors by property".to_owned()));
     for &grouping in Grouping::ALL {
         let title = format!("By {}", grouping.describe());
         let table = || Block::Table(tables::groups(verdicts, grouping));
@@ -61,36 +61,38 @@ pub(super) fn page<'a>(
         }
     }
     page.extend(paper_case(compared));
-    page.push(Block::Heading("Depth over speed".to_owned()));
+    page.push(Block::Heading(
+        "Depth of penetration versus impact velocity".to_owned(),
+    ));
     page.extend(figures.depths.iter().map(Block::Figure));
     page.push(Block::WebOnly(
         figures.more_depths.iter().map(Block::Figure).collect(),
     ));
     page.push(Block::WebOnly(vec![
-        Block::Heading("Every shot".to_owned()),
-        Block::Table(tables::every_shot(compared)),
+        Block::Heading("Every case".to_owned()),
+        Block::Table(tables::every_case(compared)),
     ]));
     page
 }
 
-fn paper_case<'a>(compared: &Benchmark) -> Vec<Block<'a>> {
+fn paper_case<'a>(compared: &BenchmarkResults) -> Vec<Block<'a>> {
     let mut blocks = vec![
-        Block::Heading("The paper's case, one thing at a time".to_owned()),
+        Block::Heading("Case of the seed paper, one change at a time".to_owned()),
         Block::Text(
-            "A copper rod (12.74 mm by 4.8 mm) on 25 mm of 2024-T351, held at its back. Each line differs from the one before in what its \
-             second column says."
+            "A copper rod (12.74 mm by 4.8 mm) on 25 mm of 2024-T351 with a fixed rear face. The second column gives the difference from \
+             the previous line."
                 .to_owned(),
         ),
-        Block::Table(tables::ablation(&compared.ablation)),
+        Block::Table(tables::variants(&compared.variants)),
     ];
-    if !compared.study.is_empty() {
+    if !compared.paper_case.is_empty() {
         let depths = paper_case::SPEEDS.iter().filter_map(|&speed| {
-            let estimate = paper_case::depth(&compared.study, speed)?;
+            let estimate = paper_case::depth(&compared.paper_case, speed)?;
             Some(format!("{} at {speed} m/s", with_uncertainty(&estimate)))
         });
         let depths: Vec<String> = depths.collect();
         blocks.extend([
-            Block::Subheading("The same case by the reference".to_owned()),
+            Block::Subheading("Depth by the reference".to_owned()),
             Block::Text(format!(
                 "At a target radius of {} mm: {}, the means over meshes of at least {} cells with their largest distance from the mean. \
                  The depth alternates with the mesh and is not extrapolated. The other rows vary the radius of the target.",
@@ -98,7 +100,7 @@ fn paper_case<'a>(compared: &Benchmark) -> Vec<Block<'a>> {
                 depths.join(", "),
                 paper_case::FINE
             )),
-            Block::Table(tables::study(&compared.study)),
+            Block::Table(tables::paper_case_rows(&compared.paper_case)),
         ]);
     }
     blocks

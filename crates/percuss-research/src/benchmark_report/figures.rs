@@ -1,4 +1,4 @@
-//! Error maps, one a candidate, and depth over speed, one a pair of materials and length.
+//! Figures of the benchmark: one error map per candidate, and depth versus impact velocity per pair of materials and length.
 
 use percuss::{
     model_error::{
@@ -12,24 +12,25 @@ use percuss_report::{Axis, Figure, HeatMap, LineChart, Series, Style, palette};
 use super::tables::signed;
 use crate::benchmark::{PAIRS, pair_name};
 
-/// Length over diameter of the projectiles whose depths are shown in Markdown: one figure a pair of materials suffices there.
+/// Length-to-diameter ratio of the depth figures in Markdown, one per pair of materials.
 const SHOWN: f64 = 3.0;
-/// Error with the strongest colour.
+/// Error at the end of the colour scale.
 const STRONGEST: f64 = 1.0;
 /// Height of an error map [px].
 const MAP_HEIGHT: f64 = 330.0;
 
 /// All figures.
-pub(super) struct Drawn {
-    /// Error maps with the candidates' names.
+pub(super) struct BenchmarkFigures {
+    /// Error maps, one per candidate.
     pub(super) maps: Vec<Figure>,
-    /// Depths over speed, those for Markdown first.
+    /// Depth versus impact velocity, for Markdown and HTML.
     pub(super) depths: Vec<Figure>,
+    /// Depth versus impact velocity, for HTML only.
     pub(super) more_depths: Vec<Figure>,
 }
 
-impl Drawn {
-    /// Draws all figures for which there are verdicts.
+impl BenchmarkFigures {
+    /// Draws all figures with results.
     pub(super) fn of(verdicts: &[ErrorRecord]) -> Self {
         let of_length = |wanted: &dyn Fn(f64) -> bool| {
             let mut drawn = Vec::new();
@@ -102,13 +103,16 @@ fn map(verdicts: &[ErrorRecord], candidate: &str) -> Option<Figure> {
             &format!("error-{}", stem(candidate)),
             &format!("Median error of {candidate} against the axisymmetric reference"),
         ],
-        [axis("impact speed [m/s]", SPEEDS), axis("L/D", LENGTHS)],
+        [
+            axis("Impact velocity (m/s)", SPEEDS),
+            axis("Length-to-diameter ratio L/D", LENGTHS),
+        ],
         [range(SPEEDS), range(LENGTHS)],
-        "median error of depth [%]",
+        "Median error of the depth (%)",
         in_percent,
     );
     Some(
-        map.caption("red: too deep, blue: too shallow; over all pairs of materials")
+        map.caption("red: too deep, blue: too shallow; median over all pairs of materials")
             .texts(texts)
             .limit(100.0 * STRONGEST)
             .height(MAP_HEIGHT)
@@ -133,13 +137,13 @@ fn depths(verdicts: &[ErrorRecord], projectile: &str, target: &str, length: f64)
     let chart = LineChart::new(
         format!("depth-{}-on-{}-{length}", stem(projectile), stem(target)),
         format!(
-            "Depth over speed: {}, L/D {length}",
+            "Depth of penetration versus impact velocity: {}, L/D {length}",
             pair_name(projectile, target)
         ),
-        Axis::new("impact speed [m/s]"),
-        Axis::new("depth of penetration [mm]").log(),
+        Axis::new("Impact velocity (m/s)"),
+        Axis::new("Depth of penetration (mm)").log(),
     )
-    .caption("bars: what the reference's cells leave uncertain");
+    .caption("error bars: uncertainty of the reference due to the cell size");
     let chart = candidates()
         .iter()
         .enumerate()
@@ -160,7 +164,7 @@ fn depths(verdicts: &[ErrorRecord], projectile: &str, target: &str, length: f64)
         });
     let bars = reference.iter().map(|v| {
         let size = v.reference_uncertainty_mm;
-        // A logarithmic axis has no place for a bar down to nothing.
+        // A logarithmic axis cannot show a bar that ends at zero.
         (size.min(0.9 * v.reference_depth_mm), size)
     });
     let points = reference

@@ -1,4 +1,4 @@
-//! The report of a compared: every depth model against the axisymmetric reference, as HTML, Markdown, CSV and Parquet.
+//! Report of the benchmark: every depth model against the axisymmetric reference, as HTML, Markdown, CSV and Parquet.
 
 mod content;
 mod figures;
@@ -11,27 +11,27 @@ use percuss::{Error, model_error::ErrorRecord};
 use percuss_report::{ReportError, page};
 
 use crate::{
-    benchmark::{self, CheckedReference, Reference, Shot},
+    benchmark::{self, BenchmarkCase, CheckedReference, Reference},
     paper_case::{
-        Study,
-        ablation::{self, Line},
+        PaperCaseRow,
+        variants::{self, VariantResult},
     },
 };
 
-/// All that a report says.
+/// Results of the benchmark.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Benchmark {
-    /// The reference of every shot on its meshes, checked.
+pub struct BenchmarkResults {
+    /// The reference of every case on its meshes, checked.
     pub references: Vec<CheckedReference>,
-    /// Every candidate on every shot whose reference passes the check.
+    /// Every candidate on every case whose reference passes the check.
     pub verdicts: Vec<ErrorRecord>,
     /// The paper's case by the reference.
-    pub study: Vec<Study>,
+    pub paper_case: Vec<PaperCaseRow>,
     /// The paper's case by one-dimensional variants.
-    pub ablation: Vec<Line>,
+    pub variants: Vec<VariantResult>,
 }
 
-/// What a report says of itself.
+/// Origin of a report.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Origin {
     /// Where the reference comes from.
@@ -40,39 +40,43 @@ pub struct Origin {
     pub command: String,
 }
 
-impl Benchmark {
-    /// Judges all candidates on shots by their references.
+impl BenchmarkResults {
+    /// Compares all candidates with the references of the cases.
     ///
     /// # Errors
-    /// [`Error::Input`] when a shot's materials are not in the library.
-    pub fn new(shots: &[Shot], references: &[Reference], study: Vec<Study>) -> Result<Self, Error> {
+    /// [`Error::Input`] when a case's materials are not in the library.
+    pub fn new(
+        cases: &[BenchmarkCase],
+        references: &[Reference],
+        paper_case: Vec<PaperCaseRow>,
+    ) -> Result<Self, Error> {
         Ok(Self {
-            verdicts: benchmark::compare(shots, references)?,
-            ablation: ablation::ablation(&study)?,
-            references: benchmark::check_references(shots, references),
-            study,
+            verdicts: benchmark::compare(cases, references)?,
+            variants: variants::compute(&paper_case)?,
+            references: benchmark::check_references(cases, references),
+            paper_case,
         })
     }
 }
 
 /// Writes the report to a folder, which is made if it does not exist. Files of these names are replaced:
 ///
-/// - `judgement.html`: the whole report in one file;
-/// - `judgement.md` with one PNG a figure: the same without the single shots and some of the figures;
-/// - `verdicts.csv`, `verdicts.parquet`: a row a candidate and shot; the first is the file that the library stores;
-/// - `references.csv`, `references.parquet`: a row per shot, with the depth by the reference or why it does not count;
-/// - `statistics.csv`, `statistics.parquet`: a row a candidate and group;
-/// - `ablation.csv`, `ablation.parquet`: the paper's case by one-dimensional variants.
+/// - `benchmark.html`: the whole report in one file;
+/// - `benchmark.md` with one PNG a figure: the same without the single cases and some of the figures;
+/// - `verdicts.csv`, `verdicts.parquet`: one row per candidate and case; the first is the file that the library stores;
+/// - `references.csv`, `references.parquet`: a row per case, with the depth by the reference or why it does not count;
+/// - `statistics.csv`, `statistics.parquet`: one row per candidate and group;
+/// - `variants.csv`, `variants.parquet`: case of the seed paper by one-dimensional variants.
 ///
 /// # Errors
 /// [`ReportError::Write`]; [`ReportError::Figure`]; [`ReportError::Table`].
 pub fn write(
     folder: &Path,
-    compared: &Benchmark,
+    compared: &BenchmarkResults,
     origin: &Origin,
 ) -> Result<Vec<PathBuf>, ReportError> {
-    let figures = figures::Drawn::of(&compared.verdicts);
+    let figures = figures::BenchmarkFigures::of(&compared.verdicts);
     let page = content::page(compared, origin, &figures);
     let files = numbers::files(compared)?;
-    page::write(folder, "judgement", &page, figures.in_markdown(), files)
+    page::write(folder, "benchmark", &page, figures.in_markdown(), files)
 }

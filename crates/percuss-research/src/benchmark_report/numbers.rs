@@ -6,14 +6,16 @@ use percuss_report::{
     column::{self, Column},
 };
 
-use super::Benchmark;
+use super::BenchmarkResults;
 use crate::{
     benchmark::{self, CheckedReference, Group, Grouping},
-    paper_case::ablation::Line,
+    paper_case::variants::VariantResult,
 };
 
 /// Names and contents of the files.
-pub(super) fn files(compared: &Benchmark) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
+pub(super) fn files(
+    compared: &BenchmarkResults,
+) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
     let verdicts = benchmark::to_csv(&compared.verdicts).map_err(|source| ReportError::Table {
         table: "verdicts.csv".to_owned(),
         source: source.into(),
@@ -30,8 +32,8 @@ pub(super) fn files(compared: &Benchmark) -> Result<Vec<(&'static str, Vec<u8>)>
     )?);
     let names = ["statistics.csv", "statistics.parquet"];
     files.extend(column::files(names, &group_columns(), &groups)?);
-    let names = ["ablation.csv", "ablation.parquet"];
-    files.extend(column::files(names, &line_columns(), &compared.ablation)?);
+    let names = ["variants.csv", "variants.parquet"];
+    files.extend(column::files(names, &line_columns(), &compared.variants)?);
     let names = ["references.csv", "references.parquet"];
     files.extend(column::files(
         names,
@@ -64,10 +66,10 @@ fn verdict_columns() -> Vec<Column<ErrorRecord>> {
 fn reference_columns() -> Vec<Column<CheckedReference>> {
     type Row = CheckedReference;
     vec![
-        Column::text("projectile", |r: &Row| r.shot.projectile.clone()),
-        Column::text("target", |r: &Row| r.shot.target.clone()),
-        Column::float("length_to_diameter", |r: &Row| r.shot.length_to_diameter),
-        Column::float("impact_velocity_m_s", |r: &Row| r.shot.speed),
+        Column::text("projectile", |r: &Row| r.case.projectile.clone()),
+        Column::text("target", |r: &Row| r.case.target.clone()),
+        Column::float("length_to_diameter", |r: &Row| r.case.length_to_diameter),
+        Column::float("impact_velocity_m_s", |r: &Row| r.case.speed),
         Column::integer("meshes", |r: &Row| r.meshes.len() as i64),
         Column::optional("finest_cells_per_radius", |r: &Row| {
             r.meshes.last().map(|mesh| mesh.cells)
@@ -103,14 +105,16 @@ fn group_columns() -> Vec<Column<Group>> {
     ]
 }
 
-fn line_columns() -> Vec<Column<Line>> {
+fn line_columns() -> Vec<Column<VariantResult>> {
     vec![
-        Column::float("impact_velocity_m_s", |l: &Line| l.impact_velocity_m_s),
-        Column::text("variant", |l: &Line| l.variant.to_owned()),
-        Column::text("change", |l: &Line| l.change.to_owned()),
-        Column::float("depth_of_penetration_mm", |l: &Line| {
+        Column::float("impact_velocity_m_s", |l: &VariantResult| {
+            l.impact_velocity_m_s
+        }),
+        Column::text("variant", |l: &VariantResult| l.variant.to_owned()),
+        Column::text("change", |l: &VariantResult| l.change.to_owned()),
+        Column::float("depth_of_penetration_mm", |l: &VariantResult| {
             l.depth_of_penetration_mm
         }),
-        Column::optional("error", |l: &Line| l.error),
+        Column::optional("error", |l: &VariantResult| l.error),
     ]
 }

@@ -6,10 +6,10 @@ use percuss::{
 };
 use percuss_report::table::{Rows, Table, number};
 
-use super::Benchmark;
+use super::BenchmarkResults;
 use crate::{
-    benchmark::{self, CheckedReference, Errors, Group, Grouping, Shot, pair_name},
-    paper_case::{self, Study, ablation::Line},
+    benchmark::{self, BenchmarkCase, CheckedReference, Errors, Group, Grouping, pair_name},
+    paper_case::{self, PaperCaseRow, variants::VariantResult},
 };
 
 /// A relative error in per cent with its sign.
@@ -20,13 +20,13 @@ pub fn signed(error: f64) -> String {
     }
 }
 
-/// Columns of errors, of which each row has some.
+/// Columns of error statistics.
 fn errors<R>(rows: Rows<'_, R>, of: impl Fn(&R) -> &Errors) -> Rows<'_, R> {
     rows.numbers("n", "", |row| of(row).count.to_string())
         .numbers("median", "%", |row| signed(of(row).median))
-        .numbers("10 % below", "%", |row| signed(of(row).low))
-        .numbers("10 % above", "%", |row| signed(of(row).high))
-        .numbers("median magnitude", "%", |row| {
+        .numbers("10th percentile", "%", |row| signed(of(row).low))
+        .numbers("90th percentile", "%", |row| signed(of(row).high))
+        .numbers("median absolute error", "%", |row| {
             format!("{:.0}", 100.0 * of(row).median_absolute)
         })
         .numbers("within 25 %", "%", |row| {
@@ -34,12 +34,12 @@ fn errors<R>(rows: Rows<'_, R>, of: impl Fn(&R) -> &Errors) -> Rows<'_, R> {
         })
 }
 
-/// One row a candidate and group; the groups together, for the candidates to be compared.
+/// One row per candidate and group, sorted by groups.
 pub(super) fn groups(verdicts: &[ErrorRecord], grouping: Grouping) -> Table {
     let groups = benchmark::statistics(verdicts, grouping);
     let mut rows: Vec<(String, &Group)> = Vec::new();
     for value in grouping.values() {
-        // The value stands in the first row of its group.
+        // Only the first row of a group has its value.
         let mut name = value.clone();
         let own = groups.iter().filter(|group| group.value == value);
         rows.extend(own.map(|group| (std::mem::take(&mut name), group)));
@@ -48,13 +48,13 @@ pub(super) fn groups(verdicts: &[ErrorRecord], grouping: Grouping) -> Table {
         .when(grouping != Grouping::All, |rows| {
             rows.words(grouping.describe(), |(name, _)| name.clone())
         })
-        .words("candidate", |(_, group)| group.candidate);
+        .words("model", |(_, group)| group.candidate);
     errors(rows, |(_, group)| &group.errors).table()
 }
 
-/// The paper's case by one-dimensional variants, a column of depth and error a speed.
-pub fn ablation(lines: &[Line]) -> Table {
-    let mut variants: Vec<&Line> = Vec::new();
+/// Case of the seed paper by one-dimensional variants, with columns of depth and error per velocity.
+pub fn variants(lines: &[VariantResult]) -> Table {
+    let mut variants: Vec<&VariantResult> = Vec::new();
     for line in lines {
         if variants.iter().all(|known| known.variant != line.variant) {
             variants.push(line);
@@ -62,10 +62,10 @@ pub fn ablation(lines: &[Line]) -> Table {
     }
     Table::of(&variants)
         .words("variant", |line| line.variant)
-        .words("what is new", |line| line.change)
+        .words("difference from the previous line", |line| line.change)
         .each(paper_case::SPEEDS, |rows, speed| {
-            let at = |line: &Line| {
-                let is_own = |other: &&Line| {
+            let at = |line: &VariantResult| {
+                let is_own = |other: &&VariantResult| {
                     other.variant == line.variant && other.impact_velocity_m_s == *speed
                 };
                 lines.iter().find(is_own)
@@ -81,9 +81,9 @@ pub fn ablation(lines: &[Line]) -> Table {
         .table()
 }
 
-/// The paper's case by the reference, on its meshes and in its targets.
-pub(super) fn study(rows: &[Study]) -> Table {
-    let mut rows: Vec<&Study> = rows.iter().collect();
+/// Case of the seed paper by the reference, on all meshes and in all targets.
+pub(super) fn paper_case_rows(rows: &[PaperCaseRow]) -> Table {
+    let mut rows: Vec<&PaperCaseRow> = rows.iter().collect();
     rows.sort_by(|a, b| {
         let speeds = a.impact_velocity_m_s.total_cmp(&b.impact_velocity_m_s);
         let radii = a.target_radius_mm.total_cmp(&b.target_radius_mm);
@@ -91,7 +91,7 @@ pub(super) fn study(rows: &[Study]) -> Table {
         speeds.then(radii).then(cells)
     });
     Table::of(&rows)
-        .numbers("speed", "m/s", |row| {
+        .numbers("impact velocity", "m/s", |row| {
             significant(row.impact_velocity_m_s, 4)
         })
         .numbers("cells per radius", "", |row| {
@@ -104,16 +104,16 @@ pub(super) fn study(rows: &[Study]) -> Table {
             significant(row.depth_of_penetration_mm, 4)
         })
         .numbers("particles", "", |row| row.particles.to_string())
-        .numbers("energy residual", "%", |row| {
+        .numbers("energy balance error", "%", |row| {
             format!("{:.2}", 100.0 * row.energy_residual)
         })
         .table()
 }
 
-/// Every shot: its reference on all meshes, extrapolated, and the depth of every candidate with its error.
-pub(super) fn every_shot(compared: &Benchmark) -> Table {
+/// Every case with the reference on all meshes, its extrapolation, and the depth of every candidate with its error.
+pub(super) fn every_case(compared: &BenchmarkResults) -> Table {
     let entries: Vec<&CheckedReference> = compared.references.iter().collect();
-    shots(&entries)
+    cases(&entries)
         .numbers("reference", "mm", |entry| match &entry.estimate {
             Ok(estimate) => format!(
                 "{} ± {}",
@@ -123,14 +123,14 @@ pub(super) fn every_shot(compared: &Benchmark) -> Table {
             Err(refusal) => format!("refused: {}", refusal.describe()),
         })
         .each(candidates(), |rows, candidate| {
-            let of = |shot: &Shot| {
+            let of = |case: &BenchmarkCase| {
                 let is_own = |verdict: &&ErrorRecord| {
-                    verdict.candidate == candidate.name && shot.is_of(verdict)
+                    verdict.candidate == candidate.name && case.is_of(verdict)
                 };
                 compared.verdicts.iter().find(is_own)
             };
             rows.numbers(format!("{} [mm] (%)", candidate.name), "", |entry| {
-                of(&entry.shot).map_or_else(
+                of(&entry.case).map_or_else(
                     || number(None, 0),
                     |verdict| {
                         let depth = significant(verdict.depth_of_penetration_mm, 3);
@@ -142,15 +142,17 @@ pub(super) fn every_shot(compared: &Benchmark) -> Table {
         .table()
 }
 
-/// Materials, L/D, velocity and the depths on all meshes of shots.
-fn shots<'a>(entries: &'a [&'a CheckedReference]) -> Rows<'a, &'a CheckedReference> {
+/// Materials, L/D, velocity and the depths on all meshes of cases.
+fn cases<'a>(entries: &'a [&'a CheckedReference]) -> Rows<'a, &'a CheckedReference> {
     Table::of(entries)
         .words("materials", |entry| {
-            pair_name(&entry.shot.projectile, &entry.shot.target)
+            pair_name(&entry.case.projectile, &entry.case.target)
         })
-        .numbers("L/D", "", |entry| entry.shot.length_to_diameter.to_string())
-        .numbers("speed", "m/s", |entry| entry.shot.speed.to_string())
-        .numbers("on meshes", "mm", |entry| {
+        .numbers("L/D", "", |entry| entry.case.length_to_diameter.to_string())
+        .numbers("impact velocity", "m/s", |entry| {
+            entry.case.speed.to_string()
+        })
+        .numbers("depth by cells per radius", "mm", |entry| {
             let meshes = entry.meshes.iter();
             let meshes =
                 meshes.map(|mesh| format!("{}: {}", mesh.cells, significant(mesh.value, 4)));
@@ -158,14 +160,14 @@ fn shots<'a>(entries: &'a [&'a CheckedReference]) -> Rows<'a, &'a CheckedReferen
         })
 }
 
-/// The shots whose reference fails its check, each with the reason.
+/// Cases whose reference fails its check, with the reason.
 pub(super) fn refused(references: &[CheckedReference]) -> Table {
     let refused: Vec<&CheckedReference> = references
         .iter()
         .filter(|entry| entry.estimate.is_err())
         .collect();
-    shots(&refused)
-        .words("refused because", |entry| match &entry.estimate {
+    cases(&refused)
+        .words("reason of the refusal", |entry| match &entry.estimate {
             Err(refusal) => refusal.describe(),
             Ok(_) => String::new(),
         })

@@ -3,7 +3,7 @@
 use percuss::{converge, history::Sample, outcome::RunResult};
 
 use super::{
-    Item, Table, Verdict, finite_differences,
+    Assessment, Item, Table, finite_differences,
     runs::{
         FINE_MESHES, MESHES, PAPER_MESH, PAPER_SPEED, Runs, SHEARS, SPEEDS, TIME_SPEEDS, WAYS, Way,
     },
@@ -17,11 +17,12 @@ pub(super) fn check(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>)
     figure_10(runs, items, tables);
     items.push(Item {
         place: "Fig. 11",
-        statement: "agrees with Woodward's shots at low speed and departs from them at high speed"
-            .to_owned(),
-        verdict: Verdict::CannotBeKnown,
+        statement:
+            "agrees with Woodward's tests at low velocity and departs from them at high velocity"
+                .to_owned(),
+        assessment: Assessment::CannotBeKnown,
         finding:
-            "the measured depths stand in the figure only, and no readable source of them was found"
+            "the measured depths are only in the figure, and no readable source of them was found"
                 .to_owned(),
     });
 }
@@ -30,7 +31,7 @@ pub(super) fn number(value: f64) -> String {
     format!("{value:.4}")
 }
 
-/// Exponent of a power of the speed between the ends of a curve.
+/// Exponent of the velocity between the ends of a curve.
 fn exponent(depths: &[f64]) -> f64 {
     let last = depths.len() - 1;
     (depths[last] / depths[0]).ln() / (SPEEDS[last] / SPEEDS[0]).ln()
@@ -42,7 +43,7 @@ fn figure_7(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
         .iter()
         .map(|way| {
             format!(
-                "{}: speed to the power {:.2}",
+                "{}: proportional to velocity to the power {:.2}",
                 way.name(),
                 exponent(&curve(*way))
             )
@@ -53,11 +54,11 @@ fn figure_7(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
         .all(|way| curve(*way).windows(2).all(|pair| pair[1] > pair[0]));
     items.push(Item {
         place: "Fig. 7",
-        statement: "depth grows nonlinearly with impact speed (10–20 elements)".to_owned(),
-        verdict: if rising {
-            Verdict::Reproduced
+        statement: "depth grows nonlinearly with impact velocity (10–20 elements)".to_owned(),
+        assessment: if rising {
+            Assessment::Reproduced
         } else {
-            Verdict::Contradicted
+            Assessment::Contradicted
         },
         finding: format!(
             "from {} to {} m/s, {}",
@@ -67,7 +68,7 @@ fn figure_7(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
         ),
     });
     finite_differences::check(runs, items, tables);
-    let mut columns = vec!["impact speed [m/s]".to_owned()];
+    let mut columns = vec!["Impact velocity (m/s)".to_owned()];
     for mesh in [(10, 20), PAPER_MESH] {
         columns.extend(
             WAYS.iter()
@@ -84,7 +85,8 @@ fn figure_7(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
         })
         .collect();
     tables.push(Table {
-        title: "Depth against impact speed (figures 7 and 11), C = 0.577.".to_owned(),
+        title: "Depth of penetration versus impact velocity (figures 7 and 11), C = 0.577."
+            .to_owned(),
         columns,
         rows,
     });
@@ -105,10 +107,10 @@ fn figure_8(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
     items.push(Item {
         place: "Fig. 8",
         statement: "from 30–60 to 50–100 elements the depth changes by less than 0.5 mm".to_owned(),
-        verdict: if WAYS.iter().all(|way| change(*way, PAPER_SPEED).abs() < 0.5) {
-            Verdict::Reproduced
+        assessment: if WAYS.iter().all(|way| change(*way, PAPER_SPEED).abs() < 0.5) {
+            Assessment::Reproduced
         } else {
-            Verdict::Contradicted
+            Assessment::Contradicted
         },
         finding: format!("at 230 m/s, {}", changes.join("; ")),
     });
@@ -132,7 +134,7 @@ fn figure_8(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
         items.push(Item {
             place: "Fig. 8",
             statement: format!("40–80 elements are converged ({})", way.name()),
-            verdict: Verdict::Contradicted,
+            assessment: Assessment::Contradicted,
             finding: format!(
                 "{} mm on 40–80, 80–160, 160–320, 320–640 at 230 m/s: observed order {order}, extrapolated {limit}; {words}; \
                  40–80 is {:.0} % above the finest",
@@ -171,7 +173,7 @@ fn figure_9(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
         items.push(Item {
             place: "Fig. 9",
             statement: format!("the border-shear constant C changes the depth marginally ({})", way.name()),
-            verdict: if marginal { Verdict::Reproduced } else { Verdict::Contradicted },
+            assessment: if marginal { Assessment::Reproduced } else { Assessment::Contradicted },
             finding: format!(
                 "C = 0.3 gives {:.1} % more than C = 1.0 at 230 m/s and {:.1} % at 600 m/s; without border shear the depth at \
                  230 m/s is {:.3} mm against {:.3} mm with C = 0.577",
@@ -199,13 +201,14 @@ fn figure_9(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
         })
         .collect();
     tables.push(Table {
-        title: "Depth against the border-shear constant (figure 9), 40–80 elements.".to_owned(),
+        title: "Depth of penetration versus border-shear constant (figure 9), 40–80 elements."
+            .to_owned(),
         columns,
         rows,
     });
 }
 
-/// Depth that figure 10 follows: the paper's is that of the first penetrator mass.
+/// Depth of figure 10: in the paper, that of the first penetrator mass.
 fn followed(way: Way, sample: &Sample) -> f64 {
     match way {
         Way::Conservative => sample.depth,
@@ -243,17 +246,17 @@ fn figure_10(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
     };
     for way in WAYS {
         let (depths, times) = (curve(way, depth), curve(way, saturation_time));
-        let verdict = match (grows(&depths), grows(&times)) {
-            (true, true) => Verdict::Reproduced,
-            _ => Verdict::Contradicted,
+        let assessment = match (grows(&depths), grows(&times)) {
+            (true, true) => Assessment::Reproduced,
+            _ => Assessment::Contradicted,
         };
         items.push(Item {
             place: "Fig. 10",
             statement: format!(
-                "tip depth rises and saturates; saturation depth and time both grow with speed ({})",
+                "tip depth rises and saturates; saturation depth and time both grow with velocity ({})",
                 way.name()
             ),
-            verdict,
+            assessment,
             finding: format!(
                 "at {} m/s: depths {} mm, 99 % of them after {} us",
                 TIME_SPEEDS.map(|speed| speed.to_string()).join(" / "),
@@ -262,7 +265,7 @@ fn figure_10(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
             ),
         });
     }
-    let mut columns = vec!["impact speed [m/s]".to_owned()];
+    let mut columns = vec!["Impact velocity (m/s)".to_owned()];
     for way in WAYS {
         columns.push(format!("{}: depth [mm]", way.name()));
         columns.push(format!("{}: time to 99 % [us]", way.name()));
@@ -288,9 +291,9 @@ fn figure_10(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
 }
 
 pub(super) fn draw(runs: &Runs) -> Vec<Figure> {
-    let speed_axis = || Axis::new("impact speed [m/s]");
-    let depth_axis = || Axis::new("depth of penetration [mm]");
-    let against_speed = |name: &str, title: &str, mesh: (u32, u32)| {
+    let speed_axis = || Axis::new("Impact velocity (m/s)");
+    let depth_axis = || Axis::new("Depth of penetration (mm)");
+    let versus_velocity = |name: &str, title: &str, mesh: (u32, u32)| {
         WAYS.into_iter()
             .fold(
                 LineChart::new(name, title, speed_axis(), depth_axis().log()),
@@ -317,8 +320,8 @@ pub(super) fn draw(runs: &Runs) -> Vec<Figure> {
         .fold(
             LineChart::new(
                 "figure-8",
-                "Depth against element length at 230 m/s",
-                Axis::new("element length of the rod [mm]").log(),
+                "Depth of penetration versus element length at 230 m/s",
+                Axis::new("Element length of the rod (mm)").log(),
                 depth_axis().log(),
             ),
             |chart, way| {
@@ -328,7 +331,7 @@ pub(super) fn draw(runs: &Runs) -> Vec<Figure> {
                 chart.series(Series::new(way.name(), points).style(Style::LineAndMarkers))
             },
         )
-        .caption("a result converges where its curve levels out to the left; the paper stops at 50–100 elements")
+        .caption("a converged curve is horizontal at its left end; the finest mesh of the paper has 50–100 elements")
         .mark(Mark::vertical("finest mesh of the paper", 12.74 / 50.0))
         .draw();
     let shear = WAYS
@@ -336,8 +339,8 @@ pub(super) fn draw(runs: &Runs) -> Vec<Figure> {
         .fold(
             LineChart::new(
                 "figure-9",
-                "Depth against the border-shear constant at 230 m/s",
-                Axis::new("border-shear constant C [-]"),
+                "Depth of penetration versus border-shear constant at 230 m/s",
+                Axis::new("Border-shear constant C"),
                 depth_axis().log(),
             ),
             |chart, way| {
@@ -353,9 +356,9 @@ pub(super) fn draw(runs: &Runs) -> Vec<Figure> {
         own.fold(
             LineChart::new(
                 name,
-                format!("Tip depth against time: {}", way.name()),
-                Axis::new("time [µs]"),
-                Axis::new("depth [mm]"),
+                format!("Tip depth versus time: {}", way.name()),
+                Axis::new("Time (µs)"),
+                Axis::new("Depth (mm)"),
             ),
             |chart, (way, speed, result)| {
                 let samples = result.history.iter().flat_map(|history| &history.samples);
@@ -367,9 +370,9 @@ pub(super) fn draw(runs: &Runs) -> Vec<Figure> {
         .draw()
     };
     vec![
-        against_speed(
+        versus_velocity(
             "figure-7",
-            "Depth against impact speed on the paper's coarse mesh",
+            "Depth of penetration versus impact velocity, coarse mesh of the paper",
             (10, 20),
         ),
         convergence,
@@ -377,9 +380,9 @@ pub(super) fn draw(runs: &Runs) -> Vec<Figure> {
         in_time(Way::Chain, "figure-10-published-chain"),
         in_time(Way::Joined, "figure-10-published-joined"),
         in_time(Way::Conservative, "figure-10-conservative"),
-        against_speed(
+        versus_velocity(
             "figure-11",
-            "Depth against impact speed on the paper's mesh",
+            "Depth of penetration versus impact velocity, mesh of the paper",
             PAPER_MESH,
         ),
     ]

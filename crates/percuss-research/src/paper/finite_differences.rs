@@ -1,12 +1,12 @@
-//! Figure 7 by two discretisations: discrete elements against finite differences.
+//! Figure 7 by two discretisations: discrete elements and finite differences.
 
 use super::{
-    Item, Table, Verdict,
+    Assessment, Item, Table,
     figures::number,
     runs::{COMPARED_MESHES, Runs, SPEEDS, Way},
 };
 
-/// Largest difference between two programs that are said to agree.
+/// Largest relative difference of results that agree.
 const AGREEMENT: f64 = 0.1;
 
 pub(super) fn check(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>) {
@@ -21,11 +21,11 @@ pub(super) fn check(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>)
     let [coarse, fine] = COMPARED_MESHES.map(largest);
     items.push(Item {
         place: "Fig. 7",
-        statement: "discrete elements agree with 1-D finite differences at every speed (conservative)"
+        statement: "discrete elements agree with 1-D finite differences at every velocity (conservative)"
             .to_owned(),
-        verdict: match coarse < AGREEMENT && fine < AGREEMENT {
-            true => Verdict::Reproduced,
-            false => Verdict::Contradicted,
+        assessment: match coarse < AGREEMENT && fine < AGREEMENT {
+            true => Assessment::Reproduced,
+            false => Assessment::Contradicted,
         },
         finding: format!(
             "against the model `fdm`, which solves the same equations in another discretisation, neither with erosion: the \
@@ -46,19 +46,19 @@ pub(super) fn check(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>)
         items.push(Item {
             place: "Fig. 7",
             statement: format!(
-                "discrete elements agree with 1-D finite differences at every speed ({})",
+                "discrete elements agree with 1-D finite differences at every velocity ({})",
                 way.name()
             ),
-            verdict: match least > 1.0 - AGREEMENT && most < 1.0 + AGREEMENT {
-                true => Verdict::Reproduced,
-                false => Verdict::Contradicted,
+            assessment: match least > 1.0 - AGREEMENT && most < 1.0 + AGREEMENT {
+                true => Assessment::Reproduced,
+                false => Assessment::Contradicted,
             },
             finding: format!(
                 "{least:.1} to {most:.1} times the depth by finite differences on 10–20 elements"
             ),
         });
     }
-    let mut columns = vec!["impact speed [m/s]".to_owned()];
+    let mut columns = vec!["Impact velocity (m/s)".to_owned()];
     for mesh in COMPARED_MESHES {
         let mesh = format!("{}–{}", mesh.0, mesh.1);
         columns.push(format!("discrete elements, {mesh} [mm]"));
@@ -83,7 +83,7 @@ pub(super) fn check(runs: &Runs, items: &mut Vec<Item>, tables: &mut Vec<Table>)
         })
         .collect();
     tables.push(Table {
-        title: "Discrete elements (conservative) against finite differences (figure 7), C = 0.577, no erosion in either."
+        title: "Discrete elements (conservative) versus finite differences (figure 7), C = 0.577, no erosion in either."
             .to_owned(),
         columns,
         rows,

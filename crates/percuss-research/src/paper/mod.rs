@@ -1,4 +1,4 @@
-//! The seed paper, item by item: what its numbers and words come to when its own case is computed.
+//! Reproduction of the seed paper, item by item.
 
 mod figures;
 mod finite_differences;
@@ -15,48 +15,48 @@ use percuss::Error;
 use percuss_report::{Figure, ReportError, figure::IN_PAGES, replace_file::replace_file};
 use serde::Serialize;
 
-/// What became of one statement of the paper.
+/// Assessment of one statement of the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Verdict {
-    /// The same comes out.
+pub enum Assessment {
+    /// The computation gives the same.
     Reproduced,
-    /// It comes out in one reading of the paper and not in another.
+    /// The result depends on the interpretation of the paper.
     ReadingDependent,
-    /// Something else comes out.
+    /// The computation gives another result.
     Contradicted,
-    /// The text does not hold what a check would need.
+    /// The text has not enough information for a check.
     CannotBeKnown,
 }
 
-impl fmt::Display for Verdict {
+impl fmt::Display for Assessment {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::Reproduced => "reproduced",
-            Self::ReadingDependent => "depends on the reading",
+            Self::ReadingDependent => "depends on the interpretation",
             Self::Contradicted => "contradicted",
-            Self::CannotBeKnown => "cannot be known",
+            Self::CannotBeKnown => "not verifiable",
         })
     }
 }
 
-/// A statement of the paper and what was found.
+/// Statement of the paper with its assessment.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Item {
-    /// Where in the paper.
+    /// Place in the paper.
     pub place: &'static str,
-    /// What the paper says, in our words.
+    /// Paraphrase of the statement.
     pub statement: String,
-    /// What became of it.
-    pub verdict: Verdict,
-    /// What was computed, with numbers.
+    /// Assessment.
+    pub assessment: Assessment,
+    /// Computed numbers.
     pub finding: String,
 }
 
 /// A table of computed numbers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Table {
-    /// What it holds.
+    /// Title.
     pub title: String,
     /// Column headings with units.
     pub columns: Vec<String>,
@@ -64,24 +64,24 @@ pub struct Table {
     pub rows: Vec<Vec<String>>,
 }
 
-/// The paper worked through.
+/// Reproduction of the paper.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reproduction {
-    /// The statements.
+    /// Statements.
     pub items: Vec<Item>,
-    /// The numbers behind them.
+    /// Tables of computed numbers.
     pub tables: Vec<Table>,
     /// The figures.
     pub figures: Vec<Figure>,
 }
 
-/// Told the part done, 0 to 1; may stop the work.
+/// Callback with the progress, 0 to 1; it may stop the work.
 pub type OnProgress<'a> = &'a mut dyn FnMut(f64) -> ControlFlow<()>;
 
-/// Computes everything that the paper's Table 1 and figures 7 to 11 allow to check.
+/// Checks the statements of the paper's Table 1 and figures 7 to 11.
 ///
 /// # Errors
-/// Those of the runs; [`Error::Cancelled`] when `progress` breaks off.
+/// Those of the runs; [`Error::Cancelled`] when `progress` stops the work.
 pub fn reproduce(progress: OnProgress<'_>) -> Result<Reproduction, Error> {
     let runs = runs::Runs::compute(progress)?;
     let (mut items, mut tables) = (Vec::new(), Vec::new());
@@ -115,14 +115,14 @@ impl Reproduction {
     pub fn page(&self) -> String {
         let mut page = String::from(INTRODUCTION);
         page.push_str(
-            "\n## Item by item\n\n| place | the paper | verdict | computed |\n|---|---|---|---|\n",
+            "\n## Item by item\n\n| place | statement | assessment | computed |\n|---|---|---|---|\n",
         );
         for item in &self.items {
             // Writing to a String cannot fail.
             let _ = writeln!(
                 page,
                 "| {} | {} | **{}** | {} |",
-                item.place, item.statement, item.verdict, item.finding
+                item.place, item.statement, item.assessment, item.finding
             );
         }
         page.push_str("\n## Figures\n");
@@ -173,17 +173,17 @@ const INTRODUCTION: &str = "\
 # The seed paper, item by item
 
 *Simulation of depth of penetration during ballistic impact on thick targets using a one-dimensional discrete element
-model* (bibliography key `paper`): a copper rod strikes a thick 2024-T351 plate. Its text was read; its figures were not,
-so for them this page checks what the text says of them. Every number here was computed by the run that wrote the page.
+model* (bibliography key `paper`): a copper rod impacts a thick 2024-T351 plate. Its text was available; its figures were not,
+so this page checks the statements of the text about them. All numbers were computed by the run that wrote the page.
 
-Three schemes stand side by side:
+Three schemes are compared:
 
 - **published, chain**: the paper's equations; every mass moves by its own equation, and a contact spring in which half an
   element of each body deforms joins rod and target (eq. 22); no spring is stiffer than the elastic line;
-- **published, joined**: the same with equation (15) taken literally: the first masses of both bodies move as one from the
-  impact speed on and are stopped by the target's springs, the power law down to zero strain;
-- **conservative**: large strain, plastic unloading, momentum-conserving contact, balanced books.
+- **published, joined**: the same with equation (15) taken literally: the first masses of both bodies move together from the
+  impact on and are stopped by the springs of the target, with the power law down to zero strain;
+- **conservative**: large strain, plastic unloading, momentum-conserving contact, closed energy balance.
 
-The paper's depth is that of the first penetrator mass when it stops; the conservative scheme's is that of the crater floor
-when the penetrator's momentum is used up.
+The depth of the paper is that of the first penetrator mass when it stops. The depth of the conservative scheme is that of the
+crater floor when the momentum of the penetrator is zero.
 ";

@@ -1,4 +1,4 @@
-//! The computations that the checks draw on.
+//! Computations behind the checks.
 
 use std::ops::ControlFlow;
 
@@ -21,18 +21,18 @@ pub(super) const MESHES: [(u32, u32); 5] = [(10, 20), (20, 40), (30, 60), (40, 8
 pub(super) const FINE_MESHES: [(u32, u32); 3] = [(80, 160), (160, 320), (320, 640)];
 /// Meshes on which discrete elements and finite differences are compared: that of figure 7 and the paper's own.
 pub(super) const COMPARED_MESHES: [(u32, u32); 2] = [(10, 20), PAPER_MESH];
-/// Impact speeds [m/s]; the text gives only 230 m/s.
+/// Impact velocities [m/s]; the text gives only 230 m/s.
 pub(super) const SPEEDS: [f64; 8] = [100.0, 150.0, 200.0, 230.0, 300.0, 400.0, 500.0, 600.0];
 /// Border-shear constants of the study.
 pub(super) const SHEARS: [f64; 6] = [0.0, 0.1, 0.3, 0.577, 0.8, 1.0];
-/// Speeds of the depth-time curves [m/s].
+/// Impact velocities of the depth-time curves [m/s].
 pub(super) const TIME_SPEEDS: [f64; 4] = [150.0, 230.0, 400.0, 600.0];
-/// The paper's speed [m/s].
+/// Impact velocity of the paper [m/s].
 pub(super) const PAPER_SPEED: f64 = 230.0;
 /// The paper's mesh.
 pub(super) const PAPER_MESH: (u32, u32) = (40, 80);
 
-/// Table 1 as a case file, with the paper's closure of the target.
+/// Table 1 as a case file, with the target resistance model of the paper.
 const TABLE_1: &str = r#"
 projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
 target = { material = "aluminium-2024-t351", thickness = "25 mm" }
@@ -59,7 +59,7 @@ impl Way {
     }
 }
 
-/// One run's place in the studies.
+/// Parameters of one run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Key {
     way: Way,
@@ -78,7 +78,7 @@ pub(super) struct Compared {
 }
 
 impl Compared {
-    /// How much deeper finite differences go, as a part of the depth.
+    /// Relative excess of the depth by finite differences.
     pub(super) fn excess(&self) -> f64 {
         self.differences / self.elements - 1.0
     }

@@ -1,23 +1,23 @@
-//! Table 1.
+//! Checks of Table 1.
 
 use percuss::{case::PublishedTimeStep, chain::Published, scenario::TargetBody};
 
-use super::{Item, Verdict, runs::Runs};
+use super::{Assessment, Item, runs::Runs};
 
 pub(super) fn check(runs: &Runs, items: &mut Vec<Item>) {
     let scenario = runs.table_1();
     let rod = &scenario.projectile;
-    let mut push = |statement: &str, verdict, finding: String| {
+    let mut push = |statement: &str, assessment, finding: String| {
         items.push(Item {
             place: "Table 1",
             statement: statement.to_owned(),
-            verdict,
+            assessment,
             finding,
         });
     };
     push(
         "penetrator mass 1.96e-3 kg",
-        verdict_within(rod.mass, 1.96e-3, 5e-3),
+        assess_within(rod.mass, 1.96e-3, 5e-3),
         format!("{:.4e} kg from density, length and diameter", rod.mass),
     );
     let (density, thickness) = match &scenario.target {
@@ -30,7 +30,7 @@ pub(super) fn check(runs: &Runs, items: &mut Vec<Item>) {
     let volume = rod.area() * thickness;
     push(
         "target column mass 1.22e-3 kg",
-        verdict_within(density * volume, 1.22e-3, 5e-3),
+        assess_within(density * volume, 1.22e-3, 5e-3),
         format!(
             "{:.4e} kg from the table's own density and size; the printed mass needs {:.0} kg/m3",
             density * volume,
@@ -39,7 +39,7 @@ pub(super) fn check(runs: &Runs, items: &mut Vec<Item>) {
     );
     push(
         "element heights 0.32 and 0.31 mm",
-        Verdict::Reproduced,
+        Assessment::Reproduced,
         format!(
             "{:.4} and {:.4} mm from 40 and 80 elements",
             rod.length / 40.0 * 1e3,
@@ -59,15 +59,15 @@ pub(super) fn check(runs: &Runs, items: &mut Vec<Item>) {
     );
     push(
         "time step 4.85e-9 s",
-        verdict_within(table, 4.85e-9, 1e-3),
+        assess_within(table, 4.85e-9, 1e-3),
         format!(
             "{table:.3e} s from 0.1 sqrt(m/K) with the printed target mass and the elastic stiffness of copper"
         ),
     );
     push(
         "time step by equation (21), 0.1 · 2 sqrt(m/K)",
-        verdict_within(equation, 4.85e-9, 1e-3),
-        format!("{equation:.3e} s: the printed time step leaves the factor 2 out"),
+        assess_within(equation, 4.85e-9, 1e-3),
+        format!("{equation:.3e} s: the printed time step lacks the factor 2"),
     );
     let counts: Vec<String> = runs
         .joined_steps
@@ -76,26 +76,26 @@ pub(super) fn check(runs: &Runs, items: &mut Vec<Item>) {
         .collect();
     push(
         "95 time steps to rest",
-        Verdict::ReadingDependent,
+        Assessment::ReadingDependent,
         format!(
-            "the joined reading stops after {} steps, by border shear; the chain reading takes over a thousand",
+            "the joined interpretation stops after {} steps, by border shear; the chain interpretation takes over a thousand",
             counts.join(", ")
         ),
     );
     push(
         "95 steps and a depth of millimetres (figures 7 to 11)",
-        Verdict::Contradicted,
+        Assessment::Contradicted,
         format!(
-            "in 95 steps of 4.85 ns a mass that starts at 230 m/s and only slows down cannot go beyond {:.3} mm: the two exclude one another",
+            "in 95 steps of 4.85 ns a mass that starts at 230 m/s and decelerates moves at most {:.3} mm: the two statements exclude each other",
             230.0 * 95.0 * 4.85e-9 * 1e3
         ),
     );
 }
 
-fn verdict_within(value: f64, printed: f64, fraction: f64) -> Verdict {
+fn assess_within(value: f64, printed: f64, fraction: f64) -> Assessment {
     if (value / printed - 1.0).abs() <= fraction {
-        Verdict::Reproduced
+        Assessment::Reproduced
     } else {
-        Verdict::Contradicted
+        Assessment::Contradicted
     }
 }

@@ -1,6 +1,6 @@
-//! The paper's own case by the reference: on several meshes and in targets of several sizes, stored as data.
+//! Case of the seed paper by the axisymmetric reference, on several meshes and in targets of several radii, stored as data.
 
-pub mod ablation;
+pub mod variants;
 
 use std::{path::Path, sync::atomic::AtomicBool};
 
@@ -18,13 +18,13 @@ use crate::benchmark::{
     resume::{self, Job, Report},
 };
 
-/// The study that comes with the library.
+/// Stored results.
 const BUILT_IN: &str = include_str!("../../data/paper-case.csv");
 
-/// Impact speeds of the study [m/s]: that of the paper's table, and one at which the rod penetrates.
+/// Impact velocities [m/s]: that of the paper's Table 1, and one at which the rod penetrates.
 pub const SPEEDS: &[f64] = &[230.0, 600.0];
 
-/// Cells along the projectile's radius and radius of the target [mm]: one is varied at a time.
+/// Cells along the projectile's radius and radius of the target [mm], varied one at a time.
 pub const VARIANTS: &[(u32, f64)] = &[
     (4, RADIUS),
     (8, RADIUS),
@@ -37,16 +37,16 @@ pub const VARIANTS: &[(u32, f64)] = &[
     (8, 36.0),
 ];
 
-/// Fewest cells along the projectile's radius of a mesh that counts for the depth.
+/// Smallest number of cells along the projectile's radius of a mesh that counts for the depth.
 pub const FINE: u32 = 12;
 
 /// Radius of the target on which meshes are compared [mm].
 pub const RADIUS: f64 = 24.0;
 
-/// The paper's case on one mesh and in one target.
+/// Result for the case of the seed paper on one mesh and in one target.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Study {
-    /// Impact speed [m/s].
+pub struct PaperCaseRow {
+    /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
     /// Cells along the projectile's radius.
     pub cells_per_radius: u32,
@@ -56,9 +56,9 @@ pub struct Study {
     pub depth_of_penetration_mm: f64,
     /// Largest depth at any time [mm].
     pub largest_depth_mm: f64,
-    /// Largest part of the energy without an account.
+    /// Error of the energy balance as a fraction of the initial energy.
     pub energy_residual: f64,
-    /// Part of the energy lost between particles and grid.
+    /// Fraction of the energy lost in the transfer between particles and grid.
     pub transfer_loss: f64,
     /// Time steps.
     pub steps: u64,
@@ -66,7 +66,7 @@ pub struct Study {
     pub particles: usize,
 }
 
-/// The paper's case at a speed [m/s], with options of a model, in TOML.
+/// Case of the seed paper at an impact velocity [m/s], with options of a model in TOML.
 ///
 /// # Errors
 /// [`Error::Input`].
@@ -75,34 +75,34 @@ pub fn scenario(speed: f64, options: &str) -> Result<Scenario, Error> {
         "[projectile]\nmaterial = \"copper-woodward\"\nlength = \"12.74 mm\"\ndiameter = \"4.8 mm\"\nimpact_velocity = \"{speed} m/s\"\n\
          [target]\nmaterial = \"aluminium-2024-t351-woodward\"\nthickness = \"25 mm\"\nback_face = \"fixed\"\n{options}"
     );
-    case::load_str("the paper's case", &text)
+    case::load_str("case of the seed paper", &text)
 }
 
-/// The study that comes with the library.
+/// Stored results.
 ///
 /// # Panics
 /// Never: a test reads it.
-pub fn built_in() -> Vec<Study> {
+pub fn built_in() -> Vec<PaperCaseRow> {
     csv::Reader::from_reader(BUILT_IN.as_bytes())
         .deserialize()
         .collect::<Result<_, _>>()
-        .expect("the built-in study is valid")
+        .expect("the stored results are valid")
 }
 
-/// Reads a study from a file; none where there is no file.
+/// Reads results from a file; empty where there is no file.
 ///
 /// # Errors
 /// [`Error::Read`].
-pub fn read_file(file: &Path) -> Result<Vec<Study>, Error> {
+pub fn read_file(file: &Path) -> Result<Vec<PaperCaseRow>, Error> {
     resume::rows(file)
 }
 
-/// Depth at a speed [m/s]: the mean over the meshes of at least [`FINE`] cells in one target, with the largest distance from it as its
+/// Depth at an impact velocity [m/s]: the mean over the meshes of at least [`FINE`] cells in one target, with the largest distance from it as its
 /// uncertainty. `None` with fewer than three such meshes.
 ///
 /// The depth alternates with the mesh and is not extrapolated: at 230 m/s the crater is two cells deep on 24.
-pub fn depth(study: &[Study], speed: f64) -> Option<Estimate> {
-    let own = study.iter().filter(|row| {
+pub fn depth(rows: &[PaperCaseRow], speed: f64) -> Option<Estimate> {
+    let own = rows.iter().filter(|row| {
         row.impact_velocity_m_s == speed
             && row.target_radius_mm == RADIUS
             && row.cells_per_radius >= FINE
@@ -126,22 +126,22 @@ struct Variant {
 }
 
 impl Job for Variant {
-    type Row = Study;
+    type Row = PaperCaseRow;
 
     fn name(&self) -> String {
         format!(
-            "the paper's case at {} m/s on {} cells per radius",
+            "case of the seed paper at {} m/s on {} cells per radius",
             self.speed, self.cells_per_radius
         )
     }
 
-    fn is_done_by(&self, row: &Study) -> bool {
+    fn is_done_by(&self, row: &PaperCaseRow) -> bool {
         row.impact_velocity_m_s == self.speed
             && row.cells_per_radius == self.cells_per_radius
             && row.target_radius_mm == self.target_radius_mm
     }
 
-    fn compute(&self, control: &mut Control<'_>) -> Result<Study, Error> {
+    fn compute(&self, control: &mut Control<'_>) -> Result<PaperCaseRow, Error> {
         let options = format!(
             "[axi]\ncells_per_radius = {}\ntarget_radius = \"{} mm\"\n",
             self.cells_per_radius, self.target_radius_mm
@@ -150,7 +150,7 @@ impl Job for Variant {
         let result = Axi.run(&scenario, control)?;
         let numerics = result.numerics();
         let mm = |length: Option<f64>| length.unwrap_or(f64::NAN) * 1e3;
-        Ok(Study {
+        Ok(PaperCaseRow {
             impact_velocity_m_s: self.speed,
             cells_per_radius: self.cells_per_radius,
             target_radius_mm: self.target_radius_mm,
@@ -164,7 +164,7 @@ impl Job for Variant {
     }
 }
 
-/// Computes what of the study a file does not have yet, and appends it; `stop` and `report` are those of
+/// Computes the variants that a file lacks and appends them; `stop` and `report` are those of
 /// [`crate::benchmark::reference::complete`].
 ///
 /// # Errors
@@ -172,12 +172,12 @@ impl Job for Variant {
 pub fn complete(
     file: &Path,
     stop: &AtomicBool,
-    report: &Report<'_, Study>,
-) -> Result<Vec<Study>, Error> {
+    report: &Report<'_, PaperCaseRow>,
+) -> Result<Vec<PaperCaseRow>, Error> {
     resume::complete(file, &variants(), stop, report)
 }
 
-/// All variants of the study.
+/// All variants.
 fn variants() -> Vec<Variant> {
     let at = |speed: f64| {
         VARIANTS
@@ -191,17 +191,21 @@ fn variants() -> Vec<Variant> {
     SPEEDS.iter().flat_map(|&speed| at(speed)).collect()
 }
 
-impl Study {
-    /// Time that it takes a processor core [s], by the work that it is.
+impl PaperCaseRow {
+    /// Estimated time on one processor core [s].
     pub fn seconds(&self) -> f64 {
         self.particles as f64 * self.steps as f64 / PARTICLE_STEPS_PER_SECOND
     }
 }
 
-/// Estimate of the time that one processor core takes for what rows lack of the study [s], by those that come with the library.
-pub fn seconds_left(known: &[Study]) -> f64 {
+/// Estimated time on one processor core for the variants that these rows lack [s], from the stored results.
+pub fn seconds_left(known: &[PaperCaseRow]) -> f64 {
     let done = |job: &Variant| known.iter().any(|row| job.is_done_by(row));
     let left: Vec<Variant> = variants().into_iter().filter(|job| !done(job)).collect();
-    let same = |row: &&Study| left.iter().any(|job| job.is_done_by(row));
-    built_in().iter().filter(same).map(Study::seconds).sum()
+    let same = |row: &&PaperCaseRow| left.iter().any(|job| job.is_done_by(row));
+    built_in()
+        .iter()
+        .filter(same)
+        .map(PaperCaseRow::seconds)
+        .sum()
 }

@@ -1,4 +1,4 @@
-//! Models side by side, at one speed or over several.
+//! Comparison of models at one or several impact velocities.
 
 use percuss::{
     compare::{self, Comparison},
@@ -9,7 +9,7 @@ use percuss_report::{compare_chart, comparison_files};
 use serde_json::{Value, json};
 
 use super::{Job, Study, csv_files};
-use crate::{problem::Problem, stream::pretty};
+use crate::{events::pretty, problem::Problem};
 
 /// Most speeds of a comparison.
 const SPEEDS: usize = 60;
@@ -51,7 +51,7 @@ fn speeds(from: f64, to: f64, count: usize) -> Result<Vec<f64>, Problem> {
     let inside = |speed: f64| (0.0..=10_000.0).contains(&speed);
     if !inside(from) || !inside(to) || !(2..=SPEEDS).contains(&count) {
         return Err(Problem::bad_request(format!(
-            "give speeds from 0 to 10000 m/s, and 2 to {SPEEDS} of them"
+            "give 2 to {SPEEDS} velocities from 0 to 10000 m/s"
         )));
     }
     let part = |i: usize| i as f64 / (count - 1) as f64;

@@ -1,4 +1,4 @@
-//! Convergence with the mesh.
+//! Mesh convergence.
 
 use percuss::{
     converge::{self, REFINEMENT},
@@ -8,7 +8,7 @@ use percuss_report::{Chart, convergence_chart};
 use serde_json::json;
 
 use super::{Job, Study};
-use crate::{problem::Problem, stream::pretty};
+use crate::{events::pretty, problem::Problem};
 
 /// Meshes of a convergence study.
 const LEVELS: u32 = 4;

@@ -1,4 +1,4 @@
-//! Numbers of a case fitted to what was measured on it.
+//! Calibration of parameters against the experiments of a case.
 
 use std::{
     ops::ControlFlow,
@@ -18,7 +18,7 @@ use percuss_report::calibration;
 use serde_json::json;
 
 use super::{Job, Study, csv_files, runs::watched};
-use crate::{problem::Problem, request::Fitting, stream::pretty};
+use crate::{events::pretty, problem::Problem, request::Fitting};
 
 /// Most numbers that are fitted, and measured values that they are fitted to.
 const MOST_FITTED: usize = 8;
@@ -39,7 +39,7 @@ pub(super) fn fitted(job: &Job<'_>) -> Result<Study, Problem> {
                 "the model `{}` takes too long for the many runs of a calibration",
                 model.name()
             ),
-            "choose another one, or use `percuss calibrate`",
+            "select another model, or use `percuss calibrate`",
         ));
     }
     let Fitting {
@@ -58,7 +58,7 @@ pub(super) fn fitted(job: &Job<'_>) -> Result<Study, Problem> {
         return Err(Problem::refused(
             format!("{steps} steps are out of range"),
             format!(
-                "a page takes {} to {}; `percuss calibrate` more",
+                "the page allows {} to {}; use `percuss calibrate` for more",
                 STEPS.start(),
                 STEPS.end()
             ),
@@ -73,7 +73,7 @@ pub(super) fn fitted(job: &Job<'_>) -> Result<Study, Problem> {
 
     let ended = Arc::new(AtomicBool::new(false));
     let hear = |stage: Stage, part: f64, runs: u64| {
-        job.tell
+        job.events
             .progress(stage.of_whole(part, steps.is_some()), &stage.describe(runs));
         match ended.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
@@ -112,7 +112,7 @@ fn few(count: usize, most: usize, what: &str) -> Result<(), Problem> {
         true => Ok(()),
         false => Err(Problem::refused(
             format!("there are {count} {what}"),
-            format!("a page takes {most} at most; `percuss calibrate` more"),
+            format!("the page allows up to {most}; use `percuss calibrate` for more"),
         )),
     }
 }

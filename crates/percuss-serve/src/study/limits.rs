@@ -8,7 +8,7 @@ use percuss_report::{limit_chart, limit_files};
 use serde_json::json;
 
 use super::{Job, Study, csv_files};
-use crate::{problem::Problem, stream::pretty};
+use crate::{events::pretty, problem::Problem};
 
 pub(super) fn limits(job: &Job<'_>) -> Result<Study, Problem> {
     let scenario = job.scenario()?;

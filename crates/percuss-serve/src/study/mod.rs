@@ -26,11 +26,13 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::{
-    Bounds, answer, http,
+    RequestLimits,
+    events::{self, EventSender},
+    http,
+    job::{Stop, Workers},
     problem::Problem,
     request::{self, CaseRequest, ReadCase},
-    stream::{self, Tell},
-    worker::{Stop, Workers},
+    response,
 };
 
 /// What a study came to.
@@ -114,12 +116,12 @@ async fn follow<T: Serialize + 'static>(
     study: fn(&Job<'_>) -> Result<T, Problem>,
 ) -> Response {
     let bounds = *workers.bounds();
-    stream::respond(workers, move |stop, tell| {
+    events::respond(workers, move |stop, events| {
         study(&Job {
             asked: &asked,
             bounds: &bounds,
             stop,
-            tell,
+            events,
         })
     })
     .await
@@ -147,11 +149,11 @@ pub(crate) async fn uncertainty_example(
 /// What a study works with.
 struct Job<'a> {
     asked: &'a CaseRequest,
-    bounds: &'a Bounds,
+    bounds: &'a RequestLimits,
     /// When it has to end.
     stop: &'a Stop,
     /// Who hears how far it is.
-    tell: &'a Tell,
+    events: &'a EventSender,
 }
 
 impl Job<'_> {
@@ -176,13 +178,13 @@ impl Job<'_> {
 
     /// What a computation is told when it says how far it is.
     fn go_on(&self, fraction: f64, words: &str) -> ControlFlow<()> {
-        self.tell.progress(fraction, words);
+        self.events.progress(fraction, words);
         self.wanted()
     }
 
     /// Whether somebody waits and there is time left.
     fn wanted(&self) -> ControlFlow<()> {
-        if self.tell.is_alone() {
+        if self.events.is_disconnected() {
             self.stop.cancel();
         }
         self.stop.flow()
@@ -201,8 +203,8 @@ fn csv_files(
 }
 
 /// A run of a model that takes a while, as an answer like any other.
-fn slow_run(job: &Job<'_>) -> Result<answer::Answer, Problem> {
+fn slow_run(job: &Job<'_>) -> Result<response::CaseResponse, Problem> {
     let read = job.read()?;
     let chosen = job.asked.model(&read.scenario, job.bounds)?;
-    answer::answer(read, &chosen, None, job.stop, Some(job.tell))
+    response::compute(read, &chosen, None, job.stop, Some(job.events))
 }

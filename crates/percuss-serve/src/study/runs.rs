@@ -1,4 +1,4 @@
-//! Many runs while somebody waits for what they come to.
+//! Parallel runs of a study, with progress and cancellation.
 
 use std::{
     sync::atomic::{AtomicBool, Ordering},
@@ -12,7 +12,7 @@ use percuss::{
 };
 
 use super::Job;
-use crate::Bounds;
+use crate::RequestLimits;
 
 /// Time between two looks whether somebody still waits.
 const LOOK: Duration = Duration::from_millis(50);
@@ -40,7 +40,7 @@ pub(super) fn followed<T>(job: &Job<'_>, compute: impl FnOnce(&Observer<'_>) -> 
     let ended = AtomicBool::new(false);
     let progress = |finished: u64, total: u64| {
         let words = format!("{finished} of {total} shots");
-        job.tell.progress(finished as f64 / total as f64, &words);
+        job.events.progress(finished as f64 / total as f64, &words);
     };
     let watch = Observer {
         stop: &ended,
@@ -63,11 +63,11 @@ impl Drop for Done<'_> {
 pub(super) struct Bounded<'a> {
     kernel: BatchKernel,
     model: &'static dyn Model,
-    bounds: &'a Bounds,
+    bounds: &'a RequestLimits,
 }
 
 impl<'a> Bounded<'a> {
-    pub(super) fn new(model: &'static dyn Model, bounds: &'a Bounds) -> Self {
+    pub(super) fn new(model: &'static dyn Model, bounds: &'a RequestLimits) -> Self {
         Self {
             kernel: BatchKernel::new(model),
             model,

@@ -1,4 +1,4 @@
-//! A case with some of its numbers varied, as a sweep file says.
+//! Sweep of a case by a sweep file.
 
 use std::collections::BTreeMap;
 
@@ -32,8 +32,8 @@ pub(super) fn swept(job: &Job<'_>) -> Result<Study, Problem> {
     let sweep = Sweep::of(&file, &Document::new(asked.name(), case.text.as_str()))?;
     if sweep.runs() > MOST_SHOTS {
         return Err(Problem::refused(
-            format!("the sweep has {} shots", sweep.runs()),
-            format!("a page computes {MOST_SHOTS} at most; `percuss sweep` more"),
+            format!("the sweep has {} runs", sweep.runs()),
+            format!("the page allows up to {MOST_SHOTS}; use `percuss sweep` for more"),
         ));
     }
     job.bounds.check(sweep.model, &case.scenario)?;

@@ -1,4 +1,4 @@
-//! What uncertain numbers of a case do to its results.
+//! Uncertainty analysis of a case.
 
 use percuss::{
     case::Document,
@@ -11,7 +11,7 @@ use super::{
     Job, Study, csv_files,
     runs::{Bounded, followed},
 };
-use crate::{problem::Problem, stream::pretty};
+use crate::{events::pretty, problem::Problem};
 
 /// Most shots that the statistics of a page rest on.
 const MOST_SAMPLES: u64 = 16_384;
@@ -21,8 +21,10 @@ pub(super) fn uncertain(job: &Job<'_>) -> Result<Study, Problem> {
     let samples = asked.uncertainty.samples;
     if !(MIN_SAMPLES..=MOST_SAMPLES).contains(&samples) {
         return Err(Problem::refused(
-            format!("{samples} shots are out of range"),
-            format!("a page computes {MIN_SAMPLES} to {MOST_SAMPLES}; `percuss uncertainty` more"),
+            format!("{samples} samples are out of range"),
+            format!(
+                "the page allows {MIN_SAMPLES} to {MOST_SAMPLES}; use `percuss uncertainty` for more"
+            ),
         ));
     }
     let text = asked.edited()?;
@@ -43,7 +45,7 @@ pub(super) fn uncertain(job: &Job<'_>) -> Result<Study, Problem> {
     .map_err(|error| job.stop.problem(error))?;
     if found.quantities.is_empty() && found.perforation.is_none() {
         let reasons = found.failures.reasons.join("; ");
-        return Err(Problem::refused("no shot has a result", reasons));
+        return Err(Problem::refused("no run has a result", reasons));
     }
     let charts = uncertainty_charts(&study.scenario, &found);
     let files: Vec<_> = csv_files(uncertainty_files(&found)?)

@@ -1,4 +1,4 @@
-//! An example of what could be uncertain in a case, to be changed by its user.
+//! Example of uncertain parameters of a case.
 
 use percuss::{Scenario, material::Material, units::significant};
 use serde_json::Value;
@@ -16,7 +16,7 @@ pub(super) fn with_example(text: &str, scenario: &Scenario) -> String {
     let values = form::values(text);
     let said = |key: &str| values.get(key).and_then(Value::as_str);
     let mut example = String::from(
-        "\n# What is uncertain, for `percuss uncertainty` and the button `Uncertainty`. The spreads are assumptions: put yours in their place.\n",
+        "\n# Uncertain parameters for `percuss uncertainty` and the button `Uncertainty`. The distributions are assumptions: replace them by your own.\n",
     );
     let mut add = |key: &str, distribution: &str| {
         example += &format!("[[uncertainty.parameter]]\nkey = \"{key}\"\n{distribution}\n\n");
@@ -38,9 +38,7 @@ pub(super) fn with_example(text: &str, scenario: &Scenario) -> String {
         );
         add(
             "projectile.diameter",
-            &format!(
-                "uniform = {{ from = \"{from} {unit}\", to = \"{to} {unit}\" }} # half a percent either way"
-            ),
+            &format!("uniform = {{ from = \"{from} {unit}\", to = \"{to} {unit}\" }} # ±0.5 %"),
         );
     }
     // The projectile and what it strikes first.

@@ -1,10 +1,10 @@
 //! A server on a free port, asked by its own page and by others.
 
-mod answers;
-mod bounds;
 mod calibrations;
-mod gate;
+mod host_guard;
+mod limits;
 mod requests;
+mod responses;
 mod studies;
 mod support;
 mod sweeps;

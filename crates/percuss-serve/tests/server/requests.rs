@@ -52,11 +52,7 @@ fn bodies_have_a_size_and_a_form() {
             "{:?}",
             String::from_utf8_lossy(&bad[..bad.len().min(40)])
         );
-        assert!(
-            answer
-                .problem()
-                .starts_with("the request is not understood")
-        );
+        assert!(answer.problem().starts_with("the request is not valid"));
     }
     // The same in the case itself.
     for case in [

@@ -17,7 +17,7 @@ pub struct Served {
 
 /// An answer as it came.
 #[derive(Debug)]
-pub struct Answer {
+pub struct CaseResponse {
     pub status: u16,
     pub head: String,
     pub body: Vec<u8>,
@@ -40,14 +40,14 @@ impl Served {
     }
 
     /// Sends bytes as they are and reads the answer to its end.
-    pub fn raw(&self, request: &[u8]) -> Answer {
+    pub fn raw(&self, request: &[u8]) -> CaseResponse {
         let mut stream = self.connect();
         // A server may refuse a request before it has read all of it.
         let _ = stream.write_all(request);
         read(&mut stream)
     }
 
-    pub fn get(&self, path: &str, headers: &str) -> Answer {
+    pub fn get(&self, path: &str, headers: &str) -> CaseResponse {
         let host = self.address;
         self.raw(
             format!("GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n{headers}\r\n")
@@ -55,11 +55,11 @@ impl Served {
         )
     }
 
-    pub fn post_bytes(&self, path: &str, body: &[u8], headers: &str) -> Answer {
+    pub fn post_bytes(&self, path: &str, body: &[u8], headers: &str) -> CaseResponse {
         self.raw(&post_request(self.address, path, body, headers))
     }
 
-    pub fn post(&self, path: &str, body: &Value) -> Answer {
+    pub fn post(&self, path: &str, body: &Value) -> CaseResponse {
         self.post_bytes(path, body.to_string().as_bytes(), "")
     }
 }
@@ -76,7 +76,7 @@ pub fn post_request(host: SocketAddr, path: &str, body: &[u8], headers: &str) ->
 }
 
 /// Reads an answer to its end.
-pub fn read(stream: &mut TcpStream) -> Answer {
+pub fn read(stream: &mut TcpStream) -> CaseResponse {
     let mut bytes = Vec::new();
     // A server that refuses a body may close before it has read all of it.
     let _ = stream.read_to_end(&mut bytes);
@@ -91,7 +91,7 @@ pub fn read(stream: &mut TcpStream) -> Answer {
         true => unchunked(&rest),
         false => rest,
     };
-    Answer {
+    CaseResponse {
         status: status.unwrap_or(0),
         head,
         body,
@@ -112,7 +112,7 @@ fn unchunked(mut rest: &[u8]) -> Vec<u8> {
     body
 }
 
-impl Answer {
+impl CaseResponse {
     pub fn text(&self) -> String {
         String::from_utf8_lossy(&self.body).into_owned()
     }

@@ -15,7 +15,7 @@ use parquet::{
 };
 use percuss::sweep::{BatchKernel, Sweep};
 use percuss_report::sweep::{PlotRequest, SweepFolder, merge, plot};
-use percuss_serve::{Bounds, Options};
+use percuss_serve::{Options, RequestLimits};
 use serde_json::{Value, json};
 
 use crate::support::{PAPER, Served, post_request};
@@ -79,7 +79,7 @@ fn the_files_of_the_page_give_its_rows_on_the_command_line() {
     let numbers = done["numbers"].as_array().unwrap();
     assert!(numbers.len() > 10);
     assert_eq!(numbers[0]["quantity"], "depth_of_penetration_mm");
-    assert_eq!(numbers[0]["label"], "depth of penetration [mm]");
+    assert_eq!(numbers[0]["label"], "Depth of penetration (mm)");
     let mut count = 0;
     for (i, row) in file.get_row_iter(None).unwrap().enumerate() {
         let row = row.unwrap();
@@ -183,9 +183,9 @@ fn a_sweep_has_bounds() {
         format!("{}; {}", problem["message"], problem["help"])
     };
     let said = problem(&GRID.replace("count = 7", "count = 1366"));
-    assert!(said.contains("the sweep has 4098 shots"), "{said}");
+    assert!(said.contains("the sweep has 4098 runs"), "{said}");
     assert!(
-        said.contains("4096 at most; `percuss sweep` more"),
+        said.contains("up to 4096; use `percuss sweep` for more"),
         "{said}"
     );
     // Lists take memory before anybody counts the shots.
@@ -213,10 +213,10 @@ fn a_sweep_has_bounds() {
 /// Who closes the connection, or asks for too long, frees the place.
 #[test]
 fn a_sweep_ends_when_nobody_waits_and_when_time_is_up() {
-    let bounds = Bounds {
+    let bounds = RequestLimits {
         runs: 1,
         seconds: 2,
-        ..Bounds::default()
+        ..RequestLimits::default()
     };
     let served = Served::new(Options {
         bounds,
@@ -227,7 +227,7 @@ fn a_sweep_ends_when_nobody_waits_and_when_time_is_up() {
     let start = Instant::now();
     let lines = served.post("/api/study/sweep", &fine).lines();
     let problem = lines[lines.len() - 1]["problem"]["message"].clone();
-    assert_eq!(problem, "the run was ended after 2 s");
+    assert_eq!(problem, "the run was stopped at the time limit of 2 s");
     assert!(start.elapsed() < Duration::from_secs(20));
 
     let body = fine.to_string();

@@ -1,4 +1,4 @@
-// Requests to the server that served the page.
+// Requests to the server of the page.
 
 import type { Problem } from "./types";
 
@@ -9,8 +9,8 @@ export class Refused extends Error {
 }
 
 const lost: Problem = {
-  message: "the server does not answer",
-  help: "see whether `percuss serve` still runs, then reload the page",
+  message: "the server does not respond",
+  help: "check that `percuss serve` is running, then reload the page",
   key: "",
   place: null,
 };
@@ -41,7 +41,7 @@ export async function postForFile(path: string, body: unknown): Promise<Blob> {
   return (await send(path, body)).blob();
 }
 
-// A computation that says how far it is: lines of JSON, the last one with what it came to.
+// Computation with progress: lines of JSON, the last one with the result.
 export async function follow<T>(
   path: string,
   body: unknown,

@@ -1,4 +1,4 @@
-// Horizontal bars in named rows: what moves a result, and by how much.
+// Horizontal bars in named rows.
 
 import { color } from "./colors";
 import { make, significant } from "./dom";

@@ -1,4 +1,4 @@
-// Numbers of a case fitted to what was measured on it.
+// Calibration: parameters of a case fitted to its experiments.
 
 import { make, significant, table } from "./dom";
 import { labelled, options, type Kind, type Page } from "./panel";
@@ -18,9 +18,9 @@ export function calibration(page: Page, numbers: Numbers): Kind {
     around: [0.5, 2],
     head: () => "",
   }, numbers);
-  const method = make("select", {}, ...options(["", "least squares"], ["sample", "least squares and a sample"]));
+  const method = make("select", {}, ...options(["", "least squares"], ["sample", "least squares and posterior sample"]));
   const steps = make("input", { type: "number", min: "4", max: "2400", step: "1", value: "100" });
-  const stepsLabel = labelled("of steps", steps);
+  const stepsLabel = labelled("steps", steps);
   stepsLabel.hidden = true;
   method.addEventListener("input", () => (stepsLabel.hidden = method.value === ""));
   const noise = make("input", { type: "text", size: "9", value: "estimated", autocomplete: "off" });
@@ -28,9 +28,9 @@ export function calibration(page: Page, numbers: Numbers): Kind {
   const seed = make("input", { type: "number", min: "0", max: "9007199254740991", step: "1", value: "0" });
   return {
     title: "Calibrate",
-    about: "numbers of the case fitted to its measured values",
+    about: "parameters of the case fitted to its experiments",
     path: "/api/study/calibrate",
-    inputs: [labelled("by", method), stepsLabel, labelled("scatter", noise), labelled("hold out", heldOut), labelled("seed", seed)],
+    inputs: [labelled("method", method), stepsLabel, labelled("scatter", noise), labelled("hold out", heldOut), labelled("seed", seed)],
     below: parameters.element,
     body: () => ({
       ...page.request(),
@@ -51,14 +51,14 @@ function show(done: Calibrated): HTMLElement[] {
   const sampled = found.sampling;
   const said: HTMLElement[] = [make("p", {}, `Model ${found.model}, ${found.runs} runs, seed ${found.seed}${sampled ? `; ${sampled.ensembles} ensembles of ${sampled.walkers} walkers, ${sampled.steps} steps after ${sampled.burn_in}` : ""}.`)];
   if (found.findings.length) {
-    said.push(make("p", {}, make("b", {}, "Not determined:")), list(found.findings.map((finding) => finding.words)));
+    said.push(make("p", {}, make("b", {}, "Not identified:")), list(found.findings.map((finding) => finding.words)));
   }
   const left = found.left_out;
   const rest = left.length
     ? [make("details", {}, make("summary", {}, `${left.length} measured values left out`), list(left.map((one) => `${one.id}: ${one.reason}`)))]
     : [];
   const material = done.material
-    ? [make("details", {}, make("summary", {}, "The calibrated material, as the table materials of a case takes it"), make("pre", { tabindex: "0" }, done.material))]
+    ? [make("details", {}, make("summary", {}, "Calibrated material as table `materials` of a case"), make("pre", { tabindex: "0" }, done.material))]
     : [];
   const warnings = found.warnings.length ? [list(found.warnings)] : [];
   return [...said, parameterTable(done), qualityTable(done), predictions(done), ...warnings, ...rest, ...material];
@@ -69,7 +69,7 @@ const marginal = (of: Marginal | null, factor = 1) =>
 
 function parameterTable({ calibration: found }: Calibrated): HTMLElement {
   const sampled = found.sampling !== null;
-  const head = ["fitted", "95 % beforehand", "best", "± error", ...(sampled ? ["95 % of the sample", "R-hat", "size, bulk", "size, tails"] : [])];
+  const head = ["parameter", "prior 95 %", "best", "± error", ...(sampled ? ["posterior 95 %", "R-hat", "bulk size", "tail size"] : [])];
   const lines = found.parameters.map((p) => [
     p.unit ? `${p.key} [${p.unit}]` : p.key,
     `${number(p.prior[0])} … ${number(p.prior[2])}`,
@@ -78,7 +78,7 @@ function parameterTable({ calibration: found }: Calibrated): HTMLElement {
     ...(sampled ? marginal(p.posterior) : []),
   ]);
   const { scatter } = found;
-  lines.push(["scatter about the model [%]", scatter.estimated ? "" : "given", percent(scatter.best), "", ...(sampled ? marginal(scatter.posterior, 100) : [])]);
+  lines.push(["relative scatter [%]", scatter.estimated ? "" : "given", percent(scatter.best), "", ...(sampled ? marginal(scatter.posterior, 100) : [])]);
   return table(head, lines);
 }
 
@@ -86,11 +86,11 @@ function qualityTable({ calibration: found }: Calibrated): HTMLElement {
   const sampled = found.sampling !== null;
   const line = (name: string, q: Quality) =>
     [name, String(q.count), percent(q.rms_before), percent(q.rms), percent(q.bias), ...(sampled ? [String(q.inside ?? "–")] : [])];
-  const lines = [line("fitted to", found.training), ...(found.hold_out ? [line("held out", found.hold_out)] : [])];
-  return table(["measured values", "count", "RMS before [%]", "RMS [%]", "bias [%]", ...(sampled ? ["in the 95 % band"] : [])], lines);
+  const lines = [line("fitted", found.training), ...(found.hold_out ? [line("held out", found.hold_out)] : [])];
+  return table(["measured values", "count", "RMS before [%]", "RMS [%]", "bias [%]", ...(sampled ? ["in the 95 % interval"] : [])], lines);
 }
 
-// Every measured value and what the model says of it.
+// Measured and predicted values.
 function predictions({ calibration: found }: Calibrated): HTMLElement {
   const sampled = found.sampling !== null;
   const lines = found.predictions.map((p) => [
@@ -102,6 +102,6 @@ function predictions({ calibration: found }: Calibrated): HTMLElement {
     number(p.best),
     ...(sampled ? [p.predictive_band ? `${number(p.predictive_band[0])} … ${number(p.predictive_band[1])}` : "–"] : []),
   ]);
-  const head = ["value", "quantity", "impact speed [m/s]", "measured", "before", "fitted", ...(sampled ? ["95 % band"] : [])];
-  return make("details", { open: "" }, make("summary", {}, "Measured and fitted values"), table(head, lines, [1]));
+  const head = ["value", "quantity", "impact velocity [m/s]", "measured", "before calibration", "calibrated", ...(sampled ? ["95 % interval"] : [])];
+  return make("details", { open: "" }, make("summary", {}, "Measured and predicted values"), table(head, lines, [1]));
 }

@@ -13,12 +13,12 @@ import type { AreaChart, Chart, LineChart, MapChart } from "./types";
 import { Zoom, type Range, type Side } from "./zoom";
 
 const HEIGHT = 250;
-// A rectangle that is narrower than this [px] zooms along the other axis alone.
+// A rectangle narrower than this [px] zooms only along the other axis.
 const NARROW = 24;
 const FONT = "12px system-ui, sans-serif";
 const number = (value: number | null | undefined) => (value == null ? "–" : significant(value));
 
-// A chart in its frame, which follows the data that it is given.
+// Chart with frame, title and caption, updated with its data.
 export class ChartView {
   readonly element: HTMLElement;
   private title = make("h3");
@@ -30,7 +30,7 @@ export class ChartView {
   private visible = true;
   // Whether the drawing is that of an earlier chart.
   private late = false;
-  private whole = button("Whole chart", () => {
+  private whole = button("Reset zoom", () => {
     this.zoom.reset();
     this.body.focus();
   });
@@ -72,7 +72,7 @@ export class ChartView {
     else this.draw();
   }
 
-  // Draws everything anew, as after a change of the theme.
+  // Redraws everything, as after a change of the theme.
   draw(): void {
     const chart = this.chart;
     if (!chart) return;
@@ -83,7 +83,7 @@ export class ChartView {
     const fixed = unzoomed(chart);
     const label = `${chart.title}: ${chart.y.label || "values"} against ${chart.x.label}`;
     this.body.setAttribute("role", fixed ? "group" : "application");
-    this.body.setAttribute("aria-label", fixed ? label : `${label}. Plus and minus zoom, arrows move, 0 shows all.`);
+    this.body.setAttribute("aria-label", fixed ? label : `${label}. Plus and minus zoom, arrows move, 0 resets the zoom.`);
     if (fixed) {
       this.body.removeAttribute("tabindex");
       this.body.replaceChildren(fixed);
@@ -132,7 +132,7 @@ export class ChartView {
   }
 }
 
-// A chart that has no axes to zoom along; nothing for the others.
+// Chart without axes to zoom; null for the others.
 function unzoomed(chart: Chart): HTMLElement | null {
   switch (chart.kind) {
     case "rows": return rows(chart);
@@ -142,7 +142,7 @@ function unzoomed(chart: Chart): HTMLElement | null {
   }
 }
 
-// What makes two charts differ in more than their numbers.
+// Key of charts that differ only in their numbers.
 function signature(chart: Chart): string {
   switch (chart.kind) {
     case "lines": return JSON.stringify([chart.name, chart.x.label, chart.y.label, chart.series.map((s) => [s.name, s.color, s.dashes, s.markers, s.line])]);
@@ -178,7 +178,7 @@ function lineData(chart: LineChart): uPlot.AlignedData {
   return uPlot.join(tables, tables.map((table) => table.map(() => 1 as uPlot.JoinNullMode)));
 }
 
-// The areas stand on each other: the uppermost is drawn first and the ones below cover it.
+// Stacked areas: the uppermost is drawn first, and the lower ones cover it.
 function areaData(chart: AreaChart): uPlot.AlignedData {
   const sums = new Array<number>(chart.positions.length).fill(0);
   const stacked = chart.areas.map((area) => area.heights.map((height, i) => (sums[i] = (sums[i] ?? 0) + height)));

@@ -1,4 +1,4 @@
-// Making elements, and numbers as people read them.
+// Creation of elements and formatting of numbers.
 
 type Child = Node | string | null;
 
@@ -33,7 +33,7 @@ export function significant(value: number, digits = 4): string {
   return String(Number(value.toFixed(Math.max(0, digits - 1 - size))));
 }
 
-// A table; columns from the second on hold numbers unless `texts` names them.
+// Table; columns from the second on are numbers unless listed in `texts`.
 export function table(head: string[], rows: (string | Node)[][], texts: number[] = []): HTMLElement {
   const cell = (tag: "th" | "td") => (content: string | Node, column: number) => {
     const element = make(tag, {}, content);
@@ -46,7 +46,7 @@ export function table(head: string[], rows: (string | Node)[][], texts: number[]
   return make("div", { class: "wide", tabindex: "0" }, make("table", {}, heading, body));
 }
 
-// A label and a value each; what is a sentence rather than a number takes more room and comes last.
+// Pairs of label and value; long texts come last.
 export function pairs(list: [string, string][]): HTMLElement[] {
   const long = ([, value]: [string, string]) => value.length > 36;
   const sorted = [...list].sort((a, b) => Number(long(a)) - Number(long(b)));

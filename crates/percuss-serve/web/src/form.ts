@@ -1,4 +1,4 @@
-// The case as a form: made of the server's description of the keys, every change an edit of the text.
+// Form of the case, made from the description of the keys; every change is an edit of the text.
 
 import { get, make, significant } from "./dom";
 import type { Field, Start, Unit, Value, Values } from "./types";
@@ -15,7 +15,7 @@ const STEPS = 400;
 
 const quoted = (text: string) => JSON.stringify(text);
 
-// What is no number goes to the reader as it is, which says what is due.
+// Text that is not a number is sent as it is; the server returns the error.
 export const written = (text: string) => (TOML_NUMBER.test(text) ? text : quoted(text));
 
 export function shown(value: Value | undefined): string {
@@ -23,7 +23,7 @@ export function shown(value: Value | undefined): string {
   return typeof value === "object" ? value.number : String(value);
 }
 
-// One field: elements that are made once and follow the values of the case.
+// Field: elements that follow the values of the case.
 interface Control { element: HTMLElement; input: HTMLElement; show(values: Values): void; present(values: Values): boolean }
 
 export class Form {
@@ -70,7 +70,7 @@ export class Form {
       const more = own.filter((field) => !field.common).map((field) => this.add(field));
       const id = `more-${name}`;
       const rest = more.length
-        ? make("details", open.has(id) ? { id, open: "" } : { id }, make("summary", {}, `More of the ${title.toLowerCase()}`), ...more)
+        ? make("details", open.has(id) ? { id, open: "" } : { id }, make("summary", {}, `More options: ${title.toLowerCase()}`), ...more)
         : null;
       return make("fieldset", {}, make("legend", {}, title), ...common, rest);
     };
@@ -145,7 +145,7 @@ export function layersOf(values: Values): number {
     .reduce((most, index) => Math.max(most, index === undefined ? 0 : Number(index) + 1), 0);
 }
 
-// Fields of the entries of a list in place of the one that stands for them.
+// Fields of the entries of a list, instead of the template field.
 export function expand(field: Field, layers: number): Field[] {
   if (!field.key.includes(".*.")) return [field];
   return Array.from({ length: layers }, (_, index) => ({ ...field, key: field.key.replace("*", String(index)), nested: false }));
@@ -171,7 +171,7 @@ function rangeOf(field: Field, si: number): [number, number] {
   return [Math.min(low, si), Math.max(high, si)];
 }
 
-// What is used where nothing is given.
+// Text of the default.
 function ofDefault(field: Field): string {
   return field.default === null ? "default" : `default: ${field.default.replaceAll('"', "")}`;
 }

@@ -14,7 +14,7 @@ export async function toFragment(state: State): Promise<string> {
   return `#s=${btoa(letters).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "")}`;
 }
 
-// Nothing for an address without a state, or with one that cannot be read.
+// null for an address without a readable state.
 export async function fromFragment(fragment: string): Promise<State | null> {
   const packed = /^#s=([\w-]+)$/.exec(fragment)?.[1];
   if (!packed) return null;

@@ -1,4 +1,4 @@
-// The page: a case on the left, its answer on the right, live while a slider moves.
+// The page: the case on the left, its results on the right, updated while a slider moves.
 
 import "uplot/dist/uPlot.min.css";
 import "./app.css";
@@ -14,9 +14,9 @@ import { SideBySide } from "./side";
 import { studies } from "./studies";
 import type { Answer, Problem, Start } from "./types";
 
-// A slider that stands for so long has come to rest.
+// Time without motion after which a slider is at rest [ms].
 const REST_MS = 150;
-// A run that takes longer is ended when the case changes; a shorter one is waited for, so that curves follow a drag.
+// A longer run is cancelled when the case changes; a shorter one is completed, so that curves follow a slider [ms].
 const PATIENCE_MS = 400;
 
 const start = JSON.parse(get("data").textContent ?? "") as Start;
@@ -30,7 +30,7 @@ const numbers = new Numbers(start.fields);
 const sideBySide = new SideBySide(get("comparison-body"), others);
 
 let name = start.name;
-// None leaves the choice to the server.
+// null: the server selects the model.
 let model: string | null = start.answer.model;
 let pending: { edits: Map<string, Edit>; moving: boolean } | null = null;
 let values = start.answer.values;
@@ -94,7 +94,7 @@ async function answerAll(): Promise<void> {
   }
 }
 
-// Says that a run takes long, with a way to end it.
+// Shows that a run is in progress, with a button to cancel it.
 function wait(control: AbortController): void {
   get("status").replaceChildren("computing … ", button("Cancel", () => control.abort()));
 }
@@ -153,7 +153,7 @@ function refuse(problem: Problem): void {
   box.hidden = false;
   form.mark(problem.key);
   get("answer").classList.add("stale");
-  get("status").textContent = "the numbers and curves are those of the last valid case";
+  get("status").textContent = "the results are those of the last valid case";
   sideBySide.stop();
 }
 
@@ -222,7 +222,7 @@ function build(): void {
   get("validation").addEventListener("click", () => void validate());
   get("link").addEventListener("click", () => {
     void navigator.clipboard?.writeText(location.href).then(
-      () => (get("status").textContent = "the link is on the clipboard"),
+      () => (get("status").textContent = "the link is in the clipboard"),
       () => (get("status").textContent = "the link is the address of this page"),
     );
   });

@@ -1,10 +1,10 @@
-// A map of a signed quantity: its cells as an image, and a reader with the scale of its colours.
+// Colour map: its cells as an image, the colour scale, and the value under the cursor.
 
 import type uPlot from "uplot";
 import { make, significant } from "./dom";
 import type { Axis, MapChart } from "./types";
 
-// Character that stands for the first colour.
+// Character of the first colour.
 const FIRST = "0".charCodeAt(0);
 const canvas = document.createElement("canvas");
 
@@ -15,7 +15,7 @@ function channels(hex: string): [number, number, number] {
   return [r ?? 0, g ?? 0, b ?? 0];
 }
 
-// One pixel a cell, the row with the smallest value of y at the bottom.
+// One pixel per cell, the row with the smallest value of y at the bottom.
 export function mapCanvas(chart: MapChart, rowCount: number): HTMLCanvasElement {
   canvas.width = chart.columns;
   canvas.height = rowCount;
@@ -52,12 +52,12 @@ function valueAt(chart: MapChart, x: number, y: number): number | null {
   return low + ((high - low) * code) / (chart.colors.length - 1);
 }
 
-// The unit of a label stands in square brackets.
+// Unit of a label: the text in the parentheses at its end.
 function unitOf(label: string): string {
-  return /\[(.+?)\]/.exec(label)?.[1] ?? "";
+  return /\(([^()]+)\)$/.exec(label)?.[1] ?? "";
 }
 
-// The scale of the colours, and what stands under the cursor.
+// Colour scale and the value under the cursor.
 export function mapReader(plot: uPlot, chart: () => MapChart): HTMLElement {
   const scale = make("canvas", { width: "130", height: "1", "aria-hidden": "true" });
   const low = make("span");

@@ -5,13 +5,13 @@ import { labelled } from "./panel";
 import { expand, layersOf, shown, written } from "./form";
 import type { Answer, Field } from "./types";
 
-// A number of the case, and what it is now as a case has it.
+// Parameter of the case with its present value.
 interface CaseNumber { key: string; value: string }
 
 const GROUPS: Record<string, string> = { projectile: "Projectile", target: "Target", materials: "Materials" };
 const NUMBER = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\s\d.].*)?$/;
 
-// What can be varied in the case as it stands, for the lists of all studies.
+// Parameters of the case for the lists of all studies.
 export class Numbers {
   private known: CaseNumber[] = [];
   private followers: (() => void)[] = [];
@@ -60,7 +60,7 @@ export class Numbers {
   }
 }
 
-// A range about a value; none where the value is no number.
+// Range around a value; none where the value is not a number.
 function about(value: string, parts: [number, number]): [string, string] {
   const [, digits, unit] = NUMBER.exec(value) ?? [];
   if (digits === undefined || Number(digits) === 0) return ["", ""];
@@ -82,7 +82,7 @@ export interface Shape {
   head(): string;
 }
 
-// The range of a number as a row.
+// Row with the range of a parameter.
 class Row {
   readonly element: HTMLElement;
   private key = make("select");
@@ -94,7 +94,7 @@ class Row {
   constructor(private shape: Shape, private numbers: Numbers, key: string, count: number, remove: (row: Row) => void) {
     this.count.value = String(count);
     const out = button("×", () => remove(this));
-    out.setAttribute("aria-label", "Leave this number out");
+    out.setAttribute("aria-label", "Remove parameter");
     const steps = shape.steps ? [this.way, labelled("values", this.count)] : [];
     const name = { class: "range", role: "group", "aria-label": `Range of the ${shape.title}` };
     this.element = make("div", name, labelled("number", this.key), labelled("from", this.from), labelled("to", this.to), ...steps, out);
@@ -135,7 +135,7 @@ export class Parameters {
   private text = make("textarea", { spellcheck: "false", rows: "12", wrap: "off" });
 
   constructor(private shape: Shape, private numbers: Numbers) {
-    this.add = button("Another number", () => this.insert());
+    this.add = button("Add parameter", () => this.insert());
     this.text.setAttribute("aria-label", `File of the ${shape.title}`);
     this.text.hidden = true;
     const byHand = make("label", {}, this.byHand, ` write the file of the ${shape.title} by hand`);

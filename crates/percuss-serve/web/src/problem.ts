@@ -1,4 +1,4 @@
-// What is wrong, where, and what to do.
+// Error with its place and remedy.
 
 import { make } from "./dom";
 import type { Problem } from "./types";

@@ -1,4 +1,4 @@
-// A value a row, each with its range.
+// One value per row, with its range.
 
 import { color } from "./colors";
 import { make, significant } from "./dom";

@@ -1,4 +1,4 @@
-// Outlines true to scale.
+// Outlines drawn to scale.
 
 import { color, variable } from "./colors";
 import { make, significant } from "./dom";

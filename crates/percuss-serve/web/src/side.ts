@@ -1,4 +1,4 @@
-// Every model at the speed of the case, again and again as the case changes.
+// Comparison of all models at the velocity of the case, updated when the case changes.
 
 import { Refused, follow } from "./api";
 import { ChartView } from "./charts";

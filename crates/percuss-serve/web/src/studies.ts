@@ -1,4 +1,4 @@
-// The studies of a case.
+// List of studies.
 
 import { calibration } from "./calibrate";
 import { make, pairs } from "./dom";
@@ -20,8 +20,8 @@ export function studies(page: Page, numbers: Numbers, views: Views): HTMLElement
   const [to, toInput] = speed("to", 1000);
   const kinds: Kind[] = [
     {
-      title: "Models over speeds",
-      about: "every model at 25 impact speeds",
+      title: "Models versus velocity",
+      about: "all models at 25 impact velocities",
       path: "/api/study/compare",
       inputs: [from, to, make("span", {}, "m/s")],
       body: () => ({ ...asked(), model: null, speeds: [Number(fromInput.value), Number(toInput.value), 25] }),
@@ -29,14 +29,14 @@ export function studies(page: Page, numbers: Numbers, views: Views): HTMLElement
     },
     {
       title: "Convergence",
-      about: "the model on four meshes, each twice as fine as the last",
+      about: "the selected model on four meshes, each twice as fine as the previous one",
       path: "/api/study/converge",
       body: asked,
       show: (done) => convergence(done as Convergence),
     },
     {
       title: "Ballistic limit",
-      about: "the speed that perforates the target, by every model that can tell",
+      about: "impact velocity above which the target is perforated, with all applicable models",
       path: "/api/study/limit",
       body: () => ({ ...asked(), model: null }),
       show: (done) => limits(done as Limits),
@@ -46,7 +46,7 @@ export function studies(page: Page, numbers: Numbers, views: Views): HTMLElement
     calibration(page, numbers),
     {
       title: "Axisymmetric reference",
-      about: "the model axi: two dimensions, by the material point method; takes a while",
+      about: "the model axi: axisymmetric material point method; takes minutes",
       path: "/api/study/run",
       body: () => ({ ...asked(), model: "axi" }),
       show: (done) => (done as Answer).rows.map((rows) => make("dl", {}, ...pairs(rows))),

@@ -1,4 +1,4 @@
-// A case with one or two of its numbers varied.
+// Sweep: a case with one or two parameters varied.
 
 import { make, significant, table } from "./dom";
 import { labelled, options, type Kind, type Page } from "./panel";
@@ -17,7 +17,7 @@ export function sweep(page: Page, numbers: Numbers): Kind {
   }, numbers);
   return {
     title: "Sweep",
-    about: "the case with one or two of its numbers varied",
+    about: "the case with one or two parameters varied",
     path: "/api/study/sweep",
     below: parameters.element,
     body: () => ({ ...page.request(), sweep: parameters.toml() }),
@@ -27,7 +27,7 @@ export function sweep(page: Page, numbers: Numbers): Kind {
 
 function show(done: Swept, view: (chart: Chart, files: Study["files"]) => ChartView): HTMLElement[] {
   const outcomes = Object.entries(done.outcomes).map(([outcome, count]) => `${count} ${outcome}`);
-  const said: HTMLElement[] = [make("p", {}, `Model ${done.model}, ${done.design}, ${done.shots} shots: ${outcomes.join(", ")}.`)];
+  const said: HTMLElement[] = [make("p", {}, `Model ${done.model}, ${done.design}, ${done.shots} runs: ${outcomes.join(", ")}.`)];
   if (done.reasons.length) said.push(make("ul", {}, ...done.reasons.map((reason) => make("li", {}, reason))));
   const rows = make("div");
   if (done.drawn.length === 0) return [...said, rowsTable(done, "")];
@@ -43,11 +43,11 @@ function show(done: Swept, view: (chart: Chart, files: Study["files"]) => ChartV
   };
   for (const select of [quantity, style]) select.addEventListener("input", draw);
   draw();
-  const drawnAs = styles.length > 1 ? [labelled("as", style)] : [];
+  const drawnAs = styles.length > 1 ? [labelled("style", style)] : [];
   return [...said, make("div", { class: "bar" }, labelled("quantity", quantity), ...drawnAs), place, rows];
 }
 
-// The rows in numbers, of a quantity.
+// Rows of the sweep as a table.
 function rowsTable(done: Swept, quantity: string): HTMLElement {
   const number = done.numbers.find((one) => one.quantity === quantity);
   const head = [...done.parameters.map(({ key, unit }) => (unit ? `${key} [${unit}]` : key)), "outcome", ...(number ? [number.label] : [])];

@@ -1,4 +1,4 @@
-// What studies came to, as tables.
+// Results of studies as tables.
 
 import { make, significant, table } from "./dom";
 import type { Comparison, Convergence, Limits, Result } from "./types";
@@ -9,12 +9,12 @@ const value = (result: Result, key: string) => {
 };
 const number = (found: number | null | undefined, digits = 4) => (found == null ? "–" : significant(found, digits));
 
-// Models at one speed, what was measured, and why the others say nothing.
+// Models at one impact velocity, measured values, and reasons of missing results.
 export function comparison(study: Comparison): HTMLElement[] {
   const { results, recommended } = study.comparison;
   const given = results.filter((result) => result.outcome !== "not_applicable" && result.outcome !== "failed");
   const chosen = new Map(recommended[0]?.models.map((choice) => [choice.model, choice.because]));
-  const head = ["model", ...study.quantities.flatMap((q) => [`${q.words} [${q.unit}]`, ...(q.measured === null ? [] : ["off by [%]"])])];
+  const head = ["model", ...study.quantities.flatMap((q) => [`${q.words} [${q.unit}]`, ...(q.measured === null ? [] : ["difference [%]"])])];
   const lines = given.map((result) => [
     chosen.has(result.model) ? `${result.model} ★` : result.model,
     ...study.quantities.flatMap((quantity) => {
@@ -76,11 +76,11 @@ export function limits(study: Limits): HTMLElement[] {
     said.push(make("p", {}, `Range of ${range.models} models: ${number(range.lowest_m_s)} to ${number(range.highest_m_s)} m/s`));
   }
   const errors = results.flatMap((limit, i) =>
-    study.expected[i] ? [make("li", {}, make("b", {}, `expected error of ${limit.model}: `), study.expected[i])] : []);
+    study.expected[i] ? [make("li", {}, make("b", {}, `estimated model error of ${limit.model}: `), study.expected[i])] : []);
   const rest = results.flatMap((limit, i) =>
     limit.outcome === "found" ? [] : [make("li", {}, make("b", {}, `${limit.model}: `), limit.reason ?? study.outcomes[i] ?? "")]);
   const answer = found.length
-    ? table(["model", "ballistic limit [m/s]", "stopped … perforated [m/s]", "runs"], lines)
+    ? table(["model", "ballistic limit [m/s]", "highest partial … lowest complete penetration [m/s]", "runs"], lines)
     : make("p", {}, "No model finds a limit between 0 and 2000 m/s.");
   return [
     ...said,

@@ -1,4 +1,4 @@
-// What an axis reaches over, and the numbers or names along it.
+// Range and ticks of an axis.
 
 import type uPlot from "uplot";
 import type { Chart } from "./types";
@@ -15,10 +15,10 @@ export function span(chart: Chart, side: Side): Range {
   return positive.length ? [Math.min(...positive) / 1.15, Math.max(...positive) * 1.15] : [1, 10];
 }
 
-// Most numbers along an axis.
+// Largest number of ticks.
 const TICKS = 7;
 
-// Names in place of numbers; on a logarithmic axis the places of the points, which are the numbers that a reader looks for.
+// Names instead of numbers; on a logarithmic axis the places of the points, which are the numbers that a reader looks for.
 export function ticks(chart: Chart, side: Side, current: () => Chart): uPlot.Axis {
   const { names, log } = chart[side];
   if (names) return { splits: () => names.map((_, i) => i + 1), values: () => names };

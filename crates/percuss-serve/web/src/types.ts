@@ -1,4 +1,4 @@
-// What the server sends. The fields of a form, the words and the charts all come from there.
+// Types of the responses of the server.
 
 export interface Unit { symbol: string; factor: number; offset: number }
 

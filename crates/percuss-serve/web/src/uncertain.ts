@@ -1,4 +1,4 @@
-// What an analysis of uncertainty came to, and a way to begin with one.
+// Results of an uncertainty analysis, and an example of its inputs.
 
 import { post } from "./api";
 import { button, make, significant, table } from "./dom";
@@ -16,9 +16,9 @@ export function uncertainty(page: Page): Kind {
   const indices = make("input", { type: "checkbox", checked: "" });
   return {
     title: "Uncertainty",
-    about: "what the uncertain numbers of the case do to its results",
+    about: "propagation of uncertain input parameters to the results",
     path: "/api/study/uncertainty",
-    inputs: [make("label", {}, "shots ", samples), make("label", {}, "seed ", seed), make("label", {}, indices, " Sobol' indices")],
+    inputs: [make("label", {}, "samples ", samples), make("label", {}, "seed ", seed), make("label", {}, indices, " Sobol' indices")],
     body: () => ({
       ...page.request(),
       uncertainty: { samples: Number(samples.value), seed: Number(seed.value), indices: indices.checked },
@@ -30,18 +30,18 @@ export function uncertainty(page: Page): Kind {
 
 function spread(done: Spread): HTMLElement[] {
   const found = done.uncertainty;
-  const chance = found.perforation;
+  const perforation = found.perforation;
   const failed = found.failures.runs;
   const said = [
-    `Model ${found.model}, ${found.samples} shots, seed ${found.seed}; ${found.runs} runs in all. With all at their medians: ${done.nominal}.`,
-    chance ? `Chance of perforation: ${percent(chance.probability)} % (${percent(chance.low)} … ${percent(chance.high)} %), ${chance.perforated} of ${chance.perforated + chance.stopped} shots.` : "",
-    failed ? `${failed} of ${found.samples} shots have no result.` : "",
+    `Model ${found.model}, ${found.samples} samples, seed ${found.seed}, ${found.runs} runs in total. Outcome at median inputs: ${done.nominal}.`,
+    perforation ? `Probability of perforation: ${percent(perforation.probability)} % (${percent(perforation.low)} … ${percent(perforation.high)} %), ${perforation.perforated} of ${perforation.perforated + perforation.stopped} runs.` : "",
+    failed ? `${failed} of ${found.samples} runs have no result.` : "",
   ];
   const inputs = found.inputs.map((input, i) => [done.labels[i] ?? input.key, input.distribution]);
   const warnings = [...found.warnings, ...found.nominal.warnings];
   return [
     ...said.filter((words) => words).map((words) => make("p", {}, words)),
-    make("div", { class: "side" }, table(["uncertain", "distribution"], inputs, [1]), found.quantities.length ? statistics(done) : null),
+    make("div", { class: "side" }, table(["parameter", "distribution"], inputs, [1]), found.quantities.length ? statistics(done) : null),
     ...(found.no_indices ? [make("p", {}, `No Sobol' indices: ${found.no_indices}.`)] : []),
     ...(warnings.length ? [list(warnings)] : []),
     make("p", {}, done.caution),
@@ -49,52 +49,52 @@ function spread(done: Spread): HTMLElement[] {
   ];
 }
 
-// A row a statistic, a column a quantity.
+// One row per statistic, one column per quantity.
 function statistics(done: Spread): HTMLElement {
   const found = done.uncertainty.quantities;
   const at = (q: (typeof found)[number], wanted: number) => q.statistics.percentiles.find((p) => p.percent === wanted)?.value;
   const rows: [string, (q: (typeof found)[number]) => string][] = [
-    ["all at their medians", (q) => number(q.nominal)],
+    ["at median inputs", (q) => number(q.nominal)],
     ["mean", (q) => number(q.statistics.mean)],
-    ["its standard error", (q) => number(q.statistics.standard_error, 2)],
+    ["standard error of the mean", (q) => number(q.statistics.standard_error, 2)],
     ["standard deviation", (q) => number(q.statistics.standard_deviation, 3)],
-    ["5 % lie below", (q) => number(at(q, 5))],
-    ["50 %", (q) => number(at(q, 50))],
-    ["95 %", (q) => number(at(q, 95))],
+    ["5th percentile", (q) => number(at(q, 5))],
+    ["median", (q) => number(at(q, 50))],
+    ["95th percentile", (q) => number(at(q, 95))],
     ["runs", (q) => String(q.statistics.runs)],
   ];
   const head = ["", ...done.quantities.map((q) => `${q.words} [${q.unit}]`)];
   return table(head, rows.map(([name, read]) => [name, ...found.map(read)]));
 }
 
-// The numbers behind the bars of a quantity.
+// Tornado chart and indices of a quantity as a table.
 function influence(done: Spread, place: number): HTMLElement {
   const quantity = done.uncertainty.quantities[place];
   const { words, unit } = done.quantities[place] ?? { words: "", unit: "" };
   const label = (key: string) => done.labels[done.uncertainty.inputs.findIndex((input) => input.key === key)] ?? key;
   const indices = quantity?.indices?.parameters;
-  const head = ["parameter", `at 5 % [${unit}]`, `at 95 % [${unit}]`, ...(indices ? ["index, first order", "index, total"] : [])];
+  const head = ["parameter", `at 5th percentile [${unit}]`, `at 95th percentile [${unit}]`, ...(indices ? ["first-order index", "total-effect index"] : [])];
   const lines = (quantity?.tornado ?? []).map((bar) => {
     const index = indices?.find((one) => one.key === bar.key);
     const both = index ? [index.first_order, index.total] : [];
-    const told = both.map((e) => `${e.value.toFixed(2)} (${e.low.toFixed(2)} … ${e.high.toFixed(2)})`);
-    return [label(bar.key), number(bar.at_low), number(bar.at_high), ...(indices ? (told.length ? told : ["–", "–"]) : [])];
+    const estimates = both.map((e) => `${e.value.toFixed(2)} (${e.low.toFixed(2)} … ${e.high.toFixed(2)})`);
+    return [label(bar.key), number(bar.at_low), number(bar.at_high), ...(indices ? (estimates.length ? estimates : ["–", "–"]) : [])];
   });
   const why = !done.uncertainty.no_indices && quantity?.no_indices ? make("p", {}, `No Sobol' indices: ${quantity.no_indices}.`) : null;
-  return make("details", {}, make("summary", {}, `What moves the ${words}, in numbers`), table(head, lines), why);
+  return make("details", {}, make("summary", {}, `Sensitivity of the ${words} as a table`), table(head, lines), why);
 }
 
-// Offers an example to a case that says nothing of what is uncertain.
+// Offers an example to a case without uncertain parameters.
 function offer(asked: () => object, insert: (text: string) => void): HTMLElement {
   const said = make("p", { class: "note", role: "status" });
-  const add = button("Put an example into the case", () => {
+  const add = button("Insert an example", () => {
     post<{ case: string }>("/api/uncertainty-example", asked()).then(
       (done) => {
         insert(done.case);
         add.remove();
-        // What was missing is there.
+        // The error message is obsolete now.
         offered.parentElement?.replaceChildren(offered);
-        said.textContent = "It stands at the end of the case file. Put your own spreads in place of the assumed ones, then press Uncertainty.";
+        said.textContent = "The example is at the end of the case file. Replace the assumed distributions by your own, then press Uncertainty.";
       },
       (error: unknown) => (said.textContent = error instanceof Error ? error.message : String(error)),
     );

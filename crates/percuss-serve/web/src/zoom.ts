@@ -1,4 +1,4 @@
-// Zooming into a chart: by a rectangle that is dragged, by keys, and back by a double click or a button.
+// Zoom of a chart by a dragged rectangle or keys; a double click or a button resets it.
 
 export type Range = [number, number];
 export type Side = "x" | "y";

@@ -45,18 +45,18 @@ async function pictured(name, title, example, prepare, says, height = 900) {
 }
 
 test("a picture of an analysis of uncertainty", () =>
-  pictured("uncertainty", "Uncertainty", "paper-table1-uncertainty", (of) => of.getByLabel("shots").selectOption("64"), "The spread is that of the inputs"));
+  pictured("uncertainty", "Uncertainty", "paper-table1-uncertainty", (of) => of.getByLabel("samples").selectOption("64"), "The spread is that of the inputs"));
 
 test("a picture of a sweep", () =>
   pictured("sweep", "Sweep", "paper-table1", async (of) => {
     await of.getByLabel("from", { exact: true }).fill("150 m/s");
     await of.getByLabel("to", { exact: true }).fill("400 m/s");
-    await of.getByRole("button", { name: "Another number" }).click();
+    await of.getByRole("button", { name: "Add parameter" }).click();
     const second = of.locator(".range").nth(1);
     await second.getByLabel("number", { exact: true }).selectOption("materials.aluminium-2024-t351.strength.power_law.coefficient");
     await second.getByLabel("from", { exact: true }).fill("400 MPa");
     await second.getByLabel("to", { exact: true }).fill("1000 MPa");
-  }, "44 shots:"));
+  }, "44 runs:"));
 
 test("a picture of a calibration", () =>
   pictured("calibrate", "Calibrate", "taylor-copper-wilkins", async (of, page) => {
@@ -64,7 +64,7 @@ test("a picture of a calibration", () =>
     await answered(page, 3);
     await of.getByLabel("by", { exact: true }).selectOption("sample");
     // A sample that is worth a picture takes a minute.
-    await of.getByLabel("of steps", { exact: true }).fill(process.env.SCREENSHOTS ? "150" : "8");
+    await of.getByLabel("steps", { exact: true }).fill(process.env.SCREENSHOTS ? "150" : "8");
   }, "Measured and fitted values", 1150));
 
 test("the browser had nothing to complain about", () => {

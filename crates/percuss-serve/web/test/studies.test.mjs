@@ -30,7 +30,7 @@ test("studies come to an end with tables, curves and files", async () => {
   const page = await open();
   await page.locator("#comparison-body table").waitFor();
   assert.match(await page.locator("#comparison-body").innerText(), /Recommended: chain ★/);
-  await page.getByRole("button", { name: "Models over speeds" }).click();
+  await page.getByRole("button", { name: "Models versus velocity" }).click();
   await page.locator(".study figure canvas").first().waitFor({ timeout: 120_000 });
   const [file] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "compare.csv" }).click()]);
   assert.match(readFileSync(await file.path(), "utf8"), /^model,|^impact_velocity_m_s,/m);
@@ -60,7 +60,7 @@ test("uncertainty has the numbers of the command line", async () => {
   await page.locator("#text").fill(coarse);
   await answered(page, 2);
   const of = study(page, "Uncertainty");
-  await of.getByLabel("shots").selectOption("64");
+  await of.getByLabel("samples").selectOption("64");
   await of.getByLabel("seed").fill("5");
   await analysis(page, "The spread is that of the inputs");
   const found = JSON.parse(await take(page, of, "uncertainty.json"));
@@ -82,7 +82,7 @@ test("a case that says nothing of uncertainty is given an example", async () => 
   await answered(page, 2);
   assert.match(await page.locator("#text").inputValue(), /\[\[uncertainty\.parameter\]\]\nkey = "projectile\.impact_velocity"/);
   assert.ok(await page.locator("#problem").isHidden());
-  await of.getByLabel("shots").selectOption("64");
+  await of.getByLabel("samples").selectOption("64");
   await of.getByLabel("Sobol' indices").uncheck();
   await analysis(page, "No Sobol' indices: they were not asked for");
   assert.equal(JSON.parse(await take(page, of, "uncertainty.json")).inputs.length, 4);

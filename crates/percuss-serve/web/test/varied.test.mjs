@@ -42,14 +42,14 @@ test("a sweep of two numbers shows curves, a map, rows and files that the comman
   assert.equal(await of.getByLabel("from", { exact: true }).inputValue(), "184 m/s");
   await of.getByLabel("from", { exact: true }).fill("150 m/s");
   await of.getByLabel("to", { exact: true }).fill("400 m/s");
-  await of.getByRole("button", { name: "Another number" }).click();
+  await of.getByRole("button", { name: "Add parameter" }).click();
   const second = of.locator(".range").nth(1);
   await second.getByLabel("number", { exact: true }).selectOption("chain.constraint_factor");
   await second.getByLabel("from", { exact: true }).fill("1.0");
   await second.getByLabel("to", { exact: true }).fill("3.5");
-  assert.ok(await of.getByRole("button", { name: "Another number" }).isDisabled());
+  assert.ok(await of.getByRole("button", { name: "Add parameter" }).isDisabled());
   await start(of, "Sweep");
-  await of.getByText("44 shots:").waitFor({ timeout: 60_000 });
+  await of.getByText("44 runs:").waitFor({ timeout: 60_000 });
   const curves = of.locator('figure[data-chart="curves-depth_of_penetration_mm"]');
   await curves.locator("canvas").first().waitFor();
   assert.equal(await curves.locator(".u-legend .u-series").count(), 5);
@@ -104,7 +104,7 @@ test("a sweep is cancelled, and bad input is answered in the words of the comman
   // By hand it is put right, with words in place of numbers.
   await of.getByLabel("File of the sweep", { exact: true }).fill(text.replace(/linear = .*/, 'values = ["200 m/s"]') + '\n[[parameter]]\nkey = "chain.target_resistance"\nvalues = ["column", "diverging"]\n');
   await start(of, "Sweep");
-  await of.getByText("2 shots:").waitFor({ timeout: 60_000 });
+  await of.getByText("2 runs:").waitFor({ timeout: 60_000 });
   await page.context().close();
 });
 
@@ -128,7 +128,7 @@ test("a calibration shows its values, and the command prints the same", async ()
   assert.match((await take(page, of, "material.toml"))[1], /^\[copper-calibrated\]/);
 
   await of.getByLabel("by", { exact: true }).selectOption("sample");
-  await of.getByLabel("of steps", { exact: true }).fill("8");
+  await of.getByLabel("steps", { exact: true }).fill("8");
   await start(of, "Calibrate");
   await of.getByRole("columnheader", { name: "R-hat" }).waitFor({ timeout: 100_000 });
   assert.ok(await of.locator('figure[data-chart="corner"] img').evaluate((image) => image.decode().then(() => image.naturalWidth > 100)));

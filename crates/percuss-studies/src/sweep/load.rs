@@ -55,13 +55,15 @@ pub(super) fn read(
     let base = open(&file.base).and_then(|case| Template::of(&case));
     let template = base.map_err(|error| match error {
         // The sweep names the file, so the place in the sweep is what a user has to look at.
-        Error::Read { path, reason, .. } => document
-            .place(Diagnostic::at(
-                "base",
-                format!("cannot read `{}`: {reason}", path.display()),
-                "the path of the base case is relative to the sweep file",
-            ))
-            .into(),
+        error @ Error::Read { .. } => {
+            let (message, remedy) = error.message_and_help();
+            let help = "the path of the base case is relative to the sweep file";
+            let help = match remedy.as_str() {
+                "" => help.to_owned(),
+                remedy => format!("{remedy}; {help}"),
+            };
+            document.place(Diagnostic::at("base", message, help)).into()
+        }
         other => other,
     })?;
     let mut diagnostics = Vec::new();

@@ -1,4 +1,4 @@
-//! The folder of a calibration.
+//! Output folder of a calibration.
 
 use std::path::PathBuf;
 

@@ -1,3 +1,5 @@
+//! `percuss calibrate`: parameters fitted to experiments.
+
 mod folder;
 mod table;
 mod values;
@@ -21,103 +23,101 @@ use percuss::{
 };
 
 use crate::{
-    answer::{Answer, AtHand, Found, Hear},
     failure::Failure,
+    file_list::FileList,
     output,
     progress::Progress,
+    response::{ProgressCallback, Response, ResponseData, VirtualFiles},
     run_folder::RunFolder,
     shot_data, terminal, workers,
-    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
-Fit numbers of cases to what was measured: constants of materials, options of
-models. Measured values are the [[experiments]] of case files and the shots of
---data. Where constants of a material are fitted, only shots with that material
-are taken; suspect and repeated ones are left out.
+Calibrate material constants and model options against experiments. The measured
+values are the [[experiments]] of case files and the tests of --data. Where
+constants of a material are fitted, only tests with that material are used;
+suspect and repeated tests are left out.
 
---fit KEY=LOW..HIGH names a number by the tables that it stands in, with its
-unit behind the range, in which it is evenly likely beforehand; or a TOML file
-of [[parameter]] tables with key and uniform, normal, lognormal or triangular,
-as sweeps have them. Constants of library materials are
-materials.ID.strength.LAW.NAME.
+--fit KEY=LOW..HIGH gives the dotted key of a number and the range of a uniform
+prior, with the unit behind the range; or a TOML file of [[parameter]] tables
+with key and uniform, normal, lognormal or triangular, as in sweep files.
+Constants of library materials are materials.ID.strength.LAW.NAME.
 
-Least squares (Levenberg-Marquardt) give the best values; an ensemble sampler
-(stretch move) the posterior, with rank-normalised split R-hat (more than 1.01
-is a warning) and effective sample sizes of its bulk and tails. Values scatter
-about the model by a Gaussian: their stated standard deviation, and a relative
-scatter that is estimated unless --noise says otherwise. Sources that --hold-out
-names are not fitted to: they test the result. Parameters that the data do not
-determine are named.
+Least squares (Levenberg-Marquardt) give the best fit; an ensemble sampler
+(stretch move) the posterior, with rank-normalised split R-hat (a warning above
+1.01) and effective sample sizes of bulk and tails. The error model is Gaussian:
+the stated standard deviation, and a relative scatter that is estimated unless
+--noise gives it. Sources of --hold-out are not fitted; they test the result.
+Parameters that the data do not identify are reported.
 
 With --out DIR the result (calibration.json), tables of parameters and
 predictions, the sample (sample.parquet), the calibrated materials
 (material.toml, for `material_files` of a case or `--materials` of commands)
-and figures are written to DIR. A calibrated material says what it was
-calibrated on, and validation does not count that as blind.";
+and figures are written to DIR. A calibrated material lists
+the data of its calibration, and validation does not count these as blind.";
 
 const AFTER_HELP: &str = "\
 Examples:
   percuss calibrate --data builtin --hold-out wilkins1973 \\
     --model wilkins_guinan --out copper --fit \\
     \"materials.ofhc-copper-johnson-cook.strength.johnson_cook.a=20..300 MPa\"
-  percuss calibrate my-shot/scenario.toml --fit chain.constraint_factor=1..4
+  percuss calibrate my-case/scenario.toml --fit chain.constraint_factor=1..4
   percuss calibrate a.toml b.toml --fit priors.toml --least-squares --json
 
 Exit codes: 0 ok, 2 bad input, 4 a file could not be read or written, 130 the
 calibration was stopped";
 
-/// Fit numbers of cases to what was measured
+/// Calibrate material constants and model options against experiments
 #[derive(Debug, Args)]
 #[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
 pub struct Calibrate {
     /// Case files with [[experiments]]
     #[arg(value_name = "CASE.toml", required_unless_present = "data")]
     cases: Vec<PathBuf>,
-    /// What is fitted: a number of the cases with its range, or a TOML file of them
+    /// Parameter to fit: key of a number with its range, or a TOML file of parameters
     #[arg(long, value_name = "KEY=LOW..HIGH", required = true)]
     fit: Vec<String>,
-    /// CSV file of shots, or `builtin` for the program's own
+    /// CSV file of tests, or `builtin` for the tests of the program
     #[arg(long, value_name = "FILE")]
     data: Vec<PathBuf>,
-    /// File of materials that the shots name, beside the library
+    /// File of materials for the tests, in addition to the library
     #[arg(long, value_name = "FILE.toml")]
     materials: Vec<PathBuf>,
-    /// Kind of shot; all of them when not given
+    /// Kind of test [default: all kinds]
     #[arg(long, value_name = "KIND", requires = "data")]
     #[arg(value_parser = PossibleValuesParser::new(Kind::ALL.map(Kind::name)))]
     kind: Vec<String>,
-    /// Source to take, all when not given; those of --hold-out are taken as well
+    /// Source to use, besides those of --hold-out [default: all sources]
     #[arg(long, value_name = "KEY")]
     source: Vec<String>,
-    /// Source to keep out of the fit and to test it with
+    /// Source that is not fitted and tests the result
     #[arg(long, value_name = "KEY")]
     hold_out: Vec<String>,
-    /// Model that computes the cases
+    /// Model to calibrate
     #[arg(long, value_name = "NAME", default_value = "chain")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: String,
-    /// Scatter about the model: `estimated`, a part such as "2 %", or `stated` for stated uncertainties alone
+    /// Relative scatter about the model: `estimated`, a percentage such as "2 %", or `stated` for the stated uncertainties alone
     #[arg(long, value_name = "SCATTER", default_value = "estimated", value_parser = str::parse::<Noise>)]
     noise: Noise,
     /// Least squares only, without a sample of the posterior
     #[arg(long)]
     least_squares: bool,
-    /// Independent ensembles
+    /// Number of independent ensembles
     #[arg(long, value_name = "N", default_value = "4")]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=64))]
     ensembles: u16,
-    /// Walkers of an ensemble, an even number; four for each parameter when not given, and at least 12
+    /// Walkers per ensemble, an even number [default: four per parameter, at least 12]
     #[arg(long, value_name = "N", value_parser = values::walkers)]
     walkers: Option<usize>,
-    /// Steps of each walker that are kept; a third as many come before them
+    /// Kept steps per walker; the burn-in has a third as many
     #[arg(long, value_name = "N", default_value = "600")]
     #[arg(value_parser = clap::value_parser!(u32).range(4..=10_000_000))]
     steps: u32,
-    /// What decides over everything drawn at random
+    /// Seed of the random numbers
     #[arg(long, value_name = "N", default_value = "0")]
     seed: u64,
-    /// Id of the calibrated material; the old one with `-calibrated` when not given
+    /// Id of the calibrated material [default: the original id with `-calibrated`]
     #[arg(long, value_name = "ID", value_parser = values::material_id)]
     name: Option<String>,
     /// Write numbers, materials and figures to a folder
@@ -126,14 +126,14 @@ pub struct Calibrate {
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]
     json: bool,
-    /// No table and no progress: a line of NAME=VALUE pairs a parameter
+    /// No table and no progress: one line of NAME=VALUE pairs per parameter
     #[arg(long, short)]
     quiet: bool,
 }
 
 impl Calibrate {
     pub fn run(&self) -> Result<(), Failure> {
-        let problem = self.problem(&AtHand::default())?;
+        let problem = self.problem(&VirtualFiles::default())?;
         let settings = self.settings(&problem)?;
         let folder = RunFolder::wanted(self.out.as_deref(), None)?;
         let found = self.watched(&problem, &settings)?;
@@ -141,28 +141,32 @@ impl Calibrate {
         self.print(&found, &files)
     }
 
-    /// What the command finds out.
-    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Answer, Failure> {
-        let problem = self.problem(at_hand)?;
+    /// Result of the command.
+    pub fn execute(
+        &self,
+        virtual_files: &VirtualFiles,
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<Response, Failure> {
+        let problem = self.problem(virtual_files)?;
         let settings = self.settings(&problem)?;
         let folder = RunFolder::wanted(self.out.as_deref(), None)?;
         let sampled = settings.sampling.is_some();
-        let hear = Mutex::new(hear);
+        let on_progress = Mutex::new(on_progress);
         let found = self.solve(&problem, &settings, &|stage, part, runs| {
-            let mut hear = hear.lock().unwrap_or_else(PoisonError::into_inner);
-            hear(stage.of_whole(part, sampled), &stage.describe(runs))
+            let mut on_progress = on_progress.lock().unwrap_or_else(PoisonError::into_inner);
+            on_progress(stage.of_whole(part, sampled), &stage.describe(runs))
         })?;
         let files = written(folder, &found)?;
-        Ok(Answer {
-            found: Found::Calibration(Box::new(found)),
+        Ok(Response {
+            data: ResponseData::Calibration(Box::new(found)),
             files,
         })
     }
 
-    fn problem(&self, at_hand: &AtHand) -> Result<Problem, Failure> {
+    fn problem(&self, virtual_files: &VirtualFiles) -> Result<Problem, Failure> {
         let mut fitted = Vec::new();
         for text in &self.fit {
-            fitted.extend(Fitted::read_with(text, |path| at_hand.read(path))?);
+            fitted.extend(Fitted::read_with(text, |path| virtual_files.read(path))?);
         }
         let mut library = Library::built_in().clone();
         for path in &self.materials {
@@ -170,7 +174,7 @@ impl Calibrate {
         }
         let mut observations = Observations::default();
         for path in &self.cases {
-            observations.add_case(&at_hand.read(path)?)?;
+            observations.add_case(&virtual_files.read(path)?)?;
         }
         if !self.data.is_empty() {
             let (shots, _) = shot_data::read(&self.data, &self.kind, &library)?;
@@ -224,12 +228,12 @@ impl Calibrate {
         Ok(Calibrated::of(problem, settings, name, watch)?)
     }
 
-    /// Solves it with a bar for each stage.
+    /// Solves the problem with a progress bar per phase.
     fn watched(&self, problem: &Problem, settings: &Settings) -> Result<Calibrated, Failure> {
         let stop = workers::stop_on_request();
         let board = Mutex::new((Stage::LeastSquares, Progress::new(!self.quiet)));
         let watch = |stage: Stage, part: f64, runs: u64| {
-            // A bar that another thread is drawing has no need of this one.
+            // Another thread is drawing the bar: this update is left out.
             if let Ok(mut board) = board.try_lock() {
                 if board.0 != stage {
                     let before =
@@ -259,7 +263,7 @@ impl Calibrate {
             calibration,
             records,
         } = found;
-        let written = Written::new(files);
+        let written = FileList::new(files);
         if self.json {
             return written.print_json(found, self.quiet);
         }
@@ -277,7 +281,7 @@ impl Calibrate {
     }
 }
 
-/// The files of a calibration, where a folder is wanted.
+/// Files of a calibration; none without a folder.
 fn written(folder: Option<RunFolder>, found: &Calibrated) -> Result<Vec<PathBuf>, Failure> {
     folder.map_or_else(|| Ok(Vec::new()), |folder| folder::write(found, folder))
 }

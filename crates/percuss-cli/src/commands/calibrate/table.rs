@@ -1,4 +1,4 @@
-//! A calibration as text.
+//! Terminal output of a calibration.
 
 use percuss::{
     calibrate::{Calibration, Marginal, ParameterRecord},
@@ -30,12 +30,12 @@ pub fn text(calibration: &Calibration) -> String {
         text += &left_out(calibration);
     }
     let findings = calibration.findings.iter().map(|finding| &finding.words);
-    let mut notes = list("not determined", &mut findings.cloned());
+    let mut notes = list("not identified", &mut findings.cloned());
     notes += &list("warning", &mut calibration.warnings.iter().cloned());
     text + &notes
 }
 
-/// One line of NAME=VALUE pairs a parameter.
+/// One line of NAME=VALUE pairs per parameter.
 pub fn lines(calibration: &Calibration) -> String {
     let line = |parameter: &ParameterRecord| {
         let mut line = format!(
@@ -54,8 +54,8 @@ pub fn lines(calibration: &Calibration) -> String {
     calibration.parameters.iter().map(line).collect()
 }
 
-/// A row of the table of parameters.
-struct Row {
+/// Row of the table of parameters.
+struct ParameterRow {
     name: String,
     prior: String,
     best: String,
@@ -67,11 +67,11 @@ fn parameters(calibration: &Calibration) -> String {
     let from_to = |low: f64, high: f64| format!("{} to {}", rounded(low), rounded(high));
     let names = names(&calibration.parameters);
     let parameters = calibration.parameters.iter().zip(names);
-    let mut rows: Vec<Row> = parameters
+    let mut rows: Vec<ParameterRow> = parameters
         .map(|(parameter, name)| {
             let error = parameter.standard_error;
             let error = error.map_or_else(|| "?".to_owned(), |error| significant(error, 2));
-            Row {
+            ParameterRow {
                 name,
                 prior: from_to(parameter.prior[0], parameter.prior[2]),
                 best: format!("{} ± {error}", rounded(parameter.best)),
@@ -80,7 +80,7 @@ fn parameters(calibration: &Calibration) -> String {
         })
         .collect();
     let scatter = &calibration.scatter;
-    rows.push(Row {
+    rows.push(ParameterRow {
         name: "relative scatter [%]".to_owned(),
         prior: if scatter.estimated { "" } else { "given" }.to_owned(),
         best: rounded(100.0 * scatter.best),
@@ -90,7 +90,7 @@ fn parameters(calibration: &Calibration) -> String {
         }),
     });
     let sampled = calibration.sampling.is_some();
-    let of = |row: &Row, words: &dyn Fn(&Marginal) -> String| {
+    let of = |row: &ParameterRow, words: &dyn Fn(&Marginal) -> String| {
         row.posterior.as_ref().map_or_else(String::new, words)
     };
     let table = Table::of(&rows)
@@ -131,7 +131,7 @@ fn names(parameters: &[ParameterRecord]) -> Vec<String> {
 
 fn quality(calibration: &Calibration) -> String {
     let percent = |value: f64| format!("{:.1} %", 100.0 * value);
-    let mut rows = vec![("fitted to", &calibration.training)];
+    let mut rows = vec![("fitted", &calibration.training)];
     rows.extend(
         calibration
             .hold_out
@@ -163,7 +163,7 @@ fn sample(calibration: &Calibration) -> String {
     };
     let of = record.sampling;
     format!(
-        "{} of {} walkers, {} steps after {}, seed {}; {:.0} % of the moves were made\n\n",
+        "{} of {} walkers, {} steps after {}, seed {}; acceptance rate {:.0} %\n\n",
         counted(of.ensembles, "ensemble"),
         of.walkers,
         of.steps,

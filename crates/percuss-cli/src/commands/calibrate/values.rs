@@ -1,4 +1,4 @@
-//! Values of options.
+//! Values of the options of `percuss calibrate`.
 
 pub(super) fn walkers(text: &str) -> Result<usize, String> {
     let number = text.parse::<usize>().ok();

@@ -1,4 +1,4 @@
-//! What stands above the numbers: the case, its regime and the models to rely on.
+//! Head of a comparison: case, impact regime and recommended models.
 
 use percuss::{
     Scenario,
@@ -10,12 +10,12 @@ use crate::terminal::{bold, counted, paragraph, title, width, wrap};
 
 const LABEL: usize = 13;
 
-/// Case, regime and recommendation; for many speeds once for each range in which they stay the same.
+/// Case, regime and recommendation; at many velocities, once per range in which they are constant.
 pub fn text(scenario: &Scenario, comparison: &Comparison) -> String {
     let speeds = comparison.speeds();
     let at = match speeds.len() {
         1 => speed_range(&speeds),
-        count => format!("{count} speeds, {}", speed_range(&speeds)),
+        count => format!("{count} velocities, {}", speed_range(&speeds)),
     };
     let models = counted(comparison.models().len(), "model");
     let line = format!("case {}, impact at {at}, {models}", scenario.name);
@@ -28,7 +28,8 @@ pub fn text(scenario: &Scenario, comparison: &Comparison) -> String {
                 &comparison.regime[*i].regime,
             );
             (a.projectile, a.neighbour) == (b.projectile, b.neighbour)
-                && says(&comparison.recommended[from]) == says(&comparison.recommended[*i])
+                && recommendation_key(&comparison.recommended[from])
+                    == recommendation_key(&comparison.recommended[*i])
         };
         let to = (from..speeds.len()).take_while(same).count() + from;
         text.push('\n');
@@ -47,8 +48,8 @@ pub fn text(scenario: &Scenario, comparison: &Comparison) -> String {
     text
 }
 
-/// What makes two recommendations the same to a reader; reasons hold numbers that change with the speed.
-fn says(recommendation: &Recommendation) -> (Vec<&str>, &str) {
+/// Key of equal recommendations: models and start of the note; the reasons contain numbers that change with the velocity.
+fn recommendation_key(recommendation: &Recommendation) -> (Vec<&str>, &str) {
     let models = recommendation.models.iter().map(|choice| choice.model);
     let note = recommendation.note.as_deref().unwrap_or_default();
     let start = note.split([':', ',']).next().unwrap_or_default();

@@ -1,7 +1,9 @@
-mod absent;
+//! `percuss compare`: all models on one case.
+
 mod head;
-mod kinds;
-mod shown;
+mod messages;
+mod missing;
+mod quantities;
 mod single;
 mod sweep;
 #[cfg(test)]
@@ -18,32 +20,32 @@ use percuss::{
 };
 
 use crate::{
-    answer::{Answer, AtHand, Hear},
     by_models,
     failure::Failure,
+    file_list::FileList,
     output,
     progress::Progress,
+    response::{ProgressCallback, Response, VirtualFiles},
     run_folder::RunFolder,
     speeds::Speeds,
     terminal,
-    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
-Run every model on a case and set their results side by side: which regime the
-shot is in, which model to rely on and why, what each of them says, how far that
-is from the case's experiments, and why a model says nothing where it does not
-apply. One model that fails does not stop the others. A model that may take
-minutes, which `axi` is, runs only when it is asked for by name.
+Run every model on a case and compare their results: impact regime, recommended
+model with the reason, results of each model, differences from the experiments
+of the case, and the reason where a model does not apply. A model that fails
+does not stop the others. A model that may take minutes, such as `axi`, runs
+only when --model names it.
 
-With --velocity the case is run at other speeds than its own:
-  --velocity 200..1500:27         27 speeds from 200 to 1500, ends included
+With --velocity the case is run at other impact velocities:
+  --velocity 200..1500:27         27 velocities, 200 and 1500 included
   --velocity \"0.2..1.5 km/s:27\"   the same, in another unit
   --velocity 200,300,400          a list
-  --velocity 230                  one speed
+  --velocity 230                  one velocity
   --velocity experiments          those of the case's [[experiments]]
 
-With --quiet one line of NAME=VALUE pairs is printed for each speed and model.
+With --quiet one line of NAME=VALUE pairs is printed per velocity and model.
 
 With --out DIR a copy of the case (case-as-run.toml), compare.json, the numbers
 (compare.csv and compare.parquet) and the figure (compare.svg and compare.png)
@@ -51,9 +53,9 @@ are written to DIR, which is made if it does not exist.";
 
 const AFTER_HELP: &str = "\
 Examples:
-  percuss compare my-shot/scenario.toml
-  percuss compare my-shot/scenario.toml --velocity 200..1500:27 --out results
-  percuss compare my-shot/scenario.toml --model chain --json
+  percuss compare my-case/scenario.toml
+  percuss compare my-case/scenario.toml --velocity 200..1500:27 --out results
+  percuss compare my-case/scenario.toml --model chain --json
 
 Exit codes: 0 ok, 2 bad input or no model gives a result, 4 a file could not be
 read or written";
@@ -65,11 +67,11 @@ pub struct Compare {
     /// Case file; `percuss new` writes one to start from
     #[arg(value_name = "CASE.toml")]
     case: PathBuf,
-    /// Impact speeds: FROM..TO:COUNT, a list, one, or `experiments`
-    // A negative speed is answered with the range that speeds have.
+    /// Impact velocities: FROM..TO:COUNT, a list, one value, or `experiments`
+    // A negative velocity gets the error that names the allowed range.
     #[arg(long, value_name = "SPEEDS", allow_hyphen_values = true)]
     velocity: Option<Speeds>,
-    /// Compare this model only, or a slow one such as `axi`; may be given several times
+    /// Compare this model only; may be given several times. `axi` runs only when it is named
     #[arg(long, value_name = "NAME")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: Vec<String>,
@@ -84,8 +86,8 @@ pub struct Compare {
     quiet: bool,
 }
 
-/// What the command found out and wrote.
-struct Found {
+/// Result of the command and the files that it wrote.
+struct ComparisonOutput {
     scenario: Scenario,
     comparison: Comparison,
     files: Vec<PathBuf>,
@@ -94,33 +96,41 @@ struct Found {
 impl Compare {
     pub fn run(&self) -> Result<(), Failure> {
         let mut progress = Progress::new(!self.quiet);
-        let found = self.find(&AtHand::default(), &mut progress.hear());
+        let found = self.find(&VirtualFiles::default(), &mut progress.callback());
         progress.finish();
         let found = found?;
         self.print(&found)?;
         match found.comparison.has_results() {
             true => Ok(()),
-            false => Err(Failure::NoResult(absent::reasons(&found.comparison))),
+            false => Err(Failure::NoResult(missing::reasons(&found.comparison))),
         }
     }
 
-    /// What the command prints with --json; a case without any result is no failure here.
-    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Answer, Failure> {
-        let found = self.find(at_hand, hear)?;
-        Answer::json_of(&found.comparison, found.files)
+    /// Output of --json; a case without any result is no failure here.
+    pub fn execute(
+        &self,
+        virtual_files: &VirtualFiles,
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<Response, Failure> {
+        let found = self.find(virtual_files, on_progress)?;
+        Response::json_of(&found.comparison, found.files)
     }
 
-    fn find(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Found, Failure> {
-        let document = at_hand.read(&self.case)?;
+    fn find(
+        &self,
+        virtual_files: &VirtualFiles,
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<ComparisonOutput, Failure> {
+        let document = virtual_files.read(&self.case)?;
         let scenario = case::scenario(&document)?;
         let speeds = self.speeds(&scenario)?;
         let folder = RunFolder::wanted(self.out.as_deref(), Some(&document))?;
-        let comparison = self.compute(&scenario, &speeds, hear)?;
+        let comparison = self.compute(&scenario, &speeds, on_progress)?;
         let files = match folder {
             Some(folder) => folder.write_comparison(&scenario, &comparison)?,
             None => Vec::new(),
         };
-        Ok(Found {
+        Ok(ComparisonOutput {
             scenario,
             comparison,
             files,
@@ -131,12 +141,12 @@ impl Compare {
         &self,
         scenario: &Scenario,
         speeds: &[f64],
-        hear: Hear<'_>,
+        on_progress: ProgressCallback<'_>,
     ) -> Result<Comparison, Failure> {
         let models = by_models::named(&self.model);
         let mut report = |now: compare::Progress| {
             let words = format!("{} of {} runs", now.finished, now.total);
-            hear(now.fraction, &words)
+            on_progress(now.fraction, &words)
         };
         let mut watch = Observer {
             progress: Some(&mut report),
@@ -151,7 +161,7 @@ impl Compare {
         }
     }
 
-    /// Names the models that would apply and are too slow to run unasked.
+    /// Line that names the applicable models that take minutes and were not run.
     fn left_out(&self, scenario: &Scenario) -> String {
         let slow = MODELS
             .iter()
@@ -162,19 +172,19 @@ impl Compare {
             return String::new();
         }
         let line = format!(
-            "not run, since it may take minutes: {}; `--model NAME` runs it.",
+            "not run because it may take minutes: {}; `--model NAME` runs it.",
             names.join(", ")
         );
         format!("{}\n", terminal::wrap(&line, terminal::width(), 0))
     }
 
-    fn print(&self, found: &Found) -> Result<(), Failure> {
-        let Found {
+    fn print(&self, found: &ComparisonOutput) -> Result<(), Failure> {
+        let ComparisonOutput {
             scenario,
             comparison,
             files,
         } = found;
-        let written = Written::new(files);
+        let written = FileList::new(files);
         if self.json {
             return written.print_json(comparison, self.quiet);
         }
@@ -189,14 +199,14 @@ impl Compare {
                 1 => single::text(comparison),
                 _ => sweep::text(comparison),
             };
-            text += &shown::elsewhere(comparison);
+            text += &quantities::elsewhere(comparison);
             text += &warnings::text(comparison);
-            text += &absent::text(comparison);
+            text += &missing::text(comparison);
             text += &self.left_out(scenario);
             text += &format!(
                 "{}\n",
                 terminal::wrap(
-                    "`percuss run CASE.toml --model NAME` says all about one of them, `percuss models NAME` what it is made for.",
+                    "`percuss run CASE.toml --model NAME` prints all results of one model, `percuss models NAME` its range of validity.",
                     terminal::width(),
                     0
                 )

@@ -1,11 +1,11 @@
-//! Every model at one speed.
+//! Table of all models at one velocity.
 
 use percuss::{
     compare::Comparison, outcome::BandQuantity, summary::ResultRecord, units::significant,
 };
 use percuss_report::table::{Table, number};
 
-use super::shown;
+use super::quantities;
 use crate::{output, table::blocks, terminal::bold};
 
 /// Mark of a recommended model.
@@ -19,10 +19,10 @@ pub fn text(comparison: &Comparison) -> String {
         .iter()
         .filter(|record| record.is_result())
         .collect();
-    let quantities = shown::quantities(comparison);
+    let quantities = quantities::quantities(comparison);
     let measured = |quantity| comparison.measured(quantity, speed);
     let any_measured = quantities.iter().any(|q| measured(*q).is_some());
-    // The last row holds what was measured, if anything was.
+    // The last row holds the measured values, if there are any.
     let mut rows = Table::of(&records)
         .words("model", |record| name(comparison, record.model))
         .last(any_measured.then(|| "experiment".to_owned()));
@@ -34,8 +34,9 @@ pub fn text(comparison: &Comparison) -> String {
                 number(record.value(quantity), 4)
             })
             .last(measured.map(|(mean, count)| measurement(comparison, quantity, mean, count)));
-        if let Some((measured, _)) = measured.filter(|_| shown::is_given(comparison, quantity)) {
-            rows = rows.numbers("off by", "%", |record| {
+        if let Some((measured, _)) = measured.filter(|_| quantities::is_given(comparison, quantity))
+        {
+            rows = rows.numbers("difference", "%", |record| {
                 off_by(record.value(quantity), measured)
             });
         }
@@ -48,7 +49,7 @@ pub fn text(comparison: &Comparison) -> String {
             })
         })
         .when(any(|record| record.expected_error.is_some()), |rows| {
-            rows.numbers("expected error\nof the depth", "%", |record| {
+            rows.numbers("estimated model\nerror of the depth", "%", |record| {
                 let expected = record.expected_error.as_ref();
                 expected.map_or_else(String::new, |expected| {
                     expected.describe().replace(" %", "")
@@ -63,7 +64,7 @@ pub fn text(comparison: &Comparison) -> String {
     blocks(&table.table())
 }
 
-/// Name of a model, with its mark where it is recommended at any speed.
+/// Name of a model, marked where it is recommended at any velocity.
 pub fn name(comparison: &Comparison, model: &str) -> String {
     let recommended = comparison
         .recommended
@@ -98,7 +99,7 @@ fn measurement(comparison: &Comparison, quantity: BandQuantity, mean: f64, count
     }
 }
 
-/// Ends of a range, named where it is not one of the leading quantity.
+/// Ends of a range, with its quantity where that is not the main one.
 fn range(record: &ResultRecord, leading: BandQuantity) -> String {
     let Some(band) = &record.band else {
         return String::new();
@@ -110,7 +111,7 @@ fn range(record: &ResultRecord, leading: BandQuantity) -> String {
     }
 }
 
-/// For scripts: a line for each speed and model.
+/// One line of NAME=VALUE pairs per velocity and model.
 pub fn lines(comparison: &Comparison) -> String {
     comparison
         .results

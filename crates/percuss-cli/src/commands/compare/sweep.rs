@@ -1,10 +1,10 @@
-//! Every model at many speeds: a row a speed, a column a model, in as many blocks as the terminal's width asks for.
+//! Tables of all models at many velocities: one row per velocity, one column per model, split into blocks of the terminal's width.
 
 use percuss::{compare::Comparison, outcome::BandQuantity, units::significant};
 use percuss_report::table::{Table, number};
 
 use super::{
-    shown,
+    quantities,
     single::{RECOMMENDED, heading, name, off_by},
 };
 use crate::{
@@ -12,10 +12,10 @@ use crate::{
     terminal::{width, wrap},
 };
 
-/// Tables of all relevant quantities, and how far they are from experiment.
+/// Tables of all relevant quantities and their differences from experiments.
 pub fn text(comparison: &Comparison) -> String {
     let mut text = String::new();
-    for quantity in shown::quantities(comparison) {
+    for quantity in quantities::quantities(comparison) {
         let given: Vec<&str> = comparison
             .models()
             .into_iter()
@@ -27,14 +27,14 @@ pub fn text(comparison: &Comparison) -> String {
             .collect();
         text += &match quantity {
             BandQuantity::BallisticLimit => limits(comparison, &given),
-            _ => over_speed(comparison, quantity, &given),
+            _ => versus_velocity(comparison, quantity, &given),
         };
     }
-    text + &expected_errors(comparison)
+    text + &model_errors(comparison)
 }
 
-/// Medians of the errors to expect of the depths, from the smallest to the largest over the speeds, a line for all models.
-fn expected_errors(comparison: &Comparison) -> String {
+/// Range over the velocities of the median estimated model error of the depth, in one line for all models.
+fn model_errors(comparison: &Comparison) -> String {
     let percent = |error: f64| format!("{:+.0}", 100.0 * error + 0.0).replace('-', "\u{2212}");
     let ranges: Vec<String> = comparison
         .models()
@@ -57,13 +57,13 @@ fn expected_errors(comparison: &Comparison) -> String {
         return String::new();
     }
     let words = format!(
-        "expected error of the depth against the axisymmetric reference, median at each speed: {}",
+        "estimated model error of the depth against the axisymmetric reference, range of the medians: {}",
         ranges.join(", ")
     );
     format!("{}\n\n", wrap(&words, width(), 2))
 }
 
-fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) -> String {
+fn versus_velocity(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) -> String {
     let speeds = comparison.speeds();
     let measured = |i: usize| {
         let measured = comparison.measured(quantity, speeds[i]);
@@ -81,7 +81,7 @@ fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) 
         records.map(|record| record.value(quantity)).collect()
     };
     let table = Table::of(&all)
-        .numbers("speed", "m/s", speed)
+        .numbers("velocity", "m/s", speed)
         .when(!compared.is_empty(), |rows| {
             rows.numbers("exper-\niment", "", |&i| number(measured(i), 4))
         })
@@ -94,10 +94,13 @@ fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) 
     let mut text = heading(&format!("{} [{}]", quantity.describe(), quantity.unit()));
     text += &blocks(&table.table());
     if !compared.is_empty() && !models.is_empty() {
-        text += &heading(&format!("{}, off experiment by [%]", quantity.describe()));
+        text += &heading(&format!(
+            "{}, difference from experiment [%]",
+            quantity.describe()
+        ));
         let off =
             Table::of(&compared)
-                .numbers("speed", "m/s", speed)
+                .numbers("velocity", "m/s", speed)
                 .each(models, |rows, model| {
                     let values = values(model);
                     rows.numbers(model_heading(comparison, model), "", |&i| {
@@ -109,27 +112,27 @@ fn over_speed(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) 
     text
 }
 
-/// Ballistic limits do not depend on the speed: a row a model.
+/// Ballistic limits, one row per model.
 fn limits(comparison: &Comparison, models: &[&str]) -> String {
     let quantity = BandQuantity::BallisticLimit;
     let measured = comparison.measured(quantity, 0.0);
     let title = heading("ballistic limit [m/s]");
     if models.is_empty() {
         let measured = number(measured.map(|(value, _)| value), 4);
-        return format!("{title}{measured} measured; no model gives one\n\n");
+        return format!("{title}{measured} measured; no model predicts it\n\n");
     }
     let value = |model: &str| comparison.of_model(model).find_map(|r| r.value(quantity));
     let mut rows = Table::of(models)
         .words("model", |model| name(comparison, model))
         .numbers("limit", "", |model| number(value(model), 4));
     if let Some((measured, _)) = measured {
-        let heading = format!("off {} by [%]", significant(measured, 4));
+        let heading = format!("difference from {} [%]", significant(measured, 4));
         rows = rows.numbers(heading, "", |model| off_by(value(model), measured));
     }
     title + &blocks(&rows.table())
 }
 
-/// Name of a model over lines that are short.
+/// Name of a model in several short lines.
 fn model_heading(comparison: &Comparison, model: &str) -> String {
     let heading = model.replace('_', "\n");
     match name(comparison, model).ends_with(RECOMMENDED) {

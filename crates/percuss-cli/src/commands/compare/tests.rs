@@ -1,4 +1,4 @@
-//! What is printed of models that are made up.
+//! Output of made-up models.
 
 use percuss::{
     Error, Scenario, case,
@@ -11,7 +11,7 @@ use percuss::{
     validity::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 
-use super::{absent, head, shown, single, sweep, warnings};
+use super::{head, missing, quantities, single, sweep, warnings};
 
 struct Fake {
     name: &'static str,
@@ -160,7 +160,7 @@ fn one_speed_is_one_table() {
     let text = head::text(&scenario, &comparison)
         + &single::text(&comparison)
         + &warnings::text(&comparison)
-        + &absent::text(&comparison);
+        + &missing::text(&comparison);
     narrow(&text);
     insta::with_settings!({ snapshot_path => "snapshots", prepend_module_to_snapshot => false, omit_expression => true }, {
         insta::assert_snapshot!("compare-one-speed", text);
@@ -174,7 +174,7 @@ fn a_sweep_is_as_many_tables_as_fit() {
     let text = head::text(&scenario, &comparison)
         + &sweep::text(&comparison)
         + &warnings::text(&comparison)
-        + &absent::text(&comparison);
+        + &missing::text(&comparison);
     narrow(&text);
     insta::with_settings!({ snapshot_path => "snapshots", prepend_module_to_snapshot => false, omit_expression => true }, {
         insta::assert_snapshot!("compare-sweep", text);
@@ -184,11 +184,11 @@ fn a_sweep_is_as_many_tables_as_fit() {
 #[test]
 fn what_was_measured_at_other_speeds_is_counted() {
     let (_, here) = comparison(&[1000.0]);
-    assert_eq!(shown::elsewhere(&here), "");
+    assert_eq!(quantities::elsewhere(&here), "");
     let (_, elsewhere) = comparison(&[500.0]);
     assert_eq!(
-        shown::elsewhere(&elsewhere),
-        "1 experiment at another speed: `--velocity experiments`\n\n"
+        quantities::elsewhere(&elsewhere),
+        "1 experiment at another velocity: `--velocity experiments`\n\n"
     );
 }
 

@@ -1,8 +1,8 @@
-//! What to know before relying on the numbers.
+//! Warnings of a comparison.
 
 use percuss::{compare::Comparison, summary::ResultRecord};
 
-use super::kinds::kinds;
+use super::messages::grouped;
 use crate::{
     by_models::by_models,
     terminal::{self, paragraph},
@@ -15,7 +15,7 @@ pub fn text(comparison: &Comparison) -> String {
         .map(|line| format!("{}\n", terminal::warning(line)))
         .collect();
     if others(comparison) {
-        let words = "`percuss run CASE.toml --model NAME` prints the warnings of the others";
+        let words = "`percuss run CASE.toml --model NAME` prints the warnings of the other models";
         text += &format!("{}\n", paragraph(words));
     }
     text
@@ -29,11 +29,11 @@ fn lines(comparison: &Comparison) -> Vec<String> {
         let said = records
             .filter(|(speed, record)| is_shown(comparison, *speed, record))
             .flat_map(|(speed, record)| record.warnings.iter().map(move |w| (speed, w.as_str())));
-        for kind in kinds(said, speeds.len()) {
-            let words = kind.describe(&speeds);
+        for message in grouped(said, speeds.len()) {
+            let words = message.describe(&speeds);
             entries.push((
                 model,
-                match kind.place(&speeds).trim_start() {
+                match message.place(&speeds).trim_start() {
                     "" => words,
                     place => format!("{place}: {words}"),
                 },

@@ -1,3 +1,5 @@
+//! `percuss limit`: ballistic limits and V50.
+
 mod reliance;
 mod table;
 mod values;
@@ -14,70 +16,70 @@ use percuss::{
 use serde::Serialize;
 
 use crate::{
-    answer::{Answer, AtHand, Hear},
     by_models,
     failure::Failure,
+    file_list::FileList,
     output,
     progress::Progress,
+    response::{ProgressCallback, Response, VirtualFiles},
     run_folder::RunFolder,
-    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
-Find the ballistic limit of a case: the impact speed above which the target is
-perforated. Every model that says whether it is gets the same search: 17 speeds
-across a range, then halves between the fastest shot that is stopped and the
-slowest that perforates, until they are close enough. Above the limit the speeds
-behind the target are computed, and the curve of Lambert and Jonas,
-v_r = a (v^p - v_bl^p)^(1/p), is fitted to them. A model that does not apply
-says why; one that stops or lets through everything in the range says so.
-A model that may take minutes, which `axi` is, runs only when it is asked for by
-name.
+Find the ballistic limit of a case: the impact velocity above which the target
+is perforated. Every model that predicts perforation gets the same search: 17
+velocities across a range, then bisection between the highest velocity with a
+partial and the lowest with a complete penetration, down to the tolerance. Above
+the limit the residual velocities are computed, and the curve of Lambert and
+Jonas, v_r = a (v^p - v_bl^p)^(1/p), is fitted to them. The output gives the
+reason where a model does not apply or has no limit in the range. A model that
+may take minutes, such as `axi`, runs only when --model names it.
 
 The rear face of a plate is free unless the case gives `target.back_face`;
 behind a fixed one perforation is impossible. The recommended model is marked
-with ★, and the errors of the models on published limits of the same kind stand
-below. `recht_ipson` and `lambert_jonas` start from a limit: their residual
-velocities are shown, and their limit counts as none.
+with ★, and the errors of the models on published limits of the same kind are
+listed below. `recht_ipson` and `lambert_jonas` need a limit as input: only
+their residual velocities are listed.
 
-With --shots FILE.csv the speed V50 at which half of all shots go through is
-estimated from shots that scatter: by maximum likelihood (probit and logit) with
-the 95 % interval of the likelihood ratio, and as the mean of equal numbers of
-the fastest stopped shots and the slowest that went through (extremes). The file
-has a row a shot and the columns impact_velocity_m_s and perforated (yes or no); the
-case may then be left out.
+With --shots FILE.csv V50, the velocity at which the probability of perforation
+is 50 %, is estimated from test results: by maximum likelihood (probit and
+logit) with the 95 % likelihood-ratio interval, and as the mean of equal numbers
+of the highest partial and the lowest complete penetrations (extremes). The file
+has one row per test and the columns impact_velocity_m_s and perforated (yes or no).
+The case is then optional.
 
 With --out DIR a copy of the case (case-as-run.toml), limit.json, the tables
-limit.csv (a row a model) and curve.csv (a row a speed), and the figures (limit
-and v50, as SVG and PNG) are written to DIR, which is made if it does not exist.";
+limit.csv (one row per model) and curve.csv (one row per velocity), and the
+figures (limit and v50, as SVG and PNG) are written to DIR, which is made if it
+does not exist.";
 
 const AFTER_HELP: &str = "\
 Examples:
-  percuss limit my-shot/scenario.toml
-  percuss limit my-shot/scenario.toml --velocity 100..400 --tolerance \"0.2 %\"
-  percuss limit my-shot/scenario.toml --model plugging --out results
-  percuss limit --shots my-shots.csv
+  percuss limit my-case/scenario.toml
+  percuss limit my-case/scenario.toml --velocity 100..400 --tolerance \"0.2 %\"
+  percuss limit my-case/scenario.toml --model plugging --out results
+  percuss limit --shots tests.csv
 
 Exit codes: 0 ok, 2 bad input or no model applies, 4 a file could not be read or
 written";
 
-/// Find the ballistic limit of a case, or V50 from shots
+/// Find the ballistic limit of a case, or V50 from test results
 #[derive(Debug, Args)]
 #[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
 pub struct Limit {
     /// Case file; `percuss new` writes one to start from
     #[arg(value_name = "CASE.toml", required_unless_present = "shots")]
     case: Option<PathBuf>,
-    /// Search with this model only, or a slow one such as `axi`; may be given several times
+    /// Search with this model only; may be given several times. `axi` runs only when it is named
     #[arg(long, value_name = "NAME", requires = "case")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: Vec<String>,
-    /// Range of impact speeds to search, in m/s unless a unit follows
-    // A negative speed is answered with the range that speeds have.
+    /// Range of impact velocities to search, in m/s unless a unit follows
+    // A negative velocity gets the error that names the allowed range.
     #[arg(long, value_name = "FROM..TO", default_value = "0..2000", value_parser = values::range)]
     #[arg(allow_hyphen_values = true)]
     velocity: Range,
-    /// How far apart the stopped and the perforating shot may be: a speed, or a part in %
+    /// Largest bracket between partial and complete penetration: a velocity, or a percentage
     #[arg(long, value_name = "SPEED", default_value = "0.1 m/s", value_parser = values::tolerance)]
     #[arg(allow_hyphen_values = true)]
     tolerance: Tolerance,
@@ -85,10 +87,10 @@ pub struct Limit {
     #[arg(long, value_name = "COUNT", default_value = "12")]
     #[arg(value_parser = values::points, allow_hyphen_values = true)]
     points: u16,
-    /// CSV file of shots that were stopped or went through
+    /// CSV file of tests with partial or complete penetration
     #[arg(long, value_name = "FILE.csv")]
     shots: Option<PathBuf>,
-    /// Widest span of the shots that V50 may be the mean of; 125 ft/s when not given
+    /// Largest span of the velocities that V50 is the mean of [default: 125 ft/s]
     #[arg(long, value_name = "SPEED", requires = "shots", value_parser = values::span)]
     #[arg(allow_hyphen_values = true)]
     span: Option<f64>,
@@ -103,25 +105,25 @@ pub struct Limit {
     quiet: bool,
 }
 
-/// What `--json` prints. The names are stable.
+/// Output of `--json`. The names are stable.
 #[derive(Serialize)]
-struct Record<'a> {
+struct LimitRecord<'a> {
     #[serde(flatten)]
     limits: Option<&'a Limits>,
     v50: Option<&'a V50>,
     shots: Option<&'a [Test]>,
 }
 
-/// What the command found out.
-struct Found {
+/// Result of the command and the files that it wrote.
+struct LimitOutput {
     case: Option<(Scenario, Limits)>,
     shots: Option<(Vec<Test>, V50)>,
     files: Vec<PathBuf>,
 }
 
-impl Found {
-    fn record(&self) -> Record<'_> {
-        Record {
+impl LimitOutput {
+    fn record(&self) -> LimitRecord<'_> {
+        LimitRecord {
             limits: self.case.as_ref().map(|(_, limits)| limits),
             v50: self.shots.as_ref().map(|(_, v50)| v50),
             shots: self.shots.as_ref().map(|(shots, _)| &**shots),
@@ -132,7 +134,7 @@ impl Found {
 impl Limit {
     pub fn run(&self) -> Result<(), Failure> {
         let mut progress = Progress::new(!self.quiet);
-        let found = self.find(&AtHand::default(), &mut progress.hear());
+        let found = self.find(&VirtualFiles::default(), &mut progress.callback());
         progress.finish();
         let found = found?;
         self.print(&found)?;
@@ -144,14 +146,22 @@ impl Limit {
         }
     }
 
-    /// What the command prints with --json; a case to which no model applies is no failure here.
-    pub fn answer(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Answer, Failure> {
-        let found = self.find(at_hand, hear)?;
-        Answer::json_of(&found.record(), found.files.clone())
+    /// Output of --json; a case to which no model applies is no failure here.
+    pub fn execute(
+        &self,
+        virtual_files: &VirtualFiles,
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<Response, Failure> {
+        let found = self.find(virtual_files, on_progress)?;
+        Response::json_of(&found.record(), found.files.clone())
     }
 
-    fn find(&self, at_hand: &AtHand, hear: Hear<'_>) -> Result<Found, Failure> {
-        let document = self.case.as_ref().map(|path| at_hand.read(path));
+    fn find(
+        &self,
+        virtual_files: &VirtualFiles,
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<LimitOutput, Failure> {
+        let document = self.case.as_ref().map(|path| virtual_files.read(path));
         let document = document.transpose()?;
         let scenario = document.as_ref().map(case::scenario).transpose()?;
         let shots = self.shots.as_ref().map(v50::read).transpose()?;
@@ -162,12 +172,12 @@ impl Limit {
         });
         let case = match scenario {
             Some(scenario) => {
-                let limits = self.search(&scenario, hear)?;
+                let limits = self.search(&scenario, on_progress)?;
                 Some((scenario, limits))
             }
             None => None,
         };
-        let mut found = Found {
+        let mut found = LimitOutput {
             case,
             shots,
             files: Vec::new(),
@@ -178,7 +188,11 @@ impl Limit {
         Ok(found)
     }
 
-    fn search(&self, scenario: &Scenario, hear: Hear<'_>) -> Result<Limits, Failure> {
+    fn search(
+        &self,
+        scenario: &Scenario,
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<Limits, Failure> {
         let models = by_models::named(&self.model);
         let search = Search {
             range: self.velocity,
@@ -187,7 +201,7 @@ impl Limit {
         };
         let mut report = |now: limit::Progress| {
             let words = format!("{} runs", now.finished);
-            hear(now.fraction, &words)
+            on_progress(now.fraction, &words)
         };
         let mut watch = Observer {
             progress: Some(&mut report),
@@ -195,7 +209,7 @@ impl Limit {
         Ok(limit::limits(&models, scenario, &search, &mut watch)?)
     }
 
-    fn write(&self, mut folder: RunFolder, found: &Found) -> Result<Vec<PathBuf>, Failure> {
+    fn write(&self, mut folder: RunFolder, found: &LimitOutput) -> Result<Vec<PathBuf>, Failure> {
         folder.put("limit.json", output::json(&found.record())?.as_bytes())?;
         if let Some((scenario, limits)) = &found.case {
             folder.add(percuss_report::write_limits(folder.path(), limits)?);
@@ -210,8 +224,8 @@ impl Limit {
         Ok(folder.written())
     }
 
-    fn print(&self, found: &Found) -> Result<(), Failure> {
-        let written = Written::new(&found.files);
+    fn print(&self, found: &LimitOutput) -> Result<(), Failure> {
+        let written = FileList::new(&found.files);
         if self.json {
             return written.print_json(&found.record(), self.quiet);
         }
@@ -248,7 +262,7 @@ fn stem(path: &Path) -> String {
         .into_owned()
 }
 
-/// Whether there is nothing to say but reasons: a target that stops or lets through everything is an answer.
+/// Whether every model is inapplicable or failed; partial or complete penetration in the whole range is a result.
 fn no_model_applies(limits: &Limits) -> bool {
     let silent = [LimitOutcome::NotApplicable, LimitOutcome::Failed];
     limits

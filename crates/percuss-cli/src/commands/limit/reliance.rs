@@ -1,4 +1,4 @@
-//! Recommended models, range and expected errors of limits, and curves above limits that are inputs.
+//! Recommended models, range and estimated model errors of limits, and residual velocities above limits that are inputs.
 
 use percuss::{
     limit::{LambertJonasFit, LimitOutcome, Limits, ModelLimit},
@@ -13,7 +13,7 @@ use crate::{
     terminal::{bold, width, wrap},
 };
 
-/// Which model to rely on, how far the models lie apart, and how large their errors on published limits are.
+/// Recommended model, range over the models, and estimated model errors from published limits.
 pub fn text(limits: &Limits) -> String {
     let mut lines: Vec<String> = limits
         .recommended
@@ -32,12 +32,12 @@ pub fn text(limits: &Limits) -> String {
     lines.extend(limits.results.iter().filter_map(|limit| {
         let expected = limit.expected_error.as_ref()?;
         let (model, words) = (limit.model, expected.describe());
-        Some(format!("expected error of {model}: {words}"))
+        Some(format!("estimated model error of {model}: {words}"))
     }));
     let without = limits.without_expected_error();
     if !without.is_empty() {
         lines.push(format!(
-            "no expected error of {}: fewer than 5 published limits of this kind have been compared",
+            "no estimated model error of {}: fewer than 5 published limits of this kind were compared",
             without.join(", ")
         ));
     }
@@ -48,7 +48,7 @@ pub fn text(limits: &Limits) -> String {
     lines.iter().map(line).collect::<String>() + "\n"
 }
 
-/// Residual velocities of the models that start from a limit; empty without any.
+/// Residual velocities of the models that take a limit as input; empty without any.
 pub fn inputs(limits: &Limits) -> String {
     let inputs: Vec<&ModelLimit> = limits
         .results

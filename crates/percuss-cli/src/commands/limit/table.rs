@@ -1,4 +1,4 @@
-//! What is printed of limits and of V50.
+//! Terminal output of `percuss limit`: ballistic limits and V50.
 
 use percuss::{
     Scenario,
@@ -84,7 +84,7 @@ fn numbers(limits: &Limits, found: &[&ModelLimit]) -> String {
         })
         .last(measured_words);
     if let Some((measured, _)) = measured {
-        rows = rows.numbers("off by", "%", |limit| {
+        rows = rows.numbers("difference", "%", |limit| {
             let limit = limit.ballistic_limit_m_s;
             limit.map_or_else(String::new, |v| {
                 // Rounded before it is written, so that no zero is negative.
@@ -96,10 +96,10 @@ fn numbers(limits: &Limits, found: &[&ModelLimit]) -> String {
         });
     }
     let table = rows
-        .numbers("fastest\nstopped", "m/s", |limit| {
+        .numbers("highest\npartial", "m/s", |limit| {
             number(limit.bracket.map(|bracket| bracket.stopped_m_s), 4)
         })
-        .numbers("slowest\nthrough", "m/s", |limit| {
+        .numbers("lowest\ncomplete", "m/s", |limit| {
             number(limit.bracket.map(|bracket| bracket.perforated_m_s), 4)
         })
         .numbers("runs", "", |limit| limit.runs.to_string());
@@ -136,12 +136,12 @@ pub(super) fn last_velocity(limit: &ModelLimit) -> String {
     last.map_or_else(String::new, |p| significant(p.impact_velocity_m_s, 4))
 }
 
-/// One line for each reason why models have no limit.
+/// One line per reason why models have no limit.
 pub fn reasons(limits: &Limits) -> Vec<String> {
     let without = |limit: &&ModelLimit| !is_found(limit) && limit.outcome != LimitOutcome::Input;
     let said = limits.results.iter().filter(without);
     let said = said.map(|limit| {
-        let reason = limit.reason.as_deref().unwrap_or("it does not say why");
+        let reason = limit.reason.as_deref().unwrap_or("no reason given");
         let words = match limit.outcome {
             LimitOutcome::NotApplicable => format!("not applicable, because {reason}"),
             other => format!("{}: {reason}", other.describe()),
@@ -151,7 +151,7 @@ pub fn reasons(limits: &Limits) -> Vec<String> {
     by_models(said)
 }
 
-/// One line a model, for scripts.
+/// One line of NAME=VALUE pairs per model.
 pub fn lines(limits: &Limits) -> String {
     let value = |value: Option<f64>| value.map_or_else(|| "none".to_owned(), |v| significant(v, 6));
     let line = |limit: &ModelLimit| {
@@ -172,11 +172,11 @@ pub fn lines(limits: &Limits) -> String {
     limits.results.iter().map(line).collect()
 }
 
-/// V50 of shots by every method.
+/// V50 of tests by every method.
 pub fn v50_text(file: &str, v50: &V50) -> String {
     let line = format!(
-        "{} of {file}: {} stopped, {} went through; {}",
-        counted(v50.tests, "shot"),
+        "{} of {file}: {} partial and {} complete penetrations; {}",
+        counted(v50.tests, "test"),
         v50.tests - v50.perforated,
         v50.perforated,
         pattern(v50)
@@ -193,7 +193,7 @@ pub fn v50_text(file: &str, v50: &V50) -> String {
         .numbers("scatter", "m/s", |entry| {
             number(entry.standard_deviation_m_s, 5)
         })
-        .numbers("shots\nused", "", |entry| {
+        .numbers("tests\nused", "", |entry| {
             let all = entry.v50_m_s.map(|_| v50.tests);
             let used = entry.tests_used.or(all);
             used.map_or_else(|| number(None, 0), |used| used.to_string())
@@ -214,7 +214,7 @@ fn interval(entry: &Estimate) -> String {
     match (entry.method, ends, entry.v50_m_s) {
         (Method::MeanOfExtremes, ..) | (_, (None, None), None) => "–".to_owned(),
         (_, (None, None), Some(_)) => "unbounded".to_owned(),
-        (_, (low, high), _) => format!("{} to {}", end(low, "no end"), end(high, "no end")),
+        (_, (low, high), _) => format!("{} to {}", end(low, "unbounded"), end(high, "unbounded")),
     }
 }
 
@@ -225,17 +225,19 @@ fn pattern(v50: &V50) -> String {
         speed(v50.lowest_perforated_m_s),
     );
     match v50.pattern {
-        Pattern::Mixed => format!("mixed results from {through} to {stopped} m/s"),
+        Pattern::Mixed => format!("zone of mixed results from {through} to {stopped} m/s"),
         Pattern::Separated => {
-            format!("no mixed results: stopped up to {stopped} m/s, through from {through} m/s on")
+            format!(
+                "no zone of mixed results: partial penetration up to {stopped} m/s, complete from {through} m/s on"
+            )
         }
-        Pattern::Reversed => "the faster ones were stopped".to_owned(),
-        Pattern::AllStopped => "none went through".to_owned(),
-        Pattern::AllPerforated => "none was stopped".to_owned(),
+        Pattern::Reversed => "the partial penetrations are the faster ones".to_owned(),
+        Pattern::AllStopped => "no complete penetration".to_owned(),
+        Pattern::AllPerforated => "no partial penetration".to_owned(),
     }
 }
 
-/// One line a method, for scripts.
+/// One line of NAME=VALUE pairs per method.
 pub fn v50_lines(v50: &V50) -> String {
     let value = |value: Option<f64>| value.map_or_else(|| "none".to_owned(), |v| significant(v, 6));
     let line = |entry: &Estimate| {

@@ -1,4 +1,4 @@
-//! What `--velocity`, `--tolerance` and `--span` take.
+//! Values of the options `--velocity`, `--tolerance`, `--span` and `--points`.
 
 use std::str::FromStr;
 
@@ -11,39 +11,39 @@ use percuss::{
 const RANGE: &str =
     "allowed: FROM..TO such as 100..400 or \"0.1..0.4 km/s\", in m/s unless a unit follows";
 const TOLERANCE: &str =
-    "allowed: a speed such as \"0.5 m/s\", or a part of the limit such as \"0.2 %\"";
-/// Narrowest and widest bracket that can be asked for [m/s], and the same as parts of the speed.
+    "allowed: a speed such as \"0.5 m/s\", or a percentage of the limit such as \"0.2 %\"";
+/// Allowed widths of the bracket [m/s], and the same as fractions of the velocity.
 const WIDTHS: std::ops::RangeInclusive<f64> = 1e-6..=1000.0;
 const PARTS: std::ops::RangeInclusive<f64> = 1e-8..=0.5;
-/// Most residual velocities that can be asked for.
+/// Largest number of residual velocities.
 const MOST_POINTS: u16 = 200;
 
-/// Why a value of the command line means nothing.
+/// Error in a value of the command line.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ValueError {
-    #[error("`{0}` is no range\n{RANGE}")]
+    #[error("`{0}` is not a range\n{RANGE}")]
     NoRange(String),
     #[error("{0}\n{RANGE}")]
     Speed(QuantityError),
     #[error("the range ends at {to}, which is not above its start at {from}\n{RANGE}")]
     NotRising { from: String, to: String },
-    #[error("{0} is out of range: speeds are {min} to {max} m/s", min = IMPACT_SPEED.min, max = IMPACT_SPEED.max)]
+    #[error("{0} is out of range: allowed are {min} to {max} m/s", min = IMPACT_SPEED.min, max = IMPACT_SPEED.max)]
     OutOfRange(Velocity),
     #[error("{0}\n{TOLERANCE}")]
     Tolerance(QuantityError),
-    #[error("`{0}` is no part of a speed\n{TOLERANCE}")]
+    #[error("`{0}` is not a percentage\n{TOLERANCE}")]
     Part(String),
     #[error("{0}\nallowed: a speed such as \"38 m/s\"")]
     Span(QuantityError),
     #[error("{0} is out of range: allowed are 1e-6 to 1000 m/s")]
     LongSpan(String),
-    #[error("`{0}` is no number of points\nallowed: a whole number from 0 to {MOST_POINTS}")]
+    #[error("`{0}` is not a number of points\nallowed: a whole number from 0 to {MOST_POINTS}")]
     Points(String),
     #[error("{0} is out of range: allowed are 1e-6 to 1000 m/s, or 1e-6 to 50 %")]
     Width(String),
 }
 
-/// `FROM..TO`; a unit at the end holds for both where the first has none of its own.
+/// Reads `FROM..TO`; a unit at the end applies to both where the first has none of its own.
 pub fn range(text: &str) -> Result<Range, ValueError> {
     let ends = text.split_once("..").filter(|(_, to)| !to.starts_with('.'));
     let (from, to) = ends.ok_or_else(|| ValueError::NoRange(text.to_owned()))?;
@@ -76,13 +76,13 @@ pub fn range(text: &str) -> Result<Range, ValueError> {
     }
 }
 
-/// What follows the last digit of a number.
+/// Text after the last digit of a number.
 fn unit_of(text: &str) -> &str {
     let end = text.rfind(|c: char| c.is_ascii_digit() || c == '.');
     end.map_or("", |at| text[at + 1..].trim())
 }
 
-/// A speed with its unit, or a percentage.
+/// Reads a velocity with its unit, or a percentage.
 pub fn tolerance(text: &str) -> Result<Tolerance, ValueError> {
     let outside = || ValueError::Width(text.trim().to_owned());
     if let Some(number) = text.trim().strip_suffix('%') {
@@ -102,7 +102,7 @@ pub fn tolerance(text: &str) -> Result<Tolerance, ValueError> {
     }
 }
 
-/// A speed with its unit that is no longer than any range of speeds.
+/// Reads a velocity span with its unit.
 pub fn span(text: &str) -> Result<f64, ValueError> {
     let span = Velocity::from_str(text).map_err(ValueError::Span)?.si();
     match WIDTHS.contains(&span) {
@@ -111,7 +111,7 @@ pub fn span(text: &str) -> Result<f64, ValueError> {
     }
 }
 
-/// A number of residual velocities.
+/// Reads a number of residual velocities.
 pub fn points(text: &str) -> Result<u16, ValueError> {
     let count = text.trim().parse().ok();
     count
@@ -119,7 +119,7 @@ pub fn points(text: &str) -> Result<u16, ValueError> {
         .ok_or_else(|| ValueError::Points(text.to_owned()))
 }
 
-/// The tolerance as it can be given.
+/// Tolerance as text, as the option takes it.
 pub fn describe(tolerance: Tolerance) -> String {
     match tolerance {
         Tolerance::Absolute(width) => format!("{} m/s", significant(width, 4)),
@@ -140,14 +140,14 @@ mod tests {
         assert_eq!(ends("1e2..4e2 m/s"), (100.0, 400.0));
         assert_eq!(ends("100 m/s..0.4 km/s"), (100.0, 400.0));
         for (text, words) in [
-            ("400", "is no range"),
+            ("400", "is not a range"),
             ("400..100", "not above"),
             ("a..100", "not a number"),
             ("0..100 mph", "mph"),
             ("0..20 km/s", "out of range"),
             ("-5..20", "out of range"),
             ("100 kg..300 m/s", "`kg` is a unit of mass"),
-            ("100...300", "is no range"),
+            ("100...300", "is not a range"),
         ] {
             let error = range(text).unwrap_err().to_string();
             assert!(error.contains(words), "{text}: {error}");
@@ -160,7 +160,7 @@ mod tests {
         assert_eq!(tolerance(" 0.2% "), Ok(Tolerance::Relative(0.002)));
         for (text, words) in [
             ("0.5", "0.5 m/s"),
-            ("few %", "no part"),
+            ("few %", "not a percentage"),
             ("0 m/s", "out of range"),
             ("-1 m/s", "out of range"),
             ("80 %", "out of range"),

@@ -1,10 +1,12 @@
+//! Terminal output of a list of materials.
+
 use percuss::material::MaterialEntry;
 use percuss_report::table::Table;
 
 use super::MaterialRecord;
 use crate::{failure::Failure, output, table::plain, terminal};
 
-/// Widest table, of records with short ids; others get a few lines per material.
+/// Largest width of the table [characters]; wider lists get a few lines per material.
 const MAX_WIDTH: usize = 100;
 
 /// Prints materials.
@@ -30,7 +32,7 @@ pub fn list(materials: &[&MaterialEntry], json: bool) -> Result<(), Failure> {
     }
 }
 
-/// The materials as JSON has them.
+/// Materials as JSON records.
 pub fn records<'a>(materials: &[&'a MaterialEntry]) -> Vec<MaterialRecord<'a>> {
     let materials = materials.iter();
     materials.map(|entry| MaterialRecord::new(entry)).collect()

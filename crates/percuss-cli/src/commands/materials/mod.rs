@@ -1,3 +1,5 @@
+//! `percuss materials`: list of the materials.
+
 mod list;
 mod show;
 
@@ -11,27 +13,27 @@ use percuss::{
 use serde::Serialize;
 
 use crate::{
-    answer::{Answer, AtHand},
     failure::Failure,
+    response::{Response, VirtualFiles},
 };
 
 const LONG_ABOUT: &str = "\
-List the materials that a case can name, by their id or by their family. Rival
-records of one material form a family; the one marked ★ answers to the family's
-name. Trust says how well the numbers are established: A read in two independent
-places, B one secondary source that names its primary source, C indicative.
+List the materials of the library. A case names a material by its id or its
+family. Alternative records of one material form a family; the name of the
+family selects the record marked ★. Trust grades the numbers: A two independent
+sources, B one secondary source that names its primary source, C indicative.
 
-With WORDS those are listed whose id, family, name or state hold every word.
-Common synonyms are known, such as aluminum, titanium and rha.
+With WORDS, only materials with all words in id, family, name or state are
+listed. Common synonyms work, such as aluminum, titanium and rha.
 
-`percuss materials show NAME` prints everything that is known of one.";
+`percuss materials show NAME` prints all constants of a material.";
 
 const AFTER_HELP: &str = "\
 Examples:
   percuss materials
   percuss materials aluminium
   percuss materials show copper
-  percuss materials show my-alloy --case my-shot/scenario.toml
+  percuss materials show my-alloy --case my-case/scenario.toml
   percuss materials --json
 
 Exit codes: 0 ok, 2 bad input or no such material, 4 a file could not be read";
@@ -50,7 +52,7 @@ pub struct Materials {
     /// Include the materials of a file
     #[arg(long, global = true, value_name = "FILE", conflicts_with = "case")]
     file: Option<PathBuf>,
-    /// Words that the materials listed have in their id, family, name or state
+    /// Words to search for in id, family, name and state
     #[arg(value_name = "WORDS")]
     search: Vec<String>,
     #[command(subcommand)]
@@ -64,19 +66,19 @@ enum Action {
 
 impl Materials {
     pub fn run(&self) -> Result<(), Failure> {
-        let library = self.library(&AtHand::default())?;
+        let library = self.library(&VirtualFiles::default())?;
         match &self.action {
             None => list::list(&self.listed(&library)?, self.json),
             Some(Action::Show(show)) => show.run(&library, self.json),
         }
     }
 
-    /// What the command prints with --json.
-    pub fn answer(&self, at_hand: &AtHand) -> Result<Answer, Failure> {
-        let library = self.library(at_hand)?;
+    /// Output of --json.
+    pub fn execute(&self, virtual_files: &VirtualFiles) -> Result<Response, Failure> {
+        let library = self.library(virtual_files)?;
         match &self.action {
-            None => Answer::json_of(&list::records(&self.listed(&library)?), Vec::new()),
-            Some(Action::Show(show)) => show.answer(&library),
+            None => Response::json_of(&list::records(&self.listed(&library)?), Vec::new()),
+            Some(Action::Show(show)) => show.execute(&library),
         }
     }
 
@@ -98,9 +100,9 @@ impl Materials {
         }
     }
 
-    fn library(&self, at_hand: &AtHand) -> Result<Library, Failure> {
+    fn library(&self, virtual_files: &VirtualFiles) -> Result<Library, Failure> {
         if let Some(case) = &self.case {
-            return Ok(case::library(&at_hand.read(case)?)?);
+            return Ok(case::library(&virtual_files.read(case)?)?);
         }
         let mut library = Library::built_in().clone();
         if let Some(file) = &self.file {
@@ -110,7 +112,7 @@ impl Materials {
     }
 }
 
-/// A material as JSON: its id, where it stands, and the record as a file has it.
+/// Material as JSON: id, origin, and the record of the file.
 #[derive(Serialize)]
 struct MaterialRecord<'a> {
     id: &'a str,

@@ -1,9 +1,11 @@
+//! `percuss materials show`: the record of one material.
+
 use clap::Args;
 use percuss::material::{Library, MaterialEntry, Reference, references};
 use serde::Serialize;
 
 use super::MaterialRecord;
-use crate::{answer::Answer, failure::Failure, material_card, output};
+use crate::{failure::Failure, material_card, output, response::Response};
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -12,10 +14,10 @@ Examples:
 
 Exit codes: 0 ok, 2 no such material, 4 a file could not be read";
 
-/// Show everything that is known of one material
+/// Show all constants of a material
 ///
-/// Prints all constants with their units, the strength law, how far the numbers
-/// can be trusted, where they come from, and the rivals of the same family.
+/// Prints all constants with their units, the strength law, the trust grade, the
+/// sources, and the alternative records of the same family.
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment, after_help = AFTER_HELP)]
 pub struct Show {
@@ -51,9 +53,9 @@ impl Show {
         output::print(&material_card::text(entry, library))
     }
 
-    /// What the command prints with --json.
-    pub fn answer(&self, library: &Library) -> Result<Answer, Failure> {
-        Answer::json_of(&card(self.find(library)?, library), Vec::new())
+    /// Output of --json.
+    pub fn execute(&self, library: &Library) -> Result<Response, Failure> {
+        Response::json_of(&card(self.find(library)?, library), Vec::new())
     }
 
     fn find<'a>(&self, library: &'a Library) -> Result<&'a MaterialEntry, Failure> {

@@ -1,17 +1,17 @@
-//! One model in full.
+//! Terminal output of one model.
 
 use percuss::validity::{FirstChoice, of_material};
 
 use super::ModelRecord;
 use crate::terminal::{bold, width, wrap};
 
-/// Name, what it is made for, where it is the first choice, its options, and where to read on.
+/// Name, range of validity, first choices, options, and page of a model.
 pub fn text(model: &ModelRecord) -> String {
     let mut text = format!(
         "{}\n{}\n\n{}\n",
         bold(model.name),
         wrap(model.summary, width(), 0),
-        bold("made for")
+        bold("range of validity")
     );
     for line in model.validity.describe() {
         text += &item(&line);
@@ -30,7 +30,7 @@ pub fn text(model: &ModelRecord) -> String {
         }
     }
     let page = format!(
-        "{}: equations, sources, checks, and whether the formulae were read, derived or reconstructed",
+        "{}: equations, sources, checks, and whether the formulae were read in the source, derived or reconstructed",
         model.page
     );
     text + &format!("\n{}\n{}", bold("page"), item(&page))

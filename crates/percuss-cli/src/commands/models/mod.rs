@@ -1,3 +1,5 @@
+//! `percuss models`: list of the models.
+
 mod card;
 mod options;
 mod table;
@@ -12,16 +14,15 @@ use serde::Serialize;
 use serde_json::Value;
 
 use self::options::ModelOption;
-use crate::{answer::Answer, failure::Failure, output};
+use crate::{failure::Failure, output, response::Response};
 
 const LONG_ABOUT: &str = "\
-List the models: what each of them is, and which projectiles and targets it is
-made for.
+List the models with a description and their projectiles and targets.
 
-`percuss models NAME` prints everything that a model is made for, for which
-cases it is the first choice, its options in a case file, and which page says
-how far its equations can be trusted. `percuss compare CASE.toml` runs the
-models that apply to a case.";
+`percuss models NAME` prints the range of validity of a model, the cases for
+which it is the first choice, its options in a case file, and the page with its
+equations and sources. `percuss compare CASE.toml` runs the models that apply to
+a case.";
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -51,7 +52,7 @@ struct ModelRecord {
     /// Keys of the model's table in a case file.
     #[serde(serialize_with = "options::keys")]
     options: Vec<ModelOption>,
-    /// Where its equations, sources and checks are, in the project's folder.
+    /// Page with its equations, sources and checks, in the folder of the project.
     page: String,
 }
 
@@ -77,11 +78,11 @@ impl Models {
         }
     }
 
-    /// What the command prints with --json.
-    pub fn answer(&self) -> Result<Answer, Failure> {
+    /// Output of --json.
+    pub fn execute(&self) -> Result<Response, Failure> {
         match &self.name {
-            Some(name) => Answer::json_of(&one(name)?, Vec::new()),
-            None => Answer::json_of(&all(), Vec::new()),
+            Some(name) => Response::json_of(&one(name)?, Vec::new()),
+            None => Response::json_of(&all(), Vec::new()),
         }
     }
 }

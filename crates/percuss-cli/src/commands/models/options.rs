@@ -6,11 +6,11 @@ use serde_json::Value;
 /// A key of a model's table in a case file.
 pub struct ModelOption {
     pub key: String,
-    /// What it means, with its unit and its default.
+    /// Description with unit and default.
     pub meaning: String,
 }
 
-/// Options of a model; none when a case has no table of its name.
+/// Options of a model; empty when a case has no table of its name.
 pub fn of(model: &str, schema: &Value) -> Vec<ModelOption> {
     let table = &schema["properties"][model]["$ref"];
     let definition = table.as_str().and_then(|place| place.strip_prefix('#'));

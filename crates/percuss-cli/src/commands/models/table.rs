@@ -1,4 +1,4 @@
-//! All models at a glance.
+//! Table of all models.
 
 use percuss::{
     material::MaterialClass,
@@ -12,15 +12,15 @@ use crate::{
     terminal::{width, wrap},
 };
 
-/// A row a model.
+/// One row per model.
 pub fn text(models: &[ModelRecord]) -> String {
     let all = Table::of(models)
         .words("model", |model| model.name)
-        .words("what it is", |model| model.summary)
+        .words("description", |model| model.summary)
         .words("projectiles", projectiles)
         .words("targets", targets)
         .table();
-    let hint = "`percuss models NAME` says all about one of them; `percuss compare CASE.toml` runs those that apply to a case.";
+    let hint = "`percuss models NAME` prints all properties of a model; `percuss compare CASE.toml` runs the models that apply to a case.";
     wrapped(&all, [0, 2]) + &wrap(hint, width(), 0) + "\n"
 }
 

@@ -1,7 +1,7 @@
-//! Commands of the project's own research.
+//! Commands of the project's research: benchmark and reproduction.
 
-mod judge;
+mod benchmark;
 mod reproduce;
 
-pub use judge::Judge;
+pub use benchmark::Benchmark;
 pub use reproduce::Reproduce;

@@ -1,31 +1,33 @@
+//! `percuss reproduce`: published works, item by item.
+
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use percuss_research::{
-    damping::{self, DampingStudy, Shot},
-    paper::{self, Item, Reproduction, Table, Verdict},
+    damping::{self, DampingRun, DampingStudy},
+    paper::{self, Assessment, Item, Reproduction, Table},
 };
 use serde::Serialize;
 
 use crate::{
-    answer::{Answer, Hear},
     failure::Failure,
+    file_list::FileList,
     progress::Progress,
+    response::{ProgressCallback, Response},
     run_folder::make_folder,
     terminal::{bold, width, wrap, yellow},
-    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
-Work through the paper that this program starts from, item by item: Table 1 and
-what the text says of figures 7 to 11, by the published scheme in two readings
-and by the conservative scheme. Each statement is reproduced, contradicted,
-depends on the reading, or cannot be known, with numbers.
+Reproduce the seed paper of this program, item by item: Table 1 and the
+statements about figures 7 to 11, by the published scheme in two interpretations
+and by the conservative scheme. Each statement is classified as reproduced,
+contradicted, dependent on the interpretation, or not verifiable, with numbers.
 
-`damping` answers what that paper asks and leaves open: whether damping explains
-its mismatch at high speed. The depth in its case, against speed and mesh, with
-viscous damping of every spring and with artificial viscosity, and beside it the
-axisymmetric reference.
+`damping` examines a question that the paper leaves open: whether damping
+explains its disagreement at high velocity. The output is the depth in its case
+versus velocity and mesh, with viscous damping of every spring, with artificial
+viscosity, and by the axisymmetric reference.
 
 With --out DIR the page (paper.md), its figures (SVG and PNG) and its tables
 (CSV) are written to DIR, which is made if it does not exist.";
@@ -44,15 +46,15 @@ written";
 pub enum Work {
     /// The seed paper: copper rods on thick 2024-T351 by a 1-D discrete element model
     Paper,
-    /// Its suspicion: what damping does to the depth in its case
+    /// Effect of damping on the depth of penetration in the case of the seed paper
     Damping,
 }
 
-/// Reproduce a published work and say what holds
+/// Reproduce a published work, item by item
 #[derive(Debug, Args)]
 #[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
 pub struct Reproduce {
-    /// What to reproduce
+    /// Work to reproduce
     work: Work,
     /// Write the page, its figures and tables to a folder
     #[arg(long, value_name = "DIR")]
@@ -62,15 +64,15 @@ pub struct Reproduce {
     json: bool,
 }
 
-/// What came of it.
-enum Found {
+/// Result of a reproduction.
+enum ReproductionOutput {
     Paper(Reproduction),
     Damping(DampingStudy),
 }
 
-/// What `--json` prints. The names are stable.
+/// Output of `--json`. The names are stable.
 #[derive(Serialize)]
-struct Record<'a> {
+struct ReproductionRecord<'a> {
     percuss_version: &'static str,
     #[serde(flatten)]
     found: FoundRecord<'a>,
@@ -85,7 +87,7 @@ enum FoundRecord<'a> {
     },
     Damping {
         findings: Vec<String>,
-        shots: &'a [Shot],
+        runs: &'a [DampingRun],
         reference: Vec<Depth>,
     },
 }
@@ -97,8 +99,8 @@ struct Depth {
     depth_of_penetration_mm: f64,
 }
 
-impl Found {
-    fn record(&self) -> Record<'_> {
+impl ReproductionOutput {
+    fn record(&self) -> ReproductionRecord<'_> {
         let found = match self {
             Self::Paper(reproduction) => FoundRecord::Paper {
                 items: &reproduction.items,
@@ -106,11 +108,11 @@ impl Found {
             },
             Self::Damping(study) => FoundRecord::Damping {
                 findings: study.findings(),
-                shots: &study.shots,
+                runs: &study.runs,
                 reference: study.reference.iter().map(|&at| at.into()).collect(),
             },
         };
-        Record {
+        ReproductionRecord {
             percuss_version: env!("CARGO_PKG_VERSION"),
             found,
         }
@@ -143,33 +145,38 @@ impl From<(f64, f64)> for Depth {
 impl Reproduce {
     pub fn run(&self) -> Result<(), Failure> {
         let mut progress = Progress::new(true);
-        let found = self.find(&mut progress.hear());
+        let found = self.find(&mut progress.callback());
         progress.finish();
         let (found, files) = found?;
-        let written = Written::new(&files);
+        let written = FileList::new(&files);
         match self.json {
             true => written.print_json(&found.record(), false),
             false => written.print_under(found.text()),
         }
     }
 
-    /// What the command prints with --json.
-    pub fn answer(&self, hear: Hear<'_>) -> Result<Answer, Failure> {
-        let (found, files) = self.find(hear)?;
-        Answer::json_of(&found.record(), files)
+    /// Output of --json.
+    pub fn execute(&self, on_progress: ProgressCallback<'_>) -> Result<Response, Failure> {
+        let (found, files) = self.find(on_progress)?;
+        Response::json_of(&found.record(), files)
     }
 
-    fn find(&self, hear: Hear<'_>) -> Result<(Found, Vec<PathBuf>), Failure> {
+    fn find(
+        &self,
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<(ReproductionOutput, Vec<PathBuf>), Failure> {
         if let Some(out) = &self.out {
             make_folder(out)?;
         }
         let found = match self.work {
-            Work::Paper => Found::Paper(paper::reproduce(&mut |fraction| {
-                hear(fraction, "running the paper's cases")
+            Work::Paper => ReproductionOutput::Paper(paper::reproduce(&mut |fraction| {
+                on_progress(fraction, "running the cases of the paper")
             })?),
-            Work::Damping => Found::Damping(damping::damping_study(&mut |fraction| {
-                hear(fraction, "damping the paper's case")
-            })?),
+            Work::Damping => {
+                ReproductionOutput::Damping(damping::damping_study(&mut |fraction| {
+                    on_progress(fraction, "running the damping study")
+                })?)
+            }
         };
         let files = match &self.out {
             Some(out) => found.write(out)?,
@@ -189,16 +196,16 @@ fn findings(study: &DampingStudy) -> String {
 fn items(reproduction: &Reproduction) -> String {
     let mut text = format!("{}\n", bold("The seed paper, item by item"));
     for item in &reproduction.items {
-        let verdict = match item.verdict {
-            Verdict::Reproduced => item.verdict.to_string(),
-            _ => yellow(item.verdict),
+        let assessment = match item.assessment {
+            Assessment::Reproduced => item.assessment.to_string(),
+            _ => yellow(item.assessment),
         };
         text += &format!(
             "\n{}: {}\n",
             item.place,
             wrap(&item.statement, width() - 10, 2)
         );
-        text += &format!("  {verdict}: {}\n", wrap(&item.finding, width() - 14, 4));
+        text += &format!("  {assessment}: {}\n", wrap(&item.finding, width() - 14, 4));
     }
     text
 }

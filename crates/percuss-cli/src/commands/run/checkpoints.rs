@@ -1,4 +1,4 @@
-//! Checkpoints of a run in its folder: written now and then and when the user stops the run.
+//! Checkpoints of a run in its folder: written at intervals and when the user stops the run.
 
 use std::{
     fs::{self, File},
@@ -38,29 +38,30 @@ pub fn load(folder: &Path) -> Result<Option<Vec<u8>>, Failure> {
         Err(error) => Err(Failure::Library(percuss::Error::Read {
             path,
             reason: error.to_string(),
+            remedy: String::new(),
             source: Some(error),
         })),
     }
 }
 
-/// Removes the checkpoint of a run that has come to its end.
+/// Removes the checkpoint of a completed run.
 pub fn remove(folder: &Path) {
-    // A checkpoint too many is no failure of the run.
+    // A leftover checkpoint is not a failure of the run.
     let _ = fs::remove_file(file(folder));
 }
 
-/// Writes checkpoints to a folder, now and then and when the run is to stop.
-pub struct Keeper<'a> {
+/// Writer of checkpoints: at intervals and when the run stops.
+pub struct CheckpointWriter<'a> {
     path: PathBuf,
     interval: Duration,
     last: Instant,
     stop: &'a AtomicBool,
-    /// Why the last checkpoint could not be written.
+    /// Error of the last checkpoint, if it could not be written.
     pub failure: Option<Failure>,
 }
 
-impl<'a> Keeper<'a> {
-    /// The run stops, and leaves a checkpoint, when `stop` becomes true.
+impl<'a> CheckpointWriter<'a> {
+    /// Creates the writer; the run leaves a checkpoint and stops when `stop` becomes true.
     pub fn new(folder: &Path, interval: Duration, stop: &'a AtomicBool) -> Self {
         Self {
             path: file(folder),
@@ -77,7 +78,7 @@ impl<'a> Keeper<'a> {
     }
 }
 
-impl Checkpoints for Keeper<'_> {
+impl Checkpoints for CheckpointWriter<'_> {
     fn is_due(&mut self) -> bool {
         self.stopped() || self.last.elapsed() >= self.interval
     }
@@ -96,7 +97,7 @@ impl Checkpoints for Keeper<'_> {
     }
 }
 
-/// Replaces a file in such a way that the old or the new one is there whole, whatever happens.
+/// Replaces a file atomically: the old or the new one is complete at any time.
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let temporary = path.with_extension("tmp");
     let mut file = File::create(&temporary)?;
@@ -144,18 +145,18 @@ mod tests {
     fn a_checkpoint_replaces_the_one_before() {
         let folder = tempfile::tempdir().unwrap();
         let stop = AtomicBool::new(false);
-        let mut keeper = Keeper::new(folder.path(), Duration::ZERO, &stop);
+        let mut checkpoint_writer = CheckpointWriter::new(folder.path(), Duration::ZERO, &stop);
         assert!(load(folder.path()).unwrap().is_none());
-        assert!(keeper.is_due());
-        assert!(keeper.keep(b"one").is_continue());
-        assert!(keeper.keep(b"two").is_continue());
+        assert!(checkpoint_writer.is_due());
+        assert!(checkpoint_writer.keep(b"one").is_continue());
+        assert!(checkpoint_writer.keep(b"two").is_continue());
         assert_eq!(load(folder.path()).unwrap().unwrap(), b"two");
         stop.store(true, Ordering::Relaxed);
-        assert!(keeper.keep(b"three").is_break());
+        assert!(checkpoint_writer.keep(b"three").is_break());
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
         remove(folder.path());
         assert!(load(folder.path()).unwrap().is_none());
-        keeper.path = folder.path().join("none/such");
-        assert!(keeper.keep(b"four").is_break() && keeper.failure.is_some());
+        checkpoint_writer.path = folder.path().join("none/such");
+        assert!(checkpoint_writer.keep(b"four").is_break() && checkpoint_writer.failure.is_some());
     }
 }

@@ -1,5 +1,7 @@
+//! `percuss run`: one case by one model.
+
 mod checkpoints;
-mod others;
+mod other_models;
 mod task;
 
 use std::{path::PathBuf, sync::Arc, sync::atomic::AtomicBool, time::Duration};
@@ -14,58 +16,58 @@ use percuss_report::FieldQuantity;
 
 use self::task::Task;
 use crate::{
-    answer::{Answer, AtHand, Found, Hear},
     diagnostic,
     failure::Failure,
+    file_list::FileList,
     output,
     progress::Progress,
-    ran::Ran,
-    result_table, run_folder, workers,
-    written::Written,
+    response::{ProgressCallback, Response, ResponseData, VirtualFiles},
+    result_table, run_folder,
+    run_output::RunOutput,
+    workers,
 };
 
 const LONG_ABOUT: &str = "\
-Run a case and print its results: how the shot ended, how deep it went, what is
-left of the projectile, where the energy went, how well the books of energy and
-momentum balance, and what to know before relying on the numbers. Without
---model the model is `chain`; where that does not apply, it is the model that
-`percuss compare` recommends, and the first lines say so. The leading result of
-every other quick model that applies stands beside it.
+Run a case and print its results: outcome, depth of penetration, final
+dimensions of the projectile, distribution of the energy, errors of the energy
+and momentum balances, and warnings about the assumptions. Without --model the
+model is `chain`; where that does not apply, it is the model that
+`percuss compare` recommends, and the first lines name it. The main result of
+every other applicable model is listed too, except models that take minutes.
 
 With --quiet one line is printed, of NAME=VALUE pairs with the names of --json:
   outcome=at_rest depth_of_penetration_mm=0.0436 residual_velocity_m_s=-1.2
   ballistic_limit_m_s=null projectile_final_length_mm=12.7 warnings=1 model=chain
-(in one line; a number that does not exist is `null`).
+(in one line; a number that the model does not give is `null`).
 
 With --out DIR a copy of the case (case-as-run.toml, with the materials of the
 files that it names), result.json, the time histories (CSV and Parquet) and the
 figures (SVG and PNG) are written to DIR, which is made if it does not exist. A
 case-as-run.toml needs no other file and gives the same results. A model without
 time histories writes the first two only. Files of the same names are replaced,
-others are left alone.
+other files are kept.
 
 With --fields the models `chain`, `fdm` and `axi` also write their fields against
 time as a series for ParaView (fields.pvd, which can be opened during the run).
-Ctrl-C, or a request of the system to end, leaves a checkpoint in DIR, from which
---resume continues with the same numbers.
+Ctrl-C, or a termination request of the system, leaves a checkpoint in DIR, from
+which --resume continues with the same numbers.
 
 The two-dimensional model `axi` also writes the shapes of crater and projectile
 (CSV and figure) and its fields at the end: field.vtp for ParaView and a picture
 of one of them, field.png. With --animation it writes animation.gif and its
 pictures (frames/).
 
-Anything longer than a second shows its progress, if standard error is a
-terminal.";
+After one second a progress bar appears, if standard error is a terminal.";
 
 const AFTER_HELP: &str = "\
 Examples:
-  percuss run my-shot/scenario.toml
-  percuss run my-shot/scenario.toml --out results
-  percuss run my-shot/scenario.toml --json > result.json
-  percuss run my-shot/scenario.toml --quiet
-  percuss run my-shot/scenario.toml --out results --fields
-  percuss run my-shot/scenario.toml --model axi --out results --resume
-  percuss run my-shot/scenario.toml --model axi --out results --animation
+  percuss run my-case/scenario.toml
+  percuss run my-case/scenario.toml --out results
+  percuss run my-case/scenario.toml --json > result.json
+  percuss run my-case/scenario.toml --quiet
+  percuss run my-case/scenario.toml --out results --fields
+  percuss run my-case/scenario.toml --model axi --out results --resume
+  percuss run my-case/scenario.toml --model axi --out results --animation
 
 Exit codes: 0 ok, 2 bad input or a model that does not apply, 3 numerical
 failure, 4 a file could not be read or written, 130 stopped by the user";
@@ -111,7 +113,7 @@ pub struct Run {
     resume: bool,
 }
 
-/// Part of the work that is done when the run has come to its end; the rest is writing.
+/// Fraction of the work that is the run itself; the rest is writing files.
 const COMPUTED: f64 = 0.9;
 
 impl Run {
@@ -126,48 +128,48 @@ impl Run {
             true => workers::stop_on_request(),
             false => Arc::default(),
         };
-        let mut task = Task::new(self, &AtHand::default(), &stop, &say)?;
+        let mut task = Task::new(self, &VirtualFiles::default(), &stop, &say)?;
         let mut progress = Progress::new(!self.quiet);
-        let ran = task.compute(&mut progress.hear());
+        let run_output = task.compute(&mut progress.callback());
         progress.finish();
-        let ran = ran?;
+        let run_output = run_output?;
         let mut progress = Progress::new(!self.quiet);
-        let files = task.write(&ran, &mut |part, words| progress.update(part, words));
+        let files = task.write(&run_output, &mut |part, words| progress.update(part, words));
         progress.finish();
-        self.print(&ran, &files?)
+        self.print(&run_output, &files?)
     }
 
-    /// What the command finds out, with histories where it writes them.
-    pub fn answer(
+    /// Result of the command, with histories where it writes them.
+    pub fn execute(
         &self,
-        at_hand: &AtHand,
+        virtual_files: &VirtualFiles,
         stop: &AtomicBool,
-        hear: Hear<'_>,
-    ) -> Result<Answer, Failure> {
-        let mut task = Task::new(self, at_hand, stop, &|_| ())?;
-        let ran = task.compute(&mut |part, words| hear(COMPUTED * part, words))?;
-        let files = task.write(&ran, &mut |part, words| {
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<Response, Failure> {
+        let mut task = Task::new(self, virtual_files, stop, &|_| ())?;
+        let run_output = task.compute(&mut |part, words| on_progress(COMPUTED * part, words))?;
+        let files = task.write(&run_output, &mut |part, words| {
             // What is left takes seconds.
-            let _ = hear(COMPUTED + (1.0 - COMPUTED) * part, words);
+            let _ = on_progress(COMPUTED + (1.0 - COMPUTED) * part, words);
         })?;
-        Ok(Answer {
-            found: Found::Run(Box::new(ran)),
+        Ok(Response {
+            data: ResponseData::Run(Box::new(run_output)),
             files,
         })
     }
 
-    /// Whether the model, if there is such a one, leaves checkpoints in the folder.
+    /// Whether the model leaves checkpoints in the folder.
     fn leaves_checkpoints(&self) -> bool {
         let asked = self.model.as_deref().unwrap_or(DEFAULT_MODEL);
         let chosen = MODELS.iter().find(|model| model.name() == asked);
         self.out.is_some() && chosen.is_some_and(|model| model.has_fields())
     }
 
-    fn print(&self, ran: &Ran, files: &[PathBuf]) -> Result<(), Failure> {
-        let results = ran.results();
-        let mut written = Written::new(files);
-        if !run_folder::has_history(&ran.result) {
-            let why = without_history(&ran.result);
+    fn print(&self, run_output: &RunOutput, files: &[PathBuf]) -> Result<(), Failure> {
+        let results = run_output.results();
+        let mut written = FileList::new(files);
+        if !run_folder::has_history(&run_output.result) {
+            let why = without_history(&run_output.result);
             written = written.with_note(&format!("no time history: this model {why}"));
         }
         if self.json {
@@ -181,18 +183,22 @@ impl Run {
             Some(_) => None,
             None => {
                 let mut progress = Progress::new(true);
-                let others = others::rows(&ran.scenario, ran.result.model, &mut progress);
+                let others = other_models::rows(
+                    &run_output.scenario,
+                    run_output.result.model,
+                    &mut progress,
+                );
                 progress.finish();
                 Some(others?)
             }
         };
         let record = &results.results[0];
-        let text = result_table::text(&ran.scenario, &ran.result, record, others);
+        let text = result_table::text(&run_output.scenario, &run_output.result, record, others);
         written.print_under(text)
     }
 }
 
-/// Why there is no history of a result.
+/// Reason why a result has no history.
 fn without_history(result: &RunResult) -> &'static str {
     match result.termination {
         Termination::ClosedForm => "is a formula",
@@ -200,7 +206,7 @@ fn without_history(result: &RunResult) -> &'static str {
     }
 }
 
-/// A result in one line for scripts.
+/// Result as one line of NAME=VALUE pairs.
 fn one_line(record: &ResultRecord) -> String {
     let outcome = serde_json::json!(record.outcome);
     format!(

@@ -1,4 +1,4 @@
-//! A run and what it leaves in its folder.
+//! Execution of a run with fields, checkpoints and output folder.
 
 use std::{
     ops::ControlFlow,
@@ -18,21 +18,21 @@ use percuss_report::{FieldQuantity, FieldSeries, FinalField};
 
 use super::{
     Run,
-    checkpoints::{self, Keeper},
+    checkpoints::{self, CheckpointWriter},
 };
 use crate::{
-    answer::{AtHand, Hear},
     failure::Failure,
-    ran::Ran,
+    response::{ProgressCallback, VirtualFiles},
     run_folder::RunFolder,
+    run_output::RunOutput,
 };
 
-/// Most frames of the fields over time, unless another number is asked for.
+/// Default of the largest number of frames.
 const FRAMES: u16 = 64;
-/// Time between two checkpoints, unless another one is asked for.
+/// Default interval of the checkpoints.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(60);
 
-/// A run that is due.
+/// Run to be executed.
 pub(super) struct Task<'a> {
     options: &'a Run,
     scenario: Arc<Scenario>,
@@ -41,33 +41,33 @@ pub(super) struct Task<'a> {
     fields: Option<Fields<'a>>,
 }
 
-/// Fields and checkpoints that a run leaves in its folder.
+/// Fields and checkpoints of a run in its folder.
 struct Fields<'a> {
-    /// The fields over time, where something is made of them.
+    /// Fields versus time, if they are requested.
     series: Option<FieldSeries>,
-    /// The fields at the end, in two dimensions.
+    /// Final fields of a two-dimensional model.
     last: Option<FinalField>,
     two_dimensional: bool,
-    keeper: Keeper<'a>,
-    /// Checkpoint to go on from.
+    checkpoint_writer: CheckpointWriter<'a>,
+    /// Checkpoint to continue from.
     resume: Option<Vec<u8>>,
 }
 
 impl<'a> Task<'a> {
-    /// Reads the case and makes the folder; `say` is told of checkpoints.
+    /// Reads the case and makes the folder; `say` gets the notes about checkpoints.
     pub fn new(
         options: &'a Run,
-        at_hand: &AtHand,
+        virtual_files: &VirtualFiles,
         stop: &'a AtomicBool,
         say: &dyn Fn(&str),
     ) -> Result<Self, Failure> {
-        let document = at_hand.read(&options.case)?;
+        let document = virtual_files.read(&options.case)?;
         let scenario = case::scenario(&document)?;
         let chosen = model::choose(options.model.as_deref(), &scenario)?;
         let model = chosen.model;
         check_use(options, model)?;
         let start = start(options, model, &scenario, say)?;
-        // A model that does not apply leaves no folder.
+        // A model that does not apply makes no folder.
         let out = options.out.as_deref();
         let out = out.filter(|_| model::applicability(model, &scenario).is_ok());
         let folder = RunFolder::wanted(out, Some(&document))?;
@@ -76,7 +76,11 @@ impl<'a> Task<'a> {
                 series: series(options, out, start.as_ref().map(|(header, _)| header))?,
                 last: None,
                 two_dimensional: model.is_two_dimensional(),
-                keeper: Keeper::new(out, options.checkpoint.unwrap_or(CHECKPOINT_INTERVAL), stop),
+                checkpoint_writer: CheckpointWriter::new(
+                    out,
+                    options.checkpoint.unwrap_or(CHECKPOINT_INTERVAL),
+                    stop,
+                ),
                 resume: start.map(|(_, bytes)| bytes),
             }),
             None => None,
@@ -90,12 +94,12 @@ impl<'a> Task<'a> {
         })
     }
 
-    /// Computes it. One that leaves checkpoints stops by them alone.
-    pub fn compute(&mut self, hear: Hear<'_>) -> Result<Ran, Failure> {
+    /// Executes the run. A run with checkpoints is stopped by its checkpoint writer alone.
+    pub fn compute(&mut self, on_progress: ProgressCallback<'_>) -> Result<RunOutput, Failure> {
         let by_checkpoint = self.fields.is_some();
         let mut report = |now: model::Progress| {
             let words = format!("{:.1} us, depth {:.3} mm", now.time * 1e6, now.depth * 1e3);
-            match hear(now.fraction, &words) {
+            match on_progress(now.fraction, &words) {
                 ControlFlow::Break(()) if !by_checkpoint => ControlFlow::Break(()),
                 _ => ControlFlow::Continue(()),
             }
@@ -111,24 +115,29 @@ impl<'a> Task<'a> {
                 self.chosen.run(&self.scenario, &mut control)?
             }
         };
-        Ok(Ran {
+        Ok(RunOutput {
             scenario: Arc::clone(&self.scenario),
             result: Arc::new(result),
         })
     }
 
-    /// Writes what came of it, if it has a folder; returns the files.
+    /// Writes the results, if there is a folder; returns the files.
     pub fn write(
         &mut self,
-        ran: &Ran,
+        run_output: &RunOutput,
         report: &mut (dyn FnMut(f64, &str) + Send),
     ) -> Result<Vec<PathBuf>, Failure> {
         let (Some(folder), Some(out)) = (self.folder.take(), &self.options.out) else {
             return Ok(Vec::new());
         };
-        let mut files = folder.write(&ran.scenario, &ran.result, &ran.results(), report)?;
+        let mut files = folder.write(
+            &run_output.scenario,
+            &run_output.result,
+            &run_output.results(),
+            report,
+        )?;
         if let Some(fields) = &mut self.fields {
-            let written = fields.write(self.options, out, &ran.scenario, report)?;
+            let written = fields.write(self.options, out, &run_output.scenario, report)?;
             files.extend(written);
             checkpoints::remove(out);
         }
@@ -136,7 +145,7 @@ impl<'a> Task<'a> {
     }
 }
 
-/// The series of fields that a run writes, if it is asked for one or for what is made of one.
+/// Series of fields, if it or an animation is requested.
 fn series(
     options: &Run,
     out: &Path,
@@ -181,22 +190,22 @@ impl Fields<'_> {
         };
         let mut control = Control {
             frames: is_shown.then_some(&mut add),
-            checkpoints: Some(&mut self.keeper),
+            checkpoints: Some(&mut self.checkpoint_writer),
             resume: self.resume.as_deref(),
             record: true,
             progress: Some(report),
         };
         let result = chosen.run(scenario, &mut control);
-        match (failure.or(self.keeper.failure.take()), result) {
+        match (failure.or(self.checkpoint_writer.failure.take()), result) {
             (Some(failure), _) => Err(failure),
-            (None, Err(Error::Cancelled { time_us, .. })) if self.keeper.stopped() => {
+            (None, Err(Error::Cancelled { time_us, .. })) if self.checkpoint_writer.stopped() => {
                 Err(Failure::Stopped { time_us })
             }
             (None, result) => Ok(result?),
         }
     }
 
-    /// Writes the fields at the end, and those over time as far as the options ask for them; returns the files.
+    /// Writes the final fields and the requested series and animation; returns the files.
     fn write(
         &mut self,
         options: &Run,
@@ -283,13 +292,13 @@ fn check_use(options: &Run, model: &dyn Model) -> Result<(), Failure> {
     if options.frames.is_some() && !(options.fields || options.animation) {
         return Err(Failure::Usage {
             message: "`--frames` has no effect without `--fields` or `--animation`".to_owned(),
-            help: "remove `--frames`, or add the one whose frames it counts".to_owned(),
+            help: "remove `--frames`, or add `--fields` or `--animation`".to_owned(),
         });
     }
     Ok(())
 }
 
-/// The checkpoint to go on from, if there is one and it is wanted.
+/// Checkpoint to continue from, if there is one and --resume is given.
 fn start(
     options: &Run,
     model: &dyn Model,
@@ -303,7 +312,7 @@ fn start(
     let Some(bytes) = checkpoints::load(out)? else {
         if options.resume {
             say(&format!(
-                "`{shown}` holds no checkpoint; the run starts at the beginning"
+                "`{shown}` has no checkpoint; the run starts at the beginning"
             ));
         }
         return Ok(None);
@@ -312,7 +321,7 @@ fn start(
     if !options.resume {
         if let Ok(header) = header {
             say(&format!(
-                "`{shown}` holds a checkpoint of this case at {:.1} us; the run starts at the beginning; `--resume` continues",
+                "`{shown}` has a checkpoint of this case at {:.1} us; the run starts at the beginning; `--resume` continues",
                 header.time * 1e6
             ));
         }

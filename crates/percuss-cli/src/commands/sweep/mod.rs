@@ -1,3 +1,5 @@
+//! `percuss sweep`: a case with some of its numbers varied.
+
 mod plot;
 
 use std::{
@@ -16,10 +18,10 @@ use percuss_report::sweep::{Manifest, Status, SweepFolder, merge, status};
 use serde::Serialize;
 
 use crate::{
-    answer::Answer,
     failure::Failure,
     output,
     progress::Progress,
+    response::Response,
     terminal::{self, bold},
     workers,
 };
@@ -29,14 +31,14 @@ Compute a case many times with some of its numbers varied: all combinations of
 lists (a grid), a Latin hypercube, or scrambled Sobol' points, from values,
 ranges and distributions.
 
-DIR gets a manifest and Parquet files with a row a shot: inputs, outcome, every
-scalar result, warnings. A shot that fails is a row with its error. The sweep
-can be ended at any time, in whatever way; with --resume the same command
-computes what is missing. Shot i depends on the sweep file, the case and i
-alone, so rows are the same whatever the number of threads and shards.
+DIR gets a manifest and Parquet files with one row per run: inputs, outcome,
+every scalar result, warnings. A run that fails is a row with its error. The
+sweep can be interrupted at any time; with --resume the same command computes
+the missing rows. Run i depends only on the sweep file, the case and i, so the
+rows are independent of the number of threads and shards.
 
-With --shard 2/8 the second of eight parts is computed: give every part a folder
-of its own, and `percuss sweep merge` joins them.";
+With --shard 2/8 the second of eight parts is computed. Each part needs its own
+folder; `percuss sweep merge` joins them.";
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -63,13 +65,13 @@ pub struct Sweep {
     /// Folder of the results
     #[arg(long, value_name = "DIR", required = true)]
     out: Option<PathBuf>,
-    /// Go on with a folder that holds a part of this sweep
+    /// Continue in a folder that holds a part of this sweep
     #[arg(long)]
     resume: bool,
-    /// Compute one of several parts only, such as 2/8
+    /// Compute only one of several parts, such as 2/8
     #[arg(long, value_name = "I/N", value_parser = shard, default_value = "1/1")]
     shard: (u64, u64),
-    /// Threads; as many as there are cores when not given
+    /// Number of threads [default: number of cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// No summary and no progress
@@ -79,7 +81,7 @@ pub struct Sweep {
 
 #[derive(Debug, Subcommand)]
 enum What {
-    /// Say how far a folder has come
+    /// Print the progress of a folder of results
     Status {
         /// Folder of results
         #[arg(value_name = "DIR")]
@@ -115,23 +117,23 @@ impl Sweep {
             (Some(What::Plot(plot)), ..) => plot.run(),
             (None, Some(file), Some(out)) => self.compute(file, out),
             _ => Err(Failure::Usage {
-                message: "a sweep file and --out DIR are due".to_owned(),
+                message: "a sweep file and --out DIR are required".to_owned(),
                 help: "percuss sweep SWEEP.toml --out DIR".to_owned(),
             }),
         }
     }
 
-    /// What its subcommands find out and write; a sweep itself is a folder of rows.
-    pub fn answer(&self) -> Result<Answer, Failure> {
+    /// Results of the subcommands; a sweep itself is a folder of rows.
+    pub fn execute(&self) -> Result<Response, Failure> {
         match &self.what {
             Some(What::Status { folder, .. }) => {
-                Answer::json_of(&StatusRecord::from(status(folder)?), Vec::new())
+                Response::json_of(&StatusRecord::from(status(folder)?), Vec::new())
             }
             Some(What::Merge { folders, out }) => {
-                Answer::json_of(&merge(folders, out)?, vec![out.clone()])
+                Response::json_of(&merge(folders, out)?, vec![out.clone()])
             }
-            Some(What::Plot(plot)) => plot.answer(),
-            None => Err(Failure::no_answer()),
+            Some(What::Plot(plot)) => plot.execute(),
+            None => Err(Failure::no_response()),
         }
     }
 
@@ -145,31 +147,32 @@ impl Sweep {
         };
         let total = count(&mut (part - 1..sweep.blocks()).step_by(parts as usize));
         let due = count(&mut missing.iter().copied());
-        let board = Mutex::new(Board {
+        let state = Mutex::new(SweepProgress {
             progress: Progress::new(!self.quiet),
             outcomes: BTreeMap::new(),
             done: 0,
         });
         let start = Instant::now();
-        let hear = |rows: &[SweepRow]| {
-            let mut board = board.lock().unwrap_or_else(PoisonError::into_inner);
-            board.hear(rows);
-            let rate = board.done as f64 / start.elapsed().as_secs_f64();
-            let done = total - due + board.done;
-            let words = format!("{done} of {total} shots, {} a second", rounded(rate));
+        let on_progress = |rows: &[SweepRow]| {
+            let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
+            state.on_progress(rows);
+            let rate = state.done as f64 / start.elapsed().as_secs_f64();
+            let done = total - due + state.done;
+            let words = format!("{done} of {total} runs, {} per second", rounded(rate));
             let fraction = done as f64 / total as f64;
-            board.progress.update(fraction, &words);
+            state.progress.update(fraction, &words);
         };
-        hear(&[]);
+        on_progress(&[]);
         let pool = workers::pool(self.threads)?;
         let stop = workers::stop_on_request();
         let kernel = BatchKernel::new(sweep.model);
-        let complete = pool.install(|| folder.compute(&sweep, &kernel, &missing, &stop, &hear));
-        let board = board.into_inner().unwrap_or_else(PoisonError::into_inner);
-        board.progress.finish();
+        let complete =
+            pool.install(|| folder.compute(&sweep, &kernel, &missing, &stop, &on_progress));
+        let state = state.into_inner().unwrap_or_else(PoisonError::into_inner);
+        state.progress.finish();
         if !complete? {
             return Err(Failure::SweepStopped {
-                done: total - due + board.done,
+                done: total - due + state.done,
                 shots: total,
             });
         }
@@ -185,27 +188,27 @@ impl Sweep {
                 sweep.model.name(),
                 sweep.design().name()
             )),
-            terminal::counted(sweep.runs() as usize, "shot"),
+            terminal::counted(sweep.runs() as usize, "run"),
             out.display(),
         );
         if parts > 1 {
             text += &format!(", of which part {part}/{parts} has {total}");
         }
         text += &match due {
-            0 => "\n  all of it was there\n".to_owned(),
+            0 => "\n  all rows were already computed\n".to_owned(),
             _ => {
                 let rate = rounded(due as f64 / seconds);
-                format!("\n  computed {due} in {seconds:.1} s, {rate} a second\n")
+                format!("\n  computed {due} in {seconds:.1} s, {rate} per second\n")
             }
         };
-        for (outcome, count) in &board.outcomes {
+        for (outcome, count) in &state.outcomes {
             text += &format!("  {count:>9} {outcome}\n");
         }
         output::print(&text)
     }
 }
 
-/// What `percuss sweep status --json` prints. The names are stable.
+/// Output of `percuss sweep status --json`. The names are stable.
 #[derive(Serialize)]
 struct StatusRecord {
     manifest: Manifest,
@@ -227,15 +230,15 @@ impl From<Status> for StatusRecord {
     }
 }
 
-/// What is known of a sweep while it is computed.
-struct Board {
+/// Progress and outcomes of a sweep in progress.
+struct SweepProgress {
     progress: Progress,
     outcomes: BTreeMap<&'static str, u64>,
     done: u64,
 }
 
-impl Board {
-    fn hear(&mut self, rows: &[SweepRow]) {
+impl SweepProgress {
+    fn on_progress(&mut self, rows: &[SweepRow]) {
         self.done += rows.len() as u64;
         for row in rows {
             let outcome = row.record.as_ref().map_or(Outcome::Failed, |r| r.outcome);
@@ -248,7 +251,7 @@ fn print_status(folder: &Path) -> Result<(), Failure> {
     let status = status(folder)?;
     let manifest = &status.manifest;
     let mut text = format!(
-        "{}\n  {} of {} shots done, {} of {} blocks\n",
+        "{}\n  {} of {} runs done, {} of {} blocks\n",
         bold(format!(
             "{}: {}, model {}, {}",
             folder.display(),
@@ -263,15 +266,15 @@ fn print_status(folder: &Path) -> Result<(), Failure> {
     );
     if !status.damaged.is_empty() {
         let files = terminal::counted(status.damaged.len(), "damaged file");
-        text += &format!("  {files}: --resume computes what was in it anew\n");
+        text += &format!("  {files}: --resume computes their rows again\n");
     }
     if status.running {
-        text += "  a process is computing it now\n";
+        text += "  a process is computing this sweep now\n";
     }
     output::print(&text)
 }
 
-/// Three digits are enough of a rate.
+/// Rate to three digits.
 fn rounded(rate: f64) -> String {
     match rate {
         ..10.0 => format!("{rate:.2}"),

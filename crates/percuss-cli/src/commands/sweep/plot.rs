@@ -1,4 +1,4 @@
-//! `percuss sweep plot`.
+//! `percuss sweep plot`: figures of a sweep.
 
 use std::path::PathBuf;
 
@@ -6,16 +6,16 @@ use clap::{Args, ValueEnum};
 use percuss_report::sweep::{PlotRequest, PlotStyle, plot};
 use serde::Serialize;
 
-use crate::{answer::Answer, failure::Failure, output};
+use crate::{failure::Failure, output, response::Response};
 
 const LONG_ABOUT: &str = "\
-Draw a result of a sweep, as SVG and PNG: curves of one parameter, or of two
+Draw a result of a sweep, as SVG and PNG: curves versus one parameter, or two
 where one takes few values; a map of two; parallel coordinates of more. Several
-folders are parts of one sweep; what is not computed yet is counted.
+folders are parts of one sweep; the figure gives the number of missing runs.
 
-With --x, or --x and --y, one or two of many parameters are drawn, and means are
-taken over the others. Shots that failed, or have no such result, are shown or
-counted in the figure.";
+With --x, or --x and --y, one or two of many parameters are drawn, with means
+over the others. The figure shows or counts runs that failed or have no such
+result.";
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -31,34 +31,34 @@ pub struct Plot {
     /// Folders of results
     #[arg(value_name = "DIR", required = true)]
     folders: Vec<PathBuf>,
-    /// Folder for the figure; the first of the folders of results when not given
+    /// Folder for the figure [default: the first folder of results]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Column of the result to draw; the first that the sweep has when not given
+    /// Column of the result to draw [default: the first column with values]
     #[arg(long, value_name = "COLUMN")]
     quantity: Option<String>,
-    /// Kind of figure; chosen from what is varied when not given
+    /// Kind of figure [default: chosen from the number of parameters]
     #[arg(long, value_enum)]
     style: Option<Style>,
-    /// Parameter that runs from left to right
+    /// Parameter of the horizontal axis
     #[arg(long, value_name = "KEY")]
     x: Option<String>,
-    /// Parameter that runs upwards in a map, or of whose values each gets a curve
+    /// Parameter of the vertical axis of a map, or with one curve per value
     #[arg(long, value_name = "KEY")]
     y: Option<String>,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Style {
-    /// A curve, or one for each value of a second parameter
+    /// One curve, or one per value of a second parameter
     Curves,
-    /// Colours over two parameters
+    /// Colour map of two parameters
     Map,
-    /// All parameters side by side, a line a shot
+    /// Parallel coordinates: one axis per parameter, one line per run
     Parallel,
 }
 
-/// What the figure shows.
+/// Title of a figure.
 #[derive(Serialize)]
 struct Drawn {
     title: String,
@@ -72,10 +72,10 @@ impl Plot {
         output::print(&format!("{title}\nwrote {files}\n"))
     }
 
-    /// Its title, and the files.
-    pub fn answer(&self) -> Result<Answer, Failure> {
+    /// Title and files of the figure.
+    pub fn execute(&self) -> Result<Response, Failure> {
         let (title, files) = self.draw()?;
-        Answer::json_of(&Drawn { title }, files)
+        Response::json_of(&Drawn { title }, files)
     }
 
     fn draw(&self) -> Result<(String, Vec<PathBuf>), Failure> {

@@ -1,3 +1,5 @@
+//! `percuss uncertainty`: propagation of uncertain input parameters.
+
 mod table;
 
 use std::{
@@ -16,59 +18,60 @@ use percuss::{
     summary::ResultNumber,
     sweep::BatchKernel,
     uncertainty::{
-        self, MAX_SAMPLES, MIN_SAMPLES, Observer, Settings, Study, Uncertainty as Found,
+        self, MAX_SAMPLES, MIN_SAMPLES, Observer, Settings, Study, Uncertainty as Analysis,
     },
 };
 
 use crate::{
-    answer::{self, Answer, AtHand, Hear},
     failure::Failure,
+    file_list::FileList,
     output,
     progress::Progress,
+    response::{ProgressCallback, Response, ResponseData, VirtualFiles},
     run_folder::RunFolder,
     speeds::{Speeds, SpeedsError},
     workers,
-    written::Written,
 };
 
 const LONG_ABOUT: &str = "\
-Say what the uncertainty of a case's numbers does to its results. The case names
-them with their distributions in its table `uncertainty`:
+Propagate the uncertainty of input parameters to the results of a case. The case
+lists the parameters with their distributions in its table `uncertainty`:
 
   [[uncertainty.parameter]]
   key = \"projectile.impact_velocity\"
   normal = { mean = \"230 m/s\", standard_deviation = \"3 m/s\" }
 
-Scrambled Sobol' points are drawn from the distributions, and of each result come
-its mean, standard deviation and percentiles with 95 % intervals, the chance of
+The samples are scrambled Sobol' points. The output has the mean, the standard
+deviation and percentiles of each result with 95 % intervals, the probability of
 perforation, the effect of each parameter from low to high (tornado), and the
-first-order and total Sobol' indices: which part of the variance a parameter
-causes alone, and which part with others as well. With N samples and d
-parameters the indices take N (d + 1) shots more. Correlated parameters have no
-such indices; everything else is said of them too.
+first-order and total-effect Sobol' indices: the fraction of the variance due to
+a parameter alone, and including its interactions. With N samples and d
+parameters the indices take N (d + 1) additional runs. Correlated parameters
+have no such indices.
 
-With --velocity the same is done at each of several impact speeds, by 256 shots
-at most: percentiles and chances of perforation against speed.
+With --velocity the analysis is repeated at each of several impact velocities,
+with at most 256 runs each: percentiles and probability of perforation versus
+velocity.
 
-A shot without a result is counted, and left out of the statistics. The spread
-is that of the inputs: the error of the model itself comes on top of it.
+Runs without a result are counted and left out of the statistics. The spread is
+due to the inputs only; the model error adds to it.
 
 With --out DIR a copy of the case (case-as-run.toml), uncertainty.json, the
 tables samples.csv, statistics.csv, sensitivity.csv and bands.csv, and the
-figures (histograms, tornado charts, indices, bands, chances of perforation, as
-SVG and PNG) are written to DIR, which is made if it does not exist.";
+figures (histograms, tornado charts, indices, bands, probability of perforation,
+as SVG and PNG) are written to DIR, which is made if it does not exist.";
 
 const AFTER_HELP: &str = "\
 Examples:
   percuss uncertainty cases/paper-table1-uncertainty/scenario.toml
-  percuss uncertainty my-shot/scenario.toml --samples 4096 --out spread
-  percuss uncertainty my-shot/scenario.toml --velocity 150..400 --no-indices
-  percuss uncertainty my-shot/scenario.toml --quantity peak_force_kn --json
+  percuss uncertainty my-case/scenario.toml --samples 4096 --out spread
+  percuss uncertainty my-case/scenario.toml --velocity 150..400 --no-indices
+  percuss uncertainty my-case/scenario.toml --quantity peak_force_kn --json
 
-Exit codes: 0 ok, 2 bad input or no shot has a result, 4 a file could not be
+Exit codes: 0 ok, 2 bad input or no run has a result, 4 a file could not be
 read or written, 130 stopped by the user";
 
-/// Say what uncertain numbers of a case do to its results
+/// Propagate uncertain input parameters to the results of a case
 #[derive(Debug, Args)]
 #[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
 pub struct Uncertainty {
@@ -79,25 +82,25 @@ pub struct Uncertainty {
     #[arg(long, value_name = "NAME", default_value = "chain")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: String,
-    /// Shots that the statistics rest on; a power of two serves best
+    /// Number of samples; a power of two is best
     #[arg(long, value_name = "N", default_value = "1024")]
     #[arg(value_parser = clap::value_parser!(u64).range(MIN_SAMPLES..=MAX_SAMPLES))]
     samples: u64,
-    /// Decides over everything drawn at random
+    /// Seed of the random numbers
     #[arg(long, value_name = "S", default_value = "0")]
     seed: u64,
-    /// Result to look at, by its name in JSON; may be given several times
+    /// Result to analyse, by its name in JSON; may be given several times
     #[arg(long, value_name = "NAME")]
     #[arg(value_parser = PossibleValuesParser::new(uncertainty::quantities().map(|quantity| quantity.name)))]
     quantity: Vec<String>,
-    /// Impact speeds for bands: FROM..TO (11 speeds), FROM..TO:COUNT, a list, or `experiments`
-    // A negative speed is answered with the range that speeds have.
+    /// Impact velocities for bands: FROM..TO (11 values), FROM..TO:COUNT, a list, or `experiments`
+    // A negative velocity gets the error that names the allowed range.
     #[arg(long, value_name = "SPEEDS", allow_hyphen_values = true, value_parser = speeds)]
     velocity: Option<Speeds>,
-    /// Leave out the Sobol' indices, which take most of the shots
+    /// Leave out the Sobol' indices, which take most of the runs
     #[arg(long)]
     no_indices: bool,
-    /// Threads; as many as there are cores when not given
+    /// Number of threads [default: number of cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// Print one JSON object and nothing else on standard output
@@ -106,12 +109,12 @@ pub struct Uncertainty {
     /// Write numbers and figures to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// No tables and no progress: one line of NAME=VALUE pairs a quantity
+    /// No tables and no progress: one line of NAME=VALUE pairs per quantity
     #[arg(long, short)]
     quiet: bool,
 }
 
-/// What is to be computed.
+/// Inputs of an analysis.
 struct Task {
     document: Document,
     study: Study,
@@ -119,7 +122,7 @@ struct Task {
     settings: Settings,
 }
 
-/// Speeds of a range that does not say how many.
+/// Number of velocities of a range without a count.
 const SPEEDS: u32 = 11;
 
 fn speeds(text: &str) -> Result<Speeds, SpeedsError> {
@@ -131,9 +134,9 @@ fn speeds(text: &str) -> Result<Speeds, SpeedsError> {
 
 impl Uncertainty {
     pub fn run(&self) -> Result<(), Failure> {
-        let task = self.task(&AtHand::default())?;
+        let task = self.task(&VirtualFiles::default())?;
         let mut progress = Progress::new(!self.quiet);
-        let found = self.find(&task, &workers::stop_on_request(), &mut progress.hear());
+        let found = self.find(&task, &workers::stop_on_request(), &mut progress.callback());
         progress.finish();
         let (found, files) = match found {
             Err(Failure::Library(Error::Cancelled { .. })) => {
@@ -144,16 +147,16 @@ impl Uncertainty {
         self.print(&task.study, &found, &files)
     }
 
-    /// What the command finds out.
-    pub fn answer(
+    /// Result of the command.
+    pub fn execute(
         &self,
-        at_hand: &AtHand,
+        virtual_files: &VirtualFiles,
         stop: &AtomicBool,
-        hear: Hear<'_>,
-    ) -> Result<Answer, Failure> {
-        let (found, files) = self.find(&self.task(at_hand)?, stop, hear)?;
-        Ok(Answer {
-            found: answer::Found::Uncertainty(Box::new(found)),
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<Response, Failure> {
+        let (found, files) = self.find(&self.task(virtual_files)?, stop, on_progress)?;
+        Ok(Response {
+            data: ResponseData::Uncertainty(Box::new(found)),
             files,
         })
     }
@@ -162,10 +165,10 @@ impl Uncertainty {
         &self,
         task: &Task,
         stop: &AtomicBool,
-        hear: Hear<'_>,
-    ) -> Result<(Found, Vec<PathBuf>), Failure> {
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<(Analysis, Vec<PathBuf>), Failure> {
         let folder = RunFolder::wanted(self.out.as_deref(), Some(&task.document))?;
-        let found = self.compute(task, stop, hear)?;
+        let found = self.compute(task, stop, on_progress)?;
         let files = match folder {
             Some(folder) => write(folder, &task.study, &found)?,
             None => Vec::new(),
@@ -173,8 +176,8 @@ impl Uncertainty {
         Ok((found, files))
     }
 
-    fn task(&self, at_hand: &AtHand) -> Result<Task, Failure> {
-        let document = at_hand.read(&self.case)?;
+    fn task(&self, virtual_files: &VirtualFiles) -> Result<Task, Failure> {
+        let document = virtual_files.read(&self.case)?;
         let study = Study::of(&document)?;
         let model = model::model(&self.model)?;
         let speeds = match &self.velocity {
@@ -199,15 +202,20 @@ impl Uncertainty {
         })
     }
 
-    fn compute(&self, task: &Task, stop: &AtomicBool, hear: Hear<'_>) -> Result<Found, Failure> {
+    fn compute(
+        &self,
+        task: &Task,
+        stop: &AtomicBool,
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<Analysis, Failure> {
         let pool = workers::pool(self.threads)?;
-        let hear = Mutex::new(hear);
+        let on_progress = Mutex::new(on_progress);
         let watch = Observer {
             stop,
             progress: &|done, total| {
-                let mut hear = hear.lock().unwrap_or_else(PoisonError::into_inner);
-                let words = format!("{done} of {total} shots");
-                if hear(done as f64 / total as f64, &words).is_break() {
+                let mut on_progress = on_progress.lock().unwrap_or_else(PoisonError::into_inner);
+                let words = format!("{done} of {total} runs");
+                if on_progress(done as f64 / total as f64, &words).is_break() {
                     stop.store(true, Ordering::Relaxed);
                 }
             },
@@ -228,8 +236,8 @@ impl Uncertainty {
         Ok(found)
     }
 
-    /// A quantity that was asked for has to be there.
-    fn check_quantities(&self, found: &Found) -> Result<(), Failure> {
+    /// Refuses a requested quantity without any value.
+    fn check_quantities(&self, found: &Analysis) -> Result<(), Failure> {
         let given = |name: &&String| found.quantities.iter().any(|q| q.quantity == **name);
         let Some(missing) = self.quantity.iter().find(|name| !given(name)) else {
             return Ok(());
@@ -245,16 +253,16 @@ impl Uncertainty {
             .map(|q| q.name)
             .collect();
         Err(Failure::Usage {
-            message: format!("no shot of model `{}` has a value of {missing}", self.model),
+            message: format!("no run of model `{}` has a value of {missing}", self.model),
             help: match names.is_empty() {
-                true => "`percuss run` says what is wrong with the shot".to_owned(),
-                false => format!("it gives {}", names.join(", ")),
+                true => "`percuss run` prints the reason".to_owned(),
+                false => format!("available quantities: {}", names.join(", ")),
             },
         })
     }
 
-    fn print(&self, study: &Study, found: &Found, files: &[PathBuf]) -> Result<(), Failure> {
-        let written = Written::new(files);
+    fn print(&self, study: &Study, found: &Analysis, files: &[PathBuf]) -> Result<(), Failure> {
+        let written = FileList::new(files);
         if self.json {
             return written.print_json(found, self.quiet);
         }
@@ -265,7 +273,7 @@ impl Uncertainty {
     }
 }
 
-fn write(mut folder: RunFolder, study: &Study, found: &Found) -> Result<Vec<PathBuf>, Failure> {
+fn write(mut folder: RunFolder, study: &Study, found: &Analysis) -> Result<Vec<PathBuf>, Failure> {
     folder.put("uncertainty.json", output::json(found)?.as_bytes())?;
     folder.add(percuss_report::write_uncertainty(folder.path(), found)?);
     for figure in percuss_report::uncertainty_figures(&study.scenario, found) {

@@ -1,4 +1,4 @@
-//! What is printed of an analysis of uncertainty.
+//! Terminal output of an uncertainty analysis.
 
 use percuss::{
     Scenario,
@@ -14,7 +14,7 @@ use crate::{
     terminal::{self, bold, paragraph, title},
 };
 
-/// Everything.
+/// All tables and warnings.
 pub fn text(scenario: &Scenario, found: &Uncertainty) -> String {
     let mut text = head(scenario, found) + &inputs(found) + &outcome(found) + &spread(found);
     for quantity in &found.quantities {
@@ -26,7 +26,7 @@ pub fn text(scenario: &Scenario, found: &Uncertainty) -> String {
     text + &bands(found) + &warnings(found)
 }
 
-/// One line of pairs a quantity.
+/// One line of NAME=VALUE pairs per quantity.
 pub fn lines(found: &Uncertainty) -> String {
     let probability = found.perforation.map(|p| p.probability);
     let probability = probability.map_or_else(|| "null".to_owned(), |p| significant(p, 4));
@@ -50,7 +50,7 @@ pub fn lines(found: &Uncertainty) -> String {
 
 fn head(scenario: &Scenario, found: &Uncertainty) -> String {
     let line = format!(
-        "case {}, model {}, statistics of {} shots, seed {}, {} shots in all",
+        "case {}, model {}, {} samples, seed {}, {} runs in total",
         found.case, found.model, found.samples, found.seed, found.runs
     );
     format!("{}{}\n", title(scenario), paragraph(&line))
@@ -58,8 +58,8 @@ fn head(scenario: &Scenario, found: &Uncertainty) -> String {
 
 fn inputs(found: &Uncertainty) -> String {
     let heading = match found.correlated {
-        true => "uncertain (correlated)",
-        false => "uncertain",
+        true => "parameter (correlated)",
+        false => "parameter",
     };
     let table = Table::of(&found.inputs)
         .words(heading, |input| input.label.clone())
@@ -69,15 +69,15 @@ fn inputs(found: &Uncertainty) -> String {
 
 fn outcome(found: &Uncertainty) -> String {
     let mut rows = vec![(
-        "with all at their medians",
+        "outcome at median inputs",
         found.nominal.outcome.describe().to_owned(),
     )];
     if let Some(p) = &found.perforation {
-        rows.push(("chance of perforation", chance(p)));
+        rows.push(("probability of perforation", probability(p)));
     }
     if found.failures.runs > 0 {
         rows.push((
-            "shots without a result",
+            "runs without a result",
             format!("{} of {}", found.failures.runs, found.samples),
         ));
     }
@@ -89,9 +89,9 @@ fn percent(part: f64) -> String {
     significant((1000.0 * part).round() / 10.0, 4)
 }
 
-fn chance(p: &Perforation) -> String {
+fn probability(p: &Perforation) -> String {
     format!(
-        "{} % ({} … {} %), {} of {} shots",
+        "{} % ({} … {} %), {} of {} runs",
         percent(p.probability),
         percent(p.low),
         percent(p.high),
@@ -100,25 +100,25 @@ fn chance(p: &Perforation) -> String {
     )
 }
 
-/// A row a statistic, a column a quantity.
+/// One row per statistic, one column per quantity.
 fn spread(found: &Uncertainty) -> String {
     if found.quantities.is_empty() {
         return String::new();
     }
     type Read = fn(&QuantityResult) -> String;
     const ROWS: [(&str, Read); 8] = [
-        ("all at their medians", |q| number(q.nominal, 4)),
+        ("at median inputs", |q| number(q.nominal, 4)),
         ("mean", |q| significant(q.statistics.mean, 4)),
-        ("its standard error", |q| {
+        ("standard error of the mean", |q| {
             significant(q.statistics.standard_error, 2)
         }),
         ("standard deviation", |q| {
             significant(q.statistics.standard_deviation, 3)
         }),
-        ("5 % lie below", |q| percentile(&q.statistics, 5.0)),
-        ("50 %", |q| percentile(&q.statistics, 50.0)),
-        ("95 %", |q| percentile(&q.statistics, 95.0)),
-        ("shots", |q| q.statistics.runs.to_string()),
+        ("5th percentile", |q| percentile(&q.statistics, 5.0)),
+        ("median", |q| percentile(&q.statistics, 50.0)),
+        ("95th percentile", |q| percentile(&q.statistics, 95.0)),
+        ("runs", |q| q.statistics.runs.to_string()),
     ];
     let table =
         Table::of(&ROWS)
@@ -137,7 +137,7 @@ fn percentile(statistics: &Statistics, percent: f64) -> String {
     significant(statistics.percentile(percent).value, 4)
 }
 
-/// Name of a quantity in narrow lines.
+/// Name of a quantity in two lines.
 fn heading(quantity: &QuantityResult) -> String {
     let words = quantity.what().label;
     match words.rsplit_once(' ') {
@@ -150,8 +150,8 @@ fn influence(found: &Uncertainty, quantity: &QuantityResult) -> String {
     let unit = quantity.what().unit.symbol;
     let mut rows = Table::of(&quantity.tornado)
         .words("parameter", |bar| found.label(&bar.key).to_owned())
-        .numbers("at 5 %", unit, |bar| number(bar.at_low, 4))
-        .numbers("at 95 %", unit, |bar| number(bar.at_high, 4));
+        .numbers("at 5th\npercentile", unit, |bar| number(bar.at_low, 4))
+        .numbers("at 95th\npercentile", unit, |bar| number(bar.at_high, 4));
     if let Some(indices) = &quantity.indices {
         let index = |bar: &TornadoBar, of: fn(&Index) -> Estimate| {
             let mut all = indices.parameters.iter();
@@ -159,12 +159,12 @@ fn influence(found: &Uncertainty, quantity: &QuantityResult) -> String {
             found.map_or_else(String::new, |index| with_error(of(index)))
         };
         rows = rows
-            .numbers("index,\nfirst order", "", |bar| {
+            .numbers("first-order\nindex", "", |bar| {
                 index(bar, |i| i.first_order)
             })
-            .numbers("index,\ntotal", "", |bar| index(bar, |i| i.total));
+            .numbers("total-effect\nindex", "", |bar| index(bar, |i| i.total));
     }
-    let title = format!("what moves the {}", quantity.what().label);
+    let title = format!("sensitivity of the {}", quantity.what().label);
     let mut text = format!("{}\n{}", bold(title), blocks(&rows.table()));
     if let (Some(why), None) = (&quantity.no_indices, &found.no_indices) {
         text += &format!("{}\n", paragraph(&format!("no Sobol' indices: {why}")));
@@ -190,11 +190,11 @@ fn bands(found: &Uncertainty) -> String {
     let bands = &found.bands;
     let perforates = |band: &Band| band.perforation.is_some_and(|p| p.perforated > 0);
     let table = Table::of(bands)
-        .numbers("speed", "m/s", |band| {
+        .numbers("velocity", "m/s", |band| {
             significant(band.impact_velocity_m_s, 4)
         })
         .when(bands.iter().any(perforates), |rows| {
-            rows.numbers("perforation", "%", |band| {
+            rows.numbers("probability of\nperforation", "%", |band| {
                 let perforation = band.perforation;
                 perforation.map_or_else(|| number(None, 0), |p| percent(p.probability))
             })
@@ -204,7 +204,7 @@ fn bands(found: &Uncertainty) -> String {
             |rows, (i, quantity)| {
                 let unit = quantity.what().unit.symbol;
                 rows.each([5.0, 50.0, 95.0], |rows, at| {
-                    let heading = format!("{}\n[{unit}]\n{at} %", heading(quantity));
+                    let heading = format!("{}\n[{unit}]\nP{at}", heading(quantity));
                     rows.numbers(heading, "", |band| {
                         let statistics = band.quantities[i].statistics.as_ref();
                         statistics.map_or_else(|| number(None, 0), |s| percentile(s, at))
@@ -216,7 +216,7 @@ fn bands(found: &Uncertainty) -> String {
             rows.numbers("failed", "", |band| band.failed.to_string())
         });
     let title = format!(
-        "over speed, {} shots each; the speed itself is exact",
+        "percentiles versus impact velocity, {} runs each; the velocity itself is exact",
         bands[0].runs
     );
     format!("{}\n{}", bold(title), blocks(&table.table()))

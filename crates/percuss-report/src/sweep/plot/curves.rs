@@ -1,28 +1,28 @@
-//! A number over one parameter, a curve for each value of a second one.
+//! Result versus one parameter, with one curve per value of a second one.
 
 use super::{
     PlotStyle,
     data::{Data, Group},
     label,
 };
-use crate::{LineChart, Series, Style, palette};
+use crate::{LineChart, Series, Style, names, palette};
 
-/// Most points that are shown one by one.
+/// Largest number of single points.
 const POINTS: usize = 4000;
 /// Intervals that more points are averaged over.
 const INTERVALS: usize = 60;
-/// Most curves.
+/// Largest number of curves.
 const MOST: usize = 24;
 /// How far below zero, or the least value, shots without a value stand, as a part of the range.
 const FOOT: f64 = 0.05;
-/// Counts shots of one kind.
+/// Counts runs of one kind.
 type CountOf = fn(&Group) -> u32;
 
-/// Symbols of shots that have no value.
+/// Symbols of runs without a value.
 const CROSS: usize = 4;
 const PLUS: usize = 6;
 
-/// The number over parameter `x`, for each value of parameter `family` by itself.
+/// Result versus parameter `x`, with one curve per value of parameter `family`.
 pub(super) fn chart(data: &Data<'_>, x: usize, family: Option<usize>) -> LineChart {
     let families = family.map_or_else(Vec::new, |family| data.values(family));
     // Values of a distribution, or very many of a list, are too many for a curve each.
@@ -33,17 +33,19 @@ pub(super) fn chart(data: &Data<'_>, x: usize, family: Option<usize>) -> LineCha
         .varied()
         .into_iter()
         .filter(|i| *i != x && Some(*i) != apart);
-    let others: Vec<&str> = others.map(|i| &*data.parameters()[i].key).collect();
+    let others: Vec<String> = others
+        .map(|i| names::parameter(&data.parameters()[i].key))
+        .collect();
     let averaged = match places {
         Places::List(_) => !others.is_empty(),
         Places::Single(_) => false,
         Places::Intervals(..) => true,
     };
     if averaged {
-        more.push("lines are means, areas reach from the smallest to the largest value".to_owned());
+        more.push("lines: means; areas: smallest to largest value".to_owned());
     }
     if !others.is_empty() {
-        more.push(format!("over all of {}", others.join(", ")));
+        more.push(format!("over all values of {}", others.join(", ")));
     }
     let mut chart = LineChart::new(
         data.name(PlotStyle::Curves),
@@ -53,7 +55,7 @@ pub(super) fn chart(data: &Data<'_>, x: usize, family: Option<usize>) -> LineCha
     );
     if let Some(family) = apart {
         more.push(format!(
-            "one curve a value of {}",
+            "one curve per value of {}",
             label(&data.parameters()[family])
         ));
     }
@@ -84,7 +86,7 @@ pub(super) fn chart(data: &Data<'_>, x: usize, family: Option<usize>) -> LineCha
         }
         chart = chart.series(series.style(style).symbol(symbol));
     }
-    // What has no value stands at the foot of the chart, where its parameter was.
+    // Runs without a value are marked at the lower end of the chart.
     let all = data.all();
     let lowest = all.low.min(0.0);
     let foot = match all.high > lowest {
@@ -93,17 +95,17 @@ pub(super) fn chart(data: &Data<'_>, x: usize, family: Option<usize>) -> LineCha
     };
     let marks: [(&str, usize, &str, CountOf); 2] = [
         ("failed", CROSS, palette::FAILED, |group| group.failed),
-        ("without this number", PLUS, palette::MARK, |group| {
+        ("without this result", PLUS, palette::MARK, |group| {
             group.without
         }),
     ];
     for (name, symbol, color, count) in marks {
         let all = curves.iter().flatten();
         let marked: Vec<_> = all.filter(|(_, group)| count(group) > 0).collect();
-        let shots: u32 = marked.iter().map(|(_, group)| count(group)).sum();
-        if shots > 0 {
+        let runs: u32 = marked.iter().map(|(_, group)| count(group)).sum();
+        if runs > 0 {
             let series = Series::new(
-                format!("{name} ({shots})"),
+                format!("{name} ({runs})"),
                 marked.iter().map(|(at, _)| (*at, foot)),
             );
             chart = chart.series(series.style(Style::Markers).symbol(symbol).color(color));
@@ -112,7 +114,7 @@ pub(super) fn chart(data: &Data<'_>, x: usize, family: Option<usize>) -> LineCha
     chart
 }
 
-/// Where along the axis of a parameter shots stand.
+/// Places of runs along the axis of a parameter.
 enum Places {
     /// Each at its value, which is one of a list.
     List(Vec<f64>),

@@ -1,4 +1,4 @@
-//! What is drawn: the rows with what they stand for.
+//! Rows of a sweep with labels and groups for its figures.
 
 use std::collections::BTreeMap;
 
@@ -11,28 +11,28 @@ use super::{
     },
     label, quantity,
 };
-use crate::Axis;
+use crate::{Axis, names};
 
-/// Most names along an axis.
+/// Largest number of names along an axis.
 const NAMES: usize = 12;
 
-/// The rows of a sweep with a number of theirs.
+/// Rows of a sweep with one result.
 pub(super) struct Data<'a> {
     manifest: &'a Manifest,
     pub(super) quantity: &'a str,
     pub(super) rows: Rows,
 }
 
-/// Values of shots that have the same place in a figure.
+/// Values of the runs at one place of a figure.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Group {
     pub(super) count: u32,
     sum: f64,
     pub(super) low: f64,
     pub(super) high: f64,
-    /// Shots that failed.
+    /// Failed runs.
     pub(super) failed: u32,
-    /// Shots that did not fail and do not have the number.
+    /// Runs without this result that did not fail.
     pub(super) without: u32,
 }
 
@@ -103,7 +103,7 @@ impl<'a> Data<'a> {
         self.parameters()[parameter].count.is_some()
     }
 
-    /// Number of values of a list; a distribution has as many as one likes.
+    /// Number of values of a list; unlimited for a distribution.
     pub(super) fn count(&self, parameter: usize) -> usize {
         let count = self.parameters()[parameter].count;
         count.map_or(usize::MAX, |count| count as usize)
@@ -117,7 +117,7 @@ impl<'a> Data<'a> {
         values
     }
 
-    /// Shots by what a parameter and their own values make their place.
+    /// Runs grouped by place.
     pub(super) fn grouped<K: Ord>(&self, place: impl Fn(usize) -> K) -> BTreeMap<K, Group> {
         let mut groups = BTreeMap::new();
         for (i, (value, failed)) in self.rows.values.iter().zip(&self.rows.failed).enumerate() {
@@ -127,7 +127,7 @@ impl<'a> Data<'a> {
         groups
     }
 
-    /// All shots together.
+    /// All runs together.
     pub(super) fn all(&self) -> Group {
         self.grouped(|_| ())
             .into_values()
@@ -135,7 +135,7 @@ impl<'a> Data<'a> {
             .unwrap_or_default()
     }
 
-    /// Axis of a parameter: words stand at 1, 2, 3, …
+    /// Axis of a parameter; words are at 1, 2, 3, …
     pub(super) fn axis(&self, parameter: usize) -> Axis {
         let varied = &self.parameters()[parameter];
         let axis = Axis::new(label(varied));
@@ -165,13 +165,13 @@ impl<'a> Data<'a> {
         }
     }
 
-    /// Name of the curve of a value: a number does not say by itself what it is.
+    /// Name of the curve of a value, with the name of the parameter for a number.
     pub(super) fn curve(&self, parameter: usize, value: f64) -> String {
         let word = self.word(parameter, value);
         let key = &self.parameters()[parameter].key;
-        match (self.is_numeric(parameter), key.rsplit('.').next()) {
-            (true, Some(name)) => format!("{name} {word}"),
-            _ => word,
+        match self.is_numeric(parameter) {
+            true => format!("{} {word}", names::parameter(key)),
+            false => word,
         }
     }
 
@@ -181,22 +181,22 @@ impl<'a> Data<'a> {
 
     pub(super) fn title(&self) -> String {
         match self.manifest.title.as_str() {
-            "" => quantity::label(self.quantity),
+            "" => quantity::title(self.quantity),
             title => title.to_owned(),
         }
     }
 
-    /// What the figure rests on: how many shots, and what became of those that it cannot show.
+    /// Number of runs, with the numbers of those that the figure cannot show.
     pub(super) fn caption(&self, more: &str) -> String {
         let all = self.all();
         let rows = self.rows.values.len();
         let mut text = format!(
-            "{}, model {}, {}: {rows} shots",
+            "{}, model {}, {}: {rows} runs",
             self.manifest.case, self.manifest.model, self.manifest.design
         );
         for (count, what) in [
             (u64::from(all.failed), "failed"),
-            (u64::from(all.without), "without this number"),
+            (u64::from(all.without), "without this result"),
             (self.rows.missing, "more not computed yet"),
         ] {
             if count > 0 {

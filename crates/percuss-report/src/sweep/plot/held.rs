@@ -8,14 +8,14 @@ use super::{
 };
 use crate::{Chart, Figure, column::Column};
 
-/// A number of a sweep over what is varied.
+/// Chart of a result of a sweep.
 #[derive(Debug, Clone)]
 pub struct SweepChart {
     /// Column of the number.
     pub quantity: String,
-    /// How it is drawn.
+    /// Style.
     pub style: PlotStyle,
-    /// The drawing.
+    /// Chart.
     pub chart: Chart,
 }
 
@@ -62,18 +62,18 @@ pub fn parallel_figure(sweep: &Sweep, rows: &[SweepRow]) -> Option<Figure> {
     (data.varied().len() > 2).then(|| parallel::draw(&data))
 }
 
-/// A number that comes of the shots of a sweep.
+/// Result of the runs of a sweep.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepNumber {
-    /// Its column.
+    /// Column.
     pub quantity: String,
-    /// It in words, with its unit in brackets.
+    /// Name with the unit in parentheses.
     pub label: String,
-    /// Its value in each row that has it.
+    /// Value per row.
     pub values: Vec<Option<f64>>,
 }
 
-/// The numbers that come of the shots: none that say what was shot or that no row has.
+/// Results of the runs: neither inputs nor columns without values.
 pub fn numbers(sweep: &Sweep, rows: &[SweepRow]) -> Vec<SweepNumber> {
     let manifest = Manifest::new(sweep);
     let number = |column: &Column<SweepRow>| SweepNumber {

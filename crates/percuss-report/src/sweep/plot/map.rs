@@ -1,4 +1,4 @@
-//! A number as colour over two parameters.
+//! Result as colour versus two parameters.
 
 use super::{
     PlotStyle,
@@ -7,14 +7,14 @@ use super::{
 };
 use crate::{Axis, HeatMap};
 
-/// Most cells along an axis of a map of shots that lie anywhere.
+/// Largest number of cells along an axis of a map without lists.
 const MOST_CELLS: f64 = 60.0;
-/// Shots in a cell of such a map, on average.
-const SHOTS: f64 = 8.0;
+/// Mean number of runs per cell of such a map.
+const RUNS: f64 = 8.0;
 /// Relative difference of steps that count as even.
 const EVEN: f64 = 1e-6;
 
-/// The number over parameters `x` and `y`.
+/// Result versus parameters `x` and `y`.
 pub(super) fn chart(data: &Data<'_>, x: usize, y: usize) -> HeatMap {
     let sides = [Side::of(data, x), Side::of(data, y)];
     let inputs = &data.rows.inputs;
@@ -28,13 +28,13 @@ pub(super) fn chart(data: &Data<'_>, x: usize, y: usize) -> HeatMap {
     }
     let mut more = Vec::new();
     if most > 1 {
-        more.push(format!("a colour is the mean of up to {most} shots"));
+        more.push(format!("each colour is the mean of up to {most} runs"));
     }
     if empty > 0 {
-        more.push("grey: no shot there has a value".to_owned());
+        more.push("grey: no run has a value".to_owned());
     }
     if cells.iter().flatten().any(|value| value.is_infinite()) {
-        more.push("white: no shot there".to_owned());
+        more.push("white: no run".to_owned());
     }
     let shown = cells.iter().flatten().filter(|value| value.is_finite());
     let ends = shown.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
@@ -75,7 +75,7 @@ impl Side {
         let cells = values.len();
         if !data.is_list(parameter) {
             let shots = data.rows.values.len() as f64;
-            let cells = (shots / SHOTS).sqrt().clamp(2.0, MOST_CELLS) as usize;
+            let cells = (shots / RUNS).sqrt().clamp(2.0, MOST_CELLS) as usize;
             let range = match (values.first(), values.last()) {
                 (Some(low), Some(high)) if low < high => (*low, *high),
                 (Some(low), _) => (low - 0.5, low + 0.5),
@@ -100,7 +100,7 @@ impl Side {
             let half = (to - from) * half;
             is_even(values.iter().copied()).then(|| (axis.clone(), (from - half, to + half)))
         });
-        // Uneven steps and words stand side by side with their names.
+        // Uneven steps and words are placed side by side with their names.
         let (axis, range) = even.unwrap_or_else(|| {
             let words = values.iter().map(|value| data.word(parameter, *value));
             let axis = Axis::new(label(&data.parameters()[parameter]));

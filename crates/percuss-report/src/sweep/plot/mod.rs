@@ -1,4 +1,4 @@
-//! Figures of a sweep: curves, maps and parallel coordinates, chosen from what is varied.
+//! Figures of a sweep: curves, maps and parallel coordinates, chosen by the varied parameters.
 
 mod curves;
 mod data;
@@ -13,19 +13,19 @@ use data::Data;
 pub use held::{SweepChart, SweepNumber, charts, numbers, parallel_figure};
 
 use super::{manifest::Varied, parts::Parts, rows::Rows};
-use crate::{Figure, ReportError};
+use crate::{Figure, ReportError, names};
 
-/// Most values of a second parameter that get a curve each when nobody asks for curves.
+/// Largest number of curves unless curves are requested.
 const CURVES: usize = 6;
 
-/// How a sweep is drawn.
+/// Style of the figure of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PlotStyle {
-    /// The number over a parameter, a curve for each value of a second one.
+    /// Result versus a parameter, with one curve per value of a second one.
     Curves,
-    /// The number as colour over two parameters.
+    /// Result as colour versus two parameters.
     Map,
-    /// All parameters side by side, a line a shot.
+    /// Parallel coordinates: one axis per parameter, one line per run.
     Parallel,
 }
 
@@ -40,20 +40,20 @@ impl PlotStyle {
     }
 }
 
-/// What to draw; what is not given is chosen from what is varied and computed.
+/// Figure to draw; missing entries are chosen by the varied parameters and the results.
 #[derive(Debug, Clone, Default)]
 pub struct PlotRequest {
-    /// Column of the number to draw.
+    /// Column of the result to draw.
     pub quantity: Option<String>,
-    /// How.
+    /// Style.
     pub style: Option<PlotStyle>,
-    /// Key of the parameter that runs from left to right.
+    /// Key of the parameter of the horizontal axis.
     pub x: Option<String>,
-    /// Key of the parameter that runs upwards in a map, or of whose values each gets a curve.
+    /// Key of the parameter of the vertical axis of a map, or with one curve per value.
     pub y: Option<String>,
 }
 
-/// Draws a number of the rows of folders that hold parts of one sweep. Rows without it are shown or counted in the figure.
+/// Draws a result of the rows of folders with parts of one sweep. The figure shows or counts rows without it.
 ///
 /// # Errors
 /// [`ReportError::Sweep`] when the folders hold no sweep, or no row, or the request does not fit it; [`ReportError::Read`].
@@ -88,7 +88,7 @@ pub fn plot(folders: &[PathBuf], request: &PlotRequest) -> Result<Figure, Report
     let rows = Rows::read(&parts, &quantity)?;
     if rows.values.is_empty() {
         return Err(fail(
-            "no block of the sweep is there".to_owned(),
+            "no block of the sweep is computed".to_owned(),
             "`percuss sweep SWEEP.toml --out DIR --resume` computes them".to_owned(),
         ));
     }
@@ -107,7 +107,7 @@ pub fn plot(folders: &[PathBuf], request: &PlotRequest) -> Result<Figure, Report
     })
 }
 
-/// How a sweep is drawn, and over which parameters.
+/// Style and parameters of a figure.
 struct Choice {
     style: PlotStyle,
     x: usize,
@@ -147,10 +147,7 @@ impl Choice {
     }
 }
 
-/// Name of a parameter on an axis.
+/// Name of a parameter with its unit in parentheses.
 fn label(varied: &Varied) -> String {
-    match varied.unit.as_str() {
-        "" => varied.key.clone(),
-        unit => format!("{} [{unit}]", varied.key),
-    }
+    names::with_unit(&names::parameter(&varied.key), &varied.unit)
 }

@@ -1,18 +1,18 @@
-//! Parallel coordinates: every parameter an axis, every shot a line in the colour of its number.
+//! Parallel coordinates: one axis per parameter, one line per run in the colour of its result.
 //!
-//! The plotting library's own have no logarithmic axes, no words in place of numbers, and a colour per group instead of per value.
+//! The plotting library's own have no logarithmic axes, no words instead of numbers, and a colour per group instead of per value.
 
 use kuva::render::render_utils::generate_ticks;
 
-use super::{PlotStyle, data::Data, quantity};
+use super::{PlotStyle, data::Data};
 use crate::{
     Figure,
     drawing::{Drawing, Text, shorten},
     frame::{HEIGHT, WIDTH, tick_label},
-    palette,
+    names, palette,
 };
 
-/// Most lines; of more shots some are drawn.
+/// Largest number of drawn lines.
 const LINES: usize = 1200;
 /// Least distance of axes [px].
 const APART: f64 = 128.0;
@@ -20,7 +20,7 @@ const APART: f64 = 128.0;
 const MARGINS: [f64; 4] = [78.0, 92.0, 118.0, 62.0];
 /// Width of the bar of colours [px].
 const BAR: f64 = 14.0;
-/// Places of shots that have no number, below the axis of numbers [px].
+/// Places of runs without a result, below the axis of results [px].
 const BELOW: [f64; 2] = [20.0, 36.0];
 
 /// Draws all parameters that are varied, and the number.
@@ -35,27 +35,27 @@ pub(super) fn draw(data: &Data<'_>) -> Figure {
         .map(|i| Scale::of_parameter(data, *i))
         .collect();
     let number = Scale::new(data.rows.values.iter().copied(), false);
-    let shots = data.rows.values.len();
-    let every = shots.div_ceil(LINES).max(1);
+    let runs = data.rows.values.len();
+    let every = runs.div_ceil(LINES).max(1);
     let mut drawing = Drawing::new(width, HEIGHT);
     for wanted in [true, false] {
-        for shot in (0..shots).step_by(every) {
-            let value = data.rows.values[shot];
+        for run in (0..runs).step_by(every) {
+            let value = data.rows.values[run];
             if value.is_finite() != wanted {
                 continue;
             }
-            let (color, end) = match (wanted, data.rows.failed[shot]) {
+            let (color, end) = match (wanted, data.rows.failed[run]) {
                 (true, _) => (hex(number.part(value)), number.y(value)),
                 (false, true) => (palette::FAILED.to_owned(), bottom() + BELOW[0]),
                 (false, false) => (palette::MARK.to_owned(), bottom() + BELOW[1]),
             };
             let places = varied.iter().zip(&scales).map(|(i, scale)| {
-                let value = data.rows.inputs[*i][shot];
+                let value = data.rows.inputs[*i][run];
                 scale.y(value
                     + if data.is_numeric(*i) {
                         0.0
                     } else {
-                        spread(shot)
+                        spread(run)
                     })
             });
             let places = places.chain([end]).enumerate();
@@ -68,26 +68,15 @@ pub(super) fn draw(data: &Data<'_>) -> Figure {
     }
     for (axis, (i, scale)) in varied.iter().zip(&scales).enumerate() {
         let varied = &data.parameters()[*i];
-        let name = match varied.key.rsplit_once('.') {
-            Some((table, name)) => [format!("{table}."), name.to_owned()],
-            None => [String::new(), varied.key.clone()],
-        };
-        let unit = match varied.unit.as_str() {
-            "" => String::new(),
-            unit => format!("[{unit}]"),
-        };
-        let name = [&*name[0], &*name[1], &*unit];
+        let (first, second) = halves(&names::parameter(&varied.key));
+        let unit = in_parentheses(&varied.unit);
+        let name = [&*first, &*second, &*unit];
         axis_of(&mut drawing, at(axis), &name, &scale.ticks(data, *i), false);
     }
     let place = at(varied.len());
-    let label = quantity::label(data.quantity);
-    let (name, unit) = label.split_once(" [").unwrap_or((&label, ""));
-    let unit = if unit.is_empty() {
-        String::new()
-    } else {
-        format!("[{unit}")
-    };
-    let (first, second) = halves(name);
+    let (result, unit) = names::result_column(data.quantity);
+    let unit = in_parentheses(unit);
+    let (first, second) = halves(&names::capitalized(&result));
     bar(&mut drawing, place);
     let name = [&*first, &*second, &*unit];
     axis_of(&mut drawing, place, &name, &number.numbers(), true);
@@ -107,16 +96,24 @@ pub(super) fn draw(data: &Data<'_>) -> Figure {
     }
     let more = match every {
         1 => String::new(),
-        _ => format!("one line in {every} drawn"),
+        _ => format!("1 of {every} lines drawn"),
     };
     let texts = (&*data.title(), &*data.caption(&more));
     drawing.finish(data.name(PlotStyle::Parallel), texts, [30.0, 52.0])
 }
 
-/// Where in the room of its word a line runs, so that not all run through one point.
-fn spread(shot: usize) -> f64 {
+/// Unit in parentheses; empty for a plain number.
+fn in_parentheses(unit: &str) -> String {
+    match unit {
+        "" => String::new(),
+        unit => format!("({unit})"),
+    }
+}
+
+/// Offset of a line around its word, so that not all lines pass through one point.
+fn spread(run: usize) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_895;
-    0.6 * ((shot as f64 * GOLDEN).fract() - 0.5)
+    0.6 * ((run as f64 * GOLDEN).fract() - 0.5)
 }
 
 /// Height of the foot of the axes.
@@ -124,7 +121,7 @@ const fn bottom() -> f64 {
     HEIGHT - MARGINS[3]
 }
 
-/// Where values stand on an axis.
+/// Scale of an axis.
 struct Scale {
     low: f64,
     high: f64,

@@ -1,17 +1,17 @@
-//! Which number of the rows is drawn, and what it is called.
+//! Choice of the drawn result and its label.
 
-use percuss::{
-    summary::{Role, result_number},
-    units::ResultUnit,
-};
+use percuss::summary::{Role, result_number};
 
 use super::super::{manifest::Manifest, parts::Parts, rows::has_numbers};
-use crate::ReportError;
+use crate::{
+    ReportError,
+    names::{capitalized, result_column, with_unit},
+};
 
-/// Columns of numbers that are no result number of their own and are drawn only where they are named.
+/// Columns of numbers that are drawn only where they are named.
 const SECOND: [&str; 3] = ["shot", "band_low", "band_high"];
 
-/// The column that was asked for, or the first result that the sweep has.
+/// Requested column, or the first result of the sweep.
 pub(super) fn choose(parts: &Parts<'_>, wanted: Option<&str>) -> Result<String, ReportError> {
     let manifest = &parts.manifest;
     let all = || {
@@ -28,7 +28,7 @@ pub(super) fn choose(parts: &Parts<'_>, wanted: Option<&str>) -> Result<String, 
     };
     if let Some(wanted) = wanted {
         let found = all().find(|(_, column)| column.name == wanted);
-        let found = found.ok_or_else(|| fail(format!("no result of the sweep is `{wanted}`")));
+        let found = found.ok_or_else(|| fail(format!("the sweep has no result `{wanted}`")));
         return found.map(|(_, column)| column.name.clone());
     }
     let mut first = None;
@@ -41,7 +41,7 @@ pub(super) fn choose(parts: &Parts<'_>, wanted: Option<&str>) -> Result<String, 
         }
     }
     first.ok_or_else(|| {
-        fail("no shot that was computed has a result; look at the column `error`".to_owned())
+        fail("no computed run has a result; the column `error` has the reasons".to_owned())
     })
 }
 
@@ -49,7 +49,7 @@ fn is_input(manifest: &Manifest, column: &str) -> bool {
     manifest.parameters.iter().any(|p| p.column == column)
 }
 
-/// Whether a column is a result: neither an input nor a count of the computation.
+/// Whether a column is a result: neither an input nor a number of the computation.
 pub(super) fn is_result(manifest: &Manifest, column: &str) -> bool {
     let second = match result_number(column) {
         Some(number) => matches!(number.role, Role::Input | Role::Numerics),
@@ -58,13 +58,13 @@ pub(super) fn is_result(manifest: &Manifest, column: &str) -> bool {
     !is_input(manifest, column) && !second
 }
 
-/// A column's name in words, with its unit in brackets.
+/// Name of a column with its unit in parentheses.
 pub(super) fn label(column: &str) -> String {
-    let (name, unit) = ResultUnit::split(column);
-    let name = name.replace('_', " ");
-    match unit.symbol {
-        "" => name,
-        "us" => format!("{name} [µs]"),
-        symbol => format!("{name} [{symbol}]"),
-    }
+    let (name, unit) = result_column(column);
+    with_unit(&name, unit)
+}
+
+/// Name of a column as a title.
+pub(super) fn title(column: &str) -> String {
+    capitalized(&result_column(column).0)
 }

@@ -1,0 +1,21 @@
+//! Case with the result of its run.
+
+use std::{slice, sync::Arc};
+
+use percuss::{Scenario, outcome::RunResult, summary::CaseResults};
+
+/// Case with the result of its run.
+#[derive(Debug)]
+pub struct RunOutput {
+    /// Case.
+    pub scenario: Arc<Scenario>,
+    /// Result.
+    pub result: Arc<RunResult>,
+}
+
+impl RunOutput {
+    /// Output of `percuss run --json`.
+    pub fn results(&self) -> CaseResults {
+        CaseResults::new(&self.scenario, slice::from_ref(&self.result))
+    }
+}

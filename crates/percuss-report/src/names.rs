@@ -1,0 +1,113 @@
+//! Names of quantities and parameters in figures, with units in parentheses.
+
+use percuss::{summary::result_number, units::ResultUnit};
+
+/// Name with a capital first letter, and its unit in parentheses.
+pub(crate) fn with_unit(name: &str, unit: &str) -> String {
+    let name = capitalized(name);
+    match unit {
+        "" => name,
+        "us" => format!("{name} (µs)"),
+        unit => format!("{name} ({unit})"),
+    }
+}
+
+/// Text with a capital first letter.
+pub(crate) fn capitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).collect()
+}
+
+/// Name and unit of a column of results.
+pub(crate) fn result_column(column: &str) -> (String, &'static str) {
+    let (words, unit) = ResultUnit::split(column);
+    match result_number(column) {
+        Some(number) => (number.label.to_owned(), number.unit.symbol),
+        None => (words.replace('_', " "), unit.symbol),
+    }
+}
+
+/// Name of a parameter of a case by its dotted key.
+pub(crate) fn parameter(key: &str) -> String {
+    let parts: Vec<&str> = key.split('.').collect();
+    let words = |part: &str| part.replace('_', " ");
+    capitalized(&match parts.as_slice() {
+        ["projectile", "velocity" | "impact_velocity"] => "impact velocity".to_owned(),
+        ["projectile", rest @ ..] => format!("projectile {}", words(&rest.join(", "))),
+        ["target", "layers", layer, rest @ ..] => {
+            format!("{}, layer {layer}", words(&rest.join(", ")))
+        }
+        ["target", rest @ ..] => format!("target {}", words(&rest.join(", "))),
+        ["materials", id, "strength", law, name] => {
+            format!("{} {}, {id}", law_name(law), constant(name))
+        }
+        ["materials", id, rest @ ..] => format!("{}, {id}", words(&rest.join(", "))),
+        [_, rest @ ..] if !rest.is_empty() => words(&rest.join(", ")),
+        _ => words(key),
+    })
+}
+
+/// Name of a strength law: `johnson_cook` is Johnson-Cook.
+fn law_name(law: &str) -> String {
+    match law {
+        "johnson_cook" => "Johnson-Cook".to_owned(),
+        "steinberg_guinan" => "Steinberg-Guinan".to_owned(),
+        law => law.replace('_', "-"),
+    }
+}
+
+/// Name of a constant of a strength law; A, B and C are capital letters, as in their sources.
+fn constant(name: &str) -> String {
+    match name {
+        "a" | "b" | "c" => name.to_uppercase(),
+        name => name.replace('_', " "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parameters_have_names_instead_of_keys() {
+        for (key, name) in [
+            ("projectile.impact_velocity", "Impact velocity"),
+            ("projectile.velocity", "Impact velocity"),
+            ("projectile.length", "Projectile length"),
+            ("target.thickness", "Target thickness"),
+            ("target.layers.1.thickness", "Thickness, layer 1"),
+            (
+                "materials.ti64-jc.strength.johnson_cook.a",
+                "Johnson-Cook A, ti64-jc",
+            ),
+            (
+                "materials.copper.strength.power_law.coefficient",
+                "Power-law coefficient, copper",
+            ),
+            ("materials.copper.density", "Density, copper"),
+            ("chain.constraint_factor", "Constraint factor"),
+            (
+                "chain.artificial_viscosity.linear",
+                "Artificial viscosity, linear",
+            ),
+        ] {
+            assert_eq!(parameter(key), name);
+        }
+    }
+
+    #[test]
+    fn units_are_in_parentheses() {
+        assert_eq!(with_unit("impact velocity", "m/s"), "Impact velocity (m/s)");
+        assert_eq!(with_unit("time", "us"), "Time (µs)");
+        assert_eq!(with_unit("damage", ""), "Damage");
+    }
+
+    #[test]
+    fn columns_have_the_labels_of_their_results() {
+        let (name, unit) = result_column("depth_of_penetration_mm");
+        assert_eq!(with_unit(&name, unit), "Depth of penetration (mm)");
+        let (name, unit) = result_column("band_low");
+        assert_eq!(with_unit(&name, unit), "Band low");
+    }
+}

@@ -1,0 +1,99 @@
+//! Limits of a request: size, time and mesh.
+
+use std::time::Duration;
+
+use percuss::{Scenario, model::Model, scenario::TargetBody};
+
+use crate::problem::Problem;
+
+/// Largest body of a request [bytes].
+pub(crate) const BODY: usize = 256 << 10;
+/// Largest body that is read before it is refused [bytes]: a client reads no response while it is sending.
+pub(crate) const LARGEST_READ_BODY: usize = 4 << 20;
+/// Largest time to receive a request.
+pub(crate) const ARRIVAL: Duration = Duration::from_secs(10);
+/// Largest time that a request waits for a worker.
+pub(crate) const QUEUE_TIME: Duration = Duration::from_secs(3);
+/// Largest number of connections.
+pub(crate) const CONNECTIONS: usize = 256;
+/// Largest number of layers.
+const LAYERS: usize = 40;
+/// Largest number of cells along the radius of a projectile.
+const CELLS_PER_RADIUS: u32 = 16;
+
+/// RequestLimits of what a request may ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RequestLimits {
+    /// Largest number of elements of projectile and target together, on the finest mesh of a study.
+    pub elements: usize,
+    /// Largest time of a run or a study [s].
+    pub seconds: u64,
+    /// Largest number of simultaneous runs and studies.
+    pub runs: usize,
+}
+
+impl Default for RequestLimits {
+    fn default() -> Self {
+        let cores = std::thread::available_parallelism().map_or(2, usize::from);
+        Self {
+            elements: 2000,
+            seconds: 120,
+            runs: cores.max(2),
+        }
+    }
+}
+
+impl RequestLimits {
+    pub(crate) fn time(&self) -> Duration {
+        Duration::from_secs(self.seconds)
+    }
+
+    /// Refuses a case whose mesh exceeds the limits.
+    pub(crate) fn check(&self, model: &dyn Model, scenario: &Scenario) -> Result<(), Problem> {
+        if let TargetBody::Layers { layers, .. } = &scenario.target
+            && layers.len() > LAYERS
+        {
+            return Err(Problem::too_large(
+                format!("the target has {} layers", layers.len()),
+                format!("the page allows up to {LAYERS}; use `percuss run` for more"),
+                "target.layers",
+            ));
+        }
+        let options = &scenario.options;
+        let (projectile, target) = match model.name() {
+            "fdm" => {
+                let (projectile, target) = percuss::fdm::elements(scenario);
+                (projectile as usize, target as usize)
+            }
+            _ => (
+                options.chain.projectile_elements(),
+                options.chain.target_elements(),
+            ),
+        };
+        let elements = projectile.saturating_add(target);
+        if elements > self.elements {
+            return Err(Problem::too_large(
+                format!("the mesh has {elements} elements"),
+                format!(
+                    "this page allows up to {}: use a coarser mesh, restart it with a larger `--max-elements`, or use `percuss run`",
+                    self.elements
+                ),
+                match model.name() {
+                    "fdm" => "fdm.target_elements",
+                    _ => "chain.target_elements",
+                },
+            ));
+        }
+        let cells = options.axi.cells_per_radius();
+        if model.is_two_dimensional() && cells > CELLS_PER_RADIUS {
+            return Err(Problem::too_large(
+                format!("the mesh has {cells} cells along the projectile's radius"),
+                format!(
+                    "the page allows up to {CELLS_PER_RADIUS}; use `percuss run --model axi` for more"
+                ),
+                "axi.cells_per_radius",
+            ));
+        }
+        Ok(())
+    }
+}

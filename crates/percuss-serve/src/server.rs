@@ -1,0 +1,182 @@
+//! The server: address, routes and connections.
+
+use std::{net::SocketAddr, sync::Arc, time::Duration};
+
+use axum::{
+    Router,
+    extract::FromRef,
+    middleware,
+    response::IntoResponse,
+    routing::{get, post},
+};
+use hyper::server::conn::http1;
+use hyper_util::{
+    rt::{TokioIo, TokioTimer},
+    service::TowerToHyperService,
+};
+use tokio::{
+    net::TcpListener,
+    runtime::{Builder, Runtime},
+    sync::Semaphore,
+    time,
+};
+
+use crate::{
+    Options, ServeError, assets, cases, files,
+    host_guard::HostGuard,
+    index::Index,
+    job::{Stop, Workers},
+    limits,
+    pages::{self, Validation},
+    request, response, study,
+};
+
+/// Delay after a failed accept.
+const PAUSE: Duration = Duration::from_millis(50);
+
+/// Server with a bound address and a computed first case.
+#[derive(Debug)]
+pub struct Server {
+    runtime: Runtime,
+    listener: TcpListener,
+    address: SocketAddr,
+    routes: Router,
+}
+
+/// State shared by all requests.
+#[derive(Clone)]
+struct Shared {
+    workers: Workers,
+    index: Arc<Index>,
+    validation: Arc<Validation>,
+}
+
+impl FromRef<Shared> for Workers {
+    fn from_ref(shared: &Shared) -> Self {
+        shared.workers.clone()
+    }
+}
+
+impl FromRef<Shared> for Arc<Index> {
+    fn from_ref(shared: &Shared) -> Self {
+        Arc::clone(&shared.index)
+    }
+}
+
+impl FromRef<Shared> for Arc<Validation> {
+    fn from_ref(shared: &Shared) -> Self {
+        Arc::clone(&shared.validation)
+    }
+}
+
+impl Server {
+    /// Checks the options, computes the first case and binds the address.
+    ///
+    /// # Errors
+    /// [`ServeError`] when the options are not safe, the case is not valid or the address is taken.
+    pub fn bind(options: Options) -> Result<Self, ServeError> {
+        options.check()?;
+        let index = first_page(&options)?;
+        let runtime = Builder::new_multi_thread()
+            .worker_threads(2)
+            .enable_all()
+            .build()
+            .map_err(ServeError::Start)?;
+        let refused = |source| ServeError::Listen {
+            address: options.address,
+            source,
+        };
+        let listener = runtime
+            .block_on(TcpListener::bind(options.address))
+            .map_err(refused)?;
+        let address = listener.local_addr().map_err(refused)?;
+        let shared = Shared {
+            workers: Workers::new(options.bounds),
+            index: Arc::new(index),
+            validation: Arc::default(),
+        };
+        Ok(Self {
+            routes: routes(shared, HostGuard::new(&options)),
+            runtime,
+            listener,
+            address,
+        })
+    }
+
+    /// The address that it listens on.
+    pub fn address(&self) -> SocketAddr {
+        self.address
+    }
+
+    /// Serves until the program ends.
+    pub fn run(self) -> ! {
+        let Self {
+            runtime,
+            listener,
+            routes,
+            ..
+        } = self;
+        runtime.block_on(accept(listener, routes))
+    }
+}
+
+/// Page with the results of its first case.
+fn first_page(options: &Options) -> Result<Index, ServeError> {
+    let case = options.case.clone().unwrap_or_else(cases::first);
+    let scenario = percuss::case::load_str(&case.name, &case.text)?;
+    let model = percuss::model::default_model(&scenario)?;
+    let read = request::ReadCase {
+        text: case.text.clone(),
+        scenario,
+    };
+    let stop = Stop::after(options.bounds.time());
+    let first = response::compute(read, &model, None, &stop, None)?;
+    Ok(Index::new(&case, &first, &options.bounds))
+}
+
+fn routes(shared: Shared, guard: HostGuard) -> Router {
+    Router::new()
+        .route("/", get(Index::get))
+        .route("/assets/{name}", get(assets::get))
+        .route("/materials", get(pages::materials))
+        .route("/materials/{name}", get(pages::material))
+        .route("/validation", get(Validation::get))
+        .route("/api/answer", post(response::post))
+        .route("/api/file", post(files::post))
+        .route("/api/study/{kind}", post(study::post))
+        .route("/api/uncertainty-example", post(study::uncertainty_example))
+        .route("/api/validation", post(Validation::post))
+        .fallback(async || assets::missing().into_response())
+        .layer(middleware::from_fn_with_state(
+            Arc::new(guard),
+            HostGuard::watch,
+        ))
+        .with_state(shared)
+}
+
+/// Accepts connections, a limited number at a time.
+async fn accept(listener: TcpListener, routes: Router) -> ! {
+    let places = Arc::new(Semaphore::new(limits::CONNECTIONS));
+    loop {
+        // The semaphore is never closed.
+        let Ok(place) = Arc::clone(&places).acquire_owned().await else {
+            continue;
+        };
+        let Ok((stream, _)) = listener.accept().await else {
+            time::sleep(PAUSE).await;
+            continue;
+        };
+        // Without this option small responses are delayed.
+        let _ = stream.set_nodelay(true);
+        let service = TowerToHyperService::new(routes.clone());
+        tokio::spawn(async move {
+            let _place = place;
+            // A broken connection needs no action.
+            let _ = http1::Builder::new()
+                .timer(TokioTimer::new())
+                .header_read_timeout(limits::ARRIVAL)
+                .serve_connection(TokioIo::new(stream), service)
+                .await;
+        });
+    }
+}
