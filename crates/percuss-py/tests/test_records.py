@@ -124,7 +124,7 @@ def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], 
     (judgement,) = records[percuss.Judgement]
     assert isinstance(judgement, percuss.Judgement)
     for by in ("speed", "length", "regime", "materials", "uncertainty"):
-        assert {error.contender for error in judgement.errors(by)} == {error.contender for error in judgement.errors()}
+        assert {error.candidate for error in judgement.errors(by)} == {error.candidate for error in judgement.errors()}
         save(judgement.plot(by), tmp_path / f"{by}.png")
     with pytest.raises(percuss.UsageError, match="groups: speed, length"):
         judgement.plot("moon")

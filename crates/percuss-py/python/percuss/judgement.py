@@ -34,7 +34,7 @@ class Judgement(Result):
     findings : list of str
         What it comes to, in words.
     statistics : list of Record
-        Errors by group: ``contender`` (a model, with its closure where it has several), ``grouping``, ``value``, ``count``, ``median``,
+        Errors by group: ``candidate`` (a model, with its closure where it has several), ``grouping``, ``value``, ``count``, ``median``,
         ``low`` and ``high``, between which eight of ten errors lie, ``median_absolute`` and ``within_25_percent``.
     ablation : list of Record
         The seed paper's case with one thing changed at a time: ``variant``, ``change``, ``depth_of_penetration_mm``, ``error``.
@@ -59,7 +59,7 @@ class Judgement(Result):
         if by is not None and by not in _GROUPINGS:
             raise UsageError(f"`{by}` groups no errors; groups: {', '.join(_GROUPINGS)}")
         grouping = "all" if by is None else _GROUPINGS[by]
-        names = ["contender", "value", "count", "median", "low", "high", "median_absolute", "within_25_percent"]
+        names = ["candidate", "value", "count", "median", "low", "high", "median_absolute", "within_25_percent"]
         return Records((group for group in self.statistics if group.grouping == grouping), *names)
 
     def plot(self, by: str | None = None, ax: Axes | None = None) -> Axes:
@@ -71,7 +71,7 @@ class Judgement(Result):
             return f"{round(100 * part):+d} %"
 
         rows = [
-            [e.contender, str(e.count), percent(e.median), f"{percent(e.low)} to {percent(e.high)}", f"{100 * e.within_25_percent:.0f} %"]
+            [e.candidate, str(e.count), percent(e.median), f"{percent(e.low)} to {percent(e.high)}", f"{100 * e.within_25_percent:.0f} %"]
             for e in self.errors()
         ]
         head = ["model", "shots", "median error", "eight of ten", "within 25 %"]

@@ -20,11 +20,11 @@ _EDGE = 200.0
 
 
 def errors(judgement: Judgement, by: str | None, ax: Axes | None) -> Axes:
-    best_first = [e.contender for e in sorted(judgement.errors(), key=lambda e: float(e.median_absolute))]
+    best_first = [e.candidate for e in sorted(judgement.errors(), key=lambda e: float(e.median_absolute))]
     ax = new_axes(ax, (8.0, 5.0 if by is None else 6.0))
     if by is not None:
         return _magnitudes(judgement, by, best_first, ax)
-    of = {e.contender: e for e in judgement.errors()}
+    of = {e.candidate: e for e in judgement.errors()}
     for place, name in enumerate(best_first):
         error = of[name]
         ax.plot([100 * error.low, min(100 * error.high, _EDGE)], [place, place], color="C0", alpha=0.4, linewidth=5, solid_capstyle="butt")
@@ -40,12 +40,12 @@ def errors(judgement: Judgement, by: str | None, ax: Axes | None) -> Axes:
     return ax
 
 
-def _magnitudes(judgement: Judgement, by: str, contenders: list[str], ax: Axes) -> Axes:
+def _magnitudes(judgement: Judgement, by: str, candidates: list[str], ax: Axes) -> Axes:
     groups = judgement.errors(by)
     values = list(dict.fromkeys(group.value for group in groups))
-    grid = numpy.full((len(contenders), len(values)), numpy.nan)
+    grid = numpy.full((len(candidates), len(values)), numpy.nan)
     for group in groups:
-        grid[contenders.index(group.contender), values.index(group.value)] = 100 * group.median_absolute
+        grid[candidates.index(group.candidate), values.index(group.value)] = 100 * group.median_absolute
     drawn = ax.imshow(grid, cmap="viridis_r", vmin=0, vmax=100, aspect="auto")
     for (row, column), value in numpy.ndenumerate(grid):
         if not numpy.isnan(value):
@@ -53,7 +53,7 @@ def _magnitudes(judgement: Judgement, by: str, contenders: list[str], ax: Axes) 
     ax.figure.colorbar(drawn, ax=ax, label="median magnitude of the error [%]", extend="max")
     lines = [value.replace(" on ", "\non ") for value in values]
     ax.set_xticks(range(len(values)), lines, rotation=40, ha="right", rotation_mode="anchor", fontsize="small")
-    ax.set_yticks(range(len(contenders)), contenders, fontsize="small")
+    ax.set_yticks(range(len(candidates)), candidates, fontsize="small")
     ax.set_title(f"by {by}")
     return ax
 
