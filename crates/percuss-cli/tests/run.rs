@@ -12,7 +12,7 @@ fn a_run_prints_its_results() {
     let text = ok(folder.path(), &["run", "shot.toml"]);
     for part in [
         "Copper on aluminium\n",
-        "case shot, impact at 230 m/s, model chain, scheme conservative, target resistance model\nexpanding-cavity\n",
+        "case shot, impact at 230 m/s, model chain, scheme conservative, target\nresistance model expanding-cavity\n",
         "outcome  ",
         "run ended because  ",
         "depth of penetration  ",

@@ -94,7 +94,7 @@ fn tables_json_and_pairs_say_the_same() {
     for part in [
         "statistics of 32 shots, seed 5, 133 shots in all",
         "normal, 230 ± 3 m/s",
-        "probability of perforation 0 % (0 …",
+        "chance of perforation 0 % (0 …",
         "what moves the depth of penetration",
         "first order",
         "The model's own error comes on top",

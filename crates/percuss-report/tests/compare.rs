@@ -150,7 +150,7 @@ fn every_model_with_a_value_has_its_line() {
         "tate ★",
         "experiment",
         "depth [mm]",
-        "impact velocity [m/s]",
+        "impact speed [m/s]",
     ] {
         assert!(figure.svg.contains(&format!(">{text}</text>")), "{text}");
     }

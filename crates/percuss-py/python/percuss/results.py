@@ -252,7 +252,7 @@ class Validation(Result):
     percuss_version: str
     data: list[str]
     models: list[str]
-    tests: int
+    shots: int
     statistics: list[Record]
     coverage: list[Record]
     predictions: list[Record]
@@ -272,4 +272,4 @@ class Validation(Result):
             if group.grouping == "all"
         ]
         head = ["model", "kind", "shots", *(f"{error.replace('_', ' ')} [%]" for error in errors)]
-        return table_html(head, rows, f"{self.tests} tests: {', '.join(self.data)}")
+        return table_html(head, rows, f"{self.shots} tests: {', '.join(self.data)}")
