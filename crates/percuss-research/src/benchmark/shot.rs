@@ -4,7 +4,7 @@ use percuss::{
     Error, Scenario, case,
     model_error::{
         ErrorRecord,
-        design::{LENGTHS, SPEEDS},
+        design::{LENGTHS, VELOCITIES},
     },
 };
 
@@ -66,7 +66,7 @@ impl Shot {
 pub fn shots() -> Vec<Shot> {
     let mut shots = Vec::new();
     for &length_to_diameter in LENGTHS {
-        for &speed in SPEEDS {
+        for &speed in VELOCITIES {
             for (projectile, target) in PAIRS {
                 shots.push(Shot {
                     projectile: (*projectile).to_owned(),

@@ -3,7 +3,7 @@
 use percuss::{
     model_error::{
         ErrorRecord, candidates,
-        design::{LENGTHS, SPEEDS},
+        design::{LENGTHS, VELOCITIES},
     },
     statistics::{quantile, sorted},
 };
@@ -77,7 +77,12 @@ fn map(verdicts: &[ErrorRecord], candidate: &str) -> Option<Figure> {
     };
     let rows: Vec<Vec<f64>> = LENGTHS
         .iter()
-        .map(|&length| SPEEDS.iter().map(|&speed| median(length, speed)).collect())
+        .map(|&length| {
+            VELOCITIES
+                .iter()
+                .map(|&speed| median(length, speed))
+                .collect()
+        })
         .collect();
     if rows.iter().flatten().all(|value| value.is_nan()) {
         return None;
@@ -102,8 +107,8 @@ fn map(verdicts: &[ErrorRecord], candidate: &str) -> Option<Figure> {
             &format!("error-{}", stem(candidate)),
             &format!("Median error of {candidate} against the axisymmetric reference"),
         ],
-        [axis("impact speed [m/s]", SPEEDS), axis("L/D", LENGTHS)],
-        [range(SPEEDS), range(LENGTHS)],
+        [axis("impact speed [m/s]", VELOCITIES), axis("L/D", LENGTHS)],
+        [range(VELOCITIES), range(LENGTHS)],
         "median error of depth [%]",
         in_percent,
     );
@@ -123,7 +128,7 @@ fn depths(verdicts: &[ErrorRecord], projectile: &str, target: &str, length: f64)
             v.projectile == projectile && v.target == target && v.length_to_diameter == length
         })
         .collect();
-    let reference: Vec<&ErrorRecord> = SPEEDS
+    let reference: Vec<&ErrorRecord> = VELOCITIES
         .iter()
         .filter_map(|&speed| own.iter().find(|v| v.impact_velocity_m_s == speed).copied())
         .collect();

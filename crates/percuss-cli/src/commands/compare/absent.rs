@@ -38,7 +38,7 @@ pub fn reasons(comparison: &Comparison) -> Vec<String> {
 
 /// Where a model has an outcome that is no result, and the reasons; one that differs in its numbers only stands once.
 fn why(comparison: &Comparison, model: &str, outcome: Outcome) -> Option<String> {
-    let speeds = comparison.speeds();
+    let speeds = comparison.velocities();
     let absent = comparison
         .of_model(model)
         .enumerate()

@@ -12,7 +12,7 @@ const LABEL: usize = 13;
 
 /// Case, regime and recommendation; for many speeds once for each range in which they stay the same.
 pub fn text(scenario: &Scenario, comparison: &Comparison) -> String {
-    let speeds = comparison.speeds();
+    let speeds = comparison.velocities();
     let at = match speeds.len() {
         1 => speed_range(&speeds),
         count => format!("{count} speeds, {}", speed_range(&speeds)),

@@ -189,7 +189,7 @@ impl Uncertainty {
                 .filter_map(|name| uncertainty::quantity(name))
                 .collect(),
             indices: !self.no_indices,
-            speeds,
+            velocities: speeds,
         };
         Ok(Task {
             document,
