@@ -86,8 +86,8 @@ fn an_interrupted_run_goes_on_with_the_same_bits_on_any_number_of_threads() {
             .build()
             .unwrap();
         assert_eq!(pool.install(|| resumed(&scenario, &bytes)).unwrap(), whole);
-        let anew = pool.install(|| run(&scenario, &mut Control::recording()));
-        assert_eq!(anew.unwrap(), whole);
+        let repeated = pool.install(|| run(&scenario, &mut Control::recording()));
+        assert_eq!(repeated.unwrap(), whole);
     }
 }
 
