@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use percuss::{
     Scenario,
-    check::limits::IMPACT_SPEED,
+    check::limits::IMPACT_VELOCITY,
     statistics::sorted,
     units::{Dimension, OfVelocity, significant},
 };
@@ -34,7 +34,7 @@ pub enum SpeedsError {
         units()
     )]
     UnknownUnit { unit: String },
-    #[error("{} m/s is out of range: allowed are {} to {} m/s", significant(*.0, 6), IMPACT_SPEED.min, IMPACT_SPEED.max)]
+    #[error("{} m/s is out of range: allowed are {} to {} m/s", significant(*.0, 6), IMPACT_VELOCITY.min, IMPACT_VELOCITY.max)]
     OutOfRange(f64),
     #[error("the range ends at {to}, which is not above its start at {from}\n{ALLOWED}")]
     NotRising { from: String, to: String },
@@ -89,7 +89,7 @@ impl FromStr for Speeds {
         if speeds.len() > MOST {
             return Err(SpeedsError::TooMany(speeds.len()));
         }
-        let inside = IMPACT_SPEED.min..=IMPACT_SPEED.max;
+        let inside = IMPACT_VELOCITY.min..=IMPACT_VELOCITY.max;
         if let Some(&outside) = speeds.iter().find(|speed| !inside.contains(*speed)) {
             return Err(SpeedsError::OutOfRange(outside));
         }

@@ -76,7 +76,7 @@ fn a_new_case_shows_every_option_at_its_default() {
         "material_files",
         "end_time",
         "target_mass",
-        "velocity",
+        "impact_velocity",
         "depth_of_penetration",
         "uncertainty",
         "source",

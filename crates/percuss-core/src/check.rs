@@ -170,7 +170,7 @@ pub mod limits {
     /// Mass [kg].
     pub const MASS: Limits = limits(1e-9, 1e5);
     /// Impact velocity [m/s].
-    pub const IMPACT_SPEED: Limits = limits(0.0, 10_000.0);
+    pub const IMPACT_VELOCITY: Limits = limits(0.0, 10_000.0);
     /// Angle of an impact to the normal [rad]: up to 85 degrees.
     pub const OBLIQUITY: Limits = limits(0.0, 85.0 * std::f64::consts::PI / 180.0);
     /// Density [kg/m3]; the lightest structural foams weigh about 15.

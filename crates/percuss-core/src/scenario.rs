@@ -147,7 +147,7 @@ pub struct Plate {
 
 impl Scenario {
     /// The same case at another impact velocity [m/s].
-    pub fn at_speed(&self, impact_velocity: f64) -> Self {
+    pub fn at_impact_velocity(&self, impact_velocity: f64) -> Self {
         Self {
             impact_velocity,
             ..self.clone()

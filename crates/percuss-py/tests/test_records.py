@@ -124,7 +124,7 @@ def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], 
     (benchmark,) = records[percuss.Benchmark]
     assert isinstance(benchmark, percuss.Benchmark)
     for by in ("speed", "length", "regime", "materials", "uncertainty"):
-        assert {error.contender for error in benchmark.errors(by)} == {error.contender for error in benchmark.errors()}
+        assert {error.candidate for error in benchmark.errors(by)} == {error.candidate for error in benchmark.errors()}
         save(benchmark.plot(by), tmp_path / f"{by}.png")
     with pytest.raises(percuss.UsageError, match="groups: speed, length"):
         benchmark.plot("moon")

@@ -144,7 +144,7 @@ fn lines(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -
 }
 
 fn rows(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -> RowChart {
-    let speed = comparison.speeds()[0];
+    let speed = comparison.velocities()[0];
     let at = match quantity {
         BandQuantity::BallisticLimit => String::new(),
         _ => format!(" at {} m/s", significant(speed)),

@@ -46,13 +46,16 @@ pub fn comparison_files(
     let entries: Vec<Entry> = (0..comparison.regime.len())
         .flat_map(|i| {
             let recommended = &comparison.recommended[i].models;
-            comparison.at_speed(i).iter().map(move |record| Entry {
-                record: record.clone(),
-                regime: comparison.regime[i].regime.projectile.describe(),
-                recommended: recommended
-                    .iter()
-                    .any(|choice| choice.model == record.model),
-            })
+            comparison
+                .at_impact_velocity(i)
+                .iter()
+                .map(move |record| Entry {
+                    record: record.clone(),
+                    regime: comparison.regime[i].regime.projectile.describe(),
+                    recommended: recommended
+                        .iter()
+                        .any(|choice| choice.model == record.model),
+                })
         })
         .collect();
     column::files(["compare.csv", "compare.parquet"], &columns(), &entries)

@@ -71,7 +71,7 @@ mod tests {
         let end = history.samples.last().unwrap().time * 1e6;
         assert_eq!(line.points, [(0.0, 15.0), (end, 15.0)]);
         assert_eq!(line.band, [(14.5, 15.5); 2]);
-        assert!(lines(&scenario.at_speed(250.0), length, &history).is_empty());
+        assert!(lines(&scenario.at_impact_velocity(250.0), length, &history).is_empty());
         assert!(lines(&scenario, BandQuantity::DepthOfPenetration, &history).is_empty());
     }
 }

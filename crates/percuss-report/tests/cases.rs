@@ -179,7 +179,7 @@ fn csv_and_parquet_hold_the_same_columns_and_values() {
     assert_eq!(header[..3], ["time_us", "step", "tip_velocity_m_s"]);
     for name in [
         "energy_kinetic_projectile_j",
-        "energy_through_back_face_j",
+        "energy_through_rear_face_j",
         "momentum_support_n_s",
     ] {
         assert!(header.iter().any(|column| column == name), "{name}");

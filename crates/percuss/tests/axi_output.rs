@@ -86,8 +86,8 @@ fn an_interrupted_run_goes_on_with_the_same_bits_on_any_number_of_threads() {
             .build()
             .unwrap();
         assert_eq!(pool.install(|| resumed(&scenario, &bytes)).unwrap(), whole);
-        let anew = pool.install(|| run(&scenario, &mut Control::recording()));
-        assert_eq!(anew.unwrap(), whole);
+        let repeated = pool.install(|| run(&scenario, &mut Control::recording()));
+        assert_eq!(repeated.unwrap(), whole);
     }
 }
 
@@ -126,7 +126,7 @@ fn a_checkpoint_of_something_else_is_refused() {
         Err(Error::Checkpoint { reason, .. }) => reason,
         other => panic!("{other:?}"),
     };
-    let faster = scenario.at_speed(601.0);
+    let faster = scenario.at_impact_velocity(601.0);
     assert!(reason(&faster, &bytes).contains("another case"));
     assert!(reason(&scenario, b"something").contains("no checkpoint"));
     assert!(reason(&scenario, &bytes[..bytes.len() - 1]).contains("damaged"));

@@ -304,7 +304,7 @@ fn faster_goes_deeper() {
         let base = shot(text);
         let results: Vec<(f64, RunResult)> = speeds
             .iter()
-            .filter_map(|&speed| Some((speed, run(model, &base.at_speed(speed))?)))
+            .filter_map(|&speed| Some((speed, run(model, &base.at_impact_velocity(speed))?)))
             .collect();
         let mut compared = 0;
         for pair in results.windows(2) {
@@ -329,7 +329,7 @@ fn faster_goes_deeper() {
 #[test]
 fn nothing_moves_at_zero_speed() {
     hold(Identity::NothingMovesAtZeroSpeed, |model, text, _| {
-        let Some(result) = run(model, &shot(text).at_speed(0.0)) else {
+        let Some(result) = run(model, &shot(text).at_impact_velocity(0.0)) else {
             return Ok(0);
         };
         let scenario = shot(text);
@@ -378,7 +378,7 @@ fn a_shot_twice_as_large_goes_twice_as_deep() {
     hold(Identity::ScaledShotScales, |model, text, speeds| {
         let mut compared = 0;
         for &speed in speeds {
-            let base = shot(text).at_speed(speed);
+            let base = shot(text).at_impact_velocity(speed);
             let (Some(one), Some(other)) = (run(model, &base), run(model, &scaled(&base, 2.0)))
             else {
                 continue;
@@ -440,7 +440,7 @@ fn a_denser_projectile_goes_deeper() {
     hold(Identity::DenserGoesDeeper, |model, text, speeds| {
         let mut compared = 0;
         for &speed in speeds {
-            let base = shot(text).at_speed(speed);
+            let base = shot(text).at_impact_velocity(speed);
             let mut material = (*base.projectile.material).clone();
             material.density = percuss::units::Density::new(1.04 * material.density.si());
             let mut denser = base.clone();
@@ -463,7 +463,7 @@ fn every_model_applies_to_some_shot_and_says_why_not_to_the_others() {
             let base = shot(text);
             speeds
                 .iter()
-                .any(|&speed| run(model, &base.at_speed(speed)).is_some())
+                .any(|&speed| run(model, &base.at_impact_velocity(speed)).is_some())
         });
         assert!(
             applies,
@@ -507,7 +507,7 @@ fn every_material_works_in_every_model() {
                     continue;
                 };
                 answered += 1;
-                let rest = run(model, &scenario.at_speed(0.0));
+                let rest = run(model, &scenario.at_impact_velocity(0.0));
                 let depth = rest.and_then(|rest| rest.depth_of_penetration);
                 assert!(
                     depth.unwrap_or(0.0).abs() <= 1e-12,

@@ -17,7 +17,7 @@ fn index_of(key: &str, file: &str, samples: u64) -> f64 {
         seed: 0,
         quantities: Vec::new(),
         indices: true,
-        speeds: Vec::new(),
+        velocities: Vec::new(),
     };
     let watch = Observer {
         stop: &AtomicBool::new(false),

@@ -26,7 +26,7 @@ impl LambertJonasOptions {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>, _: &Target) {
         if let Some(limit) = self.ballistic_limit {
-            check.quantity("ballistic_limit", limit, limits::IMPACT_SPEED);
+            check.quantity("ballistic_limit", limit, limits::IMPACT_VELOCITY);
         }
         if let Some(a) = self.a {
             check.number("a", a, limits::RESIDUAL_FACTOR);

@@ -114,7 +114,7 @@ impl Experiment {
             ),
         }
         if let Some(velocity) = self.impact_velocity {
-            check.quantity("impact_velocity", velocity, limits::IMPACT_SPEED);
+            check.quantity("impact_velocity", velocity, limits::IMPACT_VELOCITY);
         }
         if self.source.0.iter().all(|key| key.trim().is_empty()) {
             check.fail(
@@ -140,7 +140,7 @@ impl Experiment {
         if is_length {
             check.quantity(key, Length::new(value), MEASURED_LENGTH);
         } else {
-            check.quantity(key, Velocity::new(value), limits::IMPACT_SPEED);
+            check.quantity(key, Velocity::new(value), limits::IMPACT_VELOCITY);
         }
         if self.impact_velocity.is_none() && quantity != BandQuantity::BallisticLimit {
             check.fail(
@@ -201,7 +201,7 @@ impl Experiment {
                 check.quantity("uncertainty", length, MEASURED_LENGTH);
             }
             Some(Uncertainty::Velocity(velocity)) => {
-                check.quantity("uncertainty", velocity, limits::IMPACT_SPEED);
+                check.quantity("uncertainty", velocity, limits::IMPACT_VELOCITY);
             }
             None => {}
         }

@@ -191,7 +191,7 @@ impl Projectile {
         check.quantity(
             "impact_velocity",
             self.impact_velocity,
-            limits::IMPACT_SPEED,
+            limits::IMPACT_VELOCITY,
         );
         let allowed = limits::OBLIQUITY.min..=limits::OBLIQUITY.max;
         if let Some(obliquity) = self

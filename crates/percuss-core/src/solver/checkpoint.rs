@@ -63,20 +63,20 @@ pub(super) fn open<'a>(
     model: &str,
     scenario: &Scenario,
 ) -> Result<(Header, &'a [u8]), Error> {
-    const ANEW: &str = "start again without `--resume`";
+    const RESTART: &str = "start again without `--resume`";
     let Some(rest) = bytes.strip_prefix(MAGIC) else {
-        return Err(refused("it is no checkpoint of percuss", ANEW));
+        return Err(refused("it is no checkpoint of percuss", RESTART));
     };
     // The form of the header depends on the format, which therefore comes first.
     let (format, _) = postcard::take_from_bytes::<u32>(rest).map_err(|_| damaged())?;
     if format != FORMAT {
-        return Err(refused("it is of another version of percuss", ANEW));
+        return Err(refused("it is of another version of percuss", RESTART));
     }
     let (header, content) = postcard::take_from_bytes::<Header>(rest).map_err(|_| damaged())?;
     let version = env!("CARGO_PKG_VERSION");
     if header.version != version {
         let what = format!("it is of percuss {}, this is {version}", header.version);
-        return Err(refused(&what, ANEW));
+        return Err(refused(&what, RESTART));
     }
     if header.model != model {
         let what = format!("it is of model `{}`, not `{model}`", header.model);

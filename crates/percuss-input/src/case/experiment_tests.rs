@@ -29,7 +29,7 @@ fn measured_values_are_in_si_units() {
     assert!((experiment.uncertainty.unwrap() - 1e-4).abs() < 1e-18);
     assert_eq!(experiment.sources, ["a", "b"]);
     assert_eq!(experiment.note, "n");
-    assert!(!scenario.at_speed(1.0).experiments.is_empty());
+    assert!(!scenario.at_impact_velocity(1.0).experiments.is_empty());
 }
 
 #[test]

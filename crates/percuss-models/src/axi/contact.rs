@@ -14,9 +14,9 @@ pub(super) enum Contact {
 /// Part of a node's cell that bodies must fill together to touch: less is a gap.
 const TOUCHING: f64 = 0.9;
 
-/// Lets two bodies meet: what each node of the first gives to that of the second in a step, before supports have their say. Gives the
+/// Contact of two bodies: impulses of each node of the first on that of the second in a step, before the boundary conditions. Returns the
 /// axial impulse from the first on the second [N s].
-pub(super) fn meet(
+pub(super) fn exchange_contact_impulses(
     contact: Contact,
     first: &mut Field,
     second: &mut Field,

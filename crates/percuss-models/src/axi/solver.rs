@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::{
     body::{Body, CHUNK, Limits, Pass, Sums, advance},
     boundary::{BoundaryConditions, Load},
-    contact::{Contact, meet, pushed},
+    contact::{Contact, exchange_contact_impulses, pushed},
     field::{FORCE, Field, MASS, MOMENTUM, Node, Strip},
 };
 use crate::{Error, solver::archive::Archive};
@@ -224,7 +224,13 @@ impl Grid {
             let (before, after) = self.bodies.split_at_mut(second);
             for (first, body) in before.iter_mut().enumerate() {
                 let other = &mut after[0].field;
-                let impulse = meet(self.contact, &mut body.field, other, cell, time_step);
+                let impulse = exchange_contact_impulses(
+                    self.contact,
+                    &mut body.field,
+                    other,
+                    cell,
+                    time_step,
+                );
                 if first == 0 {
                     passed += impulse;
                 }

@@ -82,7 +82,7 @@ class SampleColumns:
     energy_border_shear_j: Array
     energy_viscosity_and_damping_j: Array
     energy_contact_j: Array
-    energy_through_back_face_j: Array
+    energy_through_rear_face_j: Array
     energy_eroded_j: Array
     energy_fracture_j: Array
     energy_kinetic_plate_j: Array

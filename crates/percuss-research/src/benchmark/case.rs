@@ -4,7 +4,7 @@ use percuss::{
     Error, Scenario, case as case_file,
     model_error::{
         ErrorRecord,
-        design::{LENGTHS, SPEEDS},
+        design::{LENGTHS, VELOCITIES},
     },
 };
 
@@ -66,7 +66,7 @@ impl BenchmarkCase {
 pub fn cases() -> Vec<BenchmarkCase> {
     let mut cases = Vec::new();
     for &length_to_diameter in LENGTHS {
-        for &speed in SPEEDS {
+        for &speed in VELOCITIES {
             for (projectile, target) in PAIRS {
                 cases.push(BenchmarkCase {
                     projectile: (*projectile).to_owned(),

@@ -3,7 +3,7 @@
 use percuss::{
     model_error::{
         Candidate, ErrorRecord, candidates,
-        design::{LENGTHS, SPEEDS},
+        design::{LENGTHS, VELOCITIES},
     },
     regime::ProjectileRegime,
 };
@@ -139,7 +139,7 @@ fn where_close(verdicts: &[ErrorRecord], candidate: &str) -> String {
     let mut places = Vec::new();
     for &length in LENGTHS {
         let mut speeds = Vec::new();
-        for &speed in SPEEDS {
+        for &speed in VELOCITIES {
             let here =
                 |v: &ErrorRecord| v.length_to_diameter == length && v.impact_velocity_m_s == speed;
             if let Some(errors) = errors_of(verdicts, candidate, here) {

@@ -3,7 +3,7 @@
 use percuss::{
     model_error::{
         ErrorRecord, candidates,
-        design::{LENGTHS, SPEEDS},
+        design::{LENGTHS, VELOCITIES},
     },
     regime::ProjectileRegime,
     statistics::{quantile, sorted},
@@ -114,7 +114,7 @@ impl Grouping {
     pub fn values(self) -> Vec<String> {
         match self {
             Self::All => vec!["all".to_owned()],
-            Self::Speed => SPEEDS.iter().map(|speed| speed_name(*speed)).collect(),
+            Self::Speed => VELOCITIES.iter().map(|speed| speed_name(*speed)).collect(),
             Self::Length => LENGTHS.iter().map(|length| length_name(*length)).collect(),
             Self::Regime => ProjectileRegime::ALL
                 .iter()

@@ -3,7 +3,7 @@
 use percuss::{
     model_error::{
         ErrorRecord, candidates,
-        design::{LENGTHS, SPEEDS},
+        design::{LENGTHS, VELOCITIES},
     },
     statistics::{quantile, sorted},
 };
@@ -78,7 +78,12 @@ fn map(verdicts: &[ErrorRecord], candidate: &str) -> Option<Figure> {
     };
     let rows: Vec<Vec<f64>> = LENGTHS
         .iter()
-        .map(|&length| SPEEDS.iter().map(|&speed| median(length, speed)).collect())
+        .map(|&length| {
+            VELOCITIES
+                .iter()
+                .map(|&speed| median(length, speed))
+                .collect()
+        })
         .collect();
     if rows.iter().flatten().all(|value| value.is_nan()) {
         return None;
@@ -104,10 +109,10 @@ fn map(verdicts: &[ErrorRecord], candidate: &str) -> Option<Figure> {
             &format!("Median error of {candidate} against the axisymmetric reference"),
         ],
         [
-            axis("Impact velocity (m/s)", SPEEDS),
+            axis("Impact velocity (m/s)", VELOCITIES),
             axis("Length-to-diameter ratio L/D", LENGTHS),
         ],
-        [range(SPEEDS), range(LENGTHS)],
+        [range(VELOCITIES), range(LENGTHS)],
         "Median error of the depth (%)",
         in_percent,
     );
@@ -127,7 +132,7 @@ fn depths(verdicts: &[ErrorRecord], projectile: &str, target: &str, length: f64)
             v.projectile == projectile && v.target == target && v.length_to_diameter == length
         })
         .collect();
-    let reference: Vec<&ErrorRecord> = SPEEDS
+    let reference: Vec<&ErrorRecord> = VELOCITIES
         .iter()
         .filter_map(|&speed| own.iter().find(|v| v.impact_velocity_m_s == speed).copied())
         .collect();

@@ -37,7 +37,7 @@ pub(super) fn uncertain(job: &Job<'_>) -> Result<Study, Problem> {
         seed: asked.uncertainty.seed,
         quantities: Vec::new(),
         indices: asked.uncertainty.indices,
-        speeds: Vec::new(),
+        velocities: Vec::new(),
     };
     let found = followed(job, |watch| {
         uncertainty::analyse(&study, model, &kernel, &settings, watch)

@@ -71,7 +71,7 @@ fn uncertainty_is_that_of_the_library() {
         seed: 7,
         quantities: Vec::new(),
         indices: true,
-        speeds: Vec::new(),
+        velocities: Vec::new(),
     };
     let watch = Observer {
         stop: &AtomicBool::new(false),

@@ -192,7 +192,7 @@ impl Observation {
             let words = diagnostics.into_iter().map(|diagnostic| diagnostic.message);
             words.collect::<Vec<_>>().join("; ")
         })?;
-        Ok(scenario.at_speed(self.impact_velocity))
+        Ok(scenario.at_impact_velocity(self.impact_velocity))
     }
 
     /// What a relative scatter is a part of: the measured value, or the impact velocity for a residual velocity, which may be 0.

@@ -1,4 +1,4 @@
-//! Runs of many models at many speeds, side by side.
+//! Runs of many models at many velocities, side by side.
 
 use std::{
     ops::ControlFlow,
@@ -39,11 +39,11 @@ impl std::fmt::Debug for Observer<'_> {
 }
 
 /// The case at each impact velocity, with its regime.
-pub(super) fn scenarios(scenario: &Scenario, speeds: &[f64]) -> Vec<(Scenario, Regime)> {
-    speeds
+pub(super) fn scenarios(scenario: &Scenario, velocities: &[f64]) -> Vec<(Scenario, Regime)> {
+    velocities
         .par_iter()
-        .map(|&speed| {
-            let scenario = scenario.at_speed(speed);
+        .map(|&velocity| {
+            let scenario = scenario.at_impact_velocity(velocity);
             let regime = Regime::of(&scenario);
             (scenario, regime)
         })

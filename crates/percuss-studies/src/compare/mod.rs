@@ -47,11 +47,11 @@ pub struct Comparison {
     pub quantities: Vec<BandQuantity>,
     /// What was measured.
     pub experiments: Vec<ExperimentRecord>,
-    /// One entry a speed and model: speeds in the order given, and for each the models in theirs.
+    /// One entry per velocity and model: velocities in the order given, and for each the models in theirs.
     pub results: Vec<ResultRecord>,
 }
 
-/// The regime at a speed.
+/// The regime at a velocity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SpeedRegime {
     /// Impact velocity [m/s].
@@ -103,10 +103,10 @@ impl ExperimentRecord {
 pub fn compare(
     models: &[&dyn Model],
     scenario: &Scenario,
-    speeds: &[f64],
+    velocities: &[f64],
     observer: &mut Observer<'_>,
 ) -> Result<Comparison, Error> {
-    let runs: Vec<(Scenario, Regime)> = jobs::scenarios(scenario, speeds);
+    let runs: Vec<(Scenario, Regime)> = jobs::scenarios(scenario, velocities);
     let results = jobs::run(models, &runs, observer)?;
     let recommended = runs
         .iter()
@@ -134,15 +134,15 @@ pub fn compare(
 }
 
 /// Part of an impact velocity by which a run may differ from a measured one and still be the same.
-const SAME_SPEED: f64 = 1e-3;
+const SAME_VELOCITY: f64 = 1e-3;
 
-fn same_speed(measured: f64, speed: f64) -> bool {
-    (measured - speed).abs() <= SAME_SPEED * speed
+fn same_velocity(measured: f64, velocity: f64) -> bool {
+    (measured - velocity).abs() <= SAME_VELOCITY * velocity
 }
 
 impl Comparison {
     /// Impact velocities [m/s].
-    pub fn speeds(&self) -> Vec<f64> {
+    pub fn velocities(&self) -> Vec<f64> {
         self.regime
             .iter()
             .map(|at| at.impact_velocity_m_s)
@@ -158,47 +158,49 @@ impl Comparison {
             .collect()
     }
 
-    /// The entries of a speed, one a model.
-    pub fn at_speed(&self, index: usize) -> &[ResultRecord] {
+    /// The entries of a velocity, one per model.
+    pub fn at_impact_velocity(&self, index: usize) -> &[ResultRecord] {
         let count = self.results.len() / self.regime.len().max(1);
         &self.results[index * count..(index + 1) * count]
     }
 
-    /// The entries of a model, one a speed.
+    /// The entries of a model, one per velocity.
     pub fn of_model<'a>(&'a self, model: &'a str) -> impl Iterator<Item = &'a ResultRecord> {
         self.results
             .iter()
             .filter(move |result| result.model == model)
     }
 
-    /// Whether any model gave a result at any speed.
+    /// Whether any model gave a result at any velocity.
     pub fn has_results(&self) -> bool {
         self.results.iter().any(ResultRecord::is_result)
     }
 
-    /// How many measurements were made at none of the speeds; a ballistic limit holds for every speed.
+    /// How many measurements were made at none of the velocities; a ballistic limit holds for every velocity.
     pub fn experiments_elsewhere(&self) -> usize {
-        let speeds = self.speeds();
+        let velocities = self.velocities();
         let elsewhere = |measured: &&ExperimentRecord| {
             measured.quantity != BandQuantity::BallisticLimit
-                && measured
-                    .impact_velocity_m_s
-                    .is_some_and(|at| !speeds.iter().any(|speed| same_speed(at, *speed)))
+                && measured.impact_velocity_m_s.is_some_and(|at| {
+                    !velocities
+                        .iter()
+                        .any(|velocity| same_velocity(at, *velocity))
+                })
         };
         self.experiments.iter().filter(elsewhere).count()
     }
 
-    /// Mean of what was measured of a quantity at a speed [m/s], in the quantity's unit, and of how many values.
+    /// Mean of what was measured of a quantity at a velocity [m/s], in the quantity's unit, and of how many values.
     ///
-    /// A ballistic limit holds for every speed.
-    pub fn measured(&self, quantity: BandQuantity, speed: f64) -> Option<(f64, usize)> {
+    /// A ballistic limit holds for every velocity.
+    pub fn measured(&self, quantity: BandQuantity, velocity: f64) -> Option<(f64, usize)> {
         let values: Vec<f64> = self
             .experiments
             .iter()
             .filter(|measured| measured.quantity == quantity)
             .filter(|measured| match measured.impact_velocity_m_s {
                 _ if quantity == BandQuantity::BallisticLimit => true,
-                Some(at) => same_speed(at, speed),
+                Some(at) => same_velocity(at, velocity),
                 None => false,
             })
             .map(|measured| measured.value)

@@ -101,19 +101,19 @@ fn entries_stand_in_order_and_a_failure_stops_nothing() {
         ..OPEN
     };
     let models: [&dyn Model; 3] = [&failing, &slow, &OPEN];
-    let speeds: Vec<f64> = (1..=40).map(|i| 20.0 * f64::from(i)).collect();
+    let velocities: Vec<f64> = (1..=40).map(|i| 20.0 * f64::from(i)).collect();
     let comparison = compare(
         &models,
         &scenario(SEMI_INFINITE, ""),
-        &speeds,
+        &velocities,
         &mut Observer::default(),
     )
     .unwrap();
-    assert_eq!(comparison.speeds(), speeds);
+    assert_eq!(comparison.velocities(), velocities);
     assert_eq!(comparison.models(), ["failing", "slow", "open"]);
-    for (i, &speed) in speeds.iter().enumerate() {
-        let [failing, slow, open] = comparison.at_speed(i) else {
-            panic!("{} entries", comparison.at_speed(i).len());
+    for (i, &velocity) in velocities.iter().enumerate() {
+        let [failing, slow, open] = comparison.at_impact_velocity(i) else {
+            panic!("{} entries", comparison.at_impact_velocity(i).len());
         };
         assert_eq!(failing.outcome, Outcome::Failed);
         assert!(
@@ -123,11 +123,11 @@ fn entries_stand_in_order_and_a_failure_stops_nothing() {
                 .unwrap()
                 .contains("not finite at step 7")
         );
-        assert_eq!(slow.is_result(), speed <= 300.0);
-        assert_eq!(slow.reason.is_some(), speed > 300.0);
-        assert_eq!(open.impact_velocity_m_s, speed);
-        assert!((open.depth_of_penetration_mm.unwrap() - 1e-3 * speed).abs() < 1e-12);
-        assert_eq!(comparison.recommended[i].impact_velocity_m_s, speed);
+        assert_eq!(slow.is_result(), velocity <= 300.0);
+        assert_eq!(slow.reason.is_some(), velocity > 300.0);
+        assert_eq!(open.impact_velocity_m_s, velocity);
+        assert!((open.depth_of_penetration_mm.unwrap() - 1e-3 * velocity).abs() < 1e-12);
+        assert_eq!(comparison.recommended[i].impact_velocity_m_s, velocity);
     }
     assert_eq!(comparison.quantities, [BandQuantity::DepthOfPenetration]);
     assert!(comparison.has_results());
@@ -142,19 +142,19 @@ fn entries_stand_in_order_and_a_failure_stops_nothing() {
 
 #[test]
 fn a_comparison_is_the_same_every_time() {
-    let speeds = [100.0, 200.0, 400.0];
+    let velocities = [100.0, 200.0, 400.0];
     let scenario = scenario(SEMI_INFINITE, "");
     let one = compare(
         &model::fast_models(),
         &scenario,
-        &speeds,
+        &velocities,
         &mut Observer::default(),
     )
     .unwrap();
     let two = compare(
         &model::fast_models(),
         &scenario,
-        &speeds,
+        &velocities,
         &mut Observer::default(),
     )
     .unwrap();
@@ -232,9 +232,9 @@ fn a_first_choice_is_recommended_if_it_gives_a_result() {
         validity: validity(ERODING),
         result: fails,
     };
-    let at = |models: &[&dyn Model], speed: f64| {
+    let at = |models: &[&dyn Model], velocity: f64| {
         let scenario = scenario(SEMI_INFINITE, "");
-        let comparison = compare(models, &scenario, &[speed], &mut Observer::default()).unwrap();
+        let comparison = compare(models, &scenario, &[velocity], &mut Observer::default()).unwrap();
         let recommendation = comparison.recommended[0].clone();
         let names: Vec<&str> = recommendation
             .models
@@ -311,7 +311,7 @@ fn a_neighbouring_regime_is_named() {
 }
 
 #[test]
-fn measured_values_are_found_by_their_speed() {
+fn measured_values_are_found_by_their_velocity() {
     let more = "[[experiments]]\nimpact_velocity = '200 m/s'\ndepth_of_penetration = '4 mm'\nsource = 'a'\n\
                 [[experiments]]\nimpact_velocity = '200.1 m/s'\ndepth_of_penetration = '5 mm'\nuncertainty = '1 mm'\nsource = 'a'\n";
     let scenario = scenario(SEMI_INFINITE, more);

@@ -138,7 +138,7 @@ pub(super) fn expected_error(
     if !predicts.contains(&BandQuantity::BallisticLimit) {
         return None;
     }
-    let plate = Plate::of(&scenario.at_speed(limit))?;
+    let plate = Plate::of(&scenario.at_impact_velocity(limit))?;
     let is_own = |source: &String| {
         let mut cited = scenario.experiments.iter().flat_map(|e| &e.sources);
         cited.any(|cited| cited == source)

@@ -28,25 +28,25 @@ const CONVERGED: f64 = 1e-15;
 
 impl LambertJonasFit {
     /// Residual velocity at an impact velocity [m/s].
-    pub fn at(&self, speed: f64) -> f64 {
-        if speed <= self.ballistic_limit_m_s {
+    pub fn at(&self, velocity: f64) -> f64 {
+        if velocity <= self.ballistic_limit_m_s {
             return 0.0;
         }
         // Through the ratio, so that a large p does not overflow.
-        let ratio = (self.ballistic_limit_m_s / speed).powf(self.p);
-        self.a * speed * (1.0 - ratio).powf(1.0 / self.p)
+        let ratio = (self.ballistic_limit_m_s / velocity).powf(self.p);
+        self.a * velocity * (1.0 - ratio).powf(1.0 / self.p)
     }
 
     /// Derivatives of the residual velocity by `a`, `p` and the limit.
-    fn slopes(&self, speed: f64) -> [f64; 3] {
-        if speed <= self.ballistic_limit_m_s {
+    fn slopes(&self, velocity: f64) -> [f64; 3] {
+        if velocity <= self.ballistic_limit_m_s {
             return [0.0; 3];
         }
         let (p, limit) = (self.p, self.ballistic_limit_m_s);
-        let value = self.at(speed);
-        let ratio = (limit / speed).powf(p);
+        let value = self.at(velocity);
+        let ratio = (limit / velocity).powf(p);
         let rest = 1.0 - ratio;
-        let by_p = -rest.ln() / (p * p) - ratio * (limit / speed).ln() / (p * rest);
+        let by_p = -rest.ln() / (p * p) - ratio * (limit / velocity).ln() / (p * rest);
         [
             value / self.a,
             value * by_p,
@@ -70,7 +70,7 @@ impl LambertJonasFit {
     }
 
     fn squares(&self, points: &[(f64, f64)]) -> f64 {
-        let square = |(speed, residual): &(f64, f64)| (self.at(*speed) - residual).powi(2);
+        let square = |(velocity, residual): &(f64, f64)| (self.at(*velocity) - residual).powi(2);
         points.iter().map(square).sum()
     }
 }
@@ -117,9 +117,9 @@ fn start(points: &[(f64, f64)], lowest: f64) -> Option<LambertJonasFit> {
     let candidates = [0.5, 0.8, 0.95, 0.999].into_iter().filter_map(|part| {
         let unit = LambertJonasFit::with([1.0, 2.0, part * lowest], lowest)?;
         let (mut product, mut square) = (0.0, 0.0);
-        for (speed, residual) in points {
-            product += unit.at(*speed) * residual;
-            square += unit.at(*speed).powi(2);
+        for (velocity, residual) in points {
+            product += unit.at(*velocity) * residual;
+            square += unit.at(*velocity).powi(2);
         }
         let a = (product / square).clamp(*FACTORS.start(), *FACTORS.end());
         LambertJonasFit::with([a, 2.0, part * lowest], lowest)
@@ -130,10 +130,10 @@ fn start(points: &[(f64, f64)], lowest: f64) -> Option<LambertJonasFit> {
 /// Step of the method: the normal equations with their diagonal enlarged by a part.
 fn damped_step(fit: &LambertJonasFit, points: &[(f64, f64)], damping: f64) -> Option<[f64; 3]> {
     let (mut matrix, mut right) = ([[0.0; 3]; 3], [0.0; 3]);
-    for (speed, residual) in points {
-        let slopes = fit.slopes(*speed);
+    for (velocity, residual) in points {
+        let slopes = fit.slopes(*velocity);
         for i in 0..3 {
-            right[i] += slopes[i] * (residual - fit.at(*speed));
+            right[i] += slopes[i] * (residual - fit.at(*velocity));
             for j in 0..3 {
                 matrix[i][j] += slopes[i] * slopes[j];
             }

@@ -83,8 +83,8 @@ impl Job<'_, '_, '_> {
             let runs = self.curve_above(input.ballistic_limit_m_s)?;
             return Ok(run_results::input_entry(self.model.name(), input, &runs));
         }
-        let mut samples = search(self.search.range, self.search.tolerance, &|speed| {
-            self.shoot(speed)
+        let mut samples = search(self.search.range, self.search.tolerance, &|velocity| {
+            self.shoot(velocity)
         })?;
         let runs = match run_results::limit_of(&samples) {
             Some(limit) => self.curve_above(limit)?,
@@ -92,51 +92,54 @@ impl Job<'_, '_, '_> {
         };
         let residuals = run_results::curve(&runs);
         samples.extend(runs);
-        samples.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        samples.sort_by(|a, b| a.velocity.total_cmp(&b.velocity));
         Ok(run_results::entry(self.model.name(), &samples, residuals))
     }
 
-    /// The limit that the model starts from. A limit by another model needs a speed at which that model applies: its own limit, which
-    /// the lowest such speed of the scan leads to.
+    /// The limit that the model starts from. A limit by another model needs a velocity at which that model applies: its own limit, which
+    /// the lowest such velocity of the scan leads to.
     fn input_limit(&self) -> Option<InputLimit> {
-        let at = |speed: f64| self.model.input_limit(&self.scenario.at_speed(speed));
+        let at = |velocity: f64| {
+            self.model
+                .input_limit(&self.scenario.at_impact_velocity(velocity))
+        };
         let part = |i: u32| f64::from(i) / f64::from(INTERVALS);
         let first = (1..=INTERVALS).find_map(|i| at(self.search.range.at(part(i))))?;
         Some(at(first.ballistic_limit_m_s).unwrap_or(first))
     }
 
-    /// Runs at the speeds of the curve above a limit.
+    /// Runs at the velocities of the curve above a limit.
     fn curve_above(&self, limit: f64) -> Result<Vec<Sample<LimitRun>>, Error> {
         let most = self.search.range.to.min((1.0 + BEYOND) * limit);
-        self.curve_speeds(limit, most)
+        self.curve_velocities(limit, most)
             .par_iter()
-            .map(|speed| self.shoot(*speed))
+            .map(|velocity| self.shoot(*velocity))
             .collect()
     }
 
-    /// Speeds above the limit, closer to each other where the residual velocity rises steeply.
-    fn curve_speeds(&self, limit: f64, most: f64) -> Vec<f64> {
+    /// Velocities above the limit, closer to each other where the residual velocity rises steeply.
+    fn curve_velocities(&self, limit: f64, most: f64) -> Vec<f64> {
         let count = self.search.points;
         (1..=count)
             .map(|i| {
                 let part = i as f64 / count as f64;
                 limit + (most - limit) * part * part
             })
-            .filter(|speed| *speed > limit)
+            .filter(|velocity| *velocity > limit)
             .collect()
     }
 
-    /// A run at a speed. What a model cannot say there is no error.
-    fn shoot(&self, speed: f64) -> Result<Sample<LimitRun>, Error> {
+    /// A run at a velocity. What a model cannot say there is no error.
+    fn shoot(&self, velocity: f64) -> Result<Sample<LimitRun>, Error> {
         let sample = |passage, run| Sample {
-            speed,
+            velocity,
             passage,
             run,
         };
-        if speed == 0.0 {
+        if velocity == 0.0 {
             return Ok(sample(Passage::Stopped, None));
         }
-        let scenario = self.scenario.at_speed(speed);
+        let scenario = self.scenario.at_impact_velocity(velocity);
         let regime = Regime::of(&scenario);
         let mut told = 0.0;
         let mut report = |now: model::Progress| {

@@ -52,7 +52,7 @@ pub struct Range {
 }
 
 impl Range {
-    /// The speed at a part of the way, 0 to 1; both ends are met exactly.
+    /// The velocity at a part of the way, 0 to 1; both ends are met exactly.
     fn at(self, part: f64) -> f64 {
         self.from * (1.0 - part) + self.to * part
     }
@@ -63,16 +63,16 @@ impl Range {
 pub enum Tolerance {
     /// This wide [m/s].
     Absolute(f64),
-    /// As wide as this part of the speed.
+    /// As wide as this part of the velocity.
     Relative(f64),
 }
 
 impl Tolerance {
-    /// Width at a speed [m/s].
-    fn at(self, speed: f64) -> f64 {
+    /// Width at a velocity [m/s].
+    fn at(self, velocity: f64) -> f64 {
         match self {
             Self::Absolute(width) => width,
-            Self::Relative(part) => part * speed,
+            Self::Relative(part) => part * velocity,
         }
     }
 }
@@ -117,7 +117,7 @@ pub enum LimitOutcome {
     Undecided,
     /// The model does not apply.
     NotApplicable,
-    /// The model failed at every speed.
+    /// The model failed at every velocity.
     Failed,
 }
 

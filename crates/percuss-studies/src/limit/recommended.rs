@@ -23,7 +23,7 @@ pub(super) fn recommended(
     }
     let choices = |of: fn(&Scenario) -> Option<Regime>| -> Vec<(&dyn Model, Choice)> {
         let fitting = found.iter().filter_map(|(model, limit)| {
-            let scenario = scenario.at_speed(*limit);
+            let scenario = scenario.at_impact_velocity(*limit);
             let choice = Choice::of(*model, &scenario, &of(&scenario)?)?;
             Some((*model, choice))
         });

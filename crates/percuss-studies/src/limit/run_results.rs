@@ -51,7 +51,7 @@ impl LimitRun {
     }
 }
 
-/// Why a model cannot be asked, at whatever speed, and what the search comes to then.
+/// Why a model cannot be asked, at whatever velocity, and what the search comes to then.
 pub(super) fn unsuited(model: &dyn Model, scenario: &Scenario) -> Option<(LimitOutcome, String)> {
     if !model.validity().decides_perforation() {
         let reason = "it does not say whether a target is perforated".to_owned();
@@ -94,12 +94,12 @@ pub(super) fn reason(error: &Error) -> String {
 /// The limit of a search [m/s]: what the model states where the bracket holds it, otherwise the middle of the bracket.
 pub(super) fn limit_of(samples: &[Sample<LimitRun>]) -> Option<f64> {
     let (below, above) = bracket(samples)?;
-    let (low, high) = (samples[below].speed, samples[above].speed);
+    let (low, high) = (samples[below].velocity, samples[above].velocity);
     let stated = stated(samples).filter(|limit| (low..=high).contains(limit));
     Some(stated.unwrap_or(0.5 * (low + high)))
 }
 
-/// What the model states at the lowest speed that perforated.
+/// What the model states at the lowest velocity that perforated.
 fn stated(samples: &[Sample<LimitRun>]) -> Option<f64> {
     let perforated = |sample: &&Sample<LimitRun>| sample.passage == Passage::Perforated;
     samples.iter().find(perforated)?.run.as_ref()?.stated
@@ -113,7 +113,7 @@ pub(super) fn curve(runs: &[Sample<LimitRun>]) -> Vec<CurvePoint> {
     through
         .filter_map(|sample| {
             Some(CurvePoint {
-                impact_velocity_m_s: sample.speed,
+                impact_velocity_m_s: sample.velocity,
                 residual_velocity_m_s: sample.run.as_ref()?.residual?.max(0.0),
             })
         })
@@ -143,7 +143,7 @@ pub(super) fn without_limit(
     }
 }
 
-/// The entry of a model whose runs, in the order of their speeds, are these.
+/// The entry of a model whose runs, in the order of their velocities, are these.
 pub(super) fn entry(
     model: &'static str,
     samples: &[Sample<LimitRun>],
@@ -160,22 +160,22 @@ pub(super) fn entry(
             scheme,
             runs,
             stated_limit_m_s: stated,
-            warnings: warnings::speeds_without_answer(samples)
+            warnings: warnings::velocities_without_answer(samples)
                 .into_iter()
                 .collect(),
             ..without_limit(model, outcome, reason)
         };
     };
     let found = Bracket {
-        stopped_m_s: samples[below].speed,
-        perforated_m_s: samples[above].speed,
+        stopped_m_s: samples[below].velocity,
+        perforated_m_s: samples[above].velocity,
     };
     let of_run = samples[above].run.as_ref();
     let mut said = of_run.map_or_else(Vec::new, |run| run.warnings.clone());
     said.extend(warnings::undecided_inside(&samples[below..=above]));
     said.extend(warnings::stated_outside(stated, found));
     said.extend(warnings::not_monotone(samples, above));
-    said.extend(warnings::speeds_without_answer(samples));
+    said.extend(warnings::velocities_without_answer(samples));
     let limit = limit_of(samples);
     let fit = fit_lambert_jonas(&curve);
     said.extend(warnings::curve_starts_elsewhere(limit, fit));
@@ -193,7 +193,7 @@ pub(super) fn entry(
     }
 }
 
-/// The entry of a model that starts from a limit, whose runs above it, in the order of their speeds, are these.
+/// The entry of a model that starts from a limit, whose runs above it, in the order of their velocities, are these.
 pub(super) fn input_entry(
     model: &'static str,
     input: InputLimit,
@@ -213,7 +213,7 @@ pub(super) fn input_entry(
     let mut said = runs()
         .next()
         .map_or_else(Vec::new, |run| run.warnings.clone());
-    said.extend(warnings::speeds_without_answer(samples));
+    said.extend(warnings::velocities_without_answer(samples));
     ModelLimit {
         scheme: runs()
             .map(|run| run.scheme)
@@ -236,8 +236,8 @@ pub(super) fn input_entry(
     }
 }
 
-pub(super) fn speed(sample: &Sample<LimitRun>) -> String {
-    significant(sample.speed, 4)
+pub(super) fn velocity(sample: &Sample<LimitRun>) -> String {
+    significant(sample.velocity, 4)
 }
 
 /// What runs without a change from stopped to perforated say.
@@ -245,38 +245,38 @@ fn no_bracket(samples: &[Sample<LimitRun>]) -> (LimitOutcome, String) {
     let first = |wanted: fn(&Passage) -> bool| samples.iter().find(|s| wanted(&s.passage));
     let stopped = samples
         .iter()
-        .rfind(|sample| sample.passage == Passage::Stopped && sample.speed > 0.0);
+        .rfind(|sample| sample.passage == Passage::Stopped && sample.velocity > 0.0);
     let perforated = first(|passage| *passage == Passage::Perforated);
     match (stopped, perforated) {
         (Some(stopped), None) => (
             LimitOutcome::NeverPerforates,
             match samples
                 .last()
-                .is_some_and(|last| last.speed > stopped.speed)
+                .is_some_and(|last| last.velocity > stopped.velocity)
             {
                 true => format!(
-                    "it is stopped at every speed up to {} m/s, and at higher ones the model gives no answer",
-                    speed(stopped)
+                    "it is stopped at every velocity up to {} m/s, and at higher ones the model gives no answer",
+                    velocity(stopped)
                 ),
                 false => format!(
-                    "it is stopped at every speed up to {} m/s; search further up",
-                    speed(stopped)
+                    "it is stopped at every velocity up to {} m/s; search further up",
+                    velocity(stopped)
                 ),
             },
         ),
         (None, Some(perforated)) => (
             LimitOutcome::AlwaysPerforates,
             format!(
-                "it perforates at every speed from {} m/s on; search further down",
-                speed(perforated)
+                "it perforates at every velocity from {} m/s on; search further down",
+                velocity(perforated)
             ),
         ),
         (Some(stopped), Some(perforated)) => (
             LimitOutcome::Undecided,
             format!(
                 "it perforates at {} m/s and is stopped at {} m/s, above it: no change from stopped to perforated lies in the range",
-                speed(perforated),
-                speed(stopped)
+                velocity(perforated),
+                velocity(stopped)
             ),
         ),
         (None, None) => {

@@ -7,7 +7,7 @@ use crate::Error;
 
 /// Intervals of the range at whose ends runs are tried before the bracket is narrowed.
 pub(super) const INTERVALS: u32 = 16;
-/// Bound on the runs that narrow a bracket: twice what the precision of a speed can ask for.
+/// Bound on the runs that narrow a bracket: twice what the precision of a velocity can ask for.
 const MOST_RUNS: usize = 100;
 
 /// What becomes of a run.
@@ -21,18 +21,18 @@ pub(super) enum Passage {
     Undecided(String),
 }
 
-/// A run at a speed.
+/// A run at a velocity.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Sample<T> {
     /// Impact velocity [m/s].
-    pub speed: f64,
+    pub velocity: f64,
     /// What became of it.
     pub passage: Passage,
     /// What else is known of it.
     pub run: Option<T>,
 }
 
-/// Runs in the order of their speeds.
+/// Runs in the order of their velocities.
 pub(super) type Samples<T> = Vec<Sample<T>>;
 
 /// Tries the ends of equal intervals of a range, then narrows the lowest change from stopped to perforated.
@@ -49,11 +49,11 @@ pub(super) fn search<T: Send>(
         .map(|i| shoot(range.at(f64::from(i) / f64::from(INTERVALS))))
         .collect::<Result<_, _>>()?;
     for _ in 0..MOST_RUNS {
-        let Some(speed) = next_speed(&samples, tolerance) else {
+        let Some(velocity) = next_velocity(&samples, tolerance) else {
             break;
         };
-        let at = samples.partition_point(|sample| sample.speed < speed);
-        samples.insert(at, shoot(speed)?);
+        let at = samples.partition_point(|sample| sample.velocity < velocity);
+        samples.insert(at, shoot(velocity)?);
     }
     Ok(samples)
 }
@@ -73,11 +73,11 @@ pub(super) fn bracket<T>(samples: &[Sample<T>]) -> Option<(usize, usize)> {
 
 /// Middle of the interval to narrow, unless that is narrow enough. Where undecided runs lie in the bracket, the intervals at its
 /// two ends are narrowed.
-fn next_speed<T>(samples: &[Sample<T>], tolerance: Tolerance) -> Option<f64> {
+fn next_velocity<T>(samples: &[Sample<T>], tolerance: Tolerance) -> Option<f64> {
     let (below, above) = bracket(samples)?;
     let ends = [(below, below + 1), (above - 1, above)];
     let narrow = |(low, high): (usize, usize)| {
-        let (low, high) = (samples[low].speed, samples[high].speed);
+        let (low, high) = (samples[low].velocity, samples[high].velocity);
         let middle = 0.5 * (low + high);
         let wide = high - low > tolerance.at(high) && low < middle && middle < high;
         wide.then_some(middle)
@@ -94,22 +94,22 @@ mod tests {
             from: 0.0,
             to: 1600.0,
         };
-        search(range, Tolerance::Absolute(0.5), &|speed| {
+        search(range, Tolerance::Absolute(0.5), &|velocity| {
             Ok(Sample {
-                speed,
-                passage: passage(speed),
+                velocity,
+                passage: passage(velocity),
                 run: None,
             })
         })
         .unwrap()
     }
 
-    fn speeds(samples: &Samples<()>) -> Option<(f64, f64)> {
-        bracket(samples).map(|(low, high)| (samples[low].speed, samples[high].speed))
+    fn velocities(samples: &Samples<()>) -> Option<(f64, f64)> {
+        bracket(samples).map(|(low, high)| (samples[low].velocity, samples[high].velocity))
     }
 
     fn over(limit: f64) -> impl Fn(f64) -> Passage {
-        move |speed| match speed > limit {
+        move |velocity| match velocity > limit {
             true => Passage::Perforated,
             false => Passage::Stopped,
         }
@@ -119,30 +119,30 @@ mod tests {
     fn the_bracket_holds_the_limit_and_is_as_narrow_as_was_asked() {
         for limit in [0.0, 0.1, 184.5, 700.0, 1599.9] {
             let samples = searched(over(limit));
-            let (low, high) = speeds(&samples).unwrap();
+            let (low, high) = velocities(&samples).unwrap();
             assert!(low <= limit && limit < high, "{limit}: {low} to {high}");
             assert!(high - low <= 0.5);
             // 17 of the scan and 8 halvings of 100 m/s.
             assert_eq!(samples.len(), 25);
-            assert!(samples.is_sorted_by(|a, b| a.speed < b.speed));
+            assert!(samples.is_sorted_by(|a, b| a.velocity < b.velocity));
         }
     }
 
     #[test]
-    fn a_relative_tolerance_is_one_of_the_speed() {
+    fn a_relative_tolerance_is_one_of_the_velocity() {
         let range = Range {
             from: 100.0,
             to: 900.0,
         };
-        let shoot = |speed| {
+        let shoot = |velocity| {
             Ok(Sample {
-                speed,
-                passage: over(400.0)(speed),
+                velocity,
+                passage: over(400.0)(velocity),
                 run: None::<()>,
             })
         };
         let samples = search(range, Tolerance::Relative(0.01), &shoot).unwrap();
-        let (low, high) = speeds(&samples).unwrap();
+        let (low, high) = velocities(&samples).unwrap();
         assert!(high - low <= 4.04 && high - low > 1.0);
     }
 
@@ -152,30 +152,30 @@ mod tests {
             searched(|_| Passage::Stopped),
             searched(|_| Passage::Perforated),
         ] {
-            assert_eq!((samples.len(), speeds(&samples)), (17, None));
+            assert_eq!((samples.len(), velocities(&samples)), (17, None));
         }
     }
 
     #[test]
     fn of_several_changes_the_lowest_is_narrowed() {
-        let gap = |speed: f64| match speed {
+        let gap = |velocity: f64| match velocity {
             ..=350.0 => Passage::Stopped,
             ..=820.0 => Passage::Perforated,
             ..=1210.0 => Passage::Stopped,
             _ => Passage::Perforated,
         };
-        let (low, high) = speeds(&searched(gap)).unwrap();
+        let (low, high) = velocities(&searched(gap)).unwrap();
         assert!(low <= 350.0 && 350.0 < high && high - low <= 0.5);
     }
 
     #[test]
     fn both_ends_of_an_undecided_zone_are_narrowed() {
-        let zone = |speed: f64| match speed {
+        let zone = |velocity: f64| match velocity {
             ..=333.0 => Passage::Stopped,
             ..=777.0 => Passage::Undecided("not known".to_owned()),
             _ => Passage::Perforated,
         };
-        let (low, high) = speeds(&searched(zone)).unwrap();
+        let (low, high) = velocities(&searched(zone)).unwrap();
         assert!((332.5..=333.0).contains(&low), "{low}");
         assert!((777.0..=777.5).contains(&high), "{high}");
     }

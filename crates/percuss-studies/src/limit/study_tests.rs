@@ -110,7 +110,7 @@ fn nothing_leaves_through_a_fixed_rear_face() {
 fn a_limit_that_is_an_input_is_none() {
     let given = "recht_ipson = { ballistic_limit = \"184.5 m/s\" }\n";
     let models: [&dyn Model; 3] = [&Plugging, &RechtIpson, &LambertJonas];
-    let blunt = scenario(&format!("{BLUNT}{given}")).at_speed(1900.0);
+    let blunt = scenario(&format!("{BLUNT}{given}")).at_impact_velocity(1900.0);
     let found = limits(
         &models,
         &blunt,

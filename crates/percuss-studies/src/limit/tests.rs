@@ -37,7 +37,7 @@ fn one(model: &dyn Model, scenario: &Scenario, search: &Search) -> ModelLimit {
     found.results.remove(0)
 }
 
-/// A model whose runs end as a function of the speed says.
+/// A model whose runs end as a function of the velocity says.
 struct Made {
     outcome: fn(f64) -> Outcome,
     stated: Option<f64>,
@@ -54,14 +54,14 @@ impl Model for Made {
         &ValidityDomain::OPEN
     }
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
-        let speed = scenario.impact_velocity;
-        let outcome = (self.outcome)(speed);
+        let velocity = scenario.impact_velocity;
+        let outcome = (self.outcome)(velocity);
         if outcome == Outcome::NotApplicable {
             return Err(Error::not_applicable("made", "too fast for it"));
         }
         Ok({
             let mut result = RunResult::new("made", "", outcome, Termination::ClosedForm);
-            result.residual_velocity = Some(speed);
+            result.residual_velocity = Some(velocity);
             result.ballistic_limit = self.stated;
             result
         })
@@ -75,8 +75,8 @@ fn made(outcome: fn(f64) -> Outcome) -> Made {
     }
 }
 
-fn over(speed: f64, limit: f64) -> Outcome {
-    match speed > limit {
+fn over(velocity: f64, limit: f64) -> Outcome {
+    match velocity > limit {
         true => Outcome::Perforated,
         false => Outcome::AtRest,
     }
@@ -138,9 +138,9 @@ fn the_fit_recovers_other_exponents_and_is_no_curve_for_three_points() {
         };
         let points: Vec<CurvePoint> = (1..=8)
             .map(|i| limit * (1.0 + 0.15 * f64::from(i)))
-            .map(|speed| CurvePoint {
-                impact_velocity_m_s: speed,
-                residual_velocity_m_s: known.at(speed),
+            .map(|velocity| CurvePoint {
+                impact_velocity_m_s: velocity,
+                residual_velocity_m_s: known.at(velocity),
             })
             .collect();
         let fit = fit_lambert_jonas(&points).unwrap();
@@ -176,9 +176,9 @@ fn never_and_always_are_outcomes() {
 
 #[test]
 fn perforation_that_is_not_monotone_is_said_so() {
-    let gap = |speed| match speed {
-        ..=500.0 => over(speed, 210.0),
-        _ => over(speed, 900.0),
+    let gap = |velocity| match velocity {
+        ..=500.0 => over(velocity, 210.0),
+        _ => over(velocity, 900.0),
     };
     let found = one(&made(gap), &scenario(BLUNT), &search(0.0, 1600.0, 6));
     assert_eq!(found.outcome, LimitOutcome::Found);
@@ -187,7 +187,7 @@ fn perforation_that_is_not_monotone_is_said_so() {
     // The curve ends at 525 m/s, which is stopped.
     assert!(said.unwrap().contains("at 524.9 to 900 m/s"), "{said:?}");
     let reversed = one(
-        &made(|speed| match speed < 400.0 {
+        &made(|velocity| match velocity < 400.0 {
             true => Outcome::Perforated,
             false => Outcome::AtRest,
         }),
@@ -199,9 +199,9 @@ fn perforation_that_is_not_monotone_is_said_so() {
 }
 
 #[test]
-fn speeds_without_an_answer_are_named() {
-    let upper = |speed| match speed {
-        ..=1000.0 => over(speed, 300.0),
+fn velocities_without_an_answer_are_named() {
+    let upper = |velocity| match velocity {
+        ..=1000.0 => over(velocity, 300.0),
         _ => Outcome::NotApplicable,
     };
     let found = one(&made(upper), &scenario(BLUNT), &search(0.0, 1600.0, 4));
@@ -213,7 +213,7 @@ fn speeds_without_an_answer_are_named() {
     assert!(said.unwrap().contains("1100 to 1600 m/s"), "{said:?}");
     assert!(said.unwrap().contains("too fast for it"));
 
-    let zone = |speed| match speed {
+    let zone = |velocity| match velocity {
         ..=300.0 => Outcome::AtRest,
         ..=450.0 => Outcome::Separated,
         _ => Outcome::Perforated,
@@ -238,8 +238,8 @@ fn speeds_without_an_answer_are_named() {
 
 #[test]
 fn a_curve_that_jumps_at_the_limit_is_said_to_start_elsewhere() {
-    // The made model loses no speed at all.
-    let model = made(|speed| over(speed, 300.0));
+    // The made model loses no velocity at all.
+    let model = made(|velocity| over(velocity, 300.0));
     let found = one(&model, &scenario(BLUNT), &search(0.0, 1600.0, 12));
     assert!(
         (found.curve[0].residual_velocity_m_s - found.curve[0].impact_velocity_m_s).abs() < 1e-12
@@ -251,7 +251,7 @@ fn a_curve_that_jumps_at_the_limit_is_said_to_start_elsewhere() {
 #[test]
 fn a_stated_limit_that_runs_contradict_is_not_believed() {
     let model = Made {
-        outcome: |speed| over(speed, 300.0),
+        outcome: |velocity| over(velocity, 300.0),
         stated: Some(250.0),
     };
     let found = one(&model, &scenario(BLUNT), &search(0.0, 1600.0, 0));

@@ -2,7 +2,7 @@
 
 use super::{
     Bracket, LambertJonasFit,
-    run_results::{LimitRun, speed},
+    run_results::{LimitRun, velocity},
     search::{Passage, Sample, bracket},
 };
 use crate::units::significant;
@@ -16,8 +16,8 @@ pub(super) fn undecided_inside(bracket: &[Sample<LimitRun>]) -> Option<String> {
     };
     Some(format!(
         "from {} to {} m/s, inside the bracket, the model does not decide: {reason}",
-        speed(first),
-        speed(last)
+        velocity(first),
+        velocity(last)
     ))
 }
 
@@ -61,23 +61,23 @@ pub(super) fn not_monotone(samples: &[Sample<LimitRun>], above: usize) -> Option
     let faster = || high.iter().filter(|s| s.passage == Passage::Stopped);
     let (from, to) = (faster().next(), faster().next_back());
     let words = match (through, from.zip(to)) {
-        (Some(slow), _) => format!("a run at {} m/s perforates", speed(slow)),
+        (Some(slow), _) => format!("a run at {} m/s perforates", velocity(slow)),
         (None, Some((from, to))) => format!(
             "runs that are faster are stopped again, at {}",
-            match from.speed == to.speed {
-                true => format!("{} m/s", speed(from)),
-                false => format!("{} to {} m/s", speed(from), speed(to)),
+            match from.velocity == to.velocity {
+                true => format!("{} m/s", velocity(from)),
+                false => format!("{} to {} m/s", velocity(from), velocity(to)),
             }
         ),
         (None, None) => return None,
     };
     Some(format!(
-        "perforation is not monotone in the speed: {words}; the limit is the lowest change from stopped to perforated that was seen"
+        "perforation is not monotone in the velocity: {words}; the limit is the lowest change from stopped to perforated that was seen"
     ))
 }
 
-/// Says at which speeds, outside the bracket or without one, the model gave no answer.
-pub(super) fn speeds_without_answer(samples: &[Sample<LimitRun>]) -> Option<String> {
+/// Says at which velocities, outside the bracket or without one, the model gave no answer.
+pub(super) fn velocities_without_answer(samples: &[Sample<LimitRun>]) -> Option<String> {
     let bracket = bracket(samples);
     let outside = |i: usize| bracket.is_none_or(|(low, high)| i < low || i > high);
     let silent: Vec<(&Sample<LimitRun>, &String)> = samples
@@ -91,13 +91,13 @@ pub(super) fn speeds_without_answer(samples: &[Sample<LimitRun>]) -> Option<Stri
         .collect();
     let decided = silent.len() < samples.iter().filter(|s| s.run.is_some()).count();
     let ((first, reason), (last, _)) = (silent.first()?, silent.last()?);
-    let range = match first.speed == last.speed {
-        true => format!("at {} m/s", speed(first)),
+    let range = match first.velocity == last.velocity {
+        true => format!("at {} m/s", velocity(first)),
         false => format!(
-            "at {} speeds from {} to {} m/s",
+            "at {} velocities from {} to {} m/s",
             silent.len(),
-            speed(first),
-            speed(last)
+            velocity(first),
+            velocity(last)
         ),
     };
     decided.then(|| format!("{range} the model gives no answer: {reason}"))

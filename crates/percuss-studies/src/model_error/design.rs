@@ -4,4 +4,4 @@
 pub const LENGTHS: &[f64] = &[1.0, 3.0, 10.0];
 
 /// Impact velocities [m/s].
-pub const SPEEDS: &[f64] = &[150.0, 300.0, 600.0, 1000.0, 1500.0];
+pub const VELOCITIES: &[f64] = &[150.0, 300.0, 600.0, 1000.0, 1500.0];

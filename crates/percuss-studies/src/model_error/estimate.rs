@@ -84,7 +84,7 @@ pub fn records() -> &'static [ErrorRecord] {
 }
 
 /// Error to expect of a model's depth on a case; `None` where the design has too few cases like it: other noses, thin targets,
-/// speeds or lengths beyond the design, options that were not classified.
+/// velocities or lengths beyond the design, options that are not in the benchmark.
 pub fn estimate_error(
     model: &dyn Model,
     scenario: &Scenario,
@@ -105,7 +105,7 @@ pub fn estimate_error(
             .zip(last)
             .is_some_and(|(first, last)| (first..=last).contains(&value))
     };
-    if !inside(scenario.impact_velocity, design::SPEEDS) || !inside(length, design::LENGTHS) {
+    if !inside(scenario.impact_velocity, design::VELOCITIES) || !inside(length, design::LENGTHS) {
         return None;
     }
     let candidate = Candidate::of(model, scenario)?;
@@ -141,13 +141,13 @@ fn is_deep(model: &dyn Model, scenario: &Scenario, target: TargetKind) -> bool {
 /// The error to expect from records of one candidate and regime.
 fn among(
     records: &[&ErrorRecord],
-    speed: f64,
+    velocity: f64,
     length_to_diameter: f64,
 ) -> Option<ModelErrorEstimate> {
     let distance = |record: &ErrorRecord| {
-        let speeds = (record.impact_velocity_m_s / speed).ln();
+        let velocities = (record.impact_velocity_m_s / velocity).ln();
         let lengths = (record.length_to_diameter / length_to_diameter).ln();
-        speeds.hypot(lengths)
+        velocities.hypot(lengths)
     };
     let mut near: Vec<(f64, f64)> = records
         .iter()
@@ -165,13 +165,13 @@ fn among(
 mod tests {
     use super::*;
 
-    fn record(speed: f64, error: f64) -> ErrorRecord {
+    fn record(velocity: f64, error: f64) -> ErrorRecord {
         ErrorRecord {
             candidate: "made up".to_owned(),
             projectile: "a".to_owned(),
             target: "b".to_owned(),
             length_to_diameter: 3.0,
-            impact_velocity_m_s: speed,
+            impact_velocity_m_s: velocity,
             regime: ProjectileRegime::Deforming,
             depth_of_penetration_mm: 1.0 + error,
             reference_depth_mm: 1.0,

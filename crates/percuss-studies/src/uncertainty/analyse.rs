@@ -49,12 +49,12 @@ pub fn analyse(
         None => rows.width(),
         Some(_) => 1,
     };
-    let at_speeds = settings.speeds.len() as u64 * settings.samples.min(bands::RUNS);
+    let at_velocities = settings.velocities.len() as u64 * settings.samples.min(bands::RUNS);
     let runner = Runner {
         study,
         kernel,
         observer,
-        total: 2 * study.axes.len() as u64 + settings.samples * width + at_speeds,
+        total: 2 * study.axes.len() as u64 + settings.samples * width + at_velocities,
         done: AtomicU64::new(0),
     };
     let (nominal, nominal_draw) = nominal(study, model, kernel, observer, &cancelled)?;
@@ -70,8 +70,9 @@ pub fn analyse(
     let mixed = runner
         .run(settings.samples * width, &inputs, None)
         .map_err(cancelled)?;
-    let at_speeds = bands::at_velocities(&runner, &settings.speeds, &rows, settings.samples)
-        .map_err(cancelled)?;
+    let at_velocities =
+        bands::at_velocities(&runner, &settings.velocities, &rows, settings.samples)
+            .map_err(cancelled)?;
 
     let draws: Vec<Draw> = mixed.iter().step_by(width as usize).cloned().collect();
     let quantities = chosen(settings, &draws);
@@ -113,9 +114,9 @@ pub fn analyse(
         perforation: Perforation::of(draws.iter().map(|draw| draw.outcome)),
         quantities: quantities.iter().filter_map(of).collect(),
         no_indices,
-        bands: at_speeds
+        bands: at_velocities
             .iter()
-            .map(|(speed, runs)| bands::band(*speed, runs, &quantities))
+            .map(|(velocity, runs)| bands::band(*velocity, runs, &quantities))
             .collect(),
         warnings: Vec::new(),
         draws,

@@ -12,32 +12,37 @@ use crate::{
     sweep::{Stopped, values},
 };
 
-/// Most runs at one speed.
+/// Most runs at one velocity.
 pub(super) const RUNS: u64 = 256;
 
-/// The runs at each speed. Speed by speed the other parameters take the same values, so that curves are smooth.
+/// The runs at each velocity. Velocity by velocity the other parameters take the same values, so that curves are smooth.
 pub(super) fn at_velocities(
     runner: &Runner<'_>,
-    speeds: &[f64],
+    velocities: &[f64],
     rows: &Rows,
     samples: u64,
 ) -> Result<Vec<(f64, Vec<Draw>)>, Stopped> {
     let study = runner.study;
     let inputs = |i: u64| values(&study.axes, study.copula.as_ref(), &rows.first(i));
-    speeds
+    velocities
         .iter()
-        .map(|&speed| Ok((speed, runner.run(samples.min(RUNS), &inputs, Some(speed))?)))
+        .map(|&velocity| {
+            Ok((
+                velocity,
+                runner.run(samples.min(RUNS), &inputs, Some(velocity))?,
+            ))
+        })
         .collect()
 }
 
-/// What the runs at a speed come to.
-pub(super) fn band(speed: f64, runs: &[Draw], quantities: &[&'static ResultNumber]) -> Band {
+/// What the runs at a velocity come to.
+pub(super) fn band(velocity: f64, runs: &[Draw], quantities: &[&'static ResultNumber]) -> Band {
     let spread = |quantity: &&'static ResultNumber| QuantitySpread {
         quantity: quantity.name,
         statistics: Statistics::of(runs.iter().filter_map(|run| run.value(quantity))),
     };
     Band {
-        impact_velocity_m_s: speed,
+        impact_velocity_m_s: velocity,
         runs: runs.len(),
         failed: runs.iter().filter(|run| run.is_failed()).count(),
         perforation: Perforation::of(runs.iter().map(|run| run.outcome)),

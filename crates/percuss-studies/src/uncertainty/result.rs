@@ -41,7 +41,7 @@ pub struct Uncertainty {
     pub quantities: Vec<QuantityResult>,
     /// Why there are no Sobol' indices, if there are none at all.
     pub no_indices: Option<String>,
-    /// Spread at each impact velocity, where speeds were asked for.
+    /// Spread at each impact velocity, where velocities were asked for.
     pub bands: Vec<Band>,
     /// Limitations of the numbers.
     pub warnings: Vec<String>,
@@ -171,7 +171,7 @@ impl TornadoBar {
 pub struct Band {
     /// Impact velocity [m/s].
     pub impact_velocity_m_s: f64,
-    /// Runs at this speed.
+    /// Runs at this velocity.
     pub runs: usize,
     /// Runs without a result among them.
     pub failed: usize,

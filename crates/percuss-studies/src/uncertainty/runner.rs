@@ -10,7 +10,7 @@ const BLOCKS: u64 = 64;
 /// Most runs in a block.
 const LARGEST_BLOCK: u64 = 256;
 /// Key of the impact velocity.
-pub(super) const SPEED: &str = "projectile.impact_velocity";
+pub(super) const VELOCITY: &str = "projectile.impact_velocity";
 
 /// Computes runs in blocks, in parallel.
 pub(super) struct Runner<'a> {
@@ -22,16 +22,16 @@ pub(super) struct Runner<'a> {
 }
 
 impl Runner<'_> {
-    /// Runs whose values are given by their number, at the case's own speed or at another one.
+    /// Runs whose values are given by their number, at the case's own velocity or at another one.
     pub(super) fn run(
         &self,
         count: u64,
         inputs: &(dyn Fn(u64) -> Vec<f64> + Sync),
-        speed: Option<f64>,
+        velocity: Option<f64>,
     ) -> Result<Vec<Draw>, Stopped> {
         let size = count.div_ceil(BLOCKS).clamp(1, LARGEST_BLOCK);
-        let more: Vec<(&str, toml::Value)> = speed
-            .map(|speed| (SPEED, toml::Value::String(format!("{speed:?} m/s"))))
+        let more: Vec<(&str, toml::Value)> = velocity
+            .map(|velocity| (VELOCITY, toml::Value::String(format!("{velocity:?} m/s"))))
             .into_iter()
             .collect();
         in_blocks(count, size, |range| {

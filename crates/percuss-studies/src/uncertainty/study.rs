@@ -40,7 +40,7 @@ pub struct Settings {
     /// Whether to estimate Sobol' indices.
     pub indices: bool,
     /// Impact velocities of the bands [m/s], rising.
-    pub speeds: Vec<f64>,
+    pub velocities: Vec<f64>,
 }
 
 impl Study {

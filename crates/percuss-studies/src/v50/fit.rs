@@ -1,13 +1,13 @@
 //! Maximum likelihood of the two numbers of a distribution.
 
-use super::{Estimate, Pattern, Test, interval::interval, link::Link, speeds};
+use super::{Estimate, Pattern, Test, interval::interval, link::Link, velocities};
 use crate::units::significant;
 
 const ITERATIONS: usize = 200;
 /// Part of the logarithm of the likelihood that a last step gains at most.
 const CONVERGED: f64 = 1e-14;
 
-/// `α + β x` with speeds x that were moved and scaled.
+/// `α + β x` with velocities x that were moved and scaled.
 #[derive(Debug, Clone, Copy)]
 struct Line {
     alpha: f64,
@@ -33,7 +33,7 @@ pub(super) fn likeliest(link: Link, tests: &[Test], pattern: Pattern) -> Estimat
             return none("the partial penetrations are faster than the complete ones".to_owned());
         }
         Pattern::AllStopped => return none("there is no complete penetration".to_owned()),
-        Pattern::AllPerforated => return none("no test was stopped".to_owned()),
+        Pattern::AllPerforated => return none("there is no partial penetration".to_owned()),
     }
     let count = tests.len() as f64;
     let mean = tests.iter().map(|test| test.impact_velocity).sum::<f64>() / count;
@@ -66,8 +66,8 @@ pub(super) fn likeliest(link: Link, tests: &[Test], pattern: Pattern) -> Estimat
 /// Impact velocities of the fastest partial and of the slowest complete penetration [m/s].
 fn gap(tests: &[Test]) -> (f64, f64) {
     (
-        speeds(tests, false).fold(f64::MIN, f64::max),
-        speeds(tests, true).fold(f64::MAX, f64::min),
+        velocities(tests, false).fold(f64::MIN, f64::max),
+        velocities(tests, true).fold(f64::MAX, f64::min),
     )
 }
 

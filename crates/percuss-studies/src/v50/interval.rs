@@ -4,7 +4,7 @@ use super::{Test, fit::sign, link::Link};
 
 /// Value that a chi-square variable of one degree of freedom stays below with a probability of 0.95.
 const CHI_SQUARE: f64 = 3.841_458_820_694_124;
-/// Spreads of the speeds beyond which an end is looked for no further.
+/// Spreads of the velocities beyond which an end is looked for no further.
 const FARTHEST: f64 = 1e4;
 /// Halvings that bring the place of an end, or the best scatter, to one part in 10¹³.
 const HALVINGS: usize = 45;
@@ -68,7 +68,7 @@ fn profile(link: Link, tests: &[Test], v50: f64) -> f64 {
         logs.sum()
     };
     if distances.iter().all(|distance| *distance >= 0.0) {
-        // No scatter at all is best; tests at this very speed go either way.
+        // No scatter at all is best; tests at this very velocity go either way.
         let even = distances
             .iter()
             .filter(|distance| **distance == 0.0)

@@ -1,4 +1,4 @@
-//! The two distributions of the speed that a test needs.
+//! The two distributions of the velocity that a test needs.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 

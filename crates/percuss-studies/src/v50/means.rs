@@ -1,6 +1,6 @@
 //! V50 as the mean of equal numbers of the fastest partial and the slowest complete penetrations \[milstd662f\].
 
-use super::{Estimate, Method, Test, speeds};
+use super::{Estimate, Method, Test, velocities};
 use crate::{statistics::sorted, units::significant};
 
 /// Fewest tests of either kind.
@@ -8,7 +8,7 @@ const FEWEST: usize = 2;
 
 /// The mean over as many tests as lie within a span [m/s].
 pub(super) fn of_extremes(tests: &[Test], span: f64) -> Estimate {
-    let [mut stopped, perforated] = [false, true].map(|of| sorted(speeds(tests, of)));
+    let [mut stopped, perforated] = [false, true].map(|of| sorted(velocities(tests, of)));
     stopped.reverse();
     let method = Method::MeanOfExtremes;
     let most = stopped.len().min(perforated.len());
@@ -20,12 +20,12 @@ pub(super) fn of_extremes(tests: &[Test], span: f64) -> Estimate {
     }
     let used = |count: usize| stopped[..count].iter().chain(&perforated[..count]).copied();
     let span_of = |count: usize| {
-        let (low, high) = used(count).fold((f64::MAX, f64::MIN), |(low, high), speed| {
-            (low.min(speed), high.max(speed))
+        let (low, high) = used(count).fold((f64::MAX, f64::MIN), |(low, high), velocity| {
+            (low.min(velocity), high.max(velocity))
         });
         high - low
     };
-    // Rounding of speeds that were given in other units must not decide.
+    // Rounding of velocities that were given in other units must not decide.
     let fits = |count: &usize| span_of(*count) <= span * (1.0 + 1e-9);
     let Some(count) = (FEWEST..=most).rev().find(fits) else {
         return Estimate::none(

@@ -160,16 +160,16 @@ impl V50 {
 }
 
 /// Impact velocities of the partial penetrations, or of the complete ones.
-fn speeds(tests: &[Test], perforated: bool) -> impl Iterator<Item = f64> + Clone {
+fn velocities(tests: &[Test], perforated: bool) -> impl Iterator<Item = f64> + Clone {
     let kind = tests.iter().filter(move |s| s.perforated == perforated);
     kind.map(|test| test.impact_velocity)
 }
 
 fn pattern(tests: &[Test]) -> Pattern {
     let extremes = |perforated| {
-        let speeds = speeds(tests, perforated);
-        let low = speeds.clone().reduce(f64::min);
-        low.zip(speeds.reduce(f64::max))
+        let velocities = velocities(tests, perforated);
+        let low = velocities.clone().reduce(f64::min);
+        low.zip(velocities.reduce(f64::max))
     };
     let (Some(stopped), Some(perforated)) = (extremes(false), extremes(true)) else {
         return match extremes(true) {
@@ -191,9 +191,9 @@ pub fn estimate(tests: &[Test], span: f64) -> V50 {
     let pattern = pattern(tests);
     V50 {
         tests: tests.len(),
-        perforated: speeds(tests, true).count(),
-        highest_stopped_m_s: speeds(tests, false).reduce(f64::max),
-        lowest_perforated_m_s: speeds(tests, true).reduce(f64::min),
+        perforated: velocities(tests, true).count(),
+        highest_stopped_m_s: velocities(tests, false).reduce(f64::max),
+        lowest_perforated_m_s: velocities(tests, true).reduce(f64::min),
         pattern,
         confidence: CONFIDENCE,
         estimates: vec![
@@ -205,12 +205,12 @@ pub fn estimate(tests: &[Test], span: f64) -> V50 {
 }
 
 /// Probability of complete penetration at an impact velocity [m/s], by an estimate of maximum likelihood.
-pub fn probability(estimate: &Estimate, speed: f64) -> Option<f64> {
+pub fn probability(estimate: &Estimate, velocity: f64) -> Option<f64> {
     let link = match estimate.method {
         Method::Probit => Link::Probit,
         Method::Logit => Link::Logit,
         Method::MeanOfExtremes => return None,
     };
     let scale = estimate.standard_deviation_m_s? / link.standard_deviation();
-    Some(link.probability((speed - estimate.v50_m_s?) / scale))
+    Some(link.probability((velocity - estimate.v50_m_s?) / scale))
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::Test;
 use crate::{
-    check::limits::IMPACT_SPEED,
+    check::limits::IMPACT_VELOCITY,
     document::{Renamed, read_text},
     error::{Error, InputError, nearest},
     experiments::row::{CsvRow, CsvTable, field_span},
@@ -99,18 +99,21 @@ fn test(row: &CsvRow<'_>) -> Result<Test, Box<InputError>> {
             "a field with a comma in it stands in double quotes",
         ));
     }
-    let speed = row.required_number(VELOCITY)?;
-    if !(IMPACT_SPEED.min..=IMPACT_SPEED.max).contains(&speed) {
+    let velocity = row.required_number(VELOCITY)?;
+    if !(IMPACT_VELOCITY.min..=IMPACT_VELOCITY.max).contains(&velocity) {
         return Err(row.error(
             VELOCITY,
-            format!("{} is out of range", Velocity::new(speed)),
-            format!("allowed: {} to {} m/s", IMPACT_SPEED.min, IMPACT_SPEED.max),
+            format!("{} is out of range", Velocity::new(velocity)),
+            format!(
+                "allowed: {} to {} m/s",
+                IMPACT_VELOCITY.min, IMPACT_VELOCITY.max
+            ),
         ));
     }
     row.required(PERFORATED)?;
     let perforated = row.word(PERFORATED, &[("yes", true), ("no", false)])?;
     Ok(Test {
-        impact_velocity: speed,
+        impact_velocity: velocity,
         perforated: perforated.unwrap_or(false),
     })
 }

@@ -2,13 +2,13 @@ use super::*;
 use crate::Error;
 
 fn tests(stopped: &[f64], perforated: &[f64]) -> Vec<Test> {
-    let test = |speed: &f64, perforated| Test {
-        impact_velocity: *speed,
+    let test = |velocity: &f64, perforated| Test {
+        impact_velocity: *velocity,
         perforated,
     };
-    let stopped = stopped.iter().map(|speed| test(speed, false));
+    let stopped = stopped.iter().map(|velocity| test(velocity, false));
     stopped
-        .chain(perforated.iter().map(|speed| test(speed, true)))
+        .chain(perforated.iter().map(|velocity| test(velocity, true)))
         .collect()
 }
 
@@ -16,9 +16,9 @@ fn by(method: Method, tests: &[Test]) -> Estimate {
     estimate(tests, SPAN).of(method).unwrap().clone()
 }
 
-/// Tests at two speeds: as many numbers as unknowns, so that the most likely probabilities are the parts that went through.
+/// Tests at two velocities: as many numbers as unknowns, so that the most likely probabilities are the parts that went through.
 #[test]
-fn at_two_speeds_the_likeliest_chances_are_the_observed_parts() {
+fn at_two_velocities_the_likeliest_chances_are_the_observed_parts() {
     // 1 of 4 at 200 m/s, 3 of 4 at 210 m/s.
     let even = tests(&[200.0, 200.0, 200.0, 210.0], &[200.0, 210.0, 210.0, 210.0]);
     let logit = by(Method::Logit, &even);
@@ -85,21 +85,21 @@ fn at_the_ends_of_the_interval_the_likelihood_is_down_by_half_of_chi_square() {
     }
 }
 
-/// At each of 21 speeds as many of 100 tests go through as a known distribution says, rounded.
+/// At each of 21 velocities as many of 100 tests go through as a known distribution says, rounded.
 #[test]
 fn known_numbers_are_recovered() {
     let (v50, deviation) = (300.0, 8.0);
     let made = |link: Link| -> Vec<Test> {
-        let speeds = (0..21).map(|i| 284.0 + 1.6 * f64::from(i));
-        let at = |speed: f64| {
-            let z = (speed - v50) / deviation * link.standard_deviation();
+        let velocities = (0..21).map(|i| 284.0 + 1.6 * f64::from(i));
+        let at = |velocity: f64| {
+            let z = (velocity - v50) / deviation * link.standard_deviation();
             let through = (100.0 * link.probability(z)).round() as usize;
             (0..100).map(move |i| Test {
-                impact_velocity: speed,
+                impact_velocity: velocity,
                 perforated: i < through,
             })
         };
-        speeds.flat_map(at).collect()
+        velocities.flat_map(at).collect()
     };
     for link in [Link::Probit, Link::Logit] {
         let found = by(link.method(), &made(link));
@@ -121,7 +121,7 @@ fn known_numbers_are_recovered() {
 #[test]
 fn a_change_of_origin_and_unit_changes_nothing_else() {
     let (stopped, perforated) = ([160.0, 166.0, 170.0, 183.0], [181.0, 188.0, 192.0, 199.0]);
-    let scaled = |speeds: [f64; 4]| speeds.map(|v| 1000.0 + 3.0 * v);
+    let scaled = |velocities: [f64; 4]| velocities.map(|v| 1000.0 + 3.0 * v);
     let one = by(Method::Probit, &tests(&stopped, &perforated));
     let other = by(
         Method::Probit,
@@ -163,7 +163,7 @@ fn separated_tests_have_no_likeliest_v50_but_an_interval_and_a_mean() {
     }
     let mean = v50.of(Method::MeanOfExtremes).unwrap();
     assert_eq!((mean.v50_m_s, mean.tests_used), (Some(184.375), Some(8)));
-    // A test of either kind at one speed is no zone of mixed results.
+    // A test of either kind at one velocity is no zone of mixed results.
     let touching = tests(&[170.0, 180.0], &[180.0, 190.0]);
     assert_eq!(estimate(&touching, SPAN).pattern, Pattern::Separated);
     // Two tests bound nothing.
@@ -203,12 +203,12 @@ fn tests_of_one_kind_and_reversed_ones_give_reasons() {
         (
             tests(&[], &[180.0, 190.0]),
             Pattern::AllPerforated,
-            "no test was stopped",
+            "there is no partial penetration",
         ),
         (
             tests(&[190.0, 195.0], &[180.0]),
             Pattern::Reversed,
-            "the faster tests were stopped",
+            "the partial penetrations are faster",
         ),
     ] {
         let v50 = estimate(&kind, SPAN);

@@ -197,7 +197,7 @@ fn a_validation_can_be_watched_and_stopped() {
 
 #[test]
 fn a_ballistic_limit_does_not_see_the_measured_one() {
-    // Limits are computed from an impact at the measured limit: a model that uses that speed would not be blind.
+    // Limits are computed from an impact at the measured limit: a model that uses that velocity would not be blind.
     for model in MODELS.iter().filter(|model| {
         model
             .validity()
@@ -212,13 +212,16 @@ fn a_ballistic_limit_does_not_see_the_measured_one() {
             let scenario = test
                 .scenario(&test.projectile_materials[0], Library::built_in())
                 .unwrap();
-            let limit = |speed: f64| {
-                let result =
-                    crate::model::run(*model, &scenario.at_speed(speed), &mut Control::default());
+            let limit = |velocity: f64| {
+                let result = crate::model::run(
+                    *model,
+                    &scenario.at_impact_velocity(velocity),
+                    &mut Control::default(),
+                );
                 result.ok().and_then(|result| result.ballistic_limit)
             };
-            let speed = test.impact_velocity;
-            if let (Some(a), Some(b)) = (limit(speed), limit(1.02 * speed)) {
+            let velocity = test.impact_velocity;
+            if let (Some(a), Some(b)) = (limit(velocity), limit(1.02 * velocity)) {
                 assert!(
                     (a / b - 1.0).abs() < 1e-6,
                     "{} {}: {a} {b}",

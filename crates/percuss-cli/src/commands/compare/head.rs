@@ -12,7 +12,7 @@ const LABEL: usize = 13;
 
 /// Case, regime and recommendation; at many velocities, once per range in which they are constant.
 pub fn text(scenario: &Scenario, comparison: &Comparison) -> String {
-    let speeds = comparison.speeds();
+    let speeds = comparison.velocities();
     let at = match speeds.len() {
         1 => speed_range(&speeds),
         count => format!("{count} velocities, {}", speed_range(&speeds)),

@@ -38,7 +38,7 @@ pub fn reasons(comparison: &Comparison) -> Vec<String> {
 
 /// Velocities at which a model has no result, with the reasons; reasons that differ only in numbers are merged.
 fn why(comparison: &Comparison, model: &str, outcome: Outcome) -> Option<String> {
-    let speeds = comparison.speeds();
+    let speeds = comparison.velocities();
     let absent = comparison
         .of_model(model)
         .enumerate()

@@ -13,7 +13,7 @@ pub fn quantities(comparison: &Comparison) -> Vec<BandQuantity> {
 }
 
 fn is_shown(comparison: &Comparison, quantity: BandQuantity) -> bool {
-    let speeds = comparison.speeds();
+    let speeds = comparison.velocities();
     let single = speeds.len() == 1;
     let measured_here = speeds
         .iter()
@@ -42,7 +42,7 @@ pub fn is_given(comparison: &Comparison, quantity: BandQuantity) -> bool {
 
 fn recommended_gives(comparison: &Comparison, quantity: BandQuantity) -> bool {
     comparison.recommended.iter().enumerate().any(|(i, at)| {
-        comparison.at_speed(i).iter().any(|record| {
+        comparison.at_impact_velocity(i).iter().any(|record| {
             record.value(quantity).is_some()
                 && at.models.iter().any(|choice| choice.model == record.model)
         })

@@ -13,9 +13,9 @@ pub const RECOMMENDED: &str = "★";
 
 /// The table.
 pub fn text(comparison: &Comparison) -> String {
-    let speed = comparison.speeds()[0];
+    let speed = comparison.velocities()[0];
     let records: Vec<&ResultRecord> = comparison
-        .at_speed(0)
+        .at_impact_velocity(0)
         .iter()
         .filter(|record| record.is_result())
         .collect();

@@ -64,7 +64,7 @@ fn model_errors(comparison: &Comparison) -> String {
 }
 
 fn versus_velocity(comparison: &Comparison, quantity: BandQuantity, models: &[&str]) -> String {
-    let speeds = comparison.speeds();
+    let speeds = comparison.velocities();
     let measured = |i: usize| {
         let measured = comparison.measured(quantity, speeds[i]);
         measured.map(|(value, _)| value)

@@ -22,7 +22,7 @@ pub fn text(comparison: &Comparison) -> String {
 }
 
 fn lines(comparison: &Comparison) -> Vec<String> {
-    let speeds = comparison.speeds();
+    let speeds = comparison.velocities();
     let mut entries = Vec::new();
     for model in comparison.models() {
         let records = comparison.of_model(model).enumerate();
@@ -52,7 +52,7 @@ fn is_shown(comparison: &Comparison, speed: usize, record: &ResultRecord) -> boo
 /// Whether a result has warnings that are not shown.
 fn others(comparison: &Comparison) -> bool {
     (0..comparison.regime.len()).any(|speed| {
-        comparison.at_speed(speed).iter().any(|record| {
+        comparison.at_impact_velocity(speed).iter().any(|record| {
             record.is_result()
                 && !record.warnings.is_empty()
                 && !is_shown(comparison, speed, record)

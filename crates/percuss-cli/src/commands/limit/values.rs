@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use percuss::{
-    check::limits::IMPACT_SPEED,
+    check::limits::IMPACT_VELOCITY,
     limit::{Range, Tolerance},
     units::{QuantityError, Velocity, significant},
 };
@@ -27,7 +27,7 @@ pub enum ValueError {
     Speed(QuantityError),
     #[error("the range ends at {to}, which is not above its start at {from}\n{RANGE}")]
     NotRising { from: String, to: String },
-    #[error("{0} is out of range: allowed are {min} to {max} m/s", min = IMPACT_SPEED.min, max = IMPACT_SPEED.max)]
+    #[error("{0} is out of range: allowed are {min} to {max} m/s", min = IMPACT_VELOCITY.min, max = IMPACT_VELOCITY.max)]
     OutOfRange(Velocity),
     #[error("{0}\n{TOLERANCE}")]
     Tolerance(QuantityError),
@@ -58,7 +58,7 @@ pub fn range(text: &str) -> Result<Range, ValueError> {
             _ => Velocity::from_str(end),
         };
         let speed = speed.map_err(ValueError::Speed)?;
-        match (IMPACT_SPEED.min..=IMPACT_SPEED.max).contains(&speed.si()) {
+        match (IMPACT_VELOCITY.min..=IMPACT_VELOCITY.max).contains(&speed.si()) {
             true => Ok(speed.si()),
             false => Err(ValueError::OutOfRange(speed)),
         }

@@ -192,7 +192,7 @@ impl Uncertainty {
                 .filter_map(|name| uncertainty::quantity(name))
                 .collect(),
             indices: !self.no_indices,
-            speeds,
+            velocities: speeds,
         };
         Ok(Task {
             document,

@@ -132,9 +132,9 @@ impl Projectile {
         }
     }
 
-    /// Brings pieces that would pass each other within the step to touch, as a plastic impact. Those that touch part when they are pulled
-    /// harder than their bond holds.
-    pub(super) fn meet(&mut self, kick: f64, time_step: f64) {
+    /// Closes the interfaces of pieces that would overlap within the step, as a plastic impact. Closed interfaces open when they are pulled
+    /// harder than their bond bears.
+    pub(super) fn close_interfaces(&mut self, kick: f64, time_step: f64) {
         for i in 0..self.behind.len() {
             let gap = self.gap(i).max(0.0);
             let Interface { closed, bond, pull } = self.behind[i].interface;

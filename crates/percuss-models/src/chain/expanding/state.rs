@@ -108,7 +108,7 @@ impl State {
         let kick = 0.5 * (previous + time_step);
         self.rod.collect();
         self.far_field.collect();
-        self.meet(0.0, -previous);
+        self.limit_approach(0.0, -previous);
         if control.is_damped() {
             let force = self.contact_force;
             self.rod.damp(control, -force);
@@ -123,7 +123,7 @@ impl State {
         self.kick_floor(kick, gain);
         if control.is_damped() || control.fails {
             self.account_for_damping(kick);
-            self.rod.meet(kick, time_step);
+            self.rod.close_interfaces(kick, time_step);
         }
         self.close(time_step);
         let drifted = self.rod.drift(time_step);
@@ -215,8 +215,8 @@ impl State {
         self.rear_face.as_ref().map_or(0.0, |face| face.velocity)
     }
 
-    /// Takes the speed at which a tip that touches the floor approaches it down to an allowed one, as a plastic impact.
-    fn meet(&mut self, allowed: f64, drift: f64) {
+    /// Limits the approach velocity of a tip in contact with the floor, as a plastic impact.
+    fn limit_approach(&mut self, allowed: f64, drift: f64) {
         if self.floor.contact == Contact::Open {
             return;
         }
@@ -330,7 +330,7 @@ impl State {
             return;
         }
         self.floor.contact = Contact::Closed;
-        self.meet(gap.max(0.0) / time_step, time_step);
+        self.limit_approach(gap.max(0.0) / time_step, time_step);
     }
 
     fn erode(&mut self, limit: f64) {

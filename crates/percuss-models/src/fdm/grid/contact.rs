@@ -58,8 +58,8 @@ impl<L: Law> Grid<L> {
         }
     }
 
-    /// Stops the faces of every gap that this step would close just where they meet.
-    pub(super) fn close_gaps(&mut self, time_step: f64) {
+    /// Detects the gaps that this step closes, and stops their faces at the point of contact.
+    pub(super) fn detect_contact(&mut self, time_step: f64) {
         for s in 0..self.closed.len() {
             if self.closed[s] {
                 continue;

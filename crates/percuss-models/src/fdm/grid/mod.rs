@@ -224,7 +224,7 @@ impl<L: Law> Grid<L> {
         self.load(nominal, lead)?;
         self.account_for_jumps(time_step);
         self.kick(time_step);
-        self.close_gaps(time_step);
+        self.detect_contact(time_step);
         self.drift(time_step)?;
         self.join_met();
         self.split_spalls();

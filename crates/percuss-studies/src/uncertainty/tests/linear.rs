@@ -101,10 +101,10 @@ fn standard_errors_shrink_and_means_err_less() {
 }
 
 #[test]
-fn bands_hold_the_speed_and_spread_the_rest() {
+fn bands_hold_the_velocity_and_spread_the_rest() {
     let settings = Settings {
         indices: false,
-        speeds: vec![150.0, 400.0],
+        velocities: vec![150.0, 400.0],
         ..settings(256)
     };
     let found = analysed(&study(NORMALS), &LINEAR, &settings);

@@ -67,11 +67,11 @@ fn settings(samples: u64) -> Settings {
         seed: 3,
         quantities: Vec::new(),
         indices: true,
-        speeds: Vec::new(),
+        velocities: Vec::new(),
     }
 }
 
-/// A kernel whose depth is a linear function of speed, thickness and constraint factor.
+/// A kernel whose depth is a linear function of velocity, thickness and constraint factor.
 struct Linear {
     /// Runs that are faster have no result.
     fails_above: f64,

@@ -10,7 +10,7 @@ target = { material = 'weldox-460-e', thickness = '12 mm', back_face = 'free' }
 recht_ipson = { ballistic_limit = '184.5 m/s' }
 ";
 
-/// A target that is perforated above a known speed, by speeds of a known distribution.
+/// A target that is perforated above a known velocity, by velocities of a known distribution.
 #[test]
 fn the_chance_of_perforation_is_exact() {
     let inputs = "[[uncertainty.parameter]]
