@@ -79,7 +79,7 @@ impl Band {
         law.failure.is_reached(self.plastic_strain, self.damage)
     }
 
-    /// Brings the band to a slip; returns the plastic work per area between the half steps around the current time.
+    /// Brings the band to a given slip; returns the plastic work per area between the half steps around the current time.
     pub(super) fn deform(&mut self, law: &BandLaw, slip: f64, time_step: f64) -> f64 {
         let trial = self.stiffness * (slip - self.plastic_slip);
         self.stress_before = self.stress;
