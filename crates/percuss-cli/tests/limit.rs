@@ -214,7 +214,7 @@ fn shots_need_no_case_and_separated_ones_have_no_likeliest_v50() {
     let text = ok(&folder, &["--shots", "apart.csv", "--span", "20 m/s"]);
     for part in [
         "no zone of mixed results",
-        "extremes: the 2 fastest stopped shots",
+        "extremes: the 2 fastest partial",
     ] {
         assert!(flat(&text).contains(part), "{text}");
     }

@@ -65,7 +65,7 @@ fn models_as_json_hold_their_whole_guard() {
     for model in list.as_array().unwrap() {
         assert_eq!(
             keys(model),
-            ["validity", "name", "options", "page", "summary"]
+            ["name", "options", "page", "summary", "validity"]
         );
         let page = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("../..")

@@ -162,7 +162,7 @@ fn wrong_files_are_refused_with_place_and_remedy() {
         ),
         (
             SHOTS.replace("two,", "one,"),
-            ["a second shot is named `one`", "shots.csv:3:"],
+            ["a second test is named `one`", "shots.csv:3:"],
         ),
         (
             SHOTS.replace("id,", "ID,"),
