@@ -74,7 +74,7 @@ fn one_parameter_makes_a_curve_and_words_make_one_each() {
     assert!(!svg.contains("failed"));
     let more = ["--quantity", "peak_force_kn", "--style", "map"];
     let svg = drawn(&folder, &more, "map-peak_force_kn");
-    assert!(svg.contains("Peak force (kN)") && svg.contains("Target closure"));
+    assert!(svg.contains("Peak force (kN)") && svg.contains("Target resistance"));
     // Closures in a folder that lacks a block: what is missing is counted.
     fs::remove_file(folder.path().join("rows/block-000001.parquet")).unwrap();
     let svg = drawn(&folder, &[], &format!("curves-{DEPTH}"));
@@ -111,7 +111,7 @@ fn shots_that_failed_are_shown_and_counted() {
     let named = ["--x", "projectile.impact_velocity"];
     let svg = drawn(&folder, &named, &format!("curves-{DEPTH}"));
     assert_eq!(count(&svg, "failed (", ')'), failed);
-    assert!(svg.contains("over all values of Target closure"));
+    assert!(svg.contains("over all values of Target resistance"));
 }
 
 /// The number that stands between two texts.
