@@ -45,10 +45,10 @@ impl State {
                 element.damage = law.damage(
                     element.damage,
                     &FailureState {
-                        tension: -element.stress,
-                        triaxiality: triaxiality.copysign(-element.stress),
-                        plastic_strain_increment: element.plastic_step.abs(),
-                        temperature: element.temperature,
+                        tension: -element.spring.stress,
+                        triaxiality: triaxiality.copysign(-element.spring.stress),
+                        plastic_strain_increment: element.plastic.step.abs(),
+                        temperature: element.plastic.temperature,
                     },
                     time_step,
                 );
@@ -88,7 +88,8 @@ impl State {
 
     /// Whether the node between two elements parts: one of them has failed, and something pulls.
     fn fails(&self, behind: usize, ahead: usize) -> bool {
-        let pull = self.elements[behind].axial_force + self.elements[ahead].axial_force;
+        let pull =
+            self.elements[behind].spring.axial_force + self.elements[ahead].spring.axial_force;
         pull < 0.0
             && [behind, ahead]
                 .iter()
@@ -118,7 +119,7 @@ impl State {
         }
         let part = &self.parts[self.segments[s].part];
         let (behind, ahead) = (&self.elements[behind], &self.elements[ahead]);
-        let strength = -0.5 * (behind.axial_force + ahead.axial_force);
+        let strength = -0.5 * (behind.spring.axial_force + ahead.spring.axial_force);
         let area = behind.rest_area.min(ahead.rest_area);
         CohesiveLaw::crack(strength, part.fracture_energy * area)
     }

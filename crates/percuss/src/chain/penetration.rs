@@ -86,7 +86,7 @@ impl State {
         };
         let last = &self.elements[last];
         let beyond = last.area(part) - penetration.area;
-        let spread = beyond.max(0.0) * last.stress.clamp(0.0, penetration.resistance);
+        let spread = beyond.max(0.0) * last.spring.stress.clamp(0.0, penetration.resistance);
         let closing = self.nodes[0].velocity - self.nodes[segment.last_node].velocity;
         let on_axis = 0.5 * part.density * penetration.area * closing.max(0.0).powi(2);
         if self.elements[..part.elements].iter().any(|e| e.eroded) {
@@ -167,7 +167,7 @@ impl Element {
     ) -> f64 {
         let step = self.advance_step_to(part, distance, time_step, limit);
         // As with plastic strain, the work that belongs to a time is its force times half the advances around it.
-        let work = self.axial_force * 0.5 * (self.advance_step + step);
+        let work = self.spring.axial_force * 0.5 * (self.advance_step + step);
         self.advance += step;
         self.advance_step = step;
         work
@@ -181,7 +181,7 @@ impl Element {
             }
             let mut trial = *self;
             trial.deform(part, length, time_step);
-            trial.axial_force - limit.force
+            trial.spring.axial_force - limit.force
         };
         if excess(0.0) <= 0.0 {
             return 0.0;

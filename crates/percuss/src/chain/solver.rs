@@ -3,12 +3,13 @@
 use std::ops::Range;
 
 use super::{
-    friction::dry_friction_one,
+    friction::{FrictionSums, kick},
     part::Part,
-    state::{Element, End, Node, Segment, State},
+    state::{Accumulators, Element, End, Node, Segment, State},
 };
 use crate::{
     error::NumericalError,
+    lanes::Real,
     options::{ArtificialViscosity, ChainOptions},
 };
 
@@ -112,14 +113,15 @@ impl Node {
 
     /// Kicks the node for a time over its mass and returns the impulse of friction.
     #[inline(always)]
-    fn kick(&mut self, ratio: f64) -> f64 {
-        let change = self.force * ratio;
+    fn kick(&mut self, ratio: f64, sums: &mut FrictionSums) -> f64 {
         let before = self.velocity;
         if self.friction > 0.0 {
-            self.velocity = dry_friction_one(before, change, self.friction * ratio);
-            self.mass * (before + change - self.velocity)
+            let kicked = kick(self.mass, before, self.force, self.friction, ratio);
+            self.velocity = kicked.velocity;
+            sums.add(kicked.lost, before, kicked.velocity);
+            kicked.lost
         } else {
-            self.velocity = before + change;
+            self.velocity = before + self.force * ratio;
             0.0
         }
     }
@@ -167,9 +169,9 @@ impl State {
             let (mut behind, mut spring_behind) = (0.0, 0.0);
             let (inner, last) = nodes.split_at_mut(elements.len());
             for (node, element) in inner.iter_mut().zip(elements) {
-                let force = element.axial_force + element.viscous_force;
-                node.begin(behind - force, spring_behind - element.axial_force);
-                (behind, spring_behind) = (force, element.axial_force);
+                let force = element.spring.axial_force + element.viscous_force;
+                node.begin(behind - force, spring_behind - element.spring.axial_force);
+                (behind, spring_behind) = (force, element.spring.axial_force);
             }
             for node in last {
                 node.begin(behind, spring_behind);
@@ -232,10 +234,7 @@ impl State {
             }
             return;
         }
-        let (mut impulse, mut work) = (
-            self.accumulated.friction_impulse,
-            self.accumulated.friction_work,
-        );
+        let mut sums = self.accumulated.friction;
         let (mut mass, mut ratio) = (f64::NAN, f64::NAN);
         for node in &mut self.nodes[nodes] {
             // Neighbours mostly have one mass, and a division takes long.
@@ -243,67 +242,38 @@ impl State {
                 mass = node.mass;
                 ratio = kick / mass;
             }
-            let before = node.velocity;
-            let lost_impulse = node.kick(ratio);
-            if node.friction > 0.0 {
-                impulse += lost_impulse;
-                work += lost_impulse * 0.5 * (before + node.velocity);
-            }
+            node.kick(ratio, &mut sums);
         }
-        self.accumulated.friction_impulse = impulse;
-        self.accumulated.friction_work = work;
+        self.accumulated.friction = sums;
     }
 
     pub(super) fn kick_free(&mut self, i: usize, kick: f64) {
         let node = &mut self.nodes[i];
-        let before = node.velocity;
-        let impulse = node.kick(kick / node.mass);
-        if node.friction > 0.0 {
-            self.accumulated.friction_impulse += impulse;
-            self.accumulated.friction_work += impulse * 0.5 * (before + node.velocity);
-            if self.tip_friction > 0.0 {
-                // A constant-pressure target has no other friction.
-                self.contact_force = impulse / kick;
-            }
+        let lost = node.kick(kick / node.mass, &mut self.accumulated.friction);
+        if self.tip_friction > 0.0 && node.friction > 0.0 {
+            // A constant-pressure target has no other friction.
+            self.contact_force = lost / kick;
         }
     }
 
-    /// Accumulators what friction took and returns its impulse.
-    pub(super) fn account_for_friction(
-        &mut self,
-        mass: f64,
-        before: f64,
-        change: f64,
-        after: f64,
-    ) -> f64 {
-        let impulse = mass * (before + change - after);
-        self.accumulated.friction_impulse += impulse;
-        self.accumulated.friction_work += impulse * 0.5 * (before + after);
-        impulse
-    }
-
     pub(super) fn kick_boundary(&mut self, i: usize, kick: f64) {
+        let node = &mut self.nodes[i];
+        let sums = &mut self.accumulated;
         match self.end {
             End::Free => self.kick_free(i, kick),
             End::Fixed => {
-                self.nodes[i].velocity = 0.0;
-                self.accumulated.support_impulse += self.nodes[i].force * kick;
-                self.back_force = self.nodes[i].force;
+                node.velocity = 0.0;
+                self.back_force = node.force;
+                sums.support_impulse += node.force * kick;
             }
             End::Open {
                 impedance,
                 stiffness,
             } => {
-                let inertia = self.nodes[i].mass / kick;
-                let before = self.nodes[i].velocity;
-                let spring = stiffness * (self.nodes[i].position - self.back_position);
-                let after = ((inertia - 0.5 * impedance) * before + self.nodes[i].force - spring)
-                    / (inertia + 0.5 * impedance);
-                let mean = 0.5 * (before + after);
-                self.nodes[i].velocity = after;
-                self.back_force = impedance * mean + spring;
-                self.accumulated.support_impulse += self.back_force * kick;
-                self.accumulated.boundary_work += self.back_force * mean * kick;
+                let spring = stiffness * (node.position - self.back_position);
+                let of_node = [node.mass, node.velocity, node.force];
+                (node.velocity, self.back_force) =
+                    kick_open_end(of_node, [impedance, spring], kick, sums);
             }
         }
     }
@@ -321,12 +291,34 @@ impl State {
 ///
 /// Every change of the time step costs a little energy, so small changes are not made.
 #[inline(always)]
-pub(super) fn choose_time_step(previous: f64, allowed: f64) -> f64 {
-    if previous == 0.0 || allowed < previous {
-        STEP_MARGIN * allowed
-    } else if allowed > STEP_SLACK * previous {
-        LARGEST_STEP_GROWTH * previous
-    } else {
-        previous
-    }
+pub(super) fn choose_time_step<R: Real>(previous: R, allowed: R) -> R {
+    let falls = previous.equals(R::all(0.0)) | allowed.below(previous);
+    let grows = allowed.above(previous * STEP_SLACK);
+    let longer = R::select(grows, previous * LARGEST_STEP_GROWTH, previous);
+    R::select(falls, allowed * STEP_MARGIN, longer)
+}
+
+/// Largest time step in which no element makes too large a change of strain, for the largest rate at which ends approach or part, as a
+/// part of the length [1/s].
+#[inline(always)]
+pub(super) fn strain_limited_step<R: Real>(fastest: R) -> R {
+    R::all(LARGEST_STRAIN_STEP) / fastest
+}
+
+/// Kicks the last node of a chain by a force of its element against the impedance of a boundary and the force of a spring beside it; gives
+/// its velocity and the force on the boundary.
+#[inline(always)]
+pub(super) fn kick_open_end<R: Real>(
+    [mass, before, force]: [R; 3],
+    [impedance, spring]: [R; 2],
+    kick: R,
+    sums: &mut Accumulators<R>,
+) -> (R, R) {
+    let (inertia, half) = (mass / kick, impedance * 0.5);
+    let after = ((inertia - half) * before + force - spring) / (inertia + half);
+    let mean = (before + after) * 0.5;
+    let back_force = impedance * mean + spring;
+    sums.support_impulse += back_force * kick;
+    sums.boundary_work += back_force * mean * kick;
+    (after, back_force)
 }

@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 use super::{
     dishing::Dishing,
     drift::YieldingElement,
+    element::{Plastic, Spring},
+    friction::FrictionSums,
     interface::Interface,
     part::{Part, Role},
     penetration::Penetration,
@@ -18,6 +20,7 @@ use super::{
 };
 use crate::{
     Error,
+    lanes::{Real, per_lane},
     ledger::{EnergyLedger, MomentumLedger},
     material::YieldPoint,
     solver::archive::Archive,
@@ -80,25 +83,13 @@ pub(super) struct Element {
     pub(super) rest_area: f64,
     /// [m3]; plastic flow does not change it.
     pub(super) volume: f64,
-    /// Length without stress [m].
-    pub(super) unloaded_length: f64,
+    pub(super) spring: Spring,
+    pub(super) plastic: Plastic,
     /// What it gives to the masses of its two nodes [kg].
     pub(super) end_masses: [f64; 2],
     pub(super) length: f64,
     pub(super) strain: f64,
-    pub(super) stress: f64,
-    pub(super) stress_before: f64,
-    pub(super) axial_force: f64,
     pub(super) viscous_force: f64,
-    /// Axial plastic strain, compression positive.
-    pub(super) plastic_axial: f64,
-    /// Accumulated plastic strain.
-    pub(super) plastic_strain: f64,
-    /// Axial plastic strain of the last step.
-    pub(super) plastic_step: f64,
-    /// Largest plastic strain rate so far [1/s].
-    pub(super) largest_rate: f64,
-    pub(super) temperature: f64,
     pub(super) yield_point: YieldPoint,
     /// Initial position of its middle.
     pub(super) initial_position: f64,
@@ -123,20 +114,54 @@ pub(super) struct Parting {
 
 /// Work and impulse that have gone where the state itself does not show them.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(super) struct Accumulators {
-    pub(super) initial_energy: f64,
-    pub(super) initial_momentum: f64,
-    pub(super) plastic: [f64; 2],
-    pub(super) friction_work: f64,
-    pub(super) viscous_work: f64,
-    pub(super) contact_loss: f64,
-    pub(super) boundary_work: f64,
-    pub(super) eroded_energy: f64,
-    pub(super) fracture_work: f64,
-    pub(super) support_impulse: f64,
-    pub(super) friction_impulse: f64,
-    pub(super) eroded_momentum: f64,
-    pub(super) damping_impulse: f64,
+pub(super) struct Accumulators<R = f64> {
+    pub(super) initial_energy: R,
+    pub(super) initial_momentum: R,
+    pub(super) plastic: [R; 2],
+    pub(super) friction: FrictionSums<R>,
+    pub(super) viscous_work: R,
+    pub(super) contact_loss: R,
+    pub(super) boundary_work: R,
+    pub(super) eroded_energy: R,
+    pub(super) fracture_work: R,
+    pub(super) support_impulse: R,
+    pub(super) eroded_momentum: R,
+    pub(super) damping_impulse: R,
+}
+per_lane!(Accumulators {
+    initial_energy,
+    initial_momentum,
+    plastic,
+    friction,
+    viscous_work,
+    contact_loss,
+    boundary_work,
+    eroded_energy,
+    fracture_work,
+    support_impulse,
+    eroded_momentum,
+    damping_impulse,
+});
+
+/// Energy and momentum of projectile or target.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct BodySums<R = f64> {
+    pub(super) kinetic: R,
+    pub(super) elastic: R,
+    pub(super) momentum: R,
+}
+per_lane!(BodySums {
+    kinetic,
+    elastic,
+    momentum
+});
+
+impl<R: Real> BodySums<R> {
+    #[inline(always)]
+    pub(super) fn add_node(&mut self, mass: R, velocity: R) {
+        self.kinetic += mass * 0.5 * velocity * velocity;
+        self.momentum += mass * velocity;
+    }
 }
 
 /// Nodes, elements and accumulated work at one time. Node velocities stand half a step behind the positions.
@@ -263,43 +288,46 @@ impl State {
         if mass > 0.0 { momentum / mass } else { 0.0 }
     }
 
-    /// Elastic energy of an element between two steps: the form that central differences conserve.
+    /// Elastic energy of an element between two steps.
     pub(super) fn elastic_energy(&self, element: usize, part: &Part) -> f64 {
         let element = &self.elements[element];
-        element.volume * element.stress_before * element.stress / (2.0 * part.modulus)
+        element.spring.elastic_energy(element.volume, part.modulus)
+    }
+
+    /// Energy and momentum of projectile and target.
+    fn sums(&self) -> [BodySums; 2] {
+        let mut sums = [BodySums::default(); 2];
+        for segment in &self.segments {
+            let part = &self.parts[segment.part];
+            let sums = &mut sums[part.role as usize];
+            for node in &self.nodes[segment.first_node..=segment.last_node] {
+                sums.add_node(node.mass, node.velocity);
+            }
+            for e in segment.elements() {
+                sums.elastic += self.elastic_energy(e, part);
+            }
+        }
+        sums
     }
 
     pub(super) fn energy(&self) -> EnergyLedger {
-        let mut kinetic = [0.0; 2];
-        let mut elastic = [0.0; 2];
-        for segment in &self.segments {
-            let part = &self.parts[segment.part];
-            let role = part.role as usize;
-            for i in segment.first_node..=segment.last_node {
-                kinetic[role] +=
-                    0.5 * self.nodes[i].mass * self.nodes[i].velocity * self.nodes[i].velocity;
-            }
-            for e in segment.elements() {
-                elastic[role] += self.elastic_energy(e, part);
-            }
-        }
-        self.energy_ledger(kinetic, elastic)
+        self.energy_of(&self.sums())
     }
 
     /// The energy balance of a state with these energies of projectile and target.
-    pub(super) fn energy_ledger(&self, kinetic: [f64; 2], elastic: [f64; 2]) -> EnergyLedger {
+    pub(super) fn energy_of(&self, [projectile, target]: &[BodySums; 2]) -> EnergyLedger {
         let accumulated = &self.accumulated;
         let bands = self.hold.as_ref().map(|hold| &hold.bands);
         let plate = self.hold.as_ref().and_then(|hold| hold.plate.as_ref());
         EnergyLedger {
             initial: accumulated.initial_energy,
-            kinetic_projectile: kinetic[0],
-            kinetic_target: kinetic[1],
-            elastic_projectile: elastic[0],
-            elastic_target: elastic[1] + bands.map_or(0.0, Bands::elastic_energy),
+            kinetic_projectile: projectile.kinetic,
+            kinetic_target: target.kinetic,
+            elastic_projectile: projectile.elastic,
+            elastic_target: target.elastic + bands.map_or(0.0, Bands::elastic_energy),
             plastic_projectile: accumulated.plastic[0],
             plastic_target: accumulated.plastic[1],
-            border_shear: accumulated.friction_work
+            border_shear: accumulated.friction.work
                 + bands.map_or(0.0, |bands| bands.accumulated.work),
             viscous: accumulated.viscous_work,
             contact: accumulated.contact_loss,
@@ -314,18 +342,11 @@ impl State {
     }
 
     pub(super) fn momentum(&self) -> MomentumLedger {
-        let mut momentum = [0.0; 2];
-        for segment in &self.segments {
-            let role = self.parts[segment.part].role as usize;
-            for i in segment.first_node..=segment.last_node {
-                momentum[role] += self.nodes[i].mass * self.nodes[i].velocity;
-            }
-        }
-        self.momentum_ledger(momentum)
+        self.momentum_of(&self.sums())
     }
 
     /// The momentum balance of a state with these momenta of projectile and target.
-    pub(super) fn momentum_ledger(&self, momentum: [f64; 2]) -> MomentumLedger {
+    pub(super) fn momentum_of(&self, [projectile, target]: &[BodySums; 2]) -> MomentumLedger {
         let accumulated = &self.accumulated;
         let plate = self.hold.as_ref().and_then(|hold| hold.plate.as_ref());
         // A plate that does not move hands the impulse of the bands on; one that does keeps what its support does not take.
@@ -335,10 +356,10 @@ impl State {
         };
         MomentumLedger {
             initial: accumulated.initial_momentum,
-            projectile: momentum[0],
-            target: momentum[1],
+            projectile: projectile.momentum,
+            target: target.momentum,
             support: accumulated.support_impulse + plate.map_or(0.0, |plate| plate.support_impulse),
-            border_shear: accumulated.friction_impulse + held_still,
+            border_shear: accumulated.friction.impulse + held_still,
             eroded: accumulated.eroded_momentum,
             plate: plate.map_or(0.0, Dishing::momentum),
             damping: accumulated.damping_impulse,

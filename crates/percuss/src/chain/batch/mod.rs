@@ -4,9 +4,6 @@
 //! of another one, so that a shot ends with the same bits in whatever company it was computed. Whatever is rare (the end of a shot,
 //! erosion) is left to the single run: the lane's state is put into its [`ColumnRun`], and what that makes of it is put back.
 
-// Loops over the lanes run along many arrays at once.
-#![allow(clippy::needless_range_loop)]
-
 mod accepts;
 mod balance;
 mod bundle;
@@ -18,7 +15,6 @@ mod flow;
 mod interfaces;
 mod kick;
 mod scalars;
-mod spring;
 mod step;
 #[cfg(test)]
 mod tests;
@@ -33,14 +29,15 @@ use std::{
 use pulp::{Arch, NullaryFnOnce};
 
 pub(crate) use accepts::accepts;
-use balance::Sums;
 use bundle::{Bundle, Mesh};
-pub(in crate::chain) use flow::Start;
 
-use super::column::{AUDIT_INTERVAL, ColumnRun};
+use super::{
+    column::{AUDIT_INTERVAL, ColumnRun},
+    state::BodySums,
+};
 use crate::{
     Error, Scenario,
-    lanes::LANES,
+    lanes::{LANES, LaneMask, Lanes},
     options::constraint_factor,
     outcome::RunResult,
     scenario::TargetBody,
@@ -139,7 +136,7 @@ impl BatchScheduler<'_, '_> {
                     left: &mut left,
                 });
                 let sums = (left == 0).then(|| arch.dispatch(Sum(&self.bundle)));
-                for (lane, needs_scalar) in needs_scalar.into_iter().enumerate() {
+                for (lane, needs_scalar) in needs_scalar.0.into_iter().enumerate() {
                     match &sums {
                         _ if needs_scalar => self.service_lane(lane)?,
                         Some(sums) => self.audit(lane, sums)?,
@@ -171,7 +168,7 @@ impl BatchScheduler<'_, '_> {
     }
 
     /// Lets the single run audit a lane.
-    fn audit(&mut self, lane: usize, sums: &Sums) -> Result<(), Stopped> {
+    fn audit(&mut self, lane: usize, sums: &[BodySums<Lanes>; 2]) -> Result<(), Stopped> {
         let Some(occupant) = &mut self.lanes[lane] else {
             return Ok(());
         };
@@ -259,10 +256,10 @@ struct Advance<'b> {
 }
 
 impl NullaryFnOnce for Advance<'_> {
-    type Output = [bool; LANES];
+    type Output = LaneMask;
 
     #[inline(always)]
-    fn call(self) -> [bool; LANES] {
+    fn call(self) -> LaneMask {
         self.bundle.advance(self.left)
     }
 }
@@ -271,10 +268,10 @@ impl NullaryFnOnce for Advance<'_> {
 struct Sum<'b>(&'b Bundle);
 
 impl NullaryFnOnce for Sum<'_> {
-    type Output = Sums;
+    type Output = [BodySums<Lanes>; 2];
 
     #[inline(always)]
-    fn call(self) -> Sums {
+    fn call(self) -> [BodySums<Lanes>; 2] {
         self.0.sums()
     }
 }

@@ -2,19 +2,18 @@
 
 use super::bundle::Bundle;
 use crate::{
-    chain::solver::choose_time_step,
-    lanes::{LANES, Lanes},
+    chain::{pair::Times, solver::choose_time_step},
+    lanes::{LaneMask, Lanes, Mask, Real},
 };
 
 /// What a step has for every lane besides the state.
 #[derive(Clone, Copy)]
 pub(super) struct Step {
-    /// Length of the step before, of this one, and of the kick between them.
-    pub(super) before: Lanes,
+    /// Length of this one, and inverse of it.
     pub(super) length: Lanes,
-    pub(super) kick: Lanes,
-    /// Inverse of its length.
     pub(super) rate: Lanes,
+    /// Length of the kick between the step before and this one, and of the step before.
+    pub(super) times: Times<Lanes>,
 }
 
 /// What a step finds out about the elements.
@@ -27,21 +26,21 @@ pub(super) struct StepEstimate {
 }
 
 impl Bundle {
-    /// Takes steps until a lane needs_scalar for the single run or none are left; says which ones do.
+    /// Takes steps until a lane needs the single run or none are left; says which ones do.
     #[inline(always)]
-    pub(super) fn advance(&mut self, left: &mut u64) -> [bool; LANES] {
+    pub(super) fn advance(&mut self, left: &mut u64) -> LaneMask {
         while *left > 0 {
             *left -= 1;
             let needs_scalar = self.step();
-            if needs_scalar.iter().any(|&needs_scalar| needs_scalar) {
+            if needs_scalar.any() {
                 return needs_scalar;
             }
         }
-        [false; LANES]
+        LaneMask::default()
     }
 
     #[inline(always)]
-    fn step(&mut self) -> [bool; LANES] {
+    fn step(&mut self) -> LaneMask {
         let step = self.begin();
         let force_behind = self.kick_projectile(&step);
         let [projectile, target] = self.mesh.elements;
@@ -54,31 +53,22 @@ impl Bundle {
             self.drift(end, &step);
         }
         let estimate = self.update(&step);
-        self.now = 1 - self.now;
         self.end(&step, &estimate)
     }
 
     /// Chooses the time steps.
     #[inline(always)]
     fn begin(&self) -> Step {
-        let (before, stable, courant) = (
-            self.scalars.time_step.0,
-            self.scalars.stable_step.0,
-            self.scalars.courant.0,
-        );
-        let mut length = [0.0; LANES];
-        let mut kick = [0.0; LANES];
-        let mut rate = [0.0; LANES];
-        for l in 0..LANES {
-            length[l] = choose_time_step(before[l], courant[l] * stable[l]);
-            kick[l] = 0.5 * (before[l] + length[l]);
-            rate[l] = 1.0 / length[l];
-        }
+        let scalars = &self.scalars;
+        let before = scalars.time_step;
+        let length = choose_time_step(before, scalars.courant * scalars.stable_step);
         Step {
-            before: Lanes(before),
-            length: Lanes(length),
-            kick: Lanes(kick),
-            rate: Lanes(rate),
+            length,
+            rate: length.inverse(),
+            times: Times {
+                kick: (before + length) * 0.5,
+                drift: before,
+            },
         }
     }
 }
