@@ -6,8 +6,6 @@
 
 use pulp::{Arch, NullaryFnOnce};
 
-use crate::lanes::{Mask, Real};
-
 #[cfg(test)]
 #[path = "power_tests.rs"]
 mod tests;
@@ -129,41 +127,43 @@ impl Logarithm {
     }
 }
 
-/// Largest `(a − b)/(a + b)` for which [`small_log_ratio`] is exact to the last places; largest number of [`exponential`] in powers of it.
+/// Largest `(a − b)/(a + b)` for which [`small_log_ratio`] is exact to the last places.
 const SMALL: f64 = 0.05;
 
 /// `ln(a/b)` of two positive numbers.
 #[inline(always)]
-pub(crate) fn log_ratio<R: Real>(a: R, b: R) -> R {
+pub(crate) fn log_ratio(a: f64, b: f64) -> f64 {
     let (log, is_exact) = small_log_ratio(a, b);
-    if is_exact.every() {
-        return log;
-    }
-    R::select(is_exact, log, (a / b).each(f64::ln))
+    if is_exact { log } else { (a / b).ln() }
 }
 
 /// `ln(a/b) = 2 artanh((a − b)/(a + b))` of two numbers that differ by less than a tenth, and whether they do.
 #[inline(always)]
-pub(crate) fn small_log_ratio<R: Real>(a: R, b: R) -> (R, R::Mask) {
+pub(crate) fn small_log_ratio(a: f64, b: f64) -> (f64, bool) {
     let s = (a - b) / (a + b);
     let z = s * s;
-    let low = z * (1.0 / 5.0) + 1.0 / 3.0;
-    let tail = low + z * z * ((z * (1.0 / 9.0) + 1.0 / 7.0) + z * z * (1.0 / 11.0));
-    let twice = s * 2.0;
-    (twice + twice * (z * tail), s.size().at_most(R::all(SMALL)))
+    let tail = (1.0 / 3.0 + z * (1.0 / 5.0))
+        + z * z * ((1.0 / 7.0 + z * (1.0 / 9.0)) + z * z * (1.0 / 11.0));
+    let twice = 2.0 * s;
+    (twice + twice * (z * tail), s.abs() <= SMALL)
 }
 
 /// `e^x`.
 #[inline(always)]
-pub(crate) fn exponential<R: Real>(x: R) -> R {
+pub(crate) fn exponential(x: f64) -> f64 {
+    let (value, is_exact) = small_exponential(x);
+    if is_exact { value } else { x.exp() }
+}
+
+/// `e^x` of a number of magnitude 1/20 at most, and whether it is.
+#[inline(always)]
+pub(crate) fn small_exponential(x: f64) -> (f64, bool) {
     let x2 = x * x;
-    let low = x * (1.0 / 6.0) + 1.0 / 2.0;
-    let middle = x * (1.0 / 120.0) + 1.0 / 24.0;
-    let high = (x * (1.0 / 5040.0) + 1.0 / 720.0) + x2 * (1.0 / 40320.0);
-    let value = (x + x2 * (low + x2 * (middle + x2 * high))) + 1.0;
-    let is_exact = x.size().at_most(R::all(SMALL));
-    if is_exact.every() {
-        return value;
-    }
-    R::select(is_exact, value, x.each(f64::exp))
+    let low = 1.0 / 2.0 + x * (1.0 / 6.0);
+    let middle = 1.0 / 24.0 + x * (1.0 / 120.0);
+    let high = (1.0 / 720.0 + x * (1.0 / 5040.0)) + x2 * (1.0 / 40320.0);
+    (
+        1.0 + (x + x2 * (low + x2 * (middle + x2 * high))),
+        x.abs() <= SMALL,
+    )
 }

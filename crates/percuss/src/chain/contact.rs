@@ -1,7 +1,7 @@
 //! Contact between the ends of two segments: closing, moving as one, parting, and what holds across a gap.
 
 use super::{
-    pair::{Pair, Times, jump_energy},
+    pair::{Pair, overlap},
     state::State,
 };
 
@@ -12,21 +12,22 @@ impl State {
         if self.is_fixed(ends[1]) {
             return self.kick_wall(s, kick);
         }
-        let holds = self.interfaces[s].bond.holds();
-        let times = Times {
-            kick,
-            drift: self.time_step,
-        };
+        let sums = &self.accumulated;
         let pair = self.pair(ends);
-        let kicked = pair.kick::<true>(true, holds, times, &mut self.accumulated);
-        for (end, i) in ends.into_iter().enumerate() {
-            self.nodes[i].velocity_before = kicked.start[end];
-            self.nodes[i].velocity = kicked.velocity[end];
+        let joined = pair.join::<true>(kick, self.time_step, sums.contact_loss);
+        self.accumulated.contact_loss = joined.contact_loss;
+        for i in ends {
+            self.nodes[i].velocity_before = joined.before;
+            self.nodes[i].velocity = joined.velocity;
         }
-        if !kicked.closed {
-            self.part_ends(s);
-        } else if Some(s) == self.tip_segment() {
-            self.contact_force = kicked.push;
+        if joined.push < -self.interfaces[s].bond.holds() {
+            self.part_ends(s, joined.before, kick);
+            return;
+        }
+        let friction = &mut self.accumulated.friction;
+        friction.add(joined.lost, joined.before, joined.velocity);
+        if Some(s) == self.tip_segment() {
+            self.contact_force = joined.push;
         }
     }
 
@@ -44,9 +45,7 @@ impl State {
         }
         let push = self.nodes[a].force;
         if push < -self.interfaces[s].bond.holds() {
-            self.part_ends(s);
-            self.kick_free(a, kick);
-            self.kick_boundary(b, kick);
+            self.part_ends(s, 0.0, kick);
             return;
         }
         self.back_force = push + self.nodes[b].force;
@@ -56,12 +55,19 @@ impl State {
         }
     }
 
-    /// Parts two ends, which what still holds goes on to pull together.
-    fn part_ends(&mut self, s: usize) {
+    /// Parts two ends, which start the kick with a common velocity; what still holds them pulls from now on.
+    fn part_ends(&mut self, s: usize, before: f64, kick: f64) {
         let [a, b] = self.ends(s);
         let pull = self.interfaces[s].part();
-        self.nodes[a].force += pull;
-        self.nodes[b].force -= pull;
+        for (i, pull) in [(a, pull), (b, -pull)] {
+            self.nodes[i].force += pull;
+            self.nodes[i].velocity = before;
+            if self.is_boundary(i) {
+                self.kick_boundary(i, kick);
+            } else {
+                self.kick_free(i, kick);
+            }
+        }
     }
 
     /// The nodes on both sides of an interface.
@@ -106,9 +112,7 @@ impl State {
 
     /// Accounts for the energy of a sudden change of a node's velocity: see [`Pair::jump_energy`].
     pub(super) fn account_for_jump(&mut self, i: usize, jump: f64, drift: f64) {
-        let node = &self.nodes[i];
-        self.accumulated.contact_loss -=
-            jump_energy(node.mass, node.velocity, node.spring_force, jump, drift);
+        self.accumulated.contact_loss -= self.pair([i, i]).jump_energy(0, jump, drift);
     }
 
     /// Closes every gap that would overlap at the end of the step, so that it is zero then.
@@ -120,7 +124,7 @@ impl State {
             let [a, b] = self.ends(s);
             let gap = self.nodes[b].position - self.nodes[a].position;
             let velocity = [self.nodes[a].velocity, self.nodes[b].velocity];
-            if !Pair::overlap(velocity, gap, time_step) {
+            if !overlap(velocity, gap, time_step) {
                 continue;
             }
             let mut pair = self.pair([a, b]);

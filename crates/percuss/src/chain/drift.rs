@@ -3,6 +3,7 @@
 use pulp::{Arch, NullaryFnOnce};
 
 use super::{
+    element::approach_rate,
     flow::{FlowLaw, FlowingElements, YieldStress},
     part::Part,
     penetration::Limit,
@@ -11,7 +12,7 @@ use super::{
 };
 use crate::{
     error::NumericalError,
-    lanes::{LANES, LaneMask, Lanes, PerLane},
+    lanes::{LANES, Lanes, PerLane},
     material::Hardening,
     options::Kinematics,
 };
@@ -156,7 +157,7 @@ impl State {
                 advance => closing - advance / time_step,
             };
             if is_logarithmic {
-                found.approaches(approach.abs() * (1.0 / length));
+                found.approaches(approach_rate(approach, length));
             }
             let step_before = element.stretch(part, length);
             let flows = !element.yield_point.holds(element.spring.stress.abs());
@@ -233,11 +234,7 @@ fn flow_eight(
         per_time: Lanes::all(1.0 / time_step),
         ..FlowingElements::default()
     };
-    let law = FlowLaw {
-        modulus: part.modulus,
-        heating: part.heating,
-        hardening: law,
-    };
+    let law = FlowLaw::new(law, part.modulus, part.heating);
     for (p, &place) in places.iter().enumerate() {
         let element = &elements[place];
         flowing.law.set_lane(p, law);
@@ -247,7 +244,7 @@ fn flow_eight(
             .yields
             .set_lane(p, YieldStress::of(&element.yield_point));
     }
-    flowing.flow(LaneMask::of_bits(u8::MAX), |p| elements[places[p]].length);
+    flowing.flow(u8::MAX, |p| elements[places[p]].length);
     for (p, &place) in places[..count].iter().enumerate() {
         let element = &mut elements[place];
         element.spring = flowing.spring.lane(p);

@@ -4,10 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::{part::Part, state::Element};
 use crate::{
-    lanes::{Real, larger, per_lane, smaller},
+    lanes::{larger, per_lane, smaller},
     material::{FlowState, Trial},
     options::Kinematics,
-    power::{exponential, log_ratio},
+    power::{exponential, log_ratio, small_exponential},
 };
 
 /// Elastic state of an element.
@@ -48,38 +48,46 @@ per_lane!(Plastic {
     temperature
 });
 
-impl<R: Real> Spring<R> {
+impl Spring {
     /// Takes the stress of a new length, as if nothing flowed.
     #[inline(always)]
-    pub(super) fn bear(&mut self, stress: R) {
+    pub(super) fn bear(&mut self, stress: f64) {
         self.stress_before = self.stress;
         self.stress = stress;
     }
 
-    /// Sets the force of an element of a volume that keeps it.
+    /// Sets the force of an element that keeps its volume.
     #[inline(always)]
-    pub(super) fn push(&mut self, volume: R, length: R) {
-        self.axial_force = self.stress * volume * length.inverse();
+    pub(super) fn push(&mut self, volume: f64, length: f64) {
+        self.axial_force = self.stress * volume * (1.0 / length);
     }
 
     /// Lets a trial stress flow by an increment of plastic strain; `heating` is the rise in temperature per plastic work per volume, and
-    /// `per_time` the inverse of the time step.
+    /// `per_time` the inverse of the time step. False where the unloaded length has still to be found by [`Spring::shrink`].
     #[inline(always)]
     pub(super) fn flow_by(
         &mut self,
-        increment: R,
-        plastic: &mut Plastic<R>,
-        [modulus, heating]: [R; 2],
-        per_time: R,
-    ) {
-        plastic.step = increment.signed_as(self.stress);
-        self.stress = self.stress - modulus * plastic.step;
-        self.unloaded_length = self.unloaded_length * exponential(-plastic.step);
+        increment: f64,
+        plastic: &mut Plastic,
+        [modulus, heating]: [f64; 2],
+        per_time: f64,
+    ) -> bool {
+        plastic.step = increment.copysign(self.stress);
+        self.stress -= modulus * plastic.step;
+        let (shrinking, is_exact) = small_exponential(-plastic.step);
+        self.unloaded_length *= shrinking;
         plastic.axial += plastic.step;
         plastic.strain += increment;
         plastic.largest_rate = larger(increment * per_time, plastic.largest_rate);
-        let work = (self.stress_before + self.stress).size() * 0.5 * increment;
+        let work = 0.5 * (self.stress_before + self.stress).abs() * increment;
         plastic.temperature += heating * work;
+        is_exact
+    }
+
+    /// Sets the unloaded length after a large plastic step.
+    #[cold]
+    pub(super) fn shrink(&mut self, unloaded_length: f64, plastic_step: f64) {
+        self.unloaded_length = unloaded_length * exponential(-plastic_step);
     }
 
     /// Plastic work between the half steps around the current time, per volume.
@@ -87,25 +95,30 @@ impl<R: Real> Spring<R> {
     /// The work that belongs to a time is its stress times half the plastic strain of the steps before and after it: with
     /// that, kinetic, elastic and plastic energy of a chain of small strain add up to rounding.
     #[inline(always)]
-    pub(super) fn plastic_work(&self, step_before: R, step: R) -> R {
-        self.stress_before * 0.5 * (step_before + step)
+    pub(super) fn plastic_work(&self, step_before: f64, step: f64) -> f64 {
+        0.5 * self.stress_before * (step_before + step)
     }
 
     /// Largest stable time step of the undamped element [s]: the time a wave takes through it.
     ///
     /// The force grows faster than the stress as the area grows: the tangent is E + σ, and 1/sqrt(1 + x) > 1 − x/2.
     #[inline(always)]
-    pub(super) fn stable_step(&self, length: R, compliance: R, slowness: R) -> R {
-        let (zero, one) = (R::all(0.0), R::all(1.0));
-        let stiffening = larger(smaller(self.stress * compliance, one), zero) * 0.5;
-        length * slowness * (one - stiffening)
+    pub(super) fn stable_step(&self, length: f64, compliance: f64, slowness: f64) -> f64 {
+        let stiffening = 0.5 * larger(smaller(self.stress * compliance, 1.0), 0.0);
+        length * slowness * (1.0 - stiffening)
     }
 
     /// Elastic energy between two steps: the form that central differences conserve.
     #[inline(always)]
-    pub(super) fn elastic_energy(&self, volume: R, modulus: R) -> R {
-        volume * self.stress_before * self.stress / (modulus * 2.0)
+    pub(super) fn elastic_energy(&self, volume: f64, modulus: f64) -> f64 {
+        volume * self.stress_before * self.stress / (2.0 * modulus)
     }
+}
+
+/// Speed at which the ends of an element approach or part, as a part of its length [1/s].
+#[inline(always)]
+pub(super) fn approach_rate(closing_speed: f64, length: f64) -> f64 {
+    closing_speed.abs() * (1.0 / length)
 }
 
 impl Element {
@@ -168,9 +181,13 @@ impl Element {
         );
         if increment != 0.0 {
             let constants = [part.modulus, part.heating];
-            let per_time = 1.0 / time_step;
-            self.spring
-                .flow_by(increment, &mut self.plastic, constants, per_time);
+            let (per_time, unloaded) = (1.0 / time_step, self.spring.unloaded_length);
+            if !self
+                .spring
+                .flow_by(increment, &mut self.plastic, constants, per_time)
+            {
+                self.spring.shrink(unloaded, self.plastic.step);
+            }
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::element::{Plastic, Spring};
 use crate::{
-    lanes::{LaneMask, Lanes, Mask, PerLane, Real, per_lane},
+    lanes::{LANES, Lanes, PerLane, per_lane},
     material::{FlowState, Hardening, Trial, YieldPoint, first_return},
     power::log_ratio,
 };
@@ -16,13 +16,38 @@ pub(super) struct FlowLaw<R = f64> {
     pub(super) modulus: R,
     /// Temperature rise per plastic work per volume.
     pub(super) heating: R,
-    pub(super) hardening: Hardening<R>,
+    pub(super) coefficient: R,
+    pub(super) exponent: R,
+    pub(super) first_strain: R,
 }
 per_lane!(FlowLaw {
     modulus,
     heating,
-    hardening
+    coefficient,
+    exponent,
+    first_strain
 });
+
+impl FlowLaw {
+    pub(super) fn new(law: Hardening, modulus: f64, heating: f64) -> Self {
+        Self {
+            modulus,
+            heating,
+            coefficient: law.coefficient,
+            exponent: law.exponent,
+            first_strain: law.first_strain,
+        }
+    }
+
+    #[inline(always)]
+    fn hardening(&self) -> Hardening {
+        Hardening {
+            coefficient: self.coefficient,
+            exponent: self.exponent,
+            first_strain: self.first_strain,
+        }
+    }
+}
 
 /// Yield stress and its slope with the plastic strain [Pa].
 #[derive(Debug, Clone, Copy, Default)]
@@ -57,43 +82,77 @@ impl YieldStress {
 }
 
 impl FlowingElements {
-    /// Returns the trial stresses to the yield surface; only some places count.
+    /// Keeps what was before in those places whose bits are set.
     #[inline(always)]
-    pub(super) fn flow(&mut self, places: LaneMask, length: impl Fn(usize) -> f64) {
-        let FlowLaw {
-            modulus,
-            heating,
-            hardening,
-        } = self.law;
-        let (before, strain) = (self.yields, self.plastic.strain);
-        let size = self.spring.stress.size();
-        let points = [before.stress, before.slope];
-        let returned = first_return(hardening, points, strain, size, modulus);
-        let mut increment = returned.increment;
-        self.yields = YieldStress {
-            stress: size - modulus * increment,
-            slope: returned.strain_slope,
-        };
-        let is_last = returned.is_last & size.at_most(modulus * LARGE);
-        let left_over = places & !is_last;
-        if left_over.any() {
-            for p in left_over.lanes() {
-                let elastic = log_ratio(self.spring.unloaded_length.0[p], length(p));
-                let trial = modulus.0[p] * elastic;
-                let of_lane = (hardening.lane(p), before.lane(p));
-                let (next, point) = iterate(of_lane, strain.0[p], trial, modulus.0[p]);
-                self.spring.stress.0[p] = trial;
+    pub(super) fn keep(&mut self, before: &Self, places: u8) {
+        let (mut after, before) = (*self, *before);
+        for p in 0..LANES {
+            let is_kept = places >> p & 1 == 1;
+            let of = if is_kept { &before } else { &*self };
+            after.spring.set_lane(p, of.spring.lane(p));
+            after.plastic.set_lane(p, of.plastic.lane(p));
+            after.yields.set_lane(p, of.yields.lane(p));
+        }
+        *self = after;
+    }
+
+    /// Returns the trial stresses to the yield surface; those places count whose bits are set in `places`.
+    #[inline(always)]
+    pub(super) fn flow(&mut self, places: u8, length: impl Fn(usize) -> f64) {
+        let Self {
+            spring,
+            plastic,
+            yields: before,
+            law,
+            per_time,
+        } = *self;
+        let mut trial = spring.stress;
+        let mut increment = Lanes::all(0.0);
+        let mut yields = before;
+        let mut left_over = 0;
+        for p in 0..LANES {
+            let (law, point) = (law.lane(p), before.lane(p));
+            let size = trial.0[p].abs();
+            let point = [point.stress, point.slope];
+            let strain = plastic.strain.0[p];
+            let returned = first_return(law.hardening(), point, strain, size, law.modulus);
+            let is_last = returned.is_last & (size <= law.modulus * LARGE);
+            left_over |= u8::from(!is_last) << p;
+            increment.0[p] = returned.increment;
+            yields.stress.0[p] = size - law.modulus * returned.increment;
+            yields.slope.0[p] = returned.strain_slope;
+        }
+        left_over &= places;
+        if left_over != 0 {
+            for p in (0..LANES).filter(|p| left_over >> p & 1 == 1) {
+                let (law, strain) = (law.lane(p), plastic.strain.0[p]);
+                trial.0[p] = law.modulus * log_ratio(spring.unloaded_length.0[p], length(p));
+                let (next, point) = iterate(law, before.lane(p), strain, trial.0[p]);
                 increment.0[p] = next;
-                self.yields.set_lane(p, point);
+                yields.set_lane(p, point);
             }
         }
-        let increment = Lanes::select(places, increment, Lanes::all(0.0));
-        self.spring.flow_by(
-            increment,
-            &mut self.plastic,
-            [modulus, heating],
-            self.per_time,
-        );
+        self.yields = yields;
+        let (mut flowed, mut strained) = (spring, plastic);
+        let mut is_large = 0;
+        for p in 0..LANES {
+            let (mut spring, mut plastic) = (spring.lane(p), plastic.lane(p));
+            spring.stress = trial.0[p];
+            let constants = [law.modulus.0[p], law.heating.0[p]];
+            let is_exact = spring.flow_by(increment.0[p], &mut plastic, constants, per_time.0[p]);
+            is_large |= u8::from(!is_exact) << p;
+            flowed.set_lane(p, spring);
+            strained.set_lane(p, plastic);
+        }
+        (self.spring, self.plastic) = (flowed, strained);
+        is_large &= places;
+        if is_large != 0 {
+            for p in (0..LANES).filter(|p| is_large >> p & 1 == 1) {
+                let mut flowed = self.spring.lane(p);
+                flowed.shrink(spring.unloaded_length.0[p], self.plastic.step.0[p]);
+                self.spring.set_lane(p, flowed);
+            }
+        }
     }
 }
 
@@ -101,10 +160,10 @@ impl FlowingElements {
 #[cold]
 #[inline(never)]
 fn iterate(
-    (law, before): (Hardening, YieldStress),
+    law: FlowLaw,
+    before: YieldStress,
     plastic_strain: f64,
     trial: f64,
-    modulus: f64,
 ) -> (f64, YieldStress) {
     let mut point = before.point();
     let start = FlowState {
@@ -115,10 +174,10 @@ fn iterate(
     };
     let trial = Trial {
         stress: trial.abs(),
-        modulus,
+        modulus: law.modulus,
         pressure_fall: 0.0,
         elapsed: None,
     };
-    let increment = point.plastic_increment(&law, &start, &trial);
+    let increment = point.plastic_increment(&law.hardening(), &start, &trial);
     (increment, YieldStress::of(&point))
 }

@@ -2,39 +2,57 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::lanes::{Mask, Real, per_lane};
+use crate::lanes::per_lane;
 
 /// Velocity after a kick with dry friction.
 ///
 /// `change` is what the forces alone would add and `limit` the most that friction can take away. The motion within the
 /// step is followed exactly: friction slows, holds the node if it can, and opposes the motion that starts afresh.
-// Nodes that slide on everywhere come first. Otherwise every case is worked out and one is chosen, so that a loop becomes vector instructions.
+// Every case is worked out and one is chosen, so that a loop over many nodes becomes vector instructions.
 #[inline(always)]
-pub(super) fn dry_friction<R: Real>(before: R, change: R, limit: R) -> R {
-    let zero = R::all(0.0);
-    let sign = R::all(1.0).signed_as(before);
-    let slides = before + change - sign * limit;
-    let loss = limit - sign * change;
-    let slides_on = loss.at_most(zero) | before.size().at_least(loss);
-    let was_still = before.equals(zero);
-    let is_free = limit.equals(zero);
-    if ((slides_on & !was_still) | is_free).every() {
-        return slides;
-    }
+pub(super) fn dry_friction(before: f64, change: f64, limit: f64) -> f64 {
     let free = before + change;
-    let is_held = change.size().at_most(limit);
-    if (is_held & was_still).every() {
-        return zero;
-    }
-    let starts = R::select(is_held, zero, change - limit.signed_as(change));
-    let turned = (R::all(1.0) - before.size() / loss) * (change + sign * limit);
-    let turned = R::select(is_held, zero, turned);
+    let is_held = change.abs() <= limit;
+    let starts = if is_held {
+        0.0
+    } else {
+        change - limit.copysign(change)
+    };
+    let (slides, loss, slides_on) = slide(before, change, limit);
+    let sign = 1.0_f64.copysign(before);
+    let turned = (1.0 - before.abs() / loss) * (change + sign * limit);
+    let turned = if is_held { 0.0 } else { turned };
     // Where the node turns almost symmetrically, the mean velocity would let friction push: it may not.
-    let pushes = ((turned - before - change) * (before + turned)).above(zero);
-    let turned = R::select(pushes, free, turned);
-    let moves = R::select(slides_on, slides, turned);
-    let after = R::select(was_still, starts, moves);
-    R::select(is_free, free, after)
+    let pushes = (turned - before - change) * (before + turned) > 0.0;
+    let turned = if pushes { free } else { turned };
+    let moves = if slides_on { slides } else { turned };
+    let after = if before == 0.0 { starts } else { moves };
+    if limit == 0.0 { free } else { after }
+}
+
+/// Velocity of a moving node that slides on, the speed that it loses, and whether it does slide on.
+#[inline(always)]
+pub(super) fn slide(before: f64, change: f64, limit: f64) -> (f64, f64, bool) {
+    let sign = 1.0_f64.copysign(before);
+    let loss = limit - sign * change;
+    let slides = before + change - sign * limit;
+    (slides, loss, (loss <= 0.0) | (before.abs() >= loss))
+}
+
+/// The same as [`dry_friction`] for one node by itself, to the same bits: the usual cases first, so that little is worked out in vain.
+#[inline(always)]
+pub(super) fn dry_friction_one(before: f64, change: f64, limit: f64) -> f64 {
+    if before == 0.0 {
+        return if change.abs() <= limit {
+            0.0
+        } else {
+            change - limit.copysign(change)
+        };
+    }
+    match slide(before, change, limit) {
+        (slides, _, true) => slides,
+        _ => dry_friction(before, change, limit),
+    }
 }
 
 /// Impulse that friction took, and its work.
@@ -45,36 +63,41 @@ pub(super) struct FrictionSums<R = f64> {
 }
 per_lane!(FrictionSums { impulse, work });
 
-impl<R: Real> FrictionSums<R> {
+impl FrictionSums {
     /// Adds an impulse that acted while a velocity changed.
     #[inline(always)]
-    pub(super) fn add(&mut self, impulse: R, before: R, after: R) {
+    pub(super) fn add(&mut self, impulse: f64, before: f64, after: f64) {
         self.impulse += impulse;
-        self.work += impulse * ((before + after) * 0.5);
+        self.work += impulse * 0.5 * (before + after);
     }
 }
 
-/// What a kick makes of a mass by itself.
+/// A mass after a kick.
 #[derive(Clone, Copy)]
-pub(super) struct Kicked<R> {
-    pub(super) velocity: R,
+pub(super) struct Kicked {
+    pub(super) velocity: f64,
     /// Impulse that friction took.
-    pub(super) lost: R,
+    pub(super) lost: f64,
 }
 
 /// Kicks a mass by a force against friction; `ratio` is the time of the kick over the mass.
 #[inline(always)]
-pub(super) fn kick<R: Real>(mass: R, before: R, force: R, friction: R, ratio: R) -> Kicked<R> {
+pub(super) fn kick([mass, before]: [f64; 2], [force, friction]: [f64; 2], ratio: f64) -> Kicked {
     let change = force * ratio;
     let velocity = dry_friction(before, change, friction * ratio);
-    let lost = mass * (before + change - velocity);
+    let lost = lost_impulse(mass, before, change, velocity);
     Kicked { velocity, lost }
+}
+
+/// Impulse that friction took from a mass.
+#[inline(always)]
+pub(super) fn lost_impulse(mass: f64, before: f64, change: f64, after: f64) -> f64 {
+    mass * (before + change - after)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::dry_friction;
-    use crate::lanes::{LANES, Lanes};
+    use super::{dry_friction, dry_friction_one};
 
     #[test]
     fn friction_holds_slows_and_never_pushes() {
@@ -87,6 +110,10 @@ mod tests {
                 let (before, change) = (i as f64 * 0.05 - 5.0, j as f64 * 0.05 - 5.0);
                 for limit in [0.1, 1.0, 3.0] {
                     let after = dry_friction(before, change, limit);
+                    assert_eq!(
+                        dry_friction_one(before, change, limit).to_bits(),
+                        after.to_bits()
+                    );
                     let friction = after - before - change;
                     assert!(friction.abs() <= limit + 1e-12);
                     assert!(
@@ -94,28 +121,6 @@ mod tests {
                         "{before} {change} {limit}"
                     );
                 }
-            }
-        }
-    }
-
-    #[test]
-    fn lanes_in_any_company_have_the_bits_of_one() {
-        let number = |i: usize, k: f64| (i as f64 * k).fract() * 4.0 - 2.0;
-        for i in 0..4000 {
-            // Sliding, held, turning and free nodes side by side.
-            let lane = |l: usize| {
-                let (before, change) = (number(8 * i + l, 0.754_877), number(8 * i + l, 0.569_840));
-                let before = if (i + l) % 3 == 0 { 0.0 } else { before };
-                [before, change, [0.0, 0.5, 1.5][(i / 3 + l) % 3]]
-            };
-            let [before, change, limit] = crate::lanes::each_of(lane);
-            let together: Lanes = dry_friction(before, change, limit);
-            for l in 0..LANES {
-                let [before, change, limit] = lane(l);
-                assert_eq!(
-                    together[l].to_bits(),
-                    dry_friction(before, change, limit).to_bits()
-                );
             }
         }
     }

@@ -1,110 +1,147 @@
 //! Two ends that touch, part or meet.
 
-use super::{
-    friction::{dry_friction, kick},
-    state::Accumulators,
-};
-use crate::lanes::{Mask, Real, larger};
+use super::friction::{FrictionSums, Kicked, dry_friction, kick, lost_impulse};
+use crate::lanes::larger;
 
 /// Two ends at the start of a kick, or of a drift.
 #[derive(Clone, Copy)]
-pub(super) struct Pair<R = f64> {
-    pub(super) mass: [R; 2],
-    pub(super) velocity: [R; 2],
-    pub(super) force: [R; 2],
+pub(super) struct Pair {
+    pub(super) mass: [f64; 2],
+    pub(super) velocity: [f64; 2],
+    pub(super) force: [f64; 2],
     /// Force of the elements without viscosity.
-    pub(super) spring_force: [R; 2],
+    pub(super) spring_force: [f64; 2],
     /// Largest friction on them.
-    pub(super) friction: [R; 2],
+    pub(super) friction: [f64; 2],
 }
 
-/// Time of a kick [s], and of the drift before it.
+/// Two ends that move as one in a kick.
 #[derive(Clone, Copy)]
-pub(super) struct Times<R = f64> {
-    pub(super) kick: R,
-    pub(super) drift: R,
+pub(super) struct Joined {
+    /// Their common velocity at its start and at its end.
+    pub(super) before: f64,
+    pub(super) velocity: f64,
+    /// Force with which they push each other.
+    pub(super) push: f64,
+    /// Impulse that friction took.
+    pub(super) lost: f64,
+    /// Energy that contact has taken so far.
+    pub(super) contact_loss: f64,
+}
+
+/// What contact takes.
+#[derive(Clone, Copy)]
+pub(super) struct ContactSums {
+    pub(super) loss: f64,
+    pub(super) friction: FrictionSums,
 }
 
 /// Two ends after a kick.
-pub(super) struct KickedPair<R: Real> {
-    /// Velocities from which the kick started.
-    pub(super) start: [R; 2],
-    pub(super) velocity: [R; 2],
-    /// Where they touch still.
-    pub(super) closed: R::Mask,
-    /// Force with which they push each other; 0 where they do not touch.
-    pub(super) push: R,
+pub(super) struct KickedPair {
+    pub(super) velocity: [f64; 2],
+    /// Whether they touch still.
+    pub(super) closed: bool,
+    /// Force with which they push each other.
+    pub(super) push: f64,
+    pub(super) sums: ContactSums,
 }
 
-impl<R: Real> Pair<R> {
-    /// Kicks two ends, together where they touch and stay so: those that touch part where they would pull each other by more than
-    /// `holds`, and what still holds pulls from then on. `RUBS`: whether friction acts on the first of them, too.
+impl Pair {
+    /// Kicks two ends as one. Whether friction acts on the first of them, too, is known beforehand; `drift` is the length of the step
+    /// before.
     ///
-    /// Ends that touch start the kick with their common velocity; what that costs is the loss of a plastic impact.
+    /// Both start the kick with their common velocity; what that costs is the loss of a plastic impact.
     #[inline(always)]
-    pub(super) fn kick<const RUBS: bool>(
+    pub(super) fn join<const BOTH_RUB: bool>(
         &self,
-        closed: R::Mask,
-        holds: R,
-        times: Times<R>,
-        sums: &mut Accumulators<R>,
-    ) -> KickedPair<R> {
-        let (zero, velocity) = (R::all(0.0), self.velocity);
-        let [mass_a, mass_b] = self.mass;
+        kick: f64,
+        drift: f64,
+        contact_loss: f64,
+    ) -> Joined {
+        let ([mass_a, mass_b], [velocity_a, velocity_b]) = (self.mass, self.velocity);
         let ([force_a, force_b], [friction_a, friction_b]) = (self.force, self.friction);
         let mass = mass_a + mass_b;
-        let common = (mass_a * velocity[0] + mass_b * velocity[1]) / mass;
-        let mut loss = sums.contact_loss;
-        for end in 0..2 {
-            loss -= self.jump_energy(end, common - velocity[end], -times.drift);
-        }
-        sums.contact_loss = R::select(closed, loss, sums.contact_loss);
-        let change = (force_a + force_b) * times.kick / mass;
-        let friction = if RUBS {
+        let before = (mass_a * velocity_a + mass_b * velocity_b) / mass;
+        let contact_loss = contact_loss - self.jump_energy(0, before - velocity_a, -drift);
+        let contact_loss = contact_loss - self.jump_energy(1, before - velocity_b, -drift);
+        let change = (force_a + force_b) * kick / mass;
+        let friction = if BOTH_RUB {
             friction_a + friction_b
         } else {
             friction_b
         };
-        let together = dry_friction(common, change, friction * times.kick / mass);
+        let velocity = dry_friction(before, change, friction * kick / mass);
         let mut on_a = force_a;
-        if RUBS {
-            let impulse = mass * (together - common - change);
-            let own = impulse / times.kick * friction_a / friction;
-            on_a += R::select(friction.equals(zero), zero, own);
+        if BOTH_RUB && friction != 0.0 {
+            on_a += mass * (velocity - before - change) / kick * friction_a / friction;
         }
-        let push = on_a - mass_a * (together - common) / times.kick;
-        let stays = closed & push.at_least(-holds);
-        let lost = mass * (common + change - together);
-        let start = velocity.map(|velocity| R::select(closed, common, velocity));
-        if stays.every() {
-            sums.friction.add(lost, common, together);
-            return KickedPair {
-                start,
-                velocity: [together; 2],
-                closed: stays,
-                push,
-            };
-        }
-        let pull = R::select(closed, holds, zero);
-        let ratio = [times.kick / mass_a, times.kick / mass_b];
-        let force = [force_a + pull, force_b - pull];
-        let mut a = start[0] + force[0] * ratio[0];
-        if RUBS {
-            let kicked = kick(mass_a, start[0], force[0], friction_a, ratio[0]);
-            let lost = R::select(stays, zero, kicked.lost);
-            sums.friction.add(lost, start[0], kicked.velocity);
-            a = kicked.velocity;
-        }
-        let b = kick(mass_b, start[1], force[1], friction_b, ratio[1]);
-        let velocity = [a, b.velocity];
-        let velocity = velocity.map(|alone| R::select(stays, together, alone));
-        let lost = R::select(stays, lost, b.lost);
-        sums.friction.add(lost, start[1], velocity[1]);
-        KickedPair {
-            start,
+        Joined {
+            before,
             velocity,
+            push: on_a - mass_a * (velocity - before) / kick,
+            lost: lost_impulse(mass, before, change, velocity),
+            contact_loss,
+        }
+    }
+
+    /// Kicks two ends, together where they touch and stay so.
+    // Both cases are worked out and one is chosen, so that a loop over many pairs becomes vector instructions.
+    #[inline(always)]
+    pub(super) fn kick<const BOTH_RUB: bool>(
+        &self,
+        closed: bool,
+        time: f64,
+        drift: f64,
+        mut sums: ContactSums,
+    ) -> KickedPair {
+        let joined = self.join::<BOTH_RUB>(time, drift, sums.loss);
+        let stays = closed & (joined.push >= 0.0);
+        let [mass_a, mass_b] = self.mass;
+        let start_a = if closed {
+            joined.before
+        } else {
+            self.velocity[0]
+        };
+        let start_b = if closed {
+            joined.before
+        } else {
+            self.velocity[1]
+        };
+        let mut alone_a = Kicked {
+            velocity: start_a + self.force[0] * (time / mass_a),
+            lost: 0.0,
+        };
+        if BOTH_RUB {
+            let force = [self.force[0], self.friction[0]];
+            alone_a = kick([mass_a, start_a], force, time / mass_a);
+        }
+        let force = [self.force[1], self.friction[1]];
+        let alone_b = kick([mass_b, start_b], force, time / mass_b);
+        if BOTH_RUB && !stays {
+            sums.friction.add(alone_a.lost, start_a, alone_a.velocity);
+        }
+        let lost = if stays { joined.lost } else { alone_b.lost };
+        let velocity_a = if stays {
+            joined.velocity
+        } else {
+            alone_a.velocity
+        };
+        let velocity_b = if stays {
+            joined.velocity
+        } else {
+            alone_b.velocity
+        };
+        sums.friction.add(lost, start_b, velocity_b);
+        sums.loss = if closed {
+            joined.contact_loss
+        } else {
+            sums.loss
+        };
+        KickedPair {
+            velocity: [velocity_a, velocity_b],
             closed: stays,
-            push: R::select(stays, push, zero),
+            push: if stays { joined.push } else { 0.0 },
+            sums,
         }
     }
 
@@ -114,45 +151,42 @@ impl<R: Real> Pair<R> {
     /// the two drifts around it: a jump between kick and drift leaves half a drift's work to account for. `drift` is the length
     /// of the drift on the jump's side of the kick, negative when the jump comes before the kick.
     #[inline(always)]
-    pub(super) fn jump_energy(&self, end: usize, jump: R, drift: R) -> R {
-        let (mass, velocity) = (self.mass[end], self.velocity[end]);
-        jump_energy(mass, velocity, self.spring_force[end], jump, drift)
+    pub(super) fn jump_energy(&self, end: usize, jump: f64, drift: f64) -> f64 {
+        let (before, after) = (self.velocity[end], self.velocity[end] + jump);
+        let kinetic = 0.5 * self.mass[end] * (after * after - before * before);
+        kinetic - 0.5 * drift * self.spring_force[end] * jump
     }
 
-    /// Lets two ends across a gap meet at the end of a drift, the first one taking a share of the change of velocity, the second one
-    /// the other; gives the change.
-    #[inline(always)]
-    pub(super) fn meet(&mut self, gap: R, drift: R, shares: [R; 2], loss: &mut R) -> R {
+    /// Lets two ends across a gap meet at the end of a drift, each taking its share of the change of velocity; gives the change.
+    pub(super) fn meet(
+        &mut self,
+        gap: f64,
+        drift: f64,
+        [share_a, share_b]: [f64; 2],
+        contact_loss: &mut f64,
+    ) -> f64 {
         let approach = self.velocity[0] - self.velocity[1];
-        let change = approach - larger(gap, R::all(0.0)) / drift;
-        for (end, jump) in [-shares[0] * change, shares[1] * change]
+        let change = approach - larger(gap, 0.0) / drift;
+        for (end, jump) in [-share_a * change, share_b * change]
             .into_iter()
             .enumerate()
         {
-            *loss -= self.jump_energy(end, jump, drift);
-            self.velocity[end] = self.velocity[end] + jump;
+            *contact_loss -= self.jump_energy(end, jump, drift);
+            self.velocity[end] += jump;
         }
         change
     }
 
     /// Shares of two free ends in a change of their velocities.
-    #[inline(always)]
-    pub(super) fn shares(&self) -> [R; 2] {
-        let mass = self.mass[0] + self.mass[1];
-        [self.mass[1] / mass, self.mass[0] / mass]
-    }
-
-    /// Whether two ends across a gap would overlap at the end of a drift.
-    #[inline(always)]
-    pub(super) fn overlap(velocity: [R; 2], gap: R, drift: R) -> R::Mask {
-        (gap - (velocity[0] - velocity[1]) * drift).at_most(R::all(0.0))
+    pub(super) fn shares(&self) -> [f64; 2] {
+        let [mass_a, mass_b] = self.mass;
+        let mass = mass_a + mass_b;
+        [mass_b / mass, mass_a / mass]
     }
 }
 
-/// [`Pair::jump_energy`] of one node.
+/// Whether two ends across a gap would overlap at the end of a drift.
 #[inline(always)]
-pub(super) fn jump_energy<R: Real>(mass: R, velocity: R, spring_force: R, jump: R, drift: R) -> R {
-    let after = velocity + jump;
-    let kinetic = mass * 0.5 * (after * after - velocity * velocity);
-    kinetic - drift * 0.5 * spring_force * jump
+pub(super) fn overlap(velocity: [f64; 2], gap: f64, drift: f64) -> bool {
+    gap - (velocity[0] - velocity[1]) * drift <= 0.0
 }

@@ -3,13 +3,12 @@
 use std::ops::Range;
 
 use super::{
-    friction::{FrictionSums, kick},
+    friction::{FrictionSums, dry_friction_one, lost_impulse},
     part::Part,
-    state::{Accumulators, Element, End, Node, Segment, State},
+    state::{Element, End, Node, Segment, State},
 };
 use crate::{
     error::NumericalError,
-    lanes::Real,
     options::{ArtificialViscosity, ChainOptions},
 };
 
@@ -114,14 +113,15 @@ impl Node {
     /// Kicks the node for a time over its mass and returns the impulse of friction.
     #[inline(always)]
     fn kick(&mut self, ratio: f64, sums: &mut FrictionSums) -> f64 {
+        let change = self.force * ratio;
         let before = self.velocity;
         if self.friction > 0.0 {
-            let kicked = kick(self.mass, before, self.force, self.friction, ratio);
-            self.velocity = kicked.velocity;
-            sums.add(kicked.lost, before, kicked.velocity);
-            kicked.lost
+            self.velocity = dry_friction_one(before, change, self.friction * ratio);
+            let lost = lost_impulse(self.mass, before, change, self.velocity);
+            sums.add(lost, before, self.velocity);
+            lost
         } else {
-            self.velocity = before + self.force * ratio;
+            self.velocity = before + change;
             0.0
         }
     }
@@ -271,9 +271,12 @@ impl State {
                 stiffness,
             } => {
                 let spring = stiffness * (node.position - self.back_position);
-                let of_node = [node.mass, node.velocity, node.force];
-                (node.velocity, self.back_force) =
-                    kick_open_end(of_node, [impedance, spring], kick, sums);
+                let end = OpenEnd { impedance, spring };
+                let [after, mean, force] = end.kick(node.mass, node.velocity, node.force, kick);
+                node.velocity = after;
+                self.back_force = force;
+                sums.support_impulse += force * kick;
+                sums.boundary_work += force * mean * kick;
             }
         }
     }
@@ -291,34 +294,37 @@ impl State {
 ///
 /// Every change of the time step costs a little energy, so small changes are not made.
 #[inline(always)]
-pub(super) fn choose_time_step<R: Real>(previous: R, allowed: R) -> R {
-    let falls = previous.equals(R::all(0.0)) | allowed.below(previous);
-    let grows = allowed.above(previous * STEP_SLACK);
-    let longer = R::select(grows, previous * LARGEST_STEP_GROWTH, previous);
-    R::select(falls, allowed * STEP_MARGIN, longer)
+pub(super) fn choose_time_step(previous: f64, allowed: f64) -> f64 {
+    if previous == 0.0 || allowed < previous {
+        STEP_MARGIN * allowed
+    } else if allowed > STEP_SLACK * previous {
+        LARGEST_STEP_GROWTH * previous
+    } else {
+        previous
+    }
 }
 
 /// Largest time step in which no element makes too large a change of strain, for the largest rate at which ends approach or part, as a
 /// part of the length [1/s].
 #[inline(always)]
-pub(super) fn strain_limited_step<R: Real>(fastest: R) -> R {
-    R::all(LARGEST_STRAIN_STEP) / fastest
+pub(super) fn strain_limited_step(fastest: f64) -> f64 {
+    LARGEST_STRAIN_STEP / fastest
 }
 
-/// Kicks the last node of a chain by a force of its element against the impedance of a boundary and the force of a spring beside it; gives
-/// its velocity and the force on the boundary.
-#[inline(always)]
-pub(super) fn kick_open_end<R: Real>(
-    [mass, before, force]: [R; 3],
-    [impedance, spring]: [R; 2],
-    kick: R,
-    sums: &mut Accumulators<R>,
-) -> (R, R) {
-    let (inertia, half) = (mass / kick, impedance * 0.5);
-    let after = ((inertia - half) * before + force - spring) / (inertia + half);
-    let mean = (before + after) * 0.5;
-    let back_force = impedance * mean + spring;
-    sums.support_impulse += back_force * kick;
-    sums.boundary_work += back_force * mean * kick;
-    (after, back_force)
+/// A boundary that takes up waves, with the force of a spring beside it.
+#[derive(Clone, Copy)]
+pub(super) struct OpenEnd {
+    pub(super) impedance: f64,
+    pub(super) spring: f64,
+}
+
+impl OpenEnd {
+    /// Kicks the last node of a chain by the force of its element: its velocity, and the mean one and the force on the boundary in the kick.
+    #[inline(always)]
+    pub(super) fn kick(self, mass: f64, before: f64, force: f64, kick: f64) -> [f64; 3] {
+        let (inertia, half) = (mass / kick, 0.5 * self.impedance);
+        let after = ((inertia - half) * before + force - self.spring) / (inertia + half);
+        let mean = 0.5 * (before + after);
+        [after, mean, self.impedance * mean + self.spring]
+    }
 }

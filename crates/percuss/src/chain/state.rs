@@ -20,7 +20,7 @@ use super::{
 };
 use crate::{
     Error,
-    lanes::{Real, per_lane},
+    lanes::per_lane,
     ledger::{EnergyLedger, MomentumLedger},
     material::YieldPoint,
     solver::archive::Archive,
@@ -156,10 +156,10 @@ per_lane!(BodySums {
     momentum
 });
 
-impl<R: Real> BodySums<R> {
+impl BodySums {
     #[inline(always)]
-    pub(super) fn add_node(&mut self, mass: R, velocity: R) {
-        self.kinetic += mass * 0.5 * velocity * velocity;
+    pub(super) fn add_node(&mut self, mass: f64, velocity: f64) {
+        self.kinetic += 0.5 * mass * velocity * velocity;
         self.momentum += mass * velocity;
     }
 }

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{FlowState, FlowStress, Hardening, PreparedStrength, strength::hardened};
-use crate::lanes::Real;
+use super::{FlowState, FlowStress, Hardening, PreparedStrength};
 
 /// Excess of stress, as a part of the trial stress, from which one more Newton step may be the last.
 const LARGEST_EXCESS: f64 = 1e-4;
@@ -39,36 +38,36 @@ pub(crate) struct YieldPoint {
 /// Powers of strain and strain rate are not more curved than slope over strain and slope over rate: `curvature` is the sum of the
 /// two, `per` times.
 #[inline(always)]
-pub(crate) fn is_last<R: Real>(trial: R, excess: R, step: R, curvature: R, per: R) -> R::Mask {
-    excess.size().at_most(trial * LARGEST_EXCESS)
-        & (step * 0.5 * step * curvature).at_most(trial * TOLERANCE * per)
+pub(crate) fn is_last(trial: f64, excess: f64, step: f64, curvature: f64, per: f64) -> bool {
+    (excess.abs() <= LARGEST_EXCESS * trial)
+        & (0.5 * step * step * curvature <= TOLERANCE * trial * per)
 }
 
 /// What the first step of Newton's method comes to.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct FirstReturn<R: Real> {
+pub(crate) struct FirstReturn {
     /// Plastic strain.
-    pub(crate) increment: R,
+    pub(crate) increment: f64,
     /// Slope of the flow stress with it [Pa].
-    pub(crate) strain_slope: R,
+    pub(crate) strain_slope: f64,
     /// Whether it is the last step, too.
-    pub(crate) is_last: R::Mask,
+    pub(crate) is_last: bool,
 }
 
 /// Return of an equivalent stress [Pa] beyond the yield stress to a flow stress that is a power of the plastic strain, as far as the
 /// first step of Newton's method goes: what [`YieldPoint::plastic_increment`] does, for loops over many returns that have been dispatched to an instruction set. The yield stress
 /// and its slope are those at the plastic strain before.
 #[inline(always)]
-pub(crate) fn first_return<R: Real>(
-    law: Hardening<R>,
-    [yield_stress, slope]: [R; 2],
-    plastic_strain: R,
-    size: R,
-    modulus: R,
-) -> FirstReturn<R> {
+pub(crate) fn first_return(
+    law: Hardening,
+    [yield_stress, slope]: [f64; 2],
+    plastic_strain: f64,
+    size: f64,
+    modulus: f64,
+) -> FirstReturn {
     let first = (size - yield_stress) / (modulus + slope);
     let reached = plastic_strain + first;
-    let (stress, strain_slope) = hardened(&law, reached);
+    let (stress, strain_slope) = law.at_here(reached);
     let excess = size - modulus * first - stress;
     let step = excess / (modulus + strain_slope);
     let increment = first + step;
@@ -76,7 +75,7 @@ pub(crate) fn first_return<R: Real>(
     FirstReturn {
         increment,
         strain_slope,
-        is_last: is_last & increment.above(R::all(0.0)),
+        is_last: is_last & (increment > 0.0),
     }
 }
 

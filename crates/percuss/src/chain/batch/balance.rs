@@ -3,7 +3,7 @@
 use super::bundle::Bundle;
 use crate::{
     chain::{column::ColumnRun, state::BodySums},
-    lanes::{Lanes, PerLane},
+    lanes::{LANES, Lanes, PerLane},
     solver::AttemptError,
 };
 
@@ -15,12 +15,22 @@ impl Bundle {
         for (b, body) in self.bodies.iter().enumerate() {
             let elements = self.mesh.elements_of(b);
             let nodes = elements.start + b..=elements.end + b;
-            for (node, &mass) in self.nodes[nodes.clone()].iter().zip(&self.masses[nodes]) {
-                sums[b].add_node(mass, node.velocity);
+            let mut of_body = BodySums::<Lanes>::default();
+            for (node, mass) in self.nodes[nodes.clone()].iter().zip(&self.masses[nodes]) {
+                let before = of_body;
+                for l in 0..LANES {
+                    let mut one = before.lane(l);
+                    one.add_node(mass.0[l], node.velocity.0[l]);
+                    of_body.set_lane(l, one);
+                }
             }
             for spring in &self.springs[elements] {
-                sums[b].elastic += spring.elastic_energy(body.volume, body.law.modulus);
+                for l in 0..LANES {
+                    let (volume, modulus) = (body.volume.0[l], body.law.modulus.0[l]);
+                    of_body.elastic.0[l] += spring.lane(l).elastic_energy(volume, modulus);
+                }
             }
+            sums[b] = of_body;
         }
         sums
     }

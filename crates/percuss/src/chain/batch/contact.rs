@@ -2,8 +2,8 @@
 
 use super::{bundle::Bundle, step::Step};
 use crate::{
-    chain::pair::{Pair, Times},
-    lanes::{LaneMask, Lanes, Mask, PerLane, Real},
+    chain::pair::{ContactSums, Pair, overlap},
+    lanes::{LANES, Lanes, PerLane},
 };
 
 impl Bundle {
@@ -12,30 +12,52 @@ impl Bundle {
     pub(super) fn kick_contact(&mut self, force_behind: Lanes, step: &Step) {
         let [projectile, _] = self.mesh.elements;
         let (a, b) = (projectile, projectile + 1);
-        let zero = Lanes::all(0.0);
-        let force = [force_behind, zero - self.springs[projectile].axial_force];
-        let pair = Pair {
-            mass: [self.bodies[0].end_mass, self.bodies[1].end_mass],
-            velocity: [self.nodes[a].velocity, self.nodes[b].velocity],
-            force,
-            spring_force: force,
-            friction: [zero, self.bodies[1].first_friction],
-        };
-        let scalars = &mut self.scalars;
-        let (closed, mut sums) = (scalars.closed, scalars.accumulated);
-        let kicked = pair.kick::<false>(closed, zero, step.times, &mut sums);
-        let [mut velocity_a, mut velocity_b] = kicked.velocity;
-        (scalars.closed, scalars.contact_force) = (kicked.closed, kicked.push);
-        // Where other nodes than these meet, they do so by themselves.
-        if self.displaced != 0 {
-            let displaced = LaneMask::of_bits(self.displaced);
-            velocity_a = Lanes::select(displaced, pair.velocity[0], velocity_a);
-            velocity_b = Lanes::select(displaced, pair.velocity[1], velocity_b);
-            sums = PerLane::choose(displaced, scalars.accumulated, sums);
-            scalars.closed = (closed & displaced) | (kicked.closed & !displaced);
-            scalars.contact_force = Lanes::select(displaced, zero, kicked.push);
+        let ahead = self.springs[projectile].axial_force;
+        let bodies = [&self.bodies[0], &self.bodies[1]];
+        let [mass_a, mass_b] = bodies.map(|body| body.end_mass);
+        let friction = bodies[1].first_friction;
+        let (before_a, before_b) = (self.nodes[a].velocity, self.nodes[b].velocity);
+        let (mut velocity_a, mut velocity_b) = (before_a, before_b);
+        let closed = self.scalars.closed;
+        let loss = self.scalars.accumulated.contact_loss;
+        let sums = self.scalars.accumulated.friction;
+        let (mut next_closed, mut next_loss, mut next_sums) = (closed, loss, sums);
+        let mut contact_force = Lanes::all(0.0);
+        for l in 0..LANES {
+            let force = [force_behind.0[l], 0.0 - ahead.0[l]];
+            let pair = Pair {
+                mass: [mass_a.0[l], mass_b.0[l]],
+                velocity: [before_a.0[l], before_b.0[l]],
+                force,
+                spring_force: force,
+                friction: [0.0, friction.0[l]],
+            };
+            let sums = ContactSums {
+                loss: loss.0[l],
+                friction: sums.lane(l),
+            };
+            let (kick, drift) = (step.kick.0[l], step.before.0[l]);
+            let kicked = pair.kick::<false>(closed.0[l], kick, drift, sums);
+            velocity_a.0[l] = kicked.velocity[0];
+            velocity_b.0[l] = kicked.velocity[1];
+            next_closed.0[l] = kicked.closed;
+            next_loss.0[l] = kicked.sums.loss;
+            next_sums.set_lane(l, kicked.sums.friction);
+            contact_force.0[l] = kicked.push;
         }
-        scalars.accumulated = sums;
+        // Where other nodes than these meet, they do so by themselves.
+        for l in (0..LANES).filter(|l| self.displaced >> l & 1 == 1) {
+            velocity_a.0[l] = before_a.0[l];
+            velocity_b.0[l] = before_b.0[l];
+            next_closed.0[l] = closed.0[l];
+            next_loss.0[l] = loss.0[l];
+            next_sums.set_lane(l, sums.lane(l));
+            contact_force.0[l] = 0.0;
+        }
+        self.scalars.closed = next_closed;
+        self.scalars.accumulated.contact_loss = next_loss;
+        self.scalars.accumulated.friction = next_sums;
+        self.scalars.contact_force = contact_force;
         self.nodes[a].velocity = velocity_a;
         self.nodes[b].velocity = velocity_b;
     }
@@ -45,10 +67,19 @@ impl Bundle {
     pub(super) fn close_contact(&mut self, step: &Step) {
         let projectile = self.mesh.elements[0];
         let [a, b] = [projectile, projectile + 1].map(|node| self.nodes[node]);
-        let gap = b.position - a.position;
-        let overlap = Pair::overlap([a.velocity, b.velocity], gap, step.length);
-        let meets = overlap & !self.scalars.closed & !LaneMask::of_bits(self.displaced);
-        if meets.any() {
+        let closed = self.scalars.closed.0;
+        let mut meets = 0;
+        for l in 0..LANES {
+            let velocity = [a.velocity.0[l], b.velocity.0[l]];
+            let overlaps = overlap(
+                velocity,
+                b.position.0[l] - a.position.0[l],
+                step.length.0[l],
+            );
+            meets |= u8::from(overlaps & !closed[l]) << l;
+        }
+        meets &= !self.displaced;
+        if meets != 0 {
             self.meet_at_face(meets, step);
         }
     }
@@ -56,9 +87,9 @@ impl Bundle {
     /// Lets tip and face of some lanes meet.
     #[cold]
     #[inline(never)]
-    fn meet_at_face(&mut self, lanes: LaneMask, step: &Step) {
+    fn meet_at_face(&mut self, lanes: u8, step: &Step) {
         let projectile = self.mesh.elements[0];
-        for lane in lanes.lanes() {
+        for lane in (0..LANES).filter(|lane| lanes >> lane & 1 == 1) {
             self.meet([projectile, projectile + 1], lane, step);
             self.scalars.closed.0[lane] = true;
         }
@@ -96,15 +127,5 @@ impl Bundle {
     #[inline(always)]
     fn body_of(&self, node: usize) -> usize {
         usize::from(node > self.mesh.elements[0])
-    }
-}
-
-impl Step {
-    /// Times of a lane.
-    pub(super) fn times_of(&self, lane: usize) -> Times {
-        Times {
-            kick: self.times.kick.0[lane],
-            drift: self.times.drift.0[lane],
-        }
     }
 }

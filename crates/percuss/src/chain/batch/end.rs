@@ -6,67 +6,80 @@ use super::{
 };
 use crate::{
     chain::solver::strain_limited_step,
-    lanes::{LaneMask, Lanes, Mask, Real, lanes, larger, smaller},
+    lanes::{LANES, Lanes, larger, smaller},
 };
 
 impl Bundle {
     /// Ends the step and finds the lanes that the single run has to look at.
     #[inline(always)]
-    pub(super) fn end(&mut self, step: &Step, estimate: &StepEstimate) -> LaneMask {
+    pub(super) fn end(&mut self, step: &Step, estimate: &StepEstimate) -> [bool; LANES] {
         let [projectile, target] = self.mesh.elements;
-        let mut depth = lanes(|l| self.nodes[self.faces[l]].position.0[l]);
-        let tail = lanes(|l| self.nodes[self.tails[l]].velocity.0[l]);
-        if self.mesh.back == Back::Open {
-            let back = self.nodes[projectile + 1 + target].position;
-            depth -= back - self.scalars.back_position;
+        let back = self.nodes[projectile + 1 + target].position.0;
+        let (mut face, mut tail) = ([0.0; LANES], [0.0; LANES]);
+        for l in 0..LANES {
+            face[l] = self.nodes[self.faces[l]].position.0[l];
+            tail[l] = self.nodes[self.tails[l]].velocity.0[l];
         }
+        let is_open = self.mesh.back == Back::Open;
+        let mut depth = [0.0; LANES];
+        let mut needs_scalar = [false; LANES];
+        let mut may_rest = false;
+        let erodes = match estimate.erodes {
+            true => self.eroding(),
+            false => [false; LANES],
+        };
         let scalars = &mut self.scalars;
-        scalars.time_step = step.length;
-        scalars.time += step.length;
-        scalars.step += Lanes::all(1.0);
-        scalars.stable_step = smaller(strain_limited_step(estimate.fastest), estimate.stable_step);
-        let mut needs_scalar = depth.at_least(scalars.perforated)
-            | scalars.time.at_least(scalars.next_check)
-            | scalars.step.at_least(scalars.most_steps);
-        let slows = tail.below(scalars.slow_tail);
-        if estimate.erodes {
-            needs_scalar = needs_scalar | self.eroding();
+        for l in 0..LANES {
+            scalars.time_step.0[l] = step.length.0[l];
+            scalars.time.0[l] += step.length.0[l];
+            scalars.step.0[l] += 1.0;
+            let of_approach = strain_limited_step(estimate.fastest.0[l]);
+            scalars.stable_step.0[l] = smaller(of_approach, estimate.stable_step.0[l]);
+            let drift = back[l] - scalars.back_position.0[l];
+            depth[l] = if is_open { face[l] - drift } else { face[l] };
+            needs_scalar[l] = erodes[l]
+                | (depth[l] >= scalars.perforated.0[l])
+                | (scalars.time.0[l] >= scalars.next_check.0[l])
+                | (scalars.step.0[l] >= scalars.most_steps.0[l]);
+            may_rest |= tail[l] < scalars.slow_tail.0[l];
         }
-        if slows.any() {
+        if may_rest {
             let momentum = self.projectile_momentum();
-            needs_scalar = needs_scalar | slows & momentum.at_most(Lanes::all(0.0));
+            for l in 0..LANES {
+                needs_scalar[l] |= (tail[l] < self.scalars.slow_tail.0[l]) & (momentum.0[l] <= 0.0);
+            }
         }
-        self.monitor(depth, !needs_scalar);
-        needs_scalar
-    }
-
-    /// Includes the step in the extremes of some lanes; the single run does so in the others.
-    #[inline(always)]
-    fn monitor(&mut self, depth: Lanes, lanes: LaneMask) {
         let scalars = &mut self.scalars;
-        let follow = |of: &mut Lanes, next: Lanes| *of = Lanes::select(lanes, next, *of);
-        let depth = larger(depth, scalars.largest_depth);
-        let force = larger(scalars.contact_force, scalars.peak_force);
-        let time_step = smaller(scalars.time_step, scalars.smallest_time_step);
-        let touching = Lanes::select(scalars.closed, scalars.time_step, Lanes::all(0.0));
-        let contact_time = scalars.contact_time + touching;
-        follow(&mut scalars.largest_depth, depth);
-        follow(&mut scalars.peak_force, force);
-        follow(&mut scalars.smallest_time_step, time_step);
-        follow(&mut scalars.contact_time, contact_time);
-        scalars.touched = scalars.touched | (scalars.closed & lanes);
+        for l in 0..LANES {
+            if needs_scalar[l] {
+                continue;
+            }
+            scalars.largest_depth.0[l] = larger(depth[l], scalars.largest_depth.0[l]);
+            scalars.peak_force.0[l] = larger(scalars.contact_force.0[l], scalars.peak_force.0[l]);
+            scalars.smallest_time_step.0[l] =
+                smaller(scalars.time_step.0[l], scalars.smallest_time_step.0[l]);
+            if scalars.closed.0[l] {
+                scalars.contact_time.0[l] += scalars.time_step.0[l];
+                scalars.touched.0[l] = true;
+            }
+        }
+        needs_scalar
     }
 
     /// Lanes in which an element is about to erode.
     #[cold]
     #[inline(never)]
-    fn eroding(&self) -> LaneMask {
-        let mut erodes = LaneMask::default();
+    fn eroding(&self) -> [bool; LANES] {
+        let mut erodes = [false; LANES];
         for (b, body) in self.bodies.iter().enumerate() {
             for e in self.mesh.elements_of(b) {
-                let length = self.nodes[e + b + 1].position - self.nodes[e + b].position;
-                let is_close = length.at_most(body.shortest) | length.at_least(body.longest);
-                erodes = erodes | is_close & !LaneMask::of_bits(self.marks[e].gone);
+                let [back, front] = [e + b, e + b + 1].map(|node| self.nodes[node].position.0);
+                for l in 0..LANES {
+                    let length = front[l] - back[l];
+                    let limits = body.shortest.0[l]..body.longest.0[l];
+                    let is_here = self.marks[e].gone >> l & 1 == 0;
+                    erodes[l] |= is_here & ((length <= limits.start) | (length >= limits.end));
+                }
             }
         }
         erodes
@@ -77,8 +90,10 @@ impl Bundle {
     fn projectile_momentum(&self) -> Lanes {
         let count = self.mesh.elements[0];
         let mut sum = Lanes::all(0.0);
-        for (node, &mass) in self.nodes[..=count].iter().zip(&self.masses) {
-            sum += mass * node.velocity;
+        for (node, mass) in self.nodes[..=count].iter().zip(&self.masses) {
+            for l in 0..LANES {
+                sum.0[l] += mass.0[l] * node.velocity.0[l];
+            }
         }
         sum
     }

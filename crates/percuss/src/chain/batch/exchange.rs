@@ -126,13 +126,10 @@ impl Body {
     fn of(state: &State, b: usize, first: usize, count: usize, stretch: f64) -> Self {
         let (part, element) = (&state.parts[b], &state.elements[first]);
         let nodes = &state.nodes[first + b..=first + b + count];
+        let law = part.strength.hardening().unwrap_or(Hardening::none(0.0));
         let half = element.end_masses[0];
         Self {
-            law: FlowLaw {
-                modulus: part.modulus,
-                heating: part.heating,
-                hardening: part.strength.hardening().unwrap_or(Hardening::none(0.0)),
-            },
+            law: FlowLaw::new(law, part.modulus, part.heating),
             compliance: part.compliance,
             slowness: part.slowness,
             volume: element.volume,
@@ -149,11 +146,7 @@ impl Body {
     /// That of a lane in which nothing ever happens.
     fn idle() -> Self {
         Self {
-            law: FlowLaw {
-                modulus: 1.0,
-                heating: 0.0,
-                hardening: Hardening::none(0.0),
-            },
+            law: FlowLaw::new(Hardening::none(0.0), 1.0, 0.0),
             compliance: 1.0,
             slowness: 1.0,
             volume: 1.0,

@@ -3,40 +3,30 @@
 use super::{bundle::Bundle, step::Step};
 use crate::{
     chain::flow::FlowingElements,
-    lanes::{LANES, LaneMask, Lanes, PerLane},
+    lanes::{LANES, PerLane},
 };
 
 impl Bundle {
-    /// Eight elements of a body, one in each lane, that are still to come.
+    /// Lets an element of a body flow in those lanes whose bits are set.
     #[inline(always)]
-    pub(super) fn flowing(&self, b: usize, rate: Lanes) -> FlowingElements {
-        FlowingElements {
+    pub(super) fn flow_in_place(&mut self, b: usize, e: usize, lanes: u8, step: &Step) {
+        let before = FlowingElements {
+            spring: self.springs[e],
+            plastic: self.plastics[e],
+            yields: self.yields[e],
             law: self.bodies[b].law,
-            per_time: rate,
-            ..FlowingElements::default()
-        }
+            per_time: step.rate,
+        };
+        let ends = [self.nodes[e + b].position, self.nodes[e + b + 1].position];
+        let mut after = before;
+        after.flow(lanes, |l| ends[1].0[l] - ends[0].0[l]);
+        after.keep(&before, !lanes);
+        self.springs[e] = after.spring;
+        self.plastics[e] = after.plastic;
+        self.yields[e] = after.yields;
     }
 
-    /// Lets an element flow in those lanes whose bits are set.
-    #[inline(always)]
-    pub(super) fn flow_in_place(
-        &mut self,
-        e: usize,
-        lanes: u8,
-        length: Lanes,
-        flowing: &mut FlowingElements,
-    ) {
-        flowing.spring = self.springs[e];
-        flowing.plastic = self.plastics[e];
-        flowing.yields = self.yields[e];
-        let lanes = LaneMask::of_bits(lanes);
-        flowing.flow(lanes, |lane| length.0[lane]);
-        self.springs[e] = PerLane::choose(lanes, flowing.spring, self.springs[e]);
-        self.plastics[e] = PerLane::choose(lanes, flowing.plastic, self.plastics[e]);
-        self.yields[e] = PerLane::choose(lanes, flowing.yields, self.yields[e]);
-    }
-
-    /// Lets elements flow in single lanes, eight such places at a time.
+    /// Lets elements of a body flow in single lanes, eight such places at a time.
     ///
     /// Room for eight more places than `count` lets the last one stand in for those that are missing.
     #[inline(always)]
@@ -64,12 +54,13 @@ impl Bundle {
             flowing.law.set_lane(p, law.lane(l));
             flowing.per_time.set_lane(p, step.rate.lane(l));
         }
+        let nodes = &self.nodes;
         let length = |p: usize| {
             let (element, lane) = places[p];
             let (i, l) = (element as usize + b, lane as usize % LANES);
-            self.nodes[i + 1].position.0[l] - self.nodes[i].position.0[l]
+            nodes[i + 1].position.0[l] - nodes[i].position.0[l]
         };
-        flowing.flow(LaneMask::of_bits(u8::MAX), length);
+        flowing.flow(u8::MAX, length);
         for (p, &(element, lane)) in places.iter().enumerate() {
             let (e, l) = (element as usize, lane as usize % LANES);
             self.springs[e].set_lane(l, flowing.spring.lane(p));

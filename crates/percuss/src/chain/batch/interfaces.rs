@@ -1,7 +1,10 @@
 //! Joints between pieces of eroded bodies: contact of their ends, one by one.
 
 use super::{bundle::Bundle, step::Step};
-use crate::{chain::pair::Pair, lanes::PerLane};
+use crate::{
+    chain::pair::{ContactSums, overlap},
+    lanes::PerLane,
+};
 
 /// Two ends of a lane that may touch, other than the tip and the face of whole bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -38,9 +41,15 @@ impl Bundle {
         let interface = self.interfaces[j];
         let lane = interface.lane;
         let pair = self.pair(interface.nodes(), lane);
-        let mut sums = self.scalars.accumulated.lane(lane);
-        let kicked = pair.kick::<true>(interface.closed, 0.0, step.times_of(lane), &mut sums);
-        self.scalars.accumulated.set_lane(lane, sums);
+        let accumulated = &mut self.scalars.accumulated;
+        let sums = ContactSums {
+            loss: accumulated.contact_loss.0[lane],
+            friction: accumulated.friction.lane(lane),
+        };
+        let (kick, drift) = (step.kick.0[lane], step.before.0[lane]);
+        let kicked = pair.kick::<true>(interface.closed, kick, drift, sums);
+        accumulated.contact_loss.0[lane] = kicked.sums.loss;
+        accumulated.friction.set_lane(lane, kicked.sums.friction);
         self.interfaces[j].closed = kicked.closed;
         if interface.is_contact {
             self.scalars.closed.0[lane] = kicked.closed;
@@ -76,7 +85,7 @@ impl Bundle {
         if !interface.closed {
             let [a, b] = nodes.map(|node| &self.nodes[node]);
             let velocity = [a.velocity.0[l], b.velocity.0[l]];
-            if Pair::overlap(velocity, b.position.0[l] - a.position.0[l], length) {
+            if overlap(velocity, b.position.0[l] - a.position.0[l], length) {
                 self.meet(nodes, l, step);
                 self.interfaces[j].closed = true;
                 self.scalars.closed.0[l] |= interface.is_contact;

@@ -8,10 +8,10 @@ use super::{
 };
 use crate::{
     chain::{
-        friction::{dry_friction, kick},
-        solver::kick_open_end,
+        friction::{dry_friction, kick, lost_impulse, slide},
+        solver::OpenEnd,
     },
-    lanes::{LaneMask, Lanes, Mask, Real},
+    lanes::{LANES, Lanes, PerLane},
 };
 
 impl Bundle {
@@ -38,19 +38,25 @@ impl Bundle {
             return;
         }
         let body = self.bodies[0];
-        let inner_ratio = step.times.kick / body.mass;
-        let end_ratio = step.times.kick / body.end_mass;
-        let mut behind = match nodes.start {
+        let (mut ratio, mut end_ratio) = ([0.0; LANES], [0.0; LANES]);
+        for l in 0..LANES {
+            ratio[l] = step.kick.0[l] / body.mass.0[l];
+            end_ratio[l] = step.kick.0[l] / body.end_mass.0[l];
+        }
+        let mut force_behind = match nodes.start {
             0 => Lanes::all(0.0),
             first => self.springs[first - 1].axial_force,
         };
         // Told that no index is out of range, the compiler would take several nodes at once, lane by lane.
         for i in nodes {
-            let ratio = if i == 0 { end_ratio } else { inner_ratio };
-            let ahead = self.springs[i].axial_force;
-            let velocity = self.nodes[i].velocity + (behind - ahead) * ratio;
+            let ratio = if i == 0 { end_ratio } else { ratio };
+            let force_ahead = self.springs[i].axial_force;
+            let mut velocity = self.nodes[i].velocity;
+            for l in 0..LANES {
+                velocity.0[l] += (force_behind.0[l] - force_ahead.0[l]) * ratio[l];
+            }
             self.moves[i] = self.nodes[i].go_on(velocity, step);
-            behind = ahead;
+            force_behind = force_ahead;
         }
     }
 
@@ -79,23 +85,56 @@ impl Bundle {
         }
         let body = self.bodies[1];
         let mut sums = self.scalars.accumulated.friction;
-        let ratio = step.times.kick / body.mass;
-        let limit = body.friction * ratio;
-        let mut behind = self.springs[inner.start - 2].axial_force;
+        let mut ratio = Lanes::all(0.0);
+        let mut limit = Lanes::all(0.0);
+        for l in 0..LANES {
+            ratio.0[l] = step.kick.0[l] / body.mass.0[l];
+            limit.0[l] = body.friction.0[l] * ratio.0[l];
+        }
+        let mut force_behind = self.springs[inner.start - 2].axial_force;
         let springs = &self.springs[inner.start - 1..];
         let nodes = self.nodes[inner.clone()].iter_mut();
         let nodes = nodes.zip(&mut self.moves[inner]);
         for ((node, is_moving), spring) in nodes.zip(springs) {
-            let ahead = spring.axial_force;
-            let change = (behind - ahead) * ratio;
-            behind = ahead;
-            if !*is_moving && change.size().at_most(limit).every() {
-                sums.impulse += body.mass * change;
+            let force_ahead = spring.axial_force;
+            let mut change = [0.0; LANES];
+            let mut is_held = true;
+            for l in 0..LANES {
+                change[l] = (force_behind.0[l] - force_ahead.0[l]) * ratio.0[l];
+                is_held &= change[l].abs() <= limit.0[l];
+            }
+            force_behind = force_ahead;
+            if is_held & !*is_moving {
+                for l in 0..LANES {
+                    sums.impulse.0[l] += body.mass.0[l] * change[l];
+                }
                 continue;
             }
-            let before = node.velocity;
-            let after = dry_friction(before, change, limit);
-            sums.add(body.mass * (before + change - after), before, after);
+            let velocity = node.velocity.0;
+            let mut after = Lanes::all(0.0);
+            let mut is_sliding = true;
+            for l in 0..LANES {
+                let (slides, _, slides_on) = slide(velocity[l], change[l], limit.0[l]);
+                after.0[l] = slides;
+                is_sliding &= (slides_on & (velocity[l] != 0.0)) | (limit.0[l] == 0.0);
+            }
+            if !is_sliding {
+                for l in 0..LANES {
+                    after.0[l] = dry_friction(velocity[l], change[l], limit.0[l]);
+                }
+            }
+            let mut next = sums;
+            for l in 0..LANES {
+                let (before, after) = (velocity[l], after.0[l]);
+                let mut sums = sums.lane(l);
+                sums.add(
+                    lost_impulse(body.mass.0[l], before, change[l], after),
+                    before,
+                    after,
+                );
+                next.set_lane(l, sums);
+            }
+            sums = next;
             *is_moving = node.go_on(after, step);
         }
         self.scalars.accumulated.friction = sums;
@@ -112,57 +151,73 @@ impl Bundle {
     #[inline(always)]
     fn kick_irregular(&mut self, i: usize, step: &Step) {
         let body = usize::from(i > self.mesh.elements[0]);
+        let (mass, friction) = (self.masses[i].0, self.frictions[i].0);
         let behind = match i {
             0 => Lanes::all(0.0),
             _ => self.springs[i - 1 - body].axial_force,
         };
-        let force = behind - self.springs[i - body].axial_force;
-        let is_free = !LaneMask::of_bits(self.in_contact[i]);
-        let (mass, before) = (self.masses[i], self.nodes[i].velocity);
-        let ratio = step.times.kick / mass;
-        let kicked = kick(mass, before, force, self.frictions[i], ratio);
-        let lost = Lanes::select(is_free, kicked.lost, Lanes::all(0.0));
-        self.scalars
-            .accumulated
-            .friction
-            .add(lost, before, kicked.velocity);
-        let stays = self.nodes[i];
-        let node = &mut self.nodes[i];
-        node.go_on(kicked.velocity, step);
-        node.velocity = Lanes::select(is_free, node.velocity, stays.velocity);
-        node.position = Lanes::select(is_free, node.position, stays.position);
+        let ahead = self.springs[i - body].axial_force;
+        let in_contact = self.in_contact[i];
+        let sums = self.scalars.accumulated.friction;
+        let (velocity, position) = (self.nodes[i].velocity, self.nodes[i].position);
+        let (mut node, mut next) = (self.nodes[i], sums);
+        for l in 0..LANES {
+            let (before, mut sums) = (velocity.0[l], sums.lane(l));
+            let force = [behind.0[l] - ahead.0[l], friction[l]];
+            let kicked = kick([mass[l], before], force, step.kick.0[l] / mass[l]);
+            let is_free = in_contact >> l & 1 == 0;
+            let lost = if is_free { kicked.lost } else { 0.0 };
+            sums.add(lost, before, kicked.velocity);
+            next.set_lane(l, sums);
+            let moved = position.0[l] + kicked.velocity * step.length.0[l];
+            node.velocity.0[l] = if is_free { kicked.velocity } else { before };
+            node.position.0[l] = if is_free { moved } else { position.0[l] };
+        }
+        self.scalars.accumulated.friction = next;
         self.moves[i] = node.moves();
+        self.nodes[i] = node;
         self.kick_joints(i, step);
     }
 
     /// Kicks the back of the target.
     #[inline(always)]
     fn kick_back(&mut self, node: usize, force: Lanes, step: &Step) {
-        let (mass, time) = (self.bodies[1].end_mass, step.times.kick);
+        let body = self.bodies[1];
+        let (mass, friction) = (body.end_mass, body.last_friction);
+        let (before, impedance) = (self.nodes[node].velocity, self.scalars.impedance);
+        let mut velocity = Lanes::all(0.0);
         let sums = &mut self.scalars.accumulated;
-        let velocity = &mut self.nodes[node].velocity;
-        match self.mesh.back {
-            Back::Fixed => {
-                *velocity = Lanes::all(0.0);
-                sums.support_impulse += force * time;
-            }
-            Back::Free => {
-                let friction = self.bodies[1].last_friction;
-                let kicked = kick(mass, *velocity, force, friction, time / mass);
-                sums.friction.add(kicked.lost, *velocity, kicked.velocity);
-                *velocity = kicked.velocity;
-            }
-            Back::Open => {
-                let open = [self.scalars.impedance, Lanes::all(0.0)];
-                (*velocity, _) = kick_open_end([mass, *velocity, force], open, time, sums);
+        for l in 0..LANES {
+            let (mass, before, kick_time) = (mass.0[l], before.0[l], step.kick.0[l]);
+            match self.mesh.back {
+                Back::Fixed => sums.support_impulse.0[l] += force.0[l] * kick_time,
+                Back::Free => {
+                    let force = [force.0[l], friction.0[l]];
+                    let kicked = kick([mass, before], force, kick_time / mass);
+                    let mut friction = sums.friction.lane(l);
+                    friction.add(kicked.lost, before, kicked.velocity);
+                    sums.friction.set_lane(l, friction);
+                    velocity.0[l] = kicked.velocity;
+                }
+                Back::Open => {
+                    let end = OpenEnd {
+                        impedance: impedance.0[l],
+                        spring: 0.0,
+                    };
+                    let [after, mean, back] = end.kick(mass, before, force.0[l], kick_time);
+                    sums.support_impulse.0[l] += back * kick_time;
+                    sums.boundary_work.0[l] += back * mean * kick_time;
+                    velocity.0[l] = after;
+                }
             }
         }
+        self.nodes[node].velocity = velocity;
     }
 
     #[inline(always)]
     pub(super) fn drift(&mut self, i: usize, step: &Step) {
-        let node = &mut self.nodes[i];
-        self.moves[i] = node.go_on(node.velocity, step);
+        let velocity = self.nodes[i].velocity;
+        self.moves[i] = self.nodes[i].go_on(velocity, step);
     }
 }
 
@@ -170,13 +225,21 @@ impl Node {
     /// Moves the node at a velocity for a step; says whether it moves in any lane.
     #[inline(always)]
     fn go_on(&mut self, velocity: Lanes, step: &Step) -> bool {
-        self.velocity = velocity;
-        self.position += velocity * step.length;
+        let mut position = self.position;
+        for l in 0..LANES {
+            position.0[l] += velocity.0[l] * step.length.0[l];
+        }
+        (self.velocity, self.position) = (velocity, position);
         self.moves()
     }
 
     #[inline(always)]
     fn moves(&self) -> bool {
-        !self.velocity.equals(Lanes::all(0.0)).every()
+        let velocity = self.velocity.0;
+        let mut moves = false;
+        for l in 0..LANES {
+            moves |= velocity[l] != 0.0;
+        }
+        moves
     }
 }

@@ -4,6 +4,9 @@
 //! of another one, so that a shot ends with the same bits in whatever company it was computed. Whatever is rare (the end of a shot,
 //! erosion) is left to the single run: the lane's state is put into its [`ColumnRun`], and what that makes of it is put back.
 
+// Loops over the lanes run along many arrays at once.
+#![allow(clippy::needless_range_loop)]
+
 mod accepts;
 mod balance;
 mod bundle;
@@ -37,7 +40,7 @@ use super::{
 };
 use crate::{
     Error, Scenario,
-    lanes::{LANES, LaneMask, Lanes},
+    lanes::{LANES, Lanes},
     options::constraint_factor,
     outcome::RunResult,
     scenario::TargetBody,
@@ -136,7 +139,7 @@ impl BatchScheduler<'_, '_> {
                     left: &mut left,
                 });
                 let sums = (left == 0).then(|| arch.dispatch(Sum(&self.bundle)));
-                for (lane, needs_scalar) in needs_scalar.0.into_iter().enumerate() {
+                for (lane, needs_scalar) in needs_scalar.into_iter().enumerate() {
                     match &sums {
                         _ if needs_scalar => self.service_lane(lane)?,
                         Some(sums) => self.audit(lane, sums)?,
@@ -256,10 +259,10 @@ struct Advance<'b> {
 }
 
 impl NullaryFnOnce for Advance<'_> {
-    type Output = LaneMask;
+    type Output = [bool; LANES];
 
     #[inline(always)]
-    fn call(self) -> LaneMask {
+    fn call(self) -> [bool; LANES] {
         self.bundle.advance(self.left)
     }
 }

@@ -17,8 +17,8 @@ pub(super) struct RunScalars<R: Real = f64> {
     pub(super) time_step: R,
     pub(super) stable_step: R,
     /// Whether projectile and target touch, and whether they have since the window began.
-    pub(super) closed: R::Mask,
-    pub(super) touched: R::Mask,
+    pub(super) closed: R::Flag,
+    pub(super) touched: R::Flag,
     pub(super) meetings: R,
     pub(super) contact_force: R,
     pub(super) impedance: R,

@@ -2,18 +2,19 @@
 
 use super::bundle::Bundle;
 use crate::{
-    chain::{pair::Times, solver::choose_time_step},
-    lanes::{LaneMask, Lanes, Mask, Real},
+    chain::solver::choose_time_step,
+    lanes::{LANES, Lanes},
 };
 
 /// What a step has for every lane besides the state.
 #[derive(Clone, Copy)]
 pub(super) struct Step {
-    /// Length of this one, and inverse of it.
+    /// Length of the step before, of this one, and of the kick between them.
+    pub(super) before: Lanes,
     pub(super) length: Lanes,
+    pub(super) kick: Lanes,
+    /// Inverse of its length.
     pub(super) rate: Lanes,
-    /// Length of the kick between the step before and this one, and of the step before.
-    pub(super) times: Times<Lanes>,
 }
 
 /// What a step finds out about the elements.
@@ -28,19 +29,19 @@ pub(super) struct StepEstimate {
 impl Bundle {
     /// Takes steps until a lane needs the single run or none are left; says which ones do.
     #[inline(always)]
-    pub(super) fn advance(&mut self, left: &mut u64) -> LaneMask {
+    pub(super) fn advance(&mut self, left: &mut u64) -> [bool; LANES] {
         while *left > 0 {
             *left -= 1;
             let needs_scalar = self.step();
-            if needs_scalar.any() {
+            if needs_scalar.iter().any(|&needs_scalar| needs_scalar) {
                 return needs_scalar;
             }
         }
-        LaneMask::default()
+        [false; LANES]
     }
 
     #[inline(always)]
-    fn step(&mut self) -> LaneMask {
+    fn step(&mut self) -> [bool; LANES] {
         let step = self.begin();
         let force_behind = self.kick_projectile(&step);
         let [projectile, target] = self.mesh.elements;
@@ -59,16 +60,20 @@ impl Bundle {
     /// Chooses the time steps.
     #[inline(always)]
     fn begin(&self) -> Step {
-        let scalars = &self.scalars;
-        let before = scalars.time_step;
-        let length = choose_time_step(before, scalars.courant * scalars.stable_step);
-        Step {
-            length,
-            rate: length.inverse(),
-            times: Times {
-                kick: (before + length) * 0.5,
-                drift: before,
-            },
+        let (before, scalars) = (self.scalars.time_step, &self.scalars);
+        let (courant, stable) = (scalars.courant, scalars.stable_step);
+        let mut step = Step {
+            before,
+            length: before,
+            kick: before,
+            rate: before,
+        };
+        for l in 0..LANES {
+            let length = choose_time_step(before.0[l], courant.0[l] * stable.0[l]);
+            step.length.0[l] = length;
+            step.kick.0[l] = 0.5 * (before.0[l] + length);
+            step.rate.0[l] = 1.0 / length;
         }
+        step
     }
 }

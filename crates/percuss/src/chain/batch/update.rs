@@ -3,12 +3,16 @@
 use std::ops::Range;
 
 use super::{
-    bundle::{Bundle, LIMITS_AT_ONCE},
+    bundle::{Body, Bundle, LIMITS_AT_ONCE, Node},
     interfaces::Interface,
     step::{Step, StepEstimate},
 };
 use crate::{
-    lanes::{LANES, LaneMask, Lanes, Mask, Real, larger, smaller},
+    chain::{
+        element::{Spring, approach_rate},
+        flow::YieldStress,
+    },
+    lanes::{LANES, Lanes, PerLane, larger, smaller},
     power::small_log_ratio,
 };
 
@@ -73,30 +77,19 @@ impl Bundle {
             if !(moves.0 | moves.1) & mark.settled {
                 continue;
             }
-            let length = ends.1.position - ends.0.position;
-            let (elastic, is_exact) = small_log_ratio(spring.unloaded_length, length);
-            spring.bear(body.law.modulus * elastic);
-            let mut flows = spring.stress.size().above(yields.stress) | !is_exact;
-            let mut changes = !spring.stress.equals(spring.stress_before);
-            let mut erodes = length.at_most(body.shortest) | length.at_least(body.longest);
-            spring.push(body.volume, length);
-            *limit = spring.stable_step(length, body.compliance, body.slowness);
-            let closing = (ends.0.velocity - ends.1.velocity).size();
-            let mut approach = closing * length.inverse();
-            if mark.gone != 0 {
-                let gone = LaneMask::of_bits(mark.gone);
-                let zero = Lanes::all(0.0);
-                (flows, changes, erodes) = (flows & !gone, changes & !gone, erodes & !gone);
-                spring.stress = Lanes::select(gone, zero, spring.stress);
-                approach = Lanes::select(gone, zero, approach);
-                part(&mut spring.axial_force, limit, gone);
+            let ends = [ends.0, ends.1];
+            let response = match mark.gone {
+                0 => respond::<false>(spring, yields, ends, &body, 0),
+                gone => respond::<true>(spring, yields, ends, &body, gone),
+            };
+            *limit = response.limit;
+            for l in 0..LANES {
+                fastest.0[l] = larger(response.approach.0[l], fastest.0[l]);
             }
-            fastest = larger(approach, fastest);
-            is_eroding |= erodes.any();
-            let flows = flows.any();
-            let works = flows | mark.flowed;
-            mark.settled = !(changes.any() | works);
-            mark.flowed = flows;
+            is_eroding |= response.erodes;
+            let works = response.flows | mark.flowed;
+            mark.settled = !(response.changes | works);
+            mark.flowed = response.flows;
             self.working[working] = e;
             working += usize::from(works);
         }
@@ -112,7 +105,6 @@ impl Bundle {
             return;
         }
         let mut gathered = 0;
-        let mut flowing = self.flowing(b, step.rate);
         for w in 0..working {
             let e = self.working[w];
             let plastic = &mut self.plastics[e];
@@ -121,13 +113,9 @@ impl Bundle {
             if !self.marks[e].flowed {
                 continue;
             }
-            let length = self.nodes[e + b + 1].position - self.nodes[e + b].position;
-            let spring = &self.springs[e];
-            let (_, is_exact) = small_log_ratio(spring.unloaded_length, length);
-            let flows = spring.stress.size().above(self.yields[e].stress) | !is_exact;
-            let lanes = flows.bits() & !self.marks[e].gone;
+            let lanes = self.flowing(b, e) & !self.marks[e].gone;
             if lanes.count_ones() >= MANY {
-                self.flow_in_place(e, lanes, length, &mut flowing);
+                self.flow_in_place(b, e, lanes, step);
             } else {
                 let places = SET_LANES[usize::from(lanes)].map(|lane| (e as u32, lane));
                 self.gathered[gathered..gathered + LANES].copy_from_slice(&places);
@@ -138,6 +126,20 @@ impl Bundle {
         self.settle(b, working);
     }
 
+    /// A bit for every lane in which an element flows, or has to be looked at, after a response.
+    #[inline(always)]
+    fn flowing(&self, b: usize, e: usize) -> u8 {
+        let [back, front] = [e + b, e + b + 1].map(|node| self.nodes[node].position.0);
+        let (spring, yield_stress) = (&self.springs[e], self.yields[e].stress.0);
+        let (stress, unloaded) = (spring.stress.0, spring.unloaded_length.0);
+        let mut flows = 0;
+        for l in 0..LANES {
+            let (_, is_exact) = small_log_ratio(unloaded[l], front[l] - back[l]);
+            flows |= u8::from((stress[l].abs() > yield_stress[l]) | !is_exact) << l;
+        }
+        flows
+    }
+
     /// Sets forces and stable steps of elements that flow or flowed, and adds up their plastic work.
     #[inline(always)]
     fn settle(&mut self, b: usize, working: usize) {
@@ -146,44 +148,112 @@ impl Bundle {
         let total = &mut self.scalars.accumulated.plastic[b];
         let of_body = |interface: &&Interface| self.mesh.holds(b, interface.ahead);
         let mut interfaces = self.interfaces.iter().filter(of_body).peekable();
-        for (&e, &step_before) in self.working[..working].iter().zip(&self.steps_before) {
+        for (&e, step_before) in self.working[..working].iter().zip(&self.steps_before) {
             // The work of every piece is a sum of its own.
             while let Some(interface) = interfaces.next_if(|interface| interface.ahead <= e + b) {
                 let l = interface.lane;
                 total.0[l] += work.0[l];
                 work.0[l] = 0.0;
             }
-            let length = self.nodes[e + b + 1].position - self.nodes[e + b].position;
-            let (spring, limit) = (&mut self.springs[e], &mut self.limits[e]);
-            spring.push(body.volume, length);
-            work += body.volume * spring.plastic_work(step_before, self.plastics[e].step);
-            *limit = spring.stable_step(length, body.compliance, body.slowness);
-            if self.marks[e].gone != 0 {
-                let gone = LaneMask::of_bits(self.marks[e].gone);
-                part(&mut spring.axial_force, limit, gone);
+            let [back, front] = [e + b, e + b + 1].map(|node| self.nodes[node].position.0);
+            let (before, step_before) = (self.springs[e], step_before.0);
+            let step = self.plastics[e].step.0;
+            let (mut spring, mut limit) = (before, Lanes::all(0.0));
+            for l in 0..LANES {
+                let (mut one, length) = (before.lane(l), front[l] - back[l]);
+                one.push(body.volume.0[l], length);
+                work.0[l] += body.volume.0[l] * one.plastic_work(step_before[l], step[l]);
+                limit.0[l] = one.stable_step(length, body.compliance.0[l], body.slowness.0[l]);
+                spring.axial_force.0[l] = one.axial_force;
             }
+            let gone = self.marks[e].gone;
+            for l in (0..LANES).filter(|l| gone >> l & 1 == 1) {
+                spring.axial_force.0[l] = 0.0;
+                limit.0[l] = f64::INFINITY;
+            }
+            self.springs[e].axial_force = spring.axial_force;
+            self.limits[e] = limit;
         }
-        *total += work;
+        for l in 0..LANES {
+            total.0[l] += work.0[l];
+        }
     }
 
     /// Largest time step that is stable for all elements.
     #[inline(always)]
     fn stable_step(&self) -> Lanes {
         // Several at once: none waits for the one before it.
-        let mut least = [Lanes::all(f64::INFINITY); LIMITS_AT_ONCE];
+        let [mut a, mut b, mut c, mut d] = [Lanes::all(f64::INFINITY); LIMITS_AT_ONCE];
         for limits in self.limits.chunks_exact(LIMITS_AT_ONCE) {
-            for i in 0..LIMITS_AT_ONCE {
-                least[i] = smaller(limits[i], least[i]);
+            for l in 0..LANES {
+                a.0[l] = smaller(limits[0].0[l], a.0[l]);
+                b.0[l] = smaller(limits[1].0[l], b.0[l]);
+                c.0[l] = smaller(limits[2].0[l], c.0[l]);
+                d.0[l] = smaller(limits[3].0[l], d.0[l]);
             }
         }
-        let [a, b, c, d] = least;
-        smaller(smaller(a, b), smaller(c, d))
+        for l in 0..LANES {
+            a.0[l] = smaller(smaller(a.0[l], b.0[l]), smaller(c.0[l], d.0[l]));
+        }
+        a
     }
 }
 
-/// Takes the force of an element away in lanes where it has eroded.
+/// What became of an element.
+struct Response {
+    /// Largest stable time step where it does not flow.
+    limit: Lanes,
+    /// Speed at which its ends approach or part, as a part of the length.
+    approach: Lanes,
+    /// Whether any lane flows, or has to be looked at.
+    flows: bool,
+    /// Whether the stress of any lane has changed.
+    changes: bool,
+    /// Whether it is about to erode in any lane.
+    erodes: bool,
+}
+
+/// Brings an element to the length that its ends give it, as if nothing flowed; it may have eroded in some lanes.
 #[inline(always)]
-fn part(force: &mut Lanes, limit: &mut Lanes, gone: LaneMask) {
-    *force = Lanes::select(gone, Lanes::all(0.0), *force);
-    *limit = Lanes::select(gone, Lanes::all(f64::INFINITY), *limit);
+fn respond<const ERODED: bool>(
+    spring: &mut Spring<Lanes>,
+    yields: &YieldStress<Lanes>,
+    [back, front]: [&Node; 2],
+    body: &Body<Lanes>,
+    gone: u8,
+) -> Response {
+    let positions = [back.position.0, front.position.0];
+    let velocities = [back.velocity.0, front.velocity.0];
+    let (before, yield_stress) = (*spring, yields.stress.0);
+    let mut after = before;
+    let (mut limit, mut approach) = (Lanes::all(0.0), Lanes::all(0.0));
+    let (mut flows, mut changes, mut erodes) = (false, false, false);
+    for l in 0..LANES {
+        let is_here = !ERODED || gone >> l & 1 == 0;
+        let length = positions[1][l] - positions[0][l];
+        let mut one = before.lane(l);
+        let (elastic, is_exact) = small_log_ratio(one.unloaded_length, length);
+        one.bear(body.law.modulus.0[l] * elastic);
+        one.push(body.volume.0[l], length);
+        flows |= is_here & ((one.stress.abs() > yield_stress[l]) | !is_exact);
+        changes |= is_here & (one.stress != one.stress_before);
+        erodes |= is_here & ((length <= body.shortest.0[l]) | (length >= body.longest.0[l]));
+        let stable = one.stable_step(length, body.compliance.0[l], body.slowness.0[l]);
+        let rate = approach_rate(velocities[0][l] - velocities[1][l], length);
+        after.stress_before.0[l] = one.stress_before;
+        after.stress.0[l] = if is_here { one.stress } else { 0.0 };
+        after.axial_force.0[l] = if is_here { one.axial_force } else { 0.0 };
+        limit.0[l] = if is_here { stable } else { f64::INFINITY };
+        approach.0[l] = if is_here { rate } else { 0.0 };
+    }
+    spring.stress_before = after.stress_before;
+    spring.stress = after.stress;
+    spring.axial_force = after.axial_force;
+    Response {
+        limit,
+        approach,
+        flows,
+        changes,
+        erodes,
+    }
 }

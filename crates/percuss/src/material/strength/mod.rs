@@ -23,7 +23,6 @@ pub use johnson_cook::{JohnsonCook, RateForm};
 pub use own::OwnLaw;
 pub use perfectly_plastic::PerfectlyPlastic;
 pub(crate) use perfectly_plastic::perfectly_plastic;
-pub(crate) use power_law::hardened;
 pub use power_law::{Hardening, PowerLaw};
 pub use steinberg_guinan::SteinbergGuinan;
 

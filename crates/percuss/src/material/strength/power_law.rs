@@ -4,9 +4,8 @@ use serde::{Deserialize, Serialize};
 use super::{FlowState, FlowStress, PreparedStrength, StrengthLaw};
 use crate::{
     check::{Check, limits},
-    lanes::{Real, per_lane},
     material::Material,
-    power::power,
+    power::{power, power_here},
     units::Pressure,
 };
 
@@ -31,32 +30,14 @@ impl PowerLaw {
 }
 
 /// `Y = K (ε_0 + ε_p)ⁿ`: a flow stress that is a power of the plastic strain, or constant where `n` is 0.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Hardening<R = f64> {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hardening {
     /// Stress at unit strain K, constraint factor included [Pa].
-    pub coefficient: R,
+    pub coefficient: f64,
     /// Exponent n.
-    pub exponent: R,
+    pub exponent: f64,
     /// Strain where the plastic strain is 0, ε_0.
-    pub first_strain: R,
-}
-per_lane!(Hardening {
-    coefficient,
-    exponent,
-    first_strain
-});
-
-/// Flow stress and its slope with the plastic strain [Pa], for code that has been dispatched to an instruction set.
-#[inline(always)]
-pub(crate) fn hardened<R: Real>(law: &Hardening<R>, plastic_strain: R) -> (R, R) {
-    let strain = law.first_strain + plastic_strain;
-    times(law, strain.to_power(law.exponent), strain)
-}
-
-#[inline(always)]
-fn times<R: Real>(law: &Hardening<R>, power: R, strain: R) -> (R, R) {
-    let stress = law.coefficient * power;
-    (stress, law.exponent * stress / strain)
+    pub first_strain: f64,
 }
 
 impl Hardening {
@@ -71,8 +52,20 @@ impl Hardening {
 
     /// Flow stress and its slope with the plastic strain [Pa].
     pub fn at(&self, plastic_strain: f64) -> (f64, f64) {
+        self.by(power, plastic_strain)
+    }
+
+    /// The same for code that has been dispatched to an instruction set.
+    #[inline(always)]
+    pub(crate) fn at_here(&self, plastic_strain: f64) -> (f64, f64) {
+        self.by(power_here, plastic_strain)
+    }
+
+    #[inline(always)]
+    fn by(&self, power: impl Fn(f64, f64) -> f64, plastic_strain: f64) -> (f64, f64) {
         let strain = self.first_strain + plastic_strain;
-        times(self, power(strain, self.exponent), strain)
+        let stress = self.coefficient * power(strain, self.exponent);
+        (stress, self.exponent * stress / strain)
     }
 }
 
