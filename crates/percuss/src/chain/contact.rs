@@ -1,7 +1,7 @@
 //! Contact between the ends of two segments: closing, moving as one, parting, and what holds across a gap.
 
 use super::{
-    pair::{Pair, overlap},
+    pair::{ContactSums, Pair, overlap},
     state::State,
 };
 
@@ -12,22 +12,24 @@ impl State {
         if self.is_fixed(ends[1]) {
             return self.kick_wall(s, kick);
         }
-        let sums = &self.accumulated;
-        let pair = self.pair(ends);
-        let joined = pair.join::<true>(kick, self.time_step, sums.contact_loss);
-        self.accumulated.contact_loss = joined.contact_loss;
-        for i in ends {
-            self.nodes[i].velocity_before = joined.before;
-            self.nodes[i].velocity = joined.velocity;
+        let holds = self.interfaces[s].bond.holds();
+        let sums = ContactSums {
+            loss: self.accumulated.contact_loss,
+            friction: self.accumulated.friction,
+        };
+        let kicked = self
+            .pair(ends)
+            .kick(true, holds, [kick, self.time_step], sums);
+        self.accumulated.contact_loss = kicked.sums.loss;
+        self.accumulated.friction = kicked.sums.friction;
+        for (end, i) in ends.into_iter().enumerate() {
+            self.nodes[i].velocity_before = kicked.start[end];
+            self.nodes[i].velocity = kicked.velocity[end];
         }
-        if joined.push < -self.interfaces[s].bond.holds() {
-            self.part_ends(s, joined.before, kick);
-            return;
-        }
-        let friction = &mut self.accumulated.friction;
-        friction.add(joined.lost, joined.before, joined.velocity);
-        if Some(s) == self.tip_segment() {
-            self.contact_force = joined.push;
+        if !kicked.closed {
+            self.part_ends(s);
+        } else if Some(s) == self.tip_segment() {
+            self.contact_force = kicked.push;
         }
     }
 
@@ -45,7 +47,9 @@ impl State {
         }
         let push = self.nodes[a].force;
         if push < -self.interfaces[s].bond.holds() {
-            self.part_ends(s, 0.0, kick);
+            self.part_ends(s);
+            self.kick_free(a, kick);
+            self.kick_boundary(b, kick);
             return;
         }
         self.back_force = push + self.nodes[b].force;
@@ -55,19 +59,12 @@ impl State {
         }
     }
 
-    /// Parts two ends, which start the kick with a common velocity; what still holds them pulls from now on.
-    fn part_ends(&mut self, s: usize, before: f64, kick: f64) {
+    /// Parts two ends, which what still holds goes on to pull together.
+    fn part_ends(&mut self, s: usize) {
         let [a, b] = self.ends(s);
         let pull = self.interfaces[s].part();
-        for (i, pull) in [(a, pull), (b, -pull)] {
-            self.nodes[i].force += pull;
-            self.nodes[i].velocity = before;
-            if self.is_boundary(i) {
-                self.kick_boundary(i, kick);
-            } else {
-                self.kick_free(i, kick);
-            }
-        }
+        self.nodes[a].force += pull;
+        self.nodes[b].force -= pull;
     }
 
     /// The nodes on both sides of an interface.

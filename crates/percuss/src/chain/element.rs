@@ -18,14 +18,11 @@ pub(super) struct Spring<R = f64> {
     /// Stress now and a step before [Pa].
     pub(super) stress: R,
     pub(super) stress_before: R,
-    /// [N].
-    pub(super) axial_force: R,
 }
 per_lane!(Spring {
     unloaded_length,
     stress,
-    stress_before,
-    axial_force
+    stress_before
 });
 
 /// What flow changes besides.
@@ -56,10 +53,10 @@ impl Spring {
         self.stress = stress;
     }
 
-    /// Sets the force of an element that keeps its volume.
+    /// Force of an element that keeps its volume [N].
     #[inline(always)]
-    pub(super) fn push(&mut self, volume: f64, length: f64) {
-        self.axial_force = self.stress * volume * (1.0 / length);
+    pub(super) fn force(&self, volume: f64, length: f64) -> f64 {
+        self.stress * volume * (1.0 / length)
     }
 
     /// Lets a trial stress flow by an increment of plastic strain; `heating` is the rise in temperature per plastic work per volume, and
@@ -152,12 +149,10 @@ impl Element {
     /// Sets the force once what flows has flowed; returns the plastic work as [`Element::deform`] does.
     #[inline(always)]
     pub(super) fn settle(&mut self, part: &Part, step_before: f64) -> f64 {
-        match part.kinematics {
-            Kinematics::Logarithmic => self.spring.push(self.volume, self.length),
-            Kinematics::SmallStrain => {
-                self.spring.axial_force = self.spring.stress * self.rest_area;
-            }
-        }
+        self.axial_force = match part.kinematics {
+            Kinematics::Logarithmic => self.spring.force(self.volume, self.length),
+            Kinematics::SmallStrain => self.spring.stress * self.rest_area,
+        };
         self.spring.plastic_work(step_before, self.plastic.step)
     }
 

@@ -88,8 +88,7 @@ impl State {
 
     /// Whether the node between two elements parts: one of them has failed, and something pulls.
     fn fails(&self, behind: usize, ahead: usize) -> bool {
-        let pull =
-            self.elements[behind].spring.axial_force + self.elements[ahead].spring.axial_force;
+        let pull = self.elements[behind].axial_force + self.elements[ahead].axial_force;
         pull < 0.0
             && [behind, ahead]
                 .iter()
@@ -119,7 +118,7 @@ impl State {
         }
         let part = &self.parts[self.segments[s].part];
         let (behind, ahead) = (&self.elements[behind], &self.elements[ahead]);
-        let strength = -0.5 * (behind.spring.axial_force + ahead.spring.axial_force);
+        let strength = -0.5 * (behind.axial_force + ahead.axial_force);
         let area = behind.rest_area.min(ahead.rest_area);
         CohesiveLaw::crack(strength, part.fracture_energy * area)
     }

@@ -1,6 +1,6 @@
 //! Two ends that touch, part or meet.
 
-use super::friction::{FrictionSums, Kicked, dry_friction, kick, lost_impulse};
+use super::friction::{FrictionSums, dry_friction, kick, lost_impulse};
 use crate::lanes::larger;
 
 /// Two ends at the start of a kick, or of a drift.
@@ -17,16 +17,16 @@ pub(super) struct Pair {
 
 /// Two ends that move as one in a kick.
 #[derive(Clone, Copy)]
-pub(super) struct Joined {
+struct Joined {
     /// Their common velocity at its start and at its end.
-    pub(super) before: f64,
-    pub(super) velocity: f64,
+    before: f64,
+    velocity: f64,
     /// Force with which they push each other.
-    pub(super) push: f64,
+    push: f64,
     /// Impulse that friction took.
-    pub(super) lost: f64,
+    lost: f64,
     /// Energy that contact has taken so far.
-    pub(super) contact_loss: f64,
+    contact_loss: f64,
 }
 
 /// What contact takes.
@@ -38,6 +38,8 @@ pub(super) struct ContactSums {
 
 /// Two ends after a kick.
 pub(super) struct KickedPair {
+    /// Velocities from which the kick started.
+    pub(super) start: [f64; 2],
     pub(super) velocity: [f64; 2],
     /// Whether they touch still.
     pub(super) closed: bool,
@@ -52,12 +54,7 @@ impl Pair {
     ///
     /// Both start the kick with their common velocity; what that costs is the loss of a plastic impact.
     #[inline(always)]
-    pub(super) fn join<const BOTH_RUB: bool>(
-        &self,
-        kick: f64,
-        drift: f64,
-        contact_loss: f64,
-    ) -> Joined {
+    fn join<const BOTH_RUB: bool>(&self, kick: f64, drift: f64, contact_loss: f64) -> Joined {
         let ([mass_a, mass_b], [velocity_a, velocity_b]) = (self.mass, self.velocity);
         let ([force_a, force_b], [friction_a, friction_b]) = (self.force, self.friction);
         let mass = mass_a + mass_b;
@@ -84,53 +81,76 @@ impl Pair {
         }
     }
 
-    /// Kicks two ends, together where they touch and stay so.
-    // Both cases are worked out and one is chosen, so that a loop over many pairs becomes vector instructions.
+    /// Kicks two ends, together where they touch and stay so. They part where they would pull each other by more than `holds`, and
+    /// that pulls from then on. The times are those of the kick and of the drift before it.
     #[inline(always)]
-    pub(super) fn kick<const BOTH_RUB: bool>(
+    pub(super) fn kick(
         &self,
         closed: bool,
-        time: f64,
-        drift: f64,
+        holds: f64,
+        [time, drift]: [f64; 2],
         mut sums: ContactSums,
     ) -> KickedPair {
-        let joined = self.join::<BOTH_RUB>(time, drift, sums.loss);
+        let (mut start, mut pull) = (self.velocity, 0.0);
+        if closed {
+            let joined = self.join::<true>(time, drift, sums.loss);
+            sums.loss = joined.contact_loss;
+            start = [joined.before; 2];
+            if joined.push >= -holds {
+                sums.friction
+                    .add(joined.lost, joined.before, joined.velocity);
+                return KickedPair {
+                    start,
+                    velocity: [joined.velocity; 2],
+                    closed,
+                    push: joined.push,
+                    sums,
+                };
+            }
+            pull = holds;
+        }
+        let mut velocity = start;
+        for (end, pull) in [pull, -pull].into_iter().enumerate() {
+            let force = [self.force[end] + pull, self.friction[end]];
+            let (mass, before) = (self.mass[end], start[end]);
+            let kicked = kick([mass, before], force, time / mass);
+            sums.friction.add(kicked.lost, before, kicked.velocity);
+            velocity[end] = kicked.velocity;
+        }
+        KickedPair {
+            start,
+            velocity,
+            closed: false,
+            push: 0.0,
+            sums,
+        }
+    }
+
+    /// The same, to the same bits, where nothing holds the ends and no friction acts on the first one.
+    // Both cases are worked out and one is chosen, so that a loop over many pairs becomes vector instructions.
+    #[inline(always)]
+    pub(super) fn kick_beside(
+        &self,
+        closed: bool,
+        [time, drift]: [f64; 2],
+        mut sums: ContactSums,
+    ) -> KickedPair {
+        let joined = self.join::<false>(time, drift, sums.loss);
         let stays = closed & (joined.push >= 0.0);
         let [mass_a, mass_b] = self.mass;
-        let start_a = if closed {
-            joined.before
-        } else {
-            self.velocity[0]
-        };
-        let start_b = if closed {
-            joined.before
-        } else {
-            self.velocity[1]
-        };
-        let mut alone_a = Kicked {
-            velocity: start_a + self.force[0] * (time / mass_a),
-            lost: 0.0,
-        };
-        if BOTH_RUB {
-            let force = [self.force[0], self.friction[0]];
-            alone_a = kick([mass_a, start_a], force, time / mass_a);
-        }
+        let [velocity_a, velocity_b] = self.velocity;
+        let start_a = if closed { joined.before } else { velocity_a };
+        let start_b = if closed { joined.before } else { velocity_b };
+        let alone_a = start_a + self.force[0] * (time / mass_a);
         let force = [self.force[1], self.friction[1]];
         let alone_b = kick([mass_b, start_b], force, time / mass_b);
-        if BOTH_RUB && !stays {
-            sums.friction.add(alone_a.lost, start_a, alone_a.velocity);
-        }
-        let lost = if stays { joined.lost } else { alone_b.lost };
-        let velocity_a = if stays {
-            joined.velocity
-        } else {
-            alone_a.velocity
-        };
+        let velocity_a = if stays { joined.velocity } else { alone_a };
         let velocity_b = if stays {
             joined.velocity
         } else {
             alone_b.velocity
         };
+        let lost = if stays { joined.lost } else { alone_b.lost };
         sums.friction.add(lost, start_b, velocity_b);
         sums.loss = if closed {
             joined.contact_loss
@@ -138,6 +158,7 @@ impl Pair {
             sums.loss
         };
         KickedPair {
+            start: [start_a, start_b],
             velocity: [velocity_a, velocity_b],
             closed: stays,
             push: if stays { joined.push } else { 0.0 },

@@ -167,7 +167,7 @@ impl Element {
     ) -> f64 {
         let step = self.advance_step_to(part, distance, time_step, limit);
         // As with plastic strain, the work that belongs to a time is its force times half the advances around it.
-        let work = self.spring.axial_force * 0.5 * (self.advance_step + step);
+        let work = self.axial_force * 0.5 * (self.advance_step + step);
         self.advance += step;
         self.advance_step = step;
         work
@@ -181,7 +181,7 @@ impl Element {
             }
             let mut trial = *self;
             trial.deform(part, length, time_step);
-            trial.spring.axial_force - limit.force
+            trial.axial_force - limit.force
         };
         if excess(0.0) <= 0.0 {
             return 0.0;

@@ -169,9 +169,9 @@ impl State {
             let (mut behind, mut spring_behind) = (0.0, 0.0);
             let (inner, last) = nodes.split_at_mut(elements.len());
             for (node, element) in inner.iter_mut().zip(elements) {
-                let force = element.spring.axial_force + element.viscous_force;
-                node.begin(behind - force, spring_behind - element.spring.axial_force);
-                (behind, spring_behind) = (force, element.spring.axial_force);
+                let force = element.axial_force + element.viscous_force;
+                node.begin(behind - force, spring_behind - element.axial_force);
+                (behind, spring_behind) = (force, element.axial_force);
             }
             for node in last {
                 node.begin(behind, spring_behind);

@@ -84,6 +84,8 @@ pub(super) struct Element {
     /// [m3]; plastic flow does not change it.
     pub(super) volume: f64,
     pub(super) spring: Spring,
+    /// [N].
+    pub(super) axial_force: f64,
     pub(super) plastic: Plastic,
     /// What it gives to the masses of its two nodes [kg].
     pub(super) end_masses: [f64; 2],

@@ -122,6 +122,7 @@ pub(super) struct Bundle {
     /// Of the projectile, then of the target.
     pub(super) nodes: Vec<Node>,
     pub(super) springs: Vec<Spring<Lanes>>,
+    pub(super) forces: Vec<Lanes>,
     pub(super) plastics: Vec<Plastic<Lanes>>,
     pub(super) yields: Vec<YieldStress<Lanes>>,
     /// Whether a node moves in any lane.
@@ -160,6 +161,7 @@ impl Bundle {
             mesh,
             nodes: vec![Node::default(); elements + 2],
             springs: vec![Spring::default(); elements],
+            forces: vec![Lanes::default(); elements],
             plastics: vec![Plastic::default(); elements],
             yields: vec![YieldStress::default(); elements],
             moves: vec![false; elements + 2],

@@ -12,7 +12,7 @@ impl Bundle {
     pub(super) fn kick_contact(&mut self, force_behind: Lanes, step: &Step) {
         let [projectile, _] = self.mesh.elements;
         let (a, b) = (projectile, projectile + 1);
-        let ahead = self.springs[projectile].axial_force;
+        let ahead = self.forces[projectile];
         let bodies = [&self.bodies[0], &self.bodies[1]];
         let [mass_a, mass_b] = bodies.map(|body| body.end_mass);
         let friction = bodies[1].first_friction;
@@ -37,7 +37,7 @@ impl Bundle {
                 friction: sums.lane(l),
             };
             let (kick, drift) = (step.kick.0[l], step.before.0[l]);
-            let kicked = pair.kick::<false>(closed.0[l], kick, drift, sums);
+            let kicked = pair.kick_beside(closed.0[l], [kick, drift], sums);
             velocity_a.0[l] = kicked.velocity[0];
             velocity_b.0[l] = kicked.velocity[1];
             next_closed.0[l] = kicked.closed;
@@ -110,10 +110,10 @@ impl Bundle {
 
     /// Two ends of a lane.
     pub(super) fn pair(&self, [a, b]: [usize; 2], lane: usize) -> Pair {
-        let behind = &self.springs[a - 1 - self.body_of(a)];
-        let ahead = &self.springs[b - self.body_of(b)];
+        let behind = &self.forces[a - 1 - self.body_of(a)];
+        let ahead = &self.forces[b - self.body_of(b)];
         let of = |numbers: &[Lanes]| [numbers[a].0[lane], numbers[b].0[lane]];
-        let force = [behind.axial_force.0[lane], 0.0 - ahead.axial_force.0[lane]];
+        let force = [behind.0[lane], 0.0 - ahead.0[lane]];
         Pair {
             mass: of(&self.masses),
             velocity: [a, b].map(|node| self.nodes[node].velocity.0[lane]),

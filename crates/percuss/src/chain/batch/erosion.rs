@@ -27,7 +27,7 @@ impl Bundle {
                 let spring = &mut self.springs[e];
                 spring.stress.0[lane] = 0.0;
                 spring.stress_before.0[lane] = 0.0;
-                spring.axial_force.0[lane] = 0.0;
+                self.forces[e].0[lane] = 0.0;
                 self.plastics[e].step.0[lane] = 0.0;
             }
         }

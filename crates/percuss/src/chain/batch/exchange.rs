@@ -31,6 +31,7 @@ impl Bundle {
         }
         for (e, from) in state.elements.iter().enumerate() {
             self.springs[e].set_lane(lane, from.spring);
+            self.forces[e].set_lane(lane, from.axial_force);
             self.plastics[e].set_lane(lane, from.plastic);
             self.yields[e].set_lane(lane, YieldStress::of(&from.yield_point));
         }
@@ -73,6 +74,7 @@ impl Bundle {
                 to.length = state.nodes[node + 1].position - state.nodes[node].position;
                 is_sound &= to.length > 0.0;
                 to.spring = self.springs[e].lane(lane);
+                to.axial_force = self.forces[e].lane(lane);
                 to.plastic = self.plastics[e].lane(lane);
                 to.yield_point = self.yields[e].lane(lane).point();
                 to.strain = to.plastic.axial + log_ratio(to.spring.unloaded_length, to.length);
@@ -108,6 +110,7 @@ impl Bundle {
                     ..Spring::default()
                 },
             );
+            self.forces[e].set_lane(lane, 0.0);
             self.plastics[e].set_lane(lane, Plastic::default());
             let (stress, slope) = (f64::INFINITY, 0.0);
             self.yields[e].set_lane(lane, YieldStress { stress, slope });

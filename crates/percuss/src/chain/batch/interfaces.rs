@@ -47,7 +47,7 @@ impl Bundle {
             friction: accumulated.friction.lane(lane),
         };
         let (kick, drift) = (step.kick.0[lane], step.before.0[lane]);
-        let kicked = pair.kick::<true>(interface.closed, kick, drift, sums);
+        let kicked = pair.kick(interface.closed, 0.0, [kick, drift], sums);
         accumulated.contact_loss.0[lane] = kicked.sums.loss;
         accumulated.friction.set_lane(lane, kicked.sums.friction);
         self.interfaces[j].closed = kicked.closed;

@@ -28,7 +28,7 @@ impl Bundle {
             }
             from = irregular + 1;
         }
-        self.springs[tip - 1].axial_force
+        self.forces[tip - 1]
     }
 
     /// Kicks and moves nodes of the projectile that are like each other.
@@ -45,12 +45,12 @@ impl Bundle {
         }
         let mut force_behind = match nodes.start {
             0 => Lanes::all(0.0),
-            first => self.springs[first - 1].axial_force,
+            first => self.forces[first - 1],
         };
         // Told that no index is out of range, the compiler would take several nodes at once, lane by lane.
         for i in nodes {
             let ratio = if i == 0 { end_ratio } else { ratio };
-            let force_ahead = self.springs[i].axial_force;
+            let force_ahead = self.forces[i];
             let mut velocity = self.nodes[i].velocity;
             for l in 0..LANES {
                 velocity.0[l] += (force_behind.0[l] - force_ahead.0[l]) * ratio[l];
@@ -74,7 +74,7 @@ impl Bundle {
             }
             from = irregular + 1;
         }
-        self.kick_back(back, self.springs[back - 2].axial_force, step);
+        self.kick_back(back, self.forces[back - 2], step);
     }
 
     /// Kicks and moves nodes of the target that are like each other.
@@ -91,12 +91,11 @@ impl Bundle {
             ratio.0[l] = step.kick.0[l] / body.mass.0[l];
             limit.0[l] = body.friction.0[l] * ratio.0[l];
         }
-        let mut force_behind = self.springs[inner.start - 2].axial_force;
-        let springs = &self.springs[inner.start - 1..];
+        let mut force_behind = self.forces[inner.start - 2];
+        let forces = &self.forces[inner.start - 1..];
         let nodes = self.nodes[inner.clone()].iter_mut();
         let nodes = nodes.zip(&mut self.moves[inner]);
-        for ((node, is_moving), spring) in nodes.zip(springs) {
-            let force_ahead = spring.axial_force;
+        for ((node, is_moving), &force_ahead) in nodes.zip(forces) {
             let mut change = [0.0; LANES];
             let mut is_held = true;
             for l in 0..LANES {
@@ -154,9 +153,9 @@ impl Bundle {
         let (mass, friction) = (self.masses[i].0, self.frictions[i].0);
         let behind = match i {
             0 => Lanes::all(0.0),
-            _ => self.springs[i - 1 - body].axial_force,
+            _ => self.forces[i - 1 - body],
         };
-        let ahead = self.springs[i - body].axial_force;
+        let ahead = self.forces[i - body];
         let in_contact = self.in_contact[i];
         let sums = self.scalars.accumulated.friction;
         let (velocity, position) = (self.nodes[i].velocity, self.nodes[i].position);

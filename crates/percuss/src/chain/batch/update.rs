@@ -64,13 +64,14 @@ impl Bundle {
         let ends = nodes.iter().zip(&nodes[1..]);
         let ends = ends.zip(moves.iter().zip(&moves[1..]));
         let springs = self.springs[elements.clone()].iter_mut();
+        let springs = springs.zip(&mut self.forces[elements.clone()]);
         let springs = springs.zip(&self.yields[elements.clone()]);
         let marks = self.marks[elements.clone()].iter_mut();
         let marks = marks.zip(&mut self.limits[elements.clone()]);
         let mut fastest = estimate.fastest;
         let mut is_eroding = false;
         let mut working = 0;
-        for (e, (((spring, yields), (mark, limit)), (ends, moves))) in
+        for (e, ((((spring, force), yields), (mark, limit)), (ends, moves))) in
             elements.zip(springs.zip(marks).zip(ends))
         {
             // Where no wave has come, or border shear holds, nothing changes.
@@ -82,7 +83,7 @@ impl Bundle {
                 0 => respond::<false>(spring, yields, ends, &body, 0),
                 gone => respond::<true>(spring, yields, ends, &body, gone),
             };
-            *limit = response.limit;
+            (*force, *limit) = (response.force, response.limit);
             for l in 0..LANES {
                 fastest.0[l] = larger(response.approach.0[l], fastest.0[l]);
             }
@@ -156,23 +157,21 @@ impl Bundle {
                 work.0[l] = 0.0;
             }
             let [back, front] = [e + b, e + b + 1].map(|node| self.nodes[node].position.0);
-            let (before, step_before) = (self.springs[e], step_before.0);
+            let (spring, step_before) = (self.springs[e], step_before.0);
             let step = self.plastics[e].step.0;
-            let (mut spring, mut limit) = (before, Lanes::all(0.0));
+            let [mut force, mut limit] = [Lanes::all(0.0); 2];
             for l in 0..LANES {
-                let (mut one, length) = (before.lane(l), front[l] - back[l]);
-                one.push(body.volume.0[l], length);
+                let (one, length) = (spring.lane(l), front[l] - back[l]);
+                force.0[l] = one.force(body.volume.0[l], length);
                 work.0[l] += body.volume.0[l] * one.plastic_work(step_before[l], step[l]);
                 limit.0[l] = one.stable_step(length, body.compliance.0[l], body.slowness.0[l]);
-                spring.axial_force.0[l] = one.axial_force;
             }
             let gone = self.marks[e].gone;
             for l in (0..LANES).filter(|l| gone >> l & 1 == 1) {
-                spring.axial_force.0[l] = 0.0;
+                force.0[l] = 0.0;
                 limit.0[l] = f64::INFINITY;
             }
-            self.springs[e].axial_force = spring.axial_force;
-            self.limits[e] = limit;
+            (self.forces[e], self.limits[e]) = (force, limit);
         }
         for l in 0..LANES {
             total.0[l] += work.0[l];
@@ -201,6 +200,7 @@ impl Bundle {
 
 /// What became of an element.
 struct Response {
+    force: Lanes,
     /// Largest stable time step where it does not flow.
     limit: Lanes,
     /// Speed at which its ends approach or part, as a part of the length.
@@ -226,7 +226,7 @@ fn respond<const ERODED: bool>(
     let velocities = [back.velocity.0, front.velocity.0];
     let (before, yield_stress) = (*spring, yields.stress.0);
     let mut after = before;
-    let (mut limit, mut approach) = (Lanes::all(0.0), Lanes::all(0.0));
+    let [mut force, mut limit, mut approach] = [Lanes::all(0.0); 3];
     let (mut flows, mut changes, mut erodes) = (false, false, false);
     for l in 0..LANES {
         let is_here = !ERODED || gone >> l & 1 == 0;
@@ -234,7 +234,6 @@ fn respond<const ERODED: bool>(
         let mut one = before.lane(l);
         let (elastic, is_exact) = small_log_ratio(one.unloaded_length, length);
         one.bear(body.law.modulus.0[l] * elastic);
-        one.push(body.volume.0[l], length);
         flows |= is_here & ((one.stress.abs() > yield_stress[l]) | !is_exact);
         changes |= is_here & (one.stress != one.stress_before);
         erodes |= is_here & ((length <= body.shortest.0[l]) | (length >= body.longest.0[l]));
@@ -242,14 +241,15 @@ fn respond<const ERODED: bool>(
         let rate = approach_rate(velocities[0][l] - velocities[1][l], length);
         after.stress_before.0[l] = one.stress_before;
         after.stress.0[l] = if is_here { one.stress } else { 0.0 };
-        after.axial_force.0[l] = if is_here { one.axial_force } else { 0.0 };
+        let pushes = one.force(body.volume.0[l], length);
+        force.0[l] = if is_here { pushes } else { 0.0 };
         limit.0[l] = if is_here { stable } else { f64::INFINITY };
         approach.0[l] = if is_here { rate } else { 0.0 };
     }
     spring.stress_before = after.stress_before;
     spring.stress = after.stress;
-    spring.axial_force = after.axial_force;
     Response {
+        force,
         limit,
         approach,
         flows,
