@@ -52,6 +52,9 @@ pub(crate) trait PerLane {
 
     /// Gives it to a lane.
     fn set_lane(&mut self, lane: usize, one: Self::One);
+
+    /// Gives one of two to a lane: the first one where something is so.
+    fn choose(&mut self, lane: usize, is_so: bool, yes: Self::One, no: Self::One);
 }
 
 impl PerLane for Lanes {
@@ -65,6 +68,11 @@ impl PerLane for Lanes {
     #[inline(always)]
     fn set_lane(&mut self, lane: usize, one: f64) {
         self.0[lane] = one;
+    }
+
+    #[inline(always)]
+    fn choose(&mut self, lane: usize, is_so: bool, yes: f64, no: f64) {
+        self.0[lane] = if is_so { yes } else { no };
     }
 }
 
@@ -80,6 +88,11 @@ impl PerLane for LaneFlags {
     fn set_lane(&mut self, lane: usize, one: bool) {
         self.0[lane] = one;
     }
+
+    #[inline(always)]
+    fn choose(&mut self, lane: usize, is_so: bool, yes: bool, no: bool) {
+        self.0[lane] = if is_so { yes } else { no };
+    }
 }
 
 impl<T: PerLane> PerLane for [T; 2] {
@@ -94,6 +107,13 @@ impl<T: PerLane> PerLane for [T; 2] {
     fn set_lane(&mut self, lane: usize, [first, second]: Self::One) {
         self[0].set_lane(lane, first);
         self[1].set_lane(lane, second);
+    }
+
+    #[inline(always)]
+    fn choose(&mut self, lane: usize, is_so: bool, yes: Self::One, no: Self::One) {
+        let ([yes, other_yes], [no, other_no]) = (yes, no);
+        self[0].choose(lane, is_so, yes, no);
+        self[1].choose(lane, is_so, other_yes, other_no);
     }
 }
 
@@ -111,6 +131,11 @@ macro_rules! per_lane {
             #[inline(always)]
             fn set_lane(&mut self, lane: usize, one: $name<f64>) {
                 $($crate::lanes::PerLane::set_lane(&mut self.$field, lane, one.$field);)*
+            }
+
+            #[inline(always)]
+            fn choose(&mut self, lane: usize, is_so: bool, yes: Self::One, no: Self::One) {
+                $($crate::lanes::PerLane::choose(&mut self.$field, lane, is_so, yes.$field, no.$field);)*
             }
         }
     };

@@ -82,21 +82,7 @@ impl YieldStress {
 }
 
 impl FlowingElements {
-    /// Keeps what was before in those places whose bits are set.
-    #[inline(always)]
-    pub(super) fn keep(&mut self, before: &Self, places: u8) {
-        let (mut after, before) = (*self, *before);
-        for p in 0..LANES {
-            let is_kept = places >> p & 1 == 1;
-            let of = if is_kept { &before } else { &*self };
-            after.spring.set_lane(p, of.spring.lane(p));
-            after.plastic.set_lane(p, of.plastic.lane(p));
-            after.yields.set_lane(p, of.yields.lane(p));
-        }
-        *self = after;
-    }
-
-    /// Returns the trial stresses to the yield surface; those places count whose bits are set in `places`.
+    /// Returns the trial stresses to the yield surface; what is in places whose bits are not set stays as it is.
     #[inline(always)]
     pub(super) fn flow(&mut self, places: u8, length: impl Fn(usize) -> f64) {
         let Self {
@@ -132,19 +118,23 @@ impl FlowingElements {
                 yields.set_lane(p, point);
             }
         }
-        self.yields = yields;
-        let (mut flowed, mut strained) = (spring, plastic);
+        let mut flowed = *self;
         let mut is_large = 0;
         for p in 0..LANES {
-            let (mut spring, mut plastic) = (spring.lane(p), plastic.lane(p));
-            spring.stress = trial.0[p];
+            let (mut next, mut strained) = (spring.lane(p), plastic.lane(p));
+            next.stress = trial.0[p];
             let constants = [law.modulus.0[p], law.heating.0[p]];
-            let is_exact = spring.flow_by(increment.0[p], &mut plastic, constants, per_time.0[p]);
+            let time = per_time.0[p];
+            let is_exact = next.flow_by(increment.0[p], &mut strained, constants, time);
             is_large |= u8::from(!is_exact) << p;
-            flowed.set_lane(p, spring);
-            strained.set_lane(p, plastic);
+            let flows = places >> p & 1 == 1;
+            flowed.spring.choose(p, flows, next, spring.lane(p));
+            flowed.plastic.choose(p, flows, strained, plastic.lane(p));
+            flowed
+                .yields
+                .choose(p, flows, yields.lane(p), before.lane(p));
         }
-        (self.spring, self.plastic) = (flowed, strained);
+        *self = flowed;
         is_large &= places;
         if is_large != 0 {
             for p in (0..LANES).filter(|p| is_large >> p & 1 == 1) {

@@ -6,7 +6,7 @@ use super::{interfaces::Interface, scalars::RunScalars};
 use crate::{
     chain::{
         element::{Plastic, Spring},
-        flow::{FlowLaw, YieldStress},
+        flow::FlowLaw,
     },
     lanes::{LANES, Lanes, per_lane},
     problem::BackFace,
@@ -124,7 +124,9 @@ pub(super) struct Bundle {
     pub(super) springs: Vec<Spring<Lanes>>,
     pub(super) forces: Vec<Lanes>,
     pub(super) plastics: Vec<Plastic<Lanes>>,
-    pub(super) yields: Vec<YieldStress<Lanes>>,
+    /// Yield stresses, and their slopes with the plastic strain.
+    pub(super) yields: Vec<Lanes>,
+    pub(super) slopes: Vec<Lanes>,
     /// Whether a node moves in any lane.
     pub(super) moves: Vec<bool>,
     /// Masses of the nodes, and largest friction on them.
@@ -163,7 +165,8 @@ impl Bundle {
             springs: vec![Spring::default(); elements],
             forces: vec![Lanes::default(); elements],
             plastics: vec![Plastic::default(); elements],
-            yields: vec![YieldStress::default(); elements],
+            yields: vec![Lanes::default(); elements],
+            slopes: vec![Lanes::default(); elements],
             moves: vec![false; elements + 2],
             masses: vec![Lanes::default(); elements + 2],
             frictions: vec![Lanes::default(); elements + 2],

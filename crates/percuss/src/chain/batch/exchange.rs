@@ -8,11 +8,11 @@ use crate::{
     chain::{
         column::ColumnRun,
         element::{Plastic, Spring},
-        flow::{FlowLaw, YieldStress},
+        flow::FlowLaw,
         state::State,
     },
     lanes::PerLane,
-    material::Hardening,
+    material::{Hardening, YieldPoint},
     power::log_ratio,
 };
 
@@ -33,7 +33,8 @@ impl Bundle {
             self.springs[e].set_lane(lane, from.spring);
             self.forces[e].set_lane(lane, from.axial_force);
             self.plastics[e].set_lane(lane, from.plastic);
-            self.yields[e].set_lane(lane, YieldStress::of(&from.yield_point));
+            self.yields[e].set_lane(lane, from.yield_point.stress());
+            self.slopes[e].set_lane(lane, from.yield_point.strain_slope());
         }
         for (b, body) in self.bodies.iter_mut().enumerate() {
             let elements = self.mesh.elements_of(b);
@@ -76,7 +77,8 @@ impl Bundle {
                 to.spring = self.springs[e].lane(lane);
                 to.axial_force = self.forces[e].lane(lane);
                 to.plastic = self.plastics[e].lane(lane);
-                to.yield_point = self.yields[e].lane(lane).point();
+                let (stress, slope) = (self.yields[e].lane(lane), self.slopes[e].lane(lane));
+                to.yield_point = YieldPoint::known(stress, slope);
                 to.strain = to.plastic.axial + log_ratio(to.spring.unloaded_length, to.length);
             }
         }
@@ -112,8 +114,8 @@ impl Bundle {
             );
             self.forces[e].set_lane(lane, 0.0);
             self.plastics[e].set_lane(lane, Plastic::default());
-            let (stress, slope) = (f64::INFINITY, 0.0);
-            self.yields[e].set_lane(lane, YieldStress { stress, slope });
+            self.yields[e].set_lane(lane, f64::INFINITY);
+            self.slopes[e].set_lane(lane, 0.0);
         }
         for body in &mut self.bodies {
             body.set_lane(lane, Body::idle());

@@ -2,7 +2,7 @@
 
 use super::{bundle::Bundle, step::Step};
 use crate::{
-    chain::flow::FlowingElements,
+    chain::flow::{FlowingElements, YieldStress},
     lanes::{LANES, PerLane},
 };
 
@@ -10,20 +10,22 @@ impl Bundle {
     /// Lets an element of a body flow in those lanes whose bits are set.
     #[inline(always)]
     pub(super) fn flow_in_place(&mut self, b: usize, e: usize, lanes: u8, step: &Step) {
-        let before = FlowingElements {
+        let mut flowing = FlowingElements {
             spring: self.springs[e],
             plastic: self.plastics[e],
-            yields: self.yields[e],
+            yields: YieldStress {
+                stress: self.yields[e],
+                slope: self.slopes[e],
+            },
             law: self.bodies[b].law,
             per_time: step.rate,
         };
         let ends = [self.nodes[e + b].position, self.nodes[e + b + 1].position];
-        let mut after = before;
-        after.flow(lanes, |l| ends[1].0[l] - ends[0].0[l]);
-        after.keep(&before, !lanes);
-        self.springs[e] = after.spring;
-        self.plastics[e] = after.plastic;
-        self.yields[e] = after.yields;
+        flowing.flow(lanes, |l| ends[1].0[l] - ends[0].0[l]);
+        self.springs[e] = flowing.spring;
+        self.plastics[e] = flowing.plastic;
+        self.yields[e] = flowing.yields.stress;
+        self.slopes[e] = flowing.yields.slope;
     }
 
     /// Lets elements of a body flow in single lanes, eight such places at a time.
@@ -50,7 +52,8 @@ impl Bundle {
             let (e, l) = (element as usize, lane as usize % LANES);
             flowing.spring.set_lane(p, self.springs[e].lane(l));
             flowing.plastic.set_lane(p, self.plastics[e].lane(l));
-            flowing.yields.set_lane(p, self.yields[e].lane(l));
+            flowing.yields.stress.set_lane(p, self.yields[e].lane(l));
+            flowing.yields.slope.set_lane(p, self.slopes[e].lane(l));
             flowing.law.set_lane(p, law.lane(l));
             flowing.per_time.set_lane(p, step.rate.lane(l));
         }
@@ -65,7 +68,8 @@ impl Bundle {
             let (e, l) = (element as usize, lane as usize % LANES);
             self.springs[e].set_lane(l, flowing.spring.lane(p));
             self.plastics[e].set_lane(l, flowing.plastic.lane(p));
-            self.yields[e].set_lane(l, flowing.yields.lane(p));
+            self.yields[e].set_lane(l, flowing.yields.stress.lane(p));
+            self.slopes[e].set_lane(l, flowing.yields.slope.lane(p));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Many independent shots at once: eight of them side by side, each in a lane of the processor's vector unit.
 //!
-//! [`Bundle`] advances the state of eight shots by the equations of the single run, in the same order, lane by lane: no lane knows
+//! [`Bundle`] advances the state of eight shots, lane by lane, by the functions of the single run and in its order: no lane knows
 //! of another one, so that a shot ends with the same bits in whatever company it was computed. Whatever is rare (the end of a shot,
 //! erosion) is left to the single run: the lane's state is put into its [`ColumnRun`], and what that makes of it is put back.
 

@@ -8,10 +8,7 @@ use super::{
     step::{Step, StepEstimate},
 };
 use crate::{
-    chain::{
-        element::{Spring, approach_rate},
-        flow::YieldStress,
-    },
+    chain::element::{Spring, approach_rate},
     lanes::{LANES, Lanes, PerLane, larger, smaller},
     power::small_log_ratio,
 };
@@ -131,7 +128,7 @@ impl Bundle {
     #[inline(always)]
     fn flowing(&self, b: usize, e: usize) -> u8 {
         let [back, front] = [e + b, e + b + 1].map(|node| self.nodes[node].position.0);
-        let (spring, yield_stress) = (&self.springs[e], self.yields[e].stress.0);
+        let (spring, yield_stress) = (&self.springs[e], self.yields[e].0);
         let (stress, unloaded) = (spring.stress.0, spring.unloaded_length.0);
         let mut flows = 0;
         for l in 0..LANES {
@@ -167,9 +164,11 @@ impl Bundle {
                 limit.0[l] = one.stable_step(length, body.compliance.0[l], body.slowness.0[l]);
             }
             let gone = self.marks[e].gone;
-            for l in (0..LANES).filter(|l| gone >> l & 1 == 1) {
-                force.0[l] = 0.0;
-                limit.0[l] = f64::INFINITY;
+            if gone != 0 {
+                for l in (0..LANES).filter(|l| gone >> l & 1 == 1) {
+                    force.0[l] = 0.0;
+                    limit.0[l] = f64::INFINITY;
+                }
             }
             (self.forces[e], self.limits[e]) = (force, limit);
         }
@@ -217,14 +216,14 @@ struct Response {
 #[inline(always)]
 fn respond<const ERODED: bool>(
     spring: &mut Spring<Lanes>,
-    yields: &YieldStress<Lanes>,
+    yields: &Lanes,
     [back, front]: [&Node; 2],
     body: &Body<Lanes>,
     gone: u8,
 ) -> Response {
     let positions = [back.position.0, front.position.0];
     let velocities = [back.velocity.0, front.velocity.0];
-    let (before, yield_stress) = (*spring, yields.stress.0);
+    let (before, yield_stress) = (*spring, yields.0);
     let mut after = before;
     let [mut force, mut limit, mut approach] = [Lanes::all(0.0); 3];
     let (mut flows, mut changes, mut erodes) = (false, false, false);
