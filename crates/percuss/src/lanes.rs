@@ -117,9 +117,19 @@ impl<T: PerLane> PerLane for [T; 2] {
     }
 }
 
-/// Implements [`PerLane`] for a struct, all of whose fields are named.
+/// A struct that is generic over [`Real`], with [`PerLane`] for that of eight runs.
 macro_rules! per_lane {
-    ($name:ident { $($field:ident),* $(,)? }) => {
+    (
+        $(#[$attribute:meta])*
+        $visible:vis struct $name:ident<R $(: $bound:ident)? = f64> {
+            $($(#[$note:meta])* $seen:vis $field:ident: $type:ty,)*
+        }
+    ) => {
+        $(#[$attribute])*
+        $visible struct $name<R $(: $bound)? = f64> {
+            $($(#[$note])* $seen $field: $type,)*
+        }
+
         impl $crate::lanes::PerLane for $name<$crate::lanes::Lanes> {
             type One = $name<f64>;
 

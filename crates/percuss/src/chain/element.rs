@@ -10,40 +10,32 @@ use crate::{
     power::{exponential, log_ratio, small_exponential},
 };
 
-/// Elastic state of an element.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(super) struct Spring<R = f64> {
-    /// Length without stress [m].
-    pub(super) unloaded_length: R,
-    /// Stress now and a step before [Pa].
-    pub(super) stress: R,
-    pub(super) stress_before: R,
+per_lane! {
+    /// Elastic state of an element.
+    #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+    pub(super) struct Spring<R = f64> {
+        /// Length without stress [m].
+        pub(super) unloaded_length: R,
+        /// Stress now and a step before [Pa].
+        pub(super) stress: R,
+        pub(super) stress_before: R,
+    }
 }
-per_lane!(Spring {
-    unloaded_length,
-    stress,
-    stress_before
-});
 
-/// What flow changes besides.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(super) struct Plastic<R = f64> {
-    /// Axial plastic strain, compression positive, and its part in the last step.
-    pub(super) axial: R,
-    pub(super) step: R,
-    /// Accumulated plastic strain.
-    pub(super) strain: R,
-    /// Largest plastic strain rate so far [1/s].
-    pub(super) largest_rate: R,
-    pub(super) temperature: R,
+per_lane! {
+    /// What flow changes besides.
+    #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+    pub(super) struct Plastic<R = f64> {
+        /// Axial plastic strain, compression positive, and its part in the last step.
+        pub(super) axial: R,
+        pub(super) step: R,
+        /// Accumulated plastic strain.
+        pub(super) strain: R,
+        /// Largest plastic strain rate so far [1/s].
+        pub(super) largest_rate: R,
+        pub(super) temperature: R,
+    }
 }
-per_lane!(Plastic {
-    axial,
-    step,
-    strain,
-    largest_rate,
-    temperature
-});
 
 impl Spring {
     /// Takes the stress of a new length, as if nothing flowed.

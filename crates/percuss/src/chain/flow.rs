@@ -10,23 +10,18 @@ use crate::{
 /// Elastic strain from which a trial is worked out once more: less than the one up to which it is exact.
 const LARGE: f64 = 0.09;
 
-/// What flow needs of a material.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct FlowLaw<R = f64> {
-    pub(super) modulus: R,
-    /// Temperature rise per plastic work per volume.
-    pub(super) heating: R,
-    pub(super) coefficient: R,
-    pub(super) exponent: R,
-    pub(super) first_strain: R,
+per_lane! {
+    /// What flow needs of a material.
+    #[derive(Debug, Clone, Copy, Default)]
+    pub(super) struct FlowLaw<R = f64> {
+        pub(super) modulus: R,
+        /// Temperature rise per plastic work per volume.
+        pub(super) heating: R,
+        pub(super) coefficient: R,
+        pub(super) exponent: R,
+        pub(super) first_strain: R,
+    }
 }
-per_lane!(FlowLaw {
-    modulus,
-    heating,
-    coefficient,
-    exponent,
-    first_strain
-});
 
 impl FlowLaw {
     pub(super) fn new(law: Hardening, modulus: f64, heating: f64) -> Self {
@@ -49,13 +44,14 @@ impl FlowLaw {
     }
 }
 
-/// Yield stress and its slope with the plastic strain [Pa].
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct YieldStress<R = f64> {
-    pub(super) stress: R,
-    pub(super) slope: R,
+per_lane! {
+    /// Yield stress and its slope with the plastic strain [Pa].
+    #[derive(Debug, Clone, Copy, Default)]
+    pub(super) struct YieldStress<R = f64> {
+        pub(super) stress: R,
+        pub(super) slope: R,
+    }
 }
-per_lane!(YieldStress { stress, slope });
 
 /// Eight elements that flow.
 #[derive(Clone, Copy, Default)]

@@ -55,13 +55,14 @@ pub(super) fn dry_friction_one(before: f64, change: f64, limit: f64) -> f64 {
     }
 }
 
-/// Impulse that friction took, and its work.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(super) struct FrictionSums<R = f64> {
-    pub(super) impulse: R,
-    pub(super) work: R,
+per_lane! {
+    /// Impulse that friction took, and its work.
+    #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+    pub(super) struct FrictionSums<R = f64> {
+        pub(super) impulse: R,
+        pub(super) work: R,
+    }
 }
-per_lane!(FrictionSums { impulse, work });
 
 impl FrictionSums {
     /// Adds an impulse that acted while a velocity changed.

@@ -114,49 +114,34 @@ pub(super) struct Parting {
     pub(super) time: f64,
 }
 
-/// Work and impulse that have gone where the state itself does not show them.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(super) struct Accumulators<R = f64> {
-    pub(super) initial_energy: R,
-    pub(super) initial_momentum: R,
-    pub(super) plastic: [R; 2],
-    pub(super) friction: FrictionSums<R>,
-    pub(super) viscous_work: R,
-    pub(super) contact_loss: R,
-    pub(super) boundary_work: R,
-    pub(super) eroded_energy: R,
-    pub(super) fracture_work: R,
-    pub(super) support_impulse: R,
-    pub(super) eroded_momentum: R,
-    pub(super) damping_impulse: R,
+per_lane! {
+    /// Work and impulse that have gone where the state itself does not show them.
+    #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+    pub(super) struct Accumulators<R = f64> {
+        pub(super) initial_energy: R,
+        pub(super) initial_momentum: R,
+        pub(super) plastic: [R; 2],
+        pub(super) friction: FrictionSums<R>,
+        pub(super) viscous_work: R,
+        pub(super) contact_loss: R,
+        pub(super) boundary_work: R,
+        pub(super) eroded_energy: R,
+        pub(super) fracture_work: R,
+        pub(super) support_impulse: R,
+        pub(super) eroded_momentum: R,
+        pub(super) damping_impulse: R,
+    }
 }
-per_lane!(Accumulators {
-    initial_energy,
-    initial_momentum,
-    plastic,
-    friction,
-    viscous_work,
-    contact_loss,
-    boundary_work,
-    eroded_energy,
-    fracture_work,
-    support_impulse,
-    eroded_momentum,
-    damping_impulse,
-});
 
-/// Energy and momentum of projectile or target.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct BodySums<R = f64> {
-    pub(super) kinetic: R,
-    pub(super) elastic: R,
-    pub(super) momentum: R,
+per_lane! {
+    /// Energy and momentum of projectile or target.
+    #[derive(Debug, Clone, Copy, Default)]
+    pub(super) struct BodySums<R = f64> {
+        pub(super) kinetic: R,
+        pub(super) elastic: R,
+        pub(super) momentum: R,
+    }
 }
-per_lane!(BodySums {
-    kinetic,
-    elastic,
-    momentum
-});
 
 impl BodySums {
     #[inline(always)]

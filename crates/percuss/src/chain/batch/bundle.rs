@@ -82,38 +82,27 @@ pub(super) struct Mark {
     pub(super) gone: u8,
 }
 
-/// What is the same for all of a projectile or target.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Body<R = f64> {
-    pub(super) law: FlowLaw<R>,
-    pub(super) compliance: R,
-    pub(super) slowness: R,
-    /// Volume of an element.
-    pub(super) volume: R,
-    /// Mass of a node, and of one at an end.
-    pub(super) mass: R,
-    pub(super) end_mass: R,
-    /// Largest friction on a node, on the first and on the last one.
-    pub(super) friction: R,
-    pub(super) first_friction: R,
-    pub(super) last_friction: R,
-    /// Lengths at which an element erodes.
-    pub(super) shortest: R,
-    pub(super) longest: R,
+per_lane! {
+    /// What is the same for all of a projectile or target.
+    #[derive(Debug, Clone, Copy, Default)]
+    pub(super) struct Body<R = f64> {
+        pub(super) law: FlowLaw<R>,
+        pub(super) compliance: R,
+        pub(super) slowness: R,
+        /// Volume of an element.
+        pub(super) volume: R,
+        /// Mass of a node, and of one at an end.
+        pub(super) mass: R,
+        pub(super) end_mass: R,
+        /// Largest friction on a node, on the first and on the last one.
+        pub(super) friction: R,
+        pub(super) first_friction: R,
+        pub(super) last_friction: R,
+        /// Lengths at which an element erodes.
+        pub(super) shortest: R,
+        pub(super) longest: R,
+    }
 }
-per_lane!(Body {
-    law,
-    compliance,
-    slowness,
-    volume,
-    mass,
-    end_mass,
-    friction,
-    first_friction,
-    last_friction,
-    shortest,
-    longest,
-});
 
 /// Eight shots.
 #[derive(Debug)]

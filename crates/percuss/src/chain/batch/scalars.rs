@@ -8,55 +8,35 @@ use crate::{
     lanes::{Real, per_lane},
 };
 
-/// What there is one of in every run.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct RunScalars<R: Real = f64> {
-    pub(super) courant: R,
-    pub(super) time: R,
-    pub(super) step: R,
-    pub(super) time_step: R,
-    pub(super) stable_step: R,
-    /// Whether projectile and target touch, and whether they have since the window began.
-    pub(super) closed: R::Flag,
-    pub(super) touched: R::Flag,
-    pub(super) meetings: R,
-    pub(super) contact_force: R,
-    pub(super) impedance: R,
-    pub(super) accumulated: Accumulators<R>,
-    pub(super) largest_depth: R,
-    pub(super) peak_force: R,
-    pub(super) smallest_time_step: R,
-    pub(super) contact_time: R,
-    pub(super) back_position: R,
-    /// Depth and step at which a run is over, time at which it is looked at.
-    pub(super) perforated: R,
-    pub(super) most_steps: R,
-    pub(super) next_check: R,
-    /// Speed of the tail below which the projectile may be at rest; −∞ once it has been.
-    pub(super) slow_tail: R,
+per_lane! {
+    /// What there is one of in every run.
+    #[derive(Debug, Clone, Copy, Default)]
+    pub(super) struct RunScalars<R: Real = f64> {
+        pub(super) courant: R,
+        pub(super) time: R,
+        pub(super) step: R,
+        pub(super) time_step: R,
+        pub(super) stable_step: R,
+        /// Whether projectile and target touch, and whether they have since the window began.
+        pub(super) closed: R::Flag,
+        pub(super) touched: R::Flag,
+        pub(super) meetings: R,
+        pub(super) contact_force: R,
+        pub(super) impedance: R,
+        pub(super) accumulated: Accumulators<R>,
+        pub(super) largest_depth: R,
+        pub(super) peak_force: R,
+        pub(super) smallest_time_step: R,
+        pub(super) contact_time: R,
+        pub(super) back_position: R,
+        /// Depth and step at which a run is over, time at which it is looked at.
+        pub(super) perforated: R,
+        pub(super) most_steps: R,
+        pub(super) next_check: R,
+        /// Speed of the tail below which the projectile may be at rest; −∞ once it has been.
+        pub(super) slow_tail: R,
+    }
 }
-per_lane!(RunScalars {
-    courant,
-    time,
-    step,
-    time_step,
-    stable_step,
-    closed,
-    touched,
-    meetings,
-    contact_force,
-    impedance,
-    accumulated,
-    largest_depth,
-    peak_force,
-    smallest_time_step,
-    contact_time,
-    back_position,
-    perforated,
-    most_steps,
-    next_check,
-    slow_tail,
-});
 
 impl RunScalars {
     /// Those of a chain on which nothing ever happens.
