@@ -1,7 +1,10 @@
 //! Numbers side by side: eight elements, particles or runs, on which one instruction works.
 //!
-//! Loops over the lanes work on copies of whole arrays: what a compiler can tell apart from memory becomes vector instructions. Code that
-//! uses them is dispatched to an instruction set by `pulp`, and has the same bits on all of them.
+//! An equation is a function of single numbers, written once: one run calls it, and eight call it in a loop over the lanes. Such a function is
+//! `#[inline(always)]` and has no branches. The loop works on copies of whole arrays: what a compiler can tell apart from memory becomes
+//! vector instructions. Code that uses lanes is dispatched to an instruction set by `pulp`, and has the same bits on all of them.
+//!
+//! A struct that is generic over [`Real`] has the numbers of one run or of eight; `per_lane!` gives it those of a lane.
 
 use std::ops::{Deref, DerefMut};
 
@@ -19,6 +22,135 @@ impl Lanes {
     pub const fn all(value: f64) -> Self {
         Self([value; LANES])
     }
+}
+
+/// Whether something is so in every lane.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct LaneFlags(pub [bool; LANES]);
+
+/// A number of one run, or one of each of eight.
+pub trait Real: Copy {
+    /// The same for what is so or not.
+    type Flag: Copy;
+}
+
+impl Real for f64 {
+    type Flag = bool;
+}
+
+impl Real for Lanes {
+    type Flag = LaneFlags;
+}
+
+/// What eight runs have, each in a lane.
+pub trait PerLane {
+    /// What one run has.
+    type One;
+
+    /// That of a lane.
+    fn lane(&self, lane: usize) -> Self::One;
+
+    /// Gives it to a lane.
+    fn set_lane(&mut self, lane: usize, one: Self::One);
+
+    /// Gives one of two to a lane: the first one where something is so.
+    fn choose(&mut self, lane: usize, is_so: bool, yes: Self::One, no: Self::One);
+}
+
+impl PerLane for Lanes {
+    type One = f64;
+
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> f64 {
+        self.0[lane]
+    }
+
+    #[inline(always)]
+    fn set_lane(&mut self, lane: usize, one: f64) {
+        self.0[lane] = one;
+    }
+
+    #[inline(always)]
+    fn choose(&mut self, lane: usize, is_so: bool, yes: f64, no: f64) {
+        self.0[lane] = if is_so { yes } else { no };
+    }
+}
+
+impl PerLane for LaneFlags {
+    type One = bool;
+
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> bool {
+        self.0[lane]
+    }
+
+    #[inline(always)]
+    fn set_lane(&mut self, lane: usize, one: bool) {
+        self.0[lane] = one;
+    }
+
+    #[inline(always)]
+    fn choose(&mut self, lane: usize, is_so: bool, yes: bool, no: bool) {
+        self.0[lane] = if is_so { yes } else { no };
+    }
+}
+
+impl<T: PerLane> PerLane for [T; 2] {
+    type One = [T::One; 2];
+
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> Self::One {
+        [self[0].lane(lane), self[1].lane(lane)]
+    }
+
+    #[inline(always)]
+    fn set_lane(&mut self, lane: usize, [first, second]: Self::One) {
+        self[0].set_lane(lane, first);
+        self[1].set_lane(lane, second);
+    }
+
+    #[inline(always)]
+    fn choose(&mut self, lane: usize, is_so: bool, yes: Self::One, no: Self::One) {
+        let ([yes, other_yes], [no, other_no]) = (yes, no);
+        self[0].choose(lane, is_so, yes, no);
+        self[1].choose(lane, is_so, other_yes, other_no);
+    }
+}
+
+/// A struct that is generic over [`Real`], with [`PerLane`] for that of eight runs.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! per_lane {
+    (
+        $(#[$attribute:meta])*
+        $visible:vis struct $name:ident<R $(: $bound:ident)? = f64> {
+            $($(#[$note:meta])* $seen:vis $field:ident: $type:ty,)*
+        }
+    ) => {
+        $(#[$attribute])*
+        $visible struct $name<R $(: $bound)? = f64> {
+            $($(#[$note])* $seen $field: $type,)*
+        }
+
+        impl $crate::lanes::PerLane for $name<$crate::lanes::Lanes> {
+            type One = $name<f64>;
+
+            #[inline(always)]
+            fn lane(&self, lane: usize) -> $name<f64> {
+                $name { $($field: $crate::lanes::PerLane::lane(&self.$field, lane),)* }
+            }
+
+            #[inline(always)]
+            fn set_lane(&mut self, lane: usize, one: $name<f64>) {
+                $($crate::lanes::PerLane::set_lane(&mut self.$field, lane, one.$field);)*
+            }
+
+            #[inline(always)]
+            fn choose(&mut self, lane: usize, is_so: bool, yes: Self::One, no: Self::One) {
+                $($crate::lanes::PerLane::choose(&mut self.$field, lane, is_so, yes.$field, no.$field);)*
+            }
+        }
+    };
 }
 
 impl Deref for Lanes {

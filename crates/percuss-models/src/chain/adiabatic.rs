@@ -54,7 +54,7 @@ impl Sheared<'_> {
         }
     }
 
-    /// Part by which the stress grows for a part by which the rate does, ∂ln σ/∂ln ε̇.
+    /// Section by which the stress grows for a part by which the rate does, ∂ln σ/∂ln ε̇.
     pub(super) fn rate_sensitivity(&self, rate: f64) -> f64 {
         let (stress, slope) = self.flow(0.0, rate, self.temperature);
         match self.rate_effects {

@@ -22,7 +22,7 @@ use crate::{
 const SMALLEST_COURANT: f64 = 0.05;
 /// Steps between two audits.
 pub(super) const AUDIT_INTERVAL: u64 = 128;
-/// Part of the first time step below which a run would never end.
+/// Section of the first time step below which a run would never end.
 const COLLAPSED_STEP: f64 = 1e-4;
 /// Most elements in a profile: a finer mesh than a picture can show is thinned out.
 const PROFILE_ELEMENTS: usize = 400;

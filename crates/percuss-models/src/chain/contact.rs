@@ -1,73 +1,85 @@
 //! Contact between the ends of two segments: closing, moving as one, parting, and what holds across a gap.
 
-use super::{friction::dry_friction, state::State};
+use super::{
+    pair::{ContactSums, Pair, overlap},
+    state::State,
+};
 
 impl State {
     /// Moves the two nodes of a closed contact as one, or lets them part when the contact would pull.
     pub(super) fn kick_contact(&mut self, s: usize, kick: f64) {
-        let (a, b) = (self.segments[s].last_node, self.segments[s + 1].first_node);
-        let fixed = self.is_fixed(b);
-        let (before, combined_mass) = if fixed {
-            (0.0, f64::INFINITY)
-        } else {
-            let mass = self.nodes[a].mass + self.nodes[b].mass;
-            let momentum = self.nodes[a].mass * self.nodes[a].velocity
-                + self.nodes[b].mass * self.nodes[b].velocity;
-            (momentum / mass, mass)
+        let ends = self.ends(s);
+        if self.is_fixed(ends[1]) {
+            return self.kick_wall(s, kick);
+        }
+        let holds = self.interfaces[s].bond.holds();
+        let sums = ContactSums {
+            loss: self.accumulated.contact_loss,
+            friction: self.accumulated.friction,
         };
-        // Both nodes start the kick with their common velocity; what that costs is the loss of a plastic impact.
+        let kicked = self
+            .pair(ends)
+            .kick(true, holds, [kick, self.time_step], sums);
+        self.accumulated.contact_loss = kicked.sums.loss;
+        self.accumulated.friction = kicked.sums.friction;
+        for (end, i) in ends.into_iter().enumerate() {
+            self.nodes[i].velocity_before = kicked.start[end];
+            self.nodes[i].velocity = kicked.velocity[end];
+        }
+        if !kicked.closed {
+            self.part_ends(s);
+        } else if Some(s) == self.tip_segment() {
+            self.contact_force = kicked.push;
+        }
+    }
+
+    /// Holds the end that touches a wall, or lets it leave.
+    fn kick_wall(&mut self, s: usize, kick: f64) {
+        let [a, b] = self.ends(s);
         for i in [a, b] {
-            let jump = before - self.nodes[i].velocity;
+            let jump = 0.0 - self.nodes[i].velocity;
             self.account_for_jump(i, jump, -self.time_step);
-            if fixed && i == a {
+            if i == a {
                 self.accumulated.support_impulse -= self.nodes[i].mass * jump;
             }
-            self.nodes[i].velocity_before = before;
+            self.nodes[i].velocity_before = 0.0;
+            self.nodes[i].velocity = 0.0;
         }
-        let contact_force = if fixed {
-            self.nodes[a].velocity = 0.0;
-            self.nodes[b].velocity = 0.0;
-            self.nodes[a].force
-        } else {
-            let change = (self.nodes[a].force + self.nodes[b].force) * kick / combined_mass;
-            let friction = self.nodes[a].friction + self.nodes[b].friction;
-            let after = dry_friction(before, change, friction * kick / combined_mass);
-            self.nodes[a].velocity = after;
-            self.nodes[b].velocity = after;
-            let own_friction = friction_force(
-                self.nodes[a].friction,
-                friction,
-                combined_mass,
-                before,
-                change,
-                after,
-                kick,
-            );
-            self.nodes[a].force + own_friction - self.nodes[a].mass * (after - before) / kick
-        };
-        if contact_force < -self.interfaces[s].bond.holds() {
-            let pull = self.interfaces[s].part();
-            self.nodes[a].force += pull;
-            self.nodes[b].force -= pull;
-            self.nodes[a].velocity = before;
-            self.nodes[b].velocity = before;
+        let push = self.nodes[a].force;
+        if push < -self.interfaces[s].bond.holds() {
+            self.part_ends(s);
             self.kick_free(a, kick);
-            if self.is_boundary(b) {
-                self.kick_boundary(b, kick);
-            } else {
-                self.kick_free(b, kick);
-            }
+            self.kick_boundary(b, kick);
             return;
         }
-        if fixed {
-            self.accumulated.support_impulse += (self.nodes[a].force + self.nodes[b].force) * kick;
-            self.back_force = self.nodes[a].force + self.nodes[b].force;
-        } else {
-            let change = (self.nodes[a].force + self.nodes[b].force) * kick / combined_mass;
-            self.account_for_friction(combined_mass, before, change, self.nodes[a].velocity);
-        }
+        self.back_force = push + self.nodes[b].force;
+        self.accumulated.support_impulse += self.back_force * kick;
         if Some(s) == self.tip_segment() {
-            self.contact_force = contact_force;
+            self.contact_force = push;
+        }
+    }
+
+    /// Parts two ends, which what still holds goes on to pull together.
+    fn part_ends(&mut self, s: usize) {
+        let [a, b] = self.ends(s);
+        let pull = self.interfaces[s].part();
+        self.nodes[a].force += pull;
+        self.nodes[b].force -= pull;
+    }
+
+    /// The nodes on both sides of an interface.
+    fn ends(&self, s: usize) -> [usize; 2] {
+        [self.segments[s].last_node, self.segments[s + 1].first_node]
+    }
+
+    fn pair(&self, [a, b]: [usize; 2]) -> Pair {
+        let [a, b] = [&self.nodes[a], &self.nodes[b]];
+        Pair {
+            mass: [a.mass, b.mass],
+            velocity: [a.velocity, b.velocity],
+            force: [a.force, b.force],
+            spring_force: [a.spring_force, b.spring_force],
+            friction: [a.friction, b.friction],
         }
     }
 
@@ -95,15 +107,9 @@ impl State {
         }
     }
 
-    /// Accumulators the energy of a sudden change of a node's velocity.
-    ///
-    /// A kick does its work at the mean of the velocities before and after it, the springs do theirs at the velocities of
-    /// the two drifts around it: a jump between kick and drift leaves half a drift's work to account for. `drift` is the length
-    /// of the drift on the jump's side of the kick, negative when the jump comes before the kick.
+    /// Accounts for the energy of a sudden change of a node's velocity: see [`Pair::jump_energy`].
     pub(super) fn account_for_jump(&mut self, i: usize, jump: f64, drift: f64) {
-        let velocity = self.nodes[i].velocity;
-        let kinetic = 0.5 * self.nodes[i].mass * ((velocity + jump).powi(2) - velocity.powi(2));
-        self.accumulated.contact_loss -= kinetic - 0.5 * drift * self.nodes[i].spring_force * jump;
+        self.accumulated.contact_loss -= self.pair([i, i]).jump_energy(0, jump, drift);
     }
 
     /// Closes every gap that would overlap at the end of the step, so that it is zero then.
@@ -112,51 +118,28 @@ impl State {
             if self.interfaces[s].closed {
                 continue;
             }
-            let (a, b) = (self.segments[s].last_node, self.segments[s + 1].first_node);
+            let [a, b] = self.ends(s);
             let gap = self.nodes[b].position - self.nodes[a].position;
-            let approach = self.nodes[a].velocity - self.nodes[b].velocity;
-            if gap - approach * time_step > 0.0 {
+            let velocity = [self.nodes[a].velocity, self.nodes[b].velocity];
+            if !overlap(velocity, gap, time_step) {
                 continue;
             }
-            let allowed = gap.max(0.0) / time_step;
-            let (share_a, share_b) = if self.is_fixed(b) {
-                (1.0, 0.0)
-            } else {
-                let mass = self.nodes[a].mass + self.nodes[b].mass;
-                (self.nodes[b].mass / mass, self.nodes[a].mass / mass)
-            };
-            let change = approach - allowed;
-            for (i, jump) in [(a, -share_a * change), (b, share_b * change)] {
-                self.account_for_jump(i, jump, time_step);
-                self.nodes[i].velocity += jump;
-            }
-            if self.is_fixed(b) {
-                self.accumulated.support_impulse += self.nodes[a].mass * change;
+            let mut pair = self.pair([a, b]);
+            let fixed = self.is_fixed(b);
+            let shares = if fixed { [1.0, 0.0] } else { pair.shares() };
+            let accumulated = &mut self.accumulated;
+            let change = pair.meet(gap, time_step, shares, &mut accumulated.contact_loss);
+            if fixed {
+                accumulated.support_impulse += pair.mass[0] * change;
             }
             // What holds across the gap pulls over the way that is left, and no more at its end: the half drift before the kick
             // was accounted for at the speed before the jump, the one before the next kick will not be.
             let pulled = 0.5 * self.interfaces[s].pull * (time_step * change - gap.max(0.0));
-            self.accumulated.fracture_work += pulled;
-            self.accumulated.contact_loss -= pulled;
+            accumulated.fracture_work += pulled;
+            accumulated.contact_loss -= pulled;
+            [self.nodes[a].velocity, self.nodes[b].velocity] = pair.velocity;
             self.interfaces[s].closed = true;
             self.meetings += 1;
         }
     }
-}
-
-/// Part of the friction on a pair of nodes that acts on the first of them [N].
-fn friction_force(
-    own_limit: f64,
-    limit: f64,
-    mass: f64,
-    before: f64,
-    change: f64,
-    after: f64,
-    kick: f64,
-) -> f64 {
-    if limit == 0.0 {
-        return 0.0;
-    }
-    let impulse = mass * (after - before - change);
-    impulse / kick * own_limit / limit
 }

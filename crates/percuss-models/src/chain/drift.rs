@@ -3,16 +3,17 @@
 use pulp::{Arch, NullaryFnOnce};
 
 use super::{
-    batch::Start,
+    element::approach_rate,
+    flow::{FlowLaw, FlowingElements, YieldStress},
     part::Section,
     penetration::Limit,
-    solver::{LARGEST_STRAIN_STEP, StepControl},
+    solver::{StepControl, strain_limited_step},
     state::{Element, Segment, State},
 };
 use crate::{
     error::NumericalError,
-    lanes::LANES,
-    material::{Hardening, YieldPoint},
+    lanes::{LANES, Lanes, PerLane},
+    material::Hardening,
     options::Kinematics,
 };
 
@@ -100,7 +101,7 @@ impl State {
                 return Err(inverted(self.step, self.time, element));
             }
         }
-        self.stable_step = found.stable_step.min(LARGEST_STRAIN_STEP / found.fastest);
+        self.stable_step = found.stable_step.min(strain_limited_step(found.fastest));
         Ok(())
     }
 
@@ -156,10 +157,10 @@ impl State {
                 advance => closing - advance / time_step,
             };
             if is_logarithmic {
-                found.approaches(approach.abs() * (1.0 / length));
+                found.approaches(approach_rate(approach, length));
             }
             let step_before = element.stretch(part, length);
-            let flows = !element.yield_point.holds(element.stress.abs());
+            let flows = !element.yield_point.holds(element.spring.stress.abs());
             if law.is_some() && (flows || step_before != 0.0) {
                 working.push(YieldingElement {
                     element: i,
@@ -219,7 +220,7 @@ fn flow_together(
     }
 }
 
-/// Lets elements flow side by side, as in the batch engine: of the places, so many count.
+/// Lets elements flow side by side: of the places, so many count.
 #[inline(always)]
 fn flow_eight(
     elements: &mut [Element],
@@ -229,38 +230,26 @@ fn flow_eight(
     law: Hardening,
     time_step: f64,
 ) {
-    let mut start = Start {
-        modulus: [part.modulus; LANES],
-        heating: [part.heating; LANES],
-        coefficient: [law.coefficient; LANES],
-        exponent: [law.exponent; LANES],
-        first_strain: [law.first_strain; LANES],
-        per_time: [1.0 / time_step; LANES],
-        ..Start::default()
+    let mut flowing = FlowingElements {
+        per_time: Lanes::all(1.0 / time_step),
+        ..FlowingElements::default()
     };
+    let law = FlowLaw::new(law, part.modulus, part.heating);
     for (p, &place) in places.iter().enumerate() {
         let element = &elements[place];
-        start.trial[p] = element.stress;
-        start.stress_before[p] = element.stress_before;
-        start.yield_stress[p] = element.yield_point.stress();
-        start.slope[p] = element.yield_point.strain_slope();
-        start.unloaded[p] = element.unloaded_length;
-        start.strain[p] = element.plastic_strain;
-        start.axial[p] = element.plastic_axial;
-        start.largest_rate[p] = element.largest_rate;
-        start.temperature[p] = element.temperature;
+        flowing.law.set_lane(p, law);
+        flowing.spring.set_lane(p, element.spring);
+        flowing.plastic.set_lane(p, element.plastic);
+        flowing
+            .yields
+            .set_lane(p, YieldStress::of(&element.yield_point));
     }
-    let end = start.flow(u8::MAX, |p| elements[places[p]].length);
+    flowing.flow(u8::MAX, |p| elements[places[p]].length);
     for (p, &place) in places[..count].iter().enumerate() {
         let element = &mut elements[place];
-        element.stress = end.stress[p];
-        element.yield_point = YieldPoint::known(end.yield_stress[p], end.slope[p]);
-        element.unloaded_length = end.unloaded[p];
-        element.plastic_step = end.plastic_step[p];
-        element.plastic_strain = end.strain[p];
-        element.plastic_axial = end.axial[p];
-        element.largest_rate = end.largest_rate[p];
-        element.temperature = end.temperature[p];
+        element.spring = flowing.spring.lane(p);
+        element.plastic = flowing.plastic.lane(p);
+        element.yield_point = flowing.yields.lane(p).point();
     }
 }
 

@@ -12,13 +12,13 @@ fn chain() -> State {
 /// Everything that flow changes.
 fn bits(element: &Element) -> [u64; 9] {
     [
-        element.stress,
-        element.plastic_step,
-        element.plastic_strain,
-        element.plastic_axial,
-        element.unloaded_length,
-        element.temperature,
-        element.largest_rate,
+        element.spring.stress,
+        element.plastic.step,
+        element.plastic.strain,
+        element.plastic.axial,
+        element.spring.unloaded_length,
+        element.plastic.temperature,
+        element.plastic.largest_rate,
         element.yield_point.stress(),
         element.yield_point.strain_slope(),
     ]
@@ -42,14 +42,14 @@ fn elements_that_flow_side_by_side_do_so_to_the_bits_of_each_by_itself() {
             let length = one.rest_length * (1.0 + size * if step % 4 < 2 { -1.0 } else { 1.0 });
             let step_before = one.stretch(part, length);
             other.stretch(part, length);
-            let flows = !one.yield_point.holds(one.stress.abs());
+            let flows = !one.yield_point.holds(one.spring.stress.abs());
             working.push(YieldingElement {
                 element: i,
                 step_before,
                 flows,
             });
             flowed += usize::from(flows);
-            iterated += usize::from(one.stress.abs() > 0.09 * part.modulus);
+            iterated += usize::from(one.spring.stress.abs() > 0.09 * part.modulus);
             if flows {
                 other.flow(part, TIME_STEP);
             }

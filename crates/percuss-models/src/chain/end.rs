@@ -13,9 +13,9 @@ use crate::{
     units::significant,
 };
 
-/// Part of the impact velocity below which a projectile counts as stopped.
+/// Section of the impact velocity below which a projectile counts as stopped.
 const REST_FRACTION: f64 = 0.01;
-/// Part of the initial energy that may still dissipate in a window of a run whose bodies touch.
+/// Section of the initial energy that may still dissipate in a window of a run whose bodies touch.
 const QUIET_FRACTION: f64 = 1e-6;
 /// The same after separation: vibrations then change neither depth nor velocity.
 const PARTED_FRACTION: f64 = 1e-4;
@@ -92,7 +92,7 @@ impl Window {
         let accumulated = &state.accumulated;
         let dissipation = accumulated.plastic[0]
             + accumulated.plastic[1]
-            + accumulated.friction_work
+            + accumulated.friction.work
             + accumulated.viscous_work
             + accumulated.fracture_work
             + accumulated.eroded_energy

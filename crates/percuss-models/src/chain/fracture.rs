@@ -45,10 +45,10 @@ impl State {
                 element.damage = law.damage(
                     element.damage,
                     &FailureState {
-                        tension: -element.stress,
-                        triaxiality: triaxiality.copysign(-element.stress),
-                        plastic_strain_increment: element.plastic_step.abs(),
-                        temperature: element.temperature,
+                        tension: -element.spring.stress,
+                        triaxiality: triaxiality.copysign(-element.spring.stress),
+                        plastic_strain_increment: element.plastic.step.abs(),
+                        temperature: element.plastic.temperature,
                     },
                     time_step,
                 );

@@ -44,8 +44,8 @@ impl State {
             }
             let part = &self.parts[segment.part];
             for element in &self.elements[segment.elements()] {
-                length += part.length_at(element.rest_length, element.plastic_axial);
-                diameter = diameter.max(part.diameter_at(element.plastic_axial));
+                length += part.length_at(element.rest_length, element.plastic.axial);
+                diameter = diameter.max(part.diameter_at(element.plastic.axial));
                 let half = 0.5 * element.rest_length;
                 from = from.min(element.initial_position - half);
                 to = to.max(element.initial_position + half);

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::{
     cone::{Cone, Grading},
+    element::{Plastic, Spring},
     interface::Interface,
     part::{Role, Section},
     solver::LARGEST_STRAIN_STEP,
@@ -292,11 +293,17 @@ fn assemble(
                 rest_length: front - back,
                 rest_area,
                 volume,
-                unloaded_length: front - back,
+                spring: Spring {
+                    unloaded_length: front - back,
+                    ..Spring::default()
+                },
+                plastic: Plastic {
+                    temperature: part.start_temperature,
+                    ..Plastic::default()
+                },
                 end_masses,
                 length: front - back,
                 initial_position: 0.5 * (front + back),
-                temperature: part.start_temperature,
                 yield_point,
                 ..Element::default()
             };

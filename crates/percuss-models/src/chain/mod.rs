@@ -17,8 +17,9 @@
 //! Velocities are half a step behind positions. The work of a kick is force times the mean of the velocities before and after it, so that the
 //! energy balance closes to rounding in small strain. A jump of velocity in a contact is accounted for with the half drift that it displaces.
 //!
-//! `batch` advances eight columns side by side and leaves rare events to the single run. A change of the step has to be made in both; a test
-//! compares their bits.
+//! Each equation of the step is a function of single numbers: in `friction`, `pair` (contact of two ends), `element`, `flow` (return to the yield
+//! surface), `solver` and `state`. `batch` advances eight columns side by side: its loops over the lanes call the same functions, and it leaves
+//! rare events to the single run. A test compares their bits.
 
 mod adiabatic;
 mod band;
@@ -36,11 +37,13 @@ mod end;
 mod erosion;
 mod expanding;
 mod explain;
+mod flow;
 mod fracture;
 mod fragments;
 mod friction;
 mod interface;
 mod mesh;
+mod pair;
 mod part;
 mod penetration;
 mod plate_section;

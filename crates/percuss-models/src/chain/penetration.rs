@@ -16,7 +16,7 @@ use crate::material::{Material, cavity_expansion_pressure};
 
 /// Added mass of a disc that moves normal to itself, on one side of it, over `ρ a³` \[lamb1932\].
 const ADDED_MASS: f64 = 4.0 / 3.0;
-/// Part of the force to which the advance is found.
+/// Section of the force to which the advance is found.
 const TOLERANCE: f64 = 1e-12;
 
 /// What a target opposes to steady penetration.
@@ -86,7 +86,7 @@ impl State {
         };
         let last = &self.elements[last];
         let beyond = last.area(part) - penetration.area;
-        let spread = beyond.max(0.0) * last.stress.clamp(0.0, penetration.resistance);
+        let spread = beyond.max(0.0) * last.spring.stress.clamp(0.0, penetration.resistance);
         let closing = self.nodes[0].velocity - self.nodes[segment.last_node].velocity;
         let on_axis = 0.5 * part.density * penetration.area * closing.max(0.0).powi(2);
         if self.elements[..part.elements].iter().any(|e| e.eroded) {

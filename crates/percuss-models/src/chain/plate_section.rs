@@ -10,9 +10,9 @@ use crate::{
     options::ChainOptions,
 };
 
-/// Part of the transverse shear stiffness that a rectangular section has \[mindlin1951\].
+/// Section of the transverse shear stiffness that a rectangular section has \[mindlin1951\].
 const SHEAR_CORRECTION: f64 = 5.0 / 6.0;
-/// Part of the moment to which the yield surface is met.
+/// Section of the moment to which the yield surface is met.
 const TOLERANCE: f64 = 1e-10;
 /// Steps of a secant that is kept in its bracket; far more than it needs.
 const MOST_ITERATIONS: u32 = 100;

@@ -120,9 +120,9 @@ impl Results<'_> {
                 elements.iter().map(value).fold(0.0, f64::max)
             };
             Reached {
-                plastic_strain: most(|element| element.plastic_strain),
-                strain_rate: most(|element| element.largest_rate),
-                temperature: most(|element| element.temperature),
+                plastic_strain: most(|element| element.plastic.strain),
+                strain_rate: most(|element| element.plastic.largest_rate),
+                temperature: most(|element| element.plastic.temperature),
             }
         });
         parts.collect()
@@ -134,13 +134,13 @@ impl Results<'_> {
         for part in &self.state.parts {
             for element in &self.state.elements[first..first + part.elements] {
                 let rest = element.rest_length;
-                let unloaded = part.length_at(rest, element.plastic_axial);
+                let unloaded = part.length_at(rest, element.plastic.axial);
                 let eroded = usize::from(element.eroded);
                 match (part.role, element.eroded) {
                     (Role::Projectile, true) => remains.eroded.0 += eroded,
                     (Role::Projectile, false) => {
                         remains.projectile_length += unloaded;
-                        let here = part.diameter_at(element.plastic_axial);
+                        let here = part.diameter_at(element.plastic.axial);
                         let widest = remains.projectile_diameter.get_or_insert(here);
                         *widest = widest.max(here);
                     }

@@ -17,7 +17,7 @@ const FIRST_RING: f64 = 1e-4;
 const OUTER_RADIUS: f64 = 3.0;
 /// Smallest rate sensitivity that the rings resolve.
 const LEAST_SENSITIVITY: f64 = 1e-4;
-/// Part of a step to which the strain of a ring is found, and the most steps of a secant that is kept in its bracket.
+/// Section of a step to which the strain of a ring is found, and the most steps of a secant that is kept in its bracket.
 const FOUND: f64 = 1e-7;
 const MOST_ITERATIONS: u32 = 60;
 /// Beyond it an exponential is nothing.

@@ -67,11 +67,11 @@ impl State {
                     initial_position: self.elements[e].initial_position,
                     position: 0.5 * (self.nodes[node].position + self.nodes[node + 1].position),
                     length: self.elements[e].length,
-                    stress: self.elements[e].stress,
+                    stress: self.elements[e].spring.stress,
                     strain: self.elements[e].strain,
-                    plastic_strain: self.elements[e].plastic_strain,
+                    plastic_strain: self.elements[e].plastic.strain,
                     diameter: 2.0 * (self.elements[e].area(part) / PI).sqrt(),
-                    temperature: self.elements[e].temperature,
+                    temperature: self.elements[e].plastic.temperature,
                     velocity: 0.5 * (self.nodes[node].velocity + self.nodes[node + 1].velocity),
                 });
             }

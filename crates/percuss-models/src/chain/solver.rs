@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::{
-    friction::dry_friction_one,
+    friction::{FrictionSums, dry_friction_one, lost_impulse},
     part::Section,
     state::{BoundaryCondition, Element, Node, Segment, State},
 };
@@ -14,7 +14,7 @@ use crate::{
 
 /// Largest change of strain that one element may make in one step.
 pub(super) const LARGEST_STRAIN_STEP: f64 = 0.03;
-/// Part of the largest time step allowed that is taken, so that the next ones need not be shorter again.
+/// Section of the largest time step allowed that is taken, so that the next ones need not be shorter again.
 const STEP_MARGIN: f64 = 0.98;
 /// The time step grows only when it could grow by this factor, and no faster than by the second one.
 const STEP_SLACK: f64 = 1.1;
@@ -97,7 +97,7 @@ impl StepControl {
     }
 }
 
-/// Part of the undamped stable step that is left with a damping ratio, for central differences with lagged velocities.
+/// Section of the undamped stable step that is left with a damping ratio, for central differences with lagged velocities.
 fn damped_limit(ratio: f64) -> f64 {
     (1.0 + ratio * ratio).sqrt() - ratio
 }
@@ -112,12 +112,14 @@ impl Node {
 
     /// Kicks the node for a time over its mass and returns the impulse of friction.
     #[inline(always)]
-    fn kick(&mut self, ratio: f64) -> f64 {
+    fn kick(&mut self, ratio: f64, sums: &mut FrictionSums) -> f64 {
         let change = self.force * ratio;
         let before = self.velocity;
         if self.friction > 0.0 {
             self.velocity = dry_friction_one(before, change, self.friction * ratio);
-            self.mass * (before + change - self.velocity)
+            let lost = lost_impulse(self.mass, before, change, self.velocity);
+            sums.add(lost, before, self.velocity);
+            lost
         } else {
             self.velocity = before + change;
             0.0
@@ -232,10 +234,7 @@ impl State {
             }
             return;
         }
-        let (mut impulse, mut work) = (
-            self.accumulated.friction_impulse,
-            self.accumulated.friction_work,
-        );
+        let mut sums = self.accumulated.friction;
         let (mut mass, mut ratio) = (f64::NAN, f64::NAN);
         for node in &mut self.nodes[nodes] {
             // Neighbours mostly have one mass, and a division takes long.
@@ -243,67 +242,41 @@ impl State {
                 mass = node.mass;
                 ratio = kick / mass;
             }
-            let before = node.velocity;
-            let lost_impulse = node.kick(ratio);
-            if node.friction > 0.0 {
-                impulse += lost_impulse;
-                work += lost_impulse * 0.5 * (before + node.velocity);
-            }
+            node.kick(ratio, &mut sums);
         }
-        self.accumulated.friction_impulse = impulse;
-        self.accumulated.friction_work = work;
+        self.accumulated.friction = sums;
     }
 
     pub(super) fn kick_free(&mut self, i: usize, kick: f64) {
         let node = &mut self.nodes[i];
-        let before = node.velocity;
-        let impulse = node.kick(kick / node.mass);
-        if node.friction > 0.0 {
-            self.accumulated.friction_impulse += impulse;
-            self.accumulated.friction_work += impulse * 0.5 * (before + node.velocity);
-            if self.tip_friction > 0.0 {
-                // A constant-pressure target has no other friction.
-                self.contact_force = impulse / kick;
-            }
+        let lost = node.kick(kick / node.mass, &mut self.accumulated.friction);
+        if self.tip_friction > 0.0 && node.friction > 0.0 {
+            // A constant-pressure target has no other friction.
+            self.contact_force = lost / kick;
         }
     }
 
-    /// Accumulators what friction took and returns its impulse.
-    pub(super) fn account_for_friction(
-        &mut self,
-        mass: f64,
-        before: f64,
-        change: f64,
-        after: f64,
-    ) -> f64 {
-        let impulse = mass * (before + change - after);
-        self.accumulated.friction_impulse += impulse;
-        self.accumulated.friction_work += impulse * 0.5 * (before + after);
-        impulse
-    }
-
     pub(super) fn kick_boundary(&mut self, i: usize, kick: f64) {
+        let node = &mut self.nodes[i];
+        let sums = &mut self.accumulated;
         match self.end {
             BoundaryCondition::Free => self.kick_free(i, kick),
             BoundaryCondition::Fixed => {
-                self.nodes[i].velocity = 0.0;
-                self.accumulated.support_impulse += self.nodes[i].force * kick;
-                self.back_force = self.nodes[i].force;
+                node.velocity = 0.0;
+                self.back_force = node.force;
+                sums.support_impulse += node.force * kick;
             }
             BoundaryCondition::Open {
                 impedance,
                 stiffness,
             } => {
-                let inertia = self.nodes[i].mass / kick;
-                let before = self.nodes[i].velocity;
-                let spring = stiffness * (self.nodes[i].position - self.back_position);
-                let after = ((inertia - 0.5 * impedance) * before + self.nodes[i].force - spring)
-                    / (inertia + 0.5 * impedance);
-                let mean = 0.5 * (before + after);
-                self.nodes[i].velocity = after;
-                self.back_force = impedance * mean + spring;
-                self.accumulated.support_impulse += self.back_force * kick;
-                self.accumulated.boundary_work += self.back_force * mean * kick;
+                let spring = stiffness * (node.position - self.back_position);
+                let end = OpenEnd { impedance, spring };
+                let [after, mean, force] = end.kick(node.mass, node.velocity, node.force, kick);
+                node.velocity = after;
+                self.back_force = force;
+                sums.support_impulse += force * kick;
+                sums.boundary_work += force * mean * kick;
             }
         }
     }
@@ -329,5 +302,30 @@ pub(super) fn choose_time_step(previous: f64, allowed: f64) -> f64 {
         LARGEST_STEP_GROWTH * previous
     } else {
         previous
+    }
+}
+
+/// Largest time step in which no element makes too large a change of strain, for the largest rate at which ends approach or part, as a
+/// part of the length [1/s].
+#[inline(always)]
+pub(super) fn strain_limited_step(fastest: f64) -> f64 {
+    LARGEST_STRAIN_STEP / fastest
+}
+
+/// A boundary that takes up waves, with the force of a spring beside it.
+#[derive(Clone, Copy)]
+pub(super) struct OpenEnd {
+    pub(super) impedance: f64,
+    pub(super) spring: f64,
+}
+
+impl OpenEnd {
+    /// Kicks the last node of a chain by the force of its element: its velocity, and the mean one and the force on the boundary in the kick.
+    #[inline(always)]
+    pub(super) fn kick(self, mass: f64, before: f64, force: f64, kick: f64) -> [f64; 3] {
+        let (inertia, half) = (mass / kick, 0.5 * self.impedance);
+        let after = ((inertia - half) * before + force - self.spring) / (inertia + half);
+        let mean = 0.5 * (before + after);
+        [after, mean, self.impedance * mean + self.spring]
     }
 }

@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 use super::{
     dishing::Dishing,
     drift::YieldingElement,
+    element::{Plastic, Spring},
+    friction::FrictionSums,
     interface::Interface,
     part::{Role, Section},
     penetration::Penetration,
@@ -23,7 +25,7 @@ use crate::{
     solver::archive::Archive,
 };
 
-/// Boundary condition of the last node of the chain.
+/// What holds the last node of the chain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BoundaryCondition {
     Free,
@@ -80,39 +82,29 @@ pub(super) struct Element {
     pub(super) rest_area: f64,
     /// [m3]; plastic flow does not change it.
     pub(super) volume: f64,
-    /// Length without stress [m].
-    pub(super) unloaded_length: f64,
+    pub(super) spring: Spring,
+    /// [N].
+    pub(super) axial_force: f64,
+    pub(super) plastic: Plastic,
     /// What it gives to the masses of its two nodes [kg].
     pub(super) end_masses: [f64; 2],
     pub(super) length: f64,
     pub(super) strain: f64,
-    pub(super) stress: f64,
-    pub(super) stress_before: f64,
-    pub(super) axial_force: f64,
     pub(super) viscous_force: f64,
-    /// Axial plastic strain, compression positive.
-    pub(super) plastic_axial: f64,
-    /// Accumulated plastic strain.
-    pub(super) plastic_strain: f64,
-    /// Axial plastic strain of the last step.
-    pub(super) plastic_step: f64,
-    /// Largest plastic strain rate so far [1/s].
-    pub(super) largest_rate: f64,
-    pub(super) temperature: f64,
     pub(super) yield_point: YieldPoint,
     /// Initial position of its middle.
     pub(super) initial_position: f64,
     pub(super) eroded: bool,
     /// Damage by the failure law; 1 is failed.
     pub(super) damage: f64,
-    /// Whether its failure has separated it from a neighbour.
+    /// Whether its failure has parted it from a neighbour.
     pub(super) parted: bool,
     /// Length of target that the tip has gone through [m], and its part in the last step.
     pub(super) advance: f64,
     pub(super) advance_step: f64,
 }
 
-/// A place where a body or a bonded interface has separated.
+/// A place where a body or a bonded interface has parted.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Parting {
     /// Initial position, struck face at 0 [m].
@@ -121,22 +113,41 @@ pub(super) struct Parting {
     pub(super) time: f64,
 }
 
-/// Work and impulse that have gone where the state itself does not show them.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(super) struct Accumulators {
-    pub(super) initial_energy: f64,
-    pub(super) initial_momentum: f64,
-    pub(super) plastic: [f64; 2],
-    pub(super) friction_work: f64,
-    pub(super) viscous_work: f64,
-    pub(super) contact_loss: f64,
-    pub(super) boundary_work: f64,
-    pub(super) eroded_energy: f64,
-    pub(super) fracture_work: f64,
-    pub(super) support_impulse: f64,
-    pub(super) friction_impulse: f64,
-    pub(super) eroded_momentum: f64,
-    pub(super) damping_impulse: f64,
+percuss_core::per_lane! {
+    /// Work and impulse that have gone where the state itself does not show them.
+    #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+    pub(super) struct Accumulators<R = f64> {
+        pub(super) initial_energy: R,
+        pub(super) initial_momentum: R,
+        pub(super) plastic: [R; 2],
+        pub(super) friction: FrictionSums<R>,
+        pub(super) viscous_work: R,
+        pub(super) contact_loss: R,
+        pub(super) boundary_work: R,
+        pub(super) eroded_energy: R,
+        pub(super) fracture_work: R,
+        pub(super) support_impulse: R,
+        pub(super) eroded_momentum: R,
+        pub(super) damping_impulse: R,
+    }
+}
+
+percuss_core::per_lane! {
+    /// Energy and momentum of projectile or target.
+    #[derive(Debug, Clone, Copy, Default)]
+    pub(super) struct BodySums<R = f64> {
+        pub(super) kinetic: R,
+        pub(super) elastic: R,
+        pub(super) momentum: R,
+    }
+}
+
+impl BodySums {
+    #[inline(always)]
+    pub(super) fn add_node(&mut self, mass: f64, velocity: f64) {
+        self.kinetic += 0.5 * mass * velocity * velocity;
+        self.momentum += mass * velocity;
+    }
 }
 
 /// Nodes, elements and accumulated work at one time. Node velocities stand half a step behind the positions.
@@ -150,11 +161,11 @@ pub(super) struct State {
     pub(super) end: BoundaryCondition,
     /// Force of a constant-pressure target on the projectile's tip [N]; 0 with any other target.
     pub(super) tip_friction: f64,
-    /// What moves with the tip under the erosion criterion of Tate.
+    /// What moves with the tip under the erosion closure of Tate.
     pub(super) tip: Option<Tip>,
     /// What the tip has to overcome to penetrate a cone.
     pub(super) penetration: Option<Penetration>,
-    /// What holds a plug, instead of friction.
+    /// What holds a plug, in the place of friction.
     pub(super) hold: Option<PlugConstraint>,
     /// Force of the target that is turned aside on the tip [N].
     pub(super) drag: f64,
@@ -173,7 +184,7 @@ pub(super) struct State {
     pub(super) time_step: f64,
     /// Largest stable time step of the current state.
     pub(super) stable_step: f64,
-    /// Places where bodies and bonded interfaces have separated, in the order of time.
+    /// Places where bodies and bonded interfaces have parted, in the order of time.
     pub(super) partings: Vec<Parting>,
     /// How often two ends have met.
     pub(super) meetings: u64,
@@ -207,7 +218,7 @@ impl State {
         archive.item(&mut self.accumulated)
     }
 
-    /// Part and node range of the projectile's frontmost segment; `None` when all of it has eroded.
+    /// Section and node range of the projectile's frontmost segment; `None` when all of it has eroded.
     pub(super) fn tip_segment(&self) -> Option<usize> {
         self.segments
             .iter()
@@ -263,44 +274,47 @@ impl State {
         if mass > 0.0 { momentum / mass } else { 0.0 }
     }
 
-    /// Elastic energy of an element between two steps: the form that central differences conserve.
+    /// Elastic energy of an element between two steps.
     pub(super) fn elastic_energy(&self, element: usize, part: &Section) -> f64 {
         let element = &self.elements[element];
-        element.volume * element.stress_before * element.stress / (2.0 * part.modulus)
+        element.spring.elastic_energy(element.volume, part.modulus)
+    }
+
+    /// Energy and momentum of projectile and target.
+    fn sums(&self) -> [BodySums; 2] {
+        let mut sums = [BodySums::default(); 2];
+        for segment in &self.segments {
+            let part = &self.parts[segment.part];
+            let sums = &mut sums[part.role as usize];
+            for node in &self.nodes[segment.first_node..=segment.last_node] {
+                sums.add_node(node.mass, node.velocity);
+            }
+            for e in segment.elements() {
+                sums.elastic += self.elastic_energy(e, part);
+            }
+        }
+        sums
     }
 
     pub(super) fn energy(&self) -> EnergyLedger {
-        let mut kinetic = [0.0; 2];
-        let mut elastic = [0.0; 2];
-        for segment in &self.segments {
-            let part = &self.parts[segment.part];
-            let role = part.role as usize;
-            for i in segment.first_node..=segment.last_node {
-                kinetic[role] +=
-                    0.5 * self.nodes[i].mass * self.nodes[i].velocity * self.nodes[i].velocity;
-            }
-            for e in segment.elements() {
-                elastic[role] += self.elastic_energy(e, part);
-            }
-        }
-        self.energy_ledger(kinetic, elastic)
+        self.energy_of(&self.sums())
     }
 
     /// The energy balance of a state with these energies of projectile and target.
-    pub(super) fn energy_ledger(&self, kinetic: [f64; 2], elastic: [f64; 2]) -> EnergyLedger {
+    pub(super) fn energy_of(&self, [projectile, target]: &[BodySums; 2]) -> EnergyLedger {
         let accumulated = &self.accumulated;
         let bands = self.hold.as_ref().map(|hold| &hold.bands);
         let plate = self.hold.as_ref().and_then(|hold| hold.plate.as_ref());
         let mut energy = EnergyLedger::default();
         energy.initial = accumulated.initial_energy;
-        energy.kinetic_projectile = kinetic[0];
-        energy.kinetic_target = kinetic[1];
-        energy.elastic_projectile = elastic[0];
-        energy.elastic_target = elastic[1] + bands.map_or(0.0, Bands::elastic_energy);
+        energy.kinetic_projectile = projectile.kinetic;
+        energy.kinetic_target = target.kinetic;
+        energy.elastic_projectile = projectile.elastic;
+        energy.elastic_target = target.elastic + bands.map_or(0.0, Bands::elastic_energy);
         energy.plastic_projectile = accumulated.plastic[0];
         energy.plastic_target = accumulated.plastic[1];
         energy.border_shear =
-            accumulated.friction_work + bands.map_or(0.0, |bands| bands.accumulated.work);
+            accumulated.friction.work + bands.map_or(0.0, |bands| bands.accumulated.work);
         energy.viscous = accumulated.viscous_work;
         energy.contact = accumulated.contact_loss;
         energy.boundary = accumulated.boundary_work;
@@ -314,18 +328,11 @@ impl State {
     }
 
     pub(super) fn momentum(&self) -> MomentumLedger {
-        let mut momentum = [0.0; 2];
-        for segment in &self.segments {
-            let role = self.parts[segment.part].role as usize;
-            for i in segment.first_node..=segment.last_node {
-                momentum[role] += self.nodes[i].mass * self.nodes[i].velocity;
-            }
-        }
-        self.momentum_ledger(momentum)
+        self.momentum_of(&self.sums())
     }
 
     /// The momentum balance of a state with these momenta of projectile and target.
-    pub(super) fn momentum_ledger(&self, momentum: [f64; 2]) -> MomentumLedger {
+    pub(super) fn momentum_of(&self, [projectile, target]: &[BodySums; 2]) -> MomentumLedger {
         let accumulated = &self.accumulated;
         let plate = self.hold.as_ref().and_then(|hold| hold.plate.as_ref());
         // A plate that does not move hands the impulse of the bands on; one that does keeps what its support does not take.
@@ -335,11 +342,11 @@ impl State {
         };
         let mut new_momentum = MomentumLedger::default();
         new_momentum.initial = accumulated.initial_momentum;
-        new_momentum.projectile = momentum[0];
-        new_momentum.target = momentum[1];
+        new_momentum.projectile = projectile.momentum;
+        new_momentum.target = target.momentum;
         new_momentum.support =
             accumulated.support_impulse + plate.map_or(0.0, |plate| plate.support_impulse);
-        new_momentum.border_shear = accumulated.friction_impulse + held_still;
+        new_momentum.border_shear = accumulated.friction.impulse + held_still;
         new_momentum.eroded = accumulated.eroded_momentum;
         new_momentum.plate = plate.map_or(0.0, Dishing::momentum);
         new_momentum.damping = accumulated.damping_impulse;

@@ -14,7 +14,7 @@ use super::{part::Role, state::State};
 
 /// Strain, as a part of the length, at which an element counts as used up.
 pub(super) const USED_UP_STRAIN: f64 = 0.97;
-/// Part of an element's length by which its ends may approach in a step: less than what is left of it when it is used up.
+/// Section of an element's length by which its ends may approach in a step: less than what is left of it when it is used up.
 const LARGEST_ADVANCE: f64 = 0.02;
 /// Thickness of the target that moves with the tip, in diameters of the rod.
 const TIP_THICKNESS: f64 = 0.5;
@@ -54,7 +54,7 @@ impl State {
         });
     }
 
-    /// Part of a node's mass that moves with the tip and belongs to no element [kg].
+    /// Section of a node's mass that moves with the tip and belongs to no element [kg].
     pub(super) fn tip_mass_on(&self, node: usize) -> f64 {
         self.tip
             .filter(|tip| tip.node == node)

@@ -15,7 +15,7 @@ use crate::{
 
 const OUT_OF_TIME: &str =
     "the run was ended before the impact was over: raise `chain.end_time` or `chain.max_steps`";
-/// Part of the thickness of a plate that a crater may take before a support behind it matters.
+/// Section of the thickness of a plate that a crater may take before a support behind it matters.
 const FREE_OF_BACK_FACE: f64 = 0.5;
 /// Thickness in projectile diameters from which on dishing adds less than a tenth to the depth in the axisymmetric reference.
 const FREE_OF_DISHING: f64 = 3.0;
@@ -122,7 +122,7 @@ fn warning_of_rear_face(scenario: &Scenario, depth: f64) -> Option<String> {
     }
 }
 
-/// Part of the thickness beyond which a plate that dishes is more and more a membrane, which is left out.
+/// Section of the thickness beyond which a plate that dishes is more and more a membrane, which is left out.
 const LARGE_DISHING: f64 = 0.5;
 
 /// Plugging depends on the width and the failure of the shear band.
@@ -204,7 +204,7 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
 const STRENGTH_STRAIN: f64 = 0.1;
 /// Factor on either side of the threshold of penetration within which the cones are at their weakest.
 const THRESHOLD_EDGE: f64 = 1.4;
-/// Part of the compliance of the cone that may lie behind a plate's rear face.
+/// Section of the compliance of the cone that may lie behind a plate's rear face.
 const COMPLIANCE_BEHIND: f64 = 0.25;
 
 /// A cone models neither a crater that is deep against its mouth nor a near rear face.
@@ -313,7 +313,7 @@ pub(super) struct Reached {
     pub(super) temperature: f64,
 }
 
-/// Part of the way from room temperature to melting that may be left: the strength goes with it, and with the strength the heat,
+/// Section of the way from room temperature to melting that may be left: the strength goes with it, and with the strength the heat,
 /// so that nothing quite gets there.
 const NEARLY_MOLTEN: f64 = 0.01;
 

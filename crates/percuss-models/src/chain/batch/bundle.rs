@@ -2,8 +2,12 @@
 
 use std::ops::Range;
 
-use super::{interfaces::Interface, scalars::LaneScalars};
+use super::{interfaces::Interface, scalars::RunScalars};
 use crate::{
+    chain::{
+        element::{Plastic, Spring},
+        flow::FlowLaw,
+    },
     lanes::{LANES, Lanes},
     problem::RearFaceCondition,
     scenario::{Scenario, TargetBody},
@@ -67,29 +71,6 @@ pub(super) struct Node {
     pub(super) velocity: Lanes,
 }
 
-/// What every step needs of an element.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Spring {
-    pub(super) unloaded_length: Lanes,
-    pub(super) yield_stress: Lanes,
-    pub(super) force: Lanes,
-    /// Stress after the last step and after the one before it, in turn.
-    pub(super) stress: [Lanes; 2],
-}
-
-/// What only flow needs and changes.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Flow {
-    /// Plastic strain of the last step and of the one before it.
-    pub(super) plastic_step: Lanes,
-    pub(super) step_before: Lanes,
-    pub(super) plastic_strain: Lanes,
-    pub(super) plastic_axial: Lanes,
-    pub(super) strain_slope: Lanes,
-    pub(super) temperature: Lanes,
-    pub(super) largest_rate: Lanes,
-}
-
 /// What is known of an element in all lanes together.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Mark {
@@ -101,52 +82,25 @@ pub(super) struct Mark {
     pub(super) gone: u8,
 }
 
-/// What is the same for all of a projectile or target.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Body {
-    pub(super) modulus: Lanes,
-    pub(super) compliance: Lanes,
-    pub(super) slowness: Lanes,
-    /// Volume of an element.
-    pub(super) volume: Lanes,
-    /// Mass of a node, and of one at an end.
-    pub(super) mass: Lanes,
-    pub(super) end_mass: Lanes,
-    /// Largest friction on a node, on the first and on the last one.
-    pub(super) friction: Lanes,
-    pub(super) first_friction: Lanes,
-    pub(super) last_friction: Lanes,
-    pub(super) heating: Lanes,
-    pub(super) coefficient: Lanes,
-    pub(super) exponent: Lanes,
-    pub(super) first_strain: Lanes,
-    /// Lengths at which an element erodes.
-    pub(super) shortest: Lanes,
-    pub(super) longest: Lanes,
-}
-
-/// What the response of an element needs of its body.
-#[derive(Clone, Copy)]
-pub(super) struct Elastic {
-    pub(super) modulus: Lanes,
-    pub(super) compliance: Lanes,
-    pub(super) slowness: Lanes,
-    pub(super) volume: Lanes,
-    pub(super) shortest: Lanes,
-    pub(super) longest: Lanes,
-}
-
-impl Body {
-    #[inline(always)]
-    pub(super) fn elastic(&self) -> Elastic {
-        Elastic {
-            modulus: self.modulus,
-            compliance: self.compliance,
-            slowness: self.slowness,
-            volume: self.volume,
-            shortest: self.shortest,
-            longest: self.longest,
-        }
+percuss_core::per_lane! {
+    /// What is the same for all of a projectile or target.
+    #[derive(Debug, Clone, Copy, Default)]
+    pub(super) struct Body<R = f64> {
+        pub(super) law: FlowLaw<R>,
+        pub(super) compliance: R,
+        pub(super) slowness: R,
+        /// Volume of an element.
+        pub(super) volume: R,
+        /// Mass of a node, and of one at an end.
+        pub(super) mass: R,
+        pub(super) end_mass: R,
+        /// Largest friction on a node, on the first and on the last one.
+        pub(super) friction: R,
+        pub(super) first_friction: R,
+        pub(super) last_friction: R,
+        /// Lengths at which an element erodes.
+        pub(super) shortest: R,
+        pub(super) longest: R,
     }
 }
 
@@ -156,8 +110,12 @@ pub(super) struct Bundle {
     pub(super) mesh: Mesh,
     /// Of the projectile, then of the target.
     pub(super) nodes: Vec<Node>,
-    pub(super) springs: Vec<Spring>,
-    pub(super) flows: Vec<Flow>,
+    pub(super) springs: Vec<Spring<Lanes>>,
+    pub(super) forces: Vec<Lanes>,
+    pub(super) plastics: Vec<Plastic<Lanes>>,
+    /// Yield stresses, and their slopes with the plastic strain.
+    pub(super) yields: Vec<Lanes>,
+    pub(super) slopes: Vec<Lanes>,
     /// Whether a node moves in any lane.
     pub(super) moves: Vec<bool>,
     /// Masses of the nodes, and largest friction on them.
@@ -178,14 +136,13 @@ pub(super) struct Bundle {
     pub(super) marks: Vec<Mark>,
     /// Largest stable time step of every element, and of none up to a multiple of [`LIMITS_AT_ONCE`].
     pub(super) limits: Vec<Lanes>,
-    /// Those that flow or flowed in the last step.
+    /// Those that flow or flowed in the last step, and their plastic strains in that one.
     pub(super) working: Vec<usize>,
+    pub(super) steps_before: Vec<Lanes>,
     /// Where single lanes of elements flow: elements and lanes.
     pub(super) gathered: Vec<(u32, u32)>,
-    pub(super) bodies: [Body; 2],
-    pub(super) scalars: LaneScalars,
-    /// Which of the two stresses of an element is the one after the last step.
-    pub(super) now: usize,
+    pub(super) bodies: [Body<Lanes>; 2],
+    pub(super) scalars: RunScalars<Lanes>,
 }
 
 impl Bundle {
@@ -195,7 +152,10 @@ impl Bundle {
             mesh,
             nodes: vec![Node::default(); elements + 2],
             springs: vec![Spring::default(); elements],
-            flows: vec![Flow::default(); elements],
+            forces: vec![Lanes::default(); elements],
+            plastics: vec![Plastic::default(); elements],
+            yields: vec![Lanes::default(); elements],
+            slopes: vec![Lanes::default(); elements],
             moves: vec![false; elements + 2],
             masses: vec![Lanes::default(); elements + 2],
             frictions: vec![Lanes::default(); elements + 2],
@@ -208,10 +168,10 @@ impl Bundle {
             marks: vec![Mark::default(); elements],
             limits: vec![Lanes::all(f64::INFINITY); elements.next_multiple_of(LIMITS_AT_ONCE)],
             working: vec![0; elements],
+            steps_before: vec![Lanes::default(); elements],
             gathered: vec![(0, 0); (elements + 1) * LANES],
             bodies: [Body::default(); 2],
-            scalars: LaneScalars::default(),
-            now: 0,
+            scalars: RunScalars::default(),
         };
         for lane in 0..LANES {
             bundle.clear_lane(lane);

@@ -5,7 +5,7 @@ use super::{
     step::{Step, StepEstimate},
 };
 use crate::{
-    chain::solver::LARGEST_STRAIN_STEP,
+    chain::solver::strain_limited_step,
     lanes::{LANES, Lanes, larger, smaller},
 };
 
@@ -33,7 +33,7 @@ impl Bundle {
             scalars.time_step.0[l] = step.length.0[l];
             scalars.time.0[l] += step.length.0[l];
             scalars.step.0[l] += 1.0;
-            let of_approach = LARGEST_STRAIN_STEP / estimate.fastest.0[l];
+            let of_approach = strain_limited_step(estimate.fastest.0[l]);
             scalars.stable_step.0[l] = smaller(of_approach, estimate.stable_step.0[l]);
             let drift = back[l] - scalars.back_position.0[l];
             depth[l] = if is_open { face[l] - drift } else { face[l] };
@@ -58,9 +58,9 @@ impl Bundle {
             scalars.peak_force.0[l] = larger(scalars.contact_force.0[l], scalars.peak_force.0[l]);
             scalars.smallest_time_step.0[l] =
                 smaller(scalars.time_step.0[l], scalars.smallest_time_step.0[l]);
-            if scalars.closed.0[l] > 0.0 {
+            if scalars.closed.0[l] {
                 scalars.contact_time.0[l] += scalars.time_step.0[l];
-                scalars.touched.0[l] = 1.0;
+                scalars.touched.0[l] = true;
             }
         }
         needs_scalar

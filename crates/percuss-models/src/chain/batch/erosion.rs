@@ -24,12 +24,11 @@ impl Bundle {
         for (e, element) in state.elements.iter().enumerate() {
             if element.eroded {
                 self.marks[e].gone |= bit;
-                let (spring, flow) = (&mut self.springs[e], &mut self.flows[e]);
-                let steps = [&mut flow.plastic_step, &mut flow.step_before];
-                for of in spring.stress.iter_mut().chain(steps) {
-                    of.0[lane] = 0.0;
-                }
-                spring.force.0[lane] = 0.0;
+                let spring = &mut self.springs[e];
+                spring.stress.0[lane] = 0.0;
+                spring.stress_before.0[lane] = 0.0;
+                self.forces[e].0[lane] = 0.0;
+                self.plastics[e].step.0[lane] = 0.0;
             }
         }
         let mut is_left = vec![false; self.nodes.len()];

@@ -1,8 +1,17 @@
 //! How a shot gets into a lane and out of it again.
 
-use super::bundle::{Body, Bundle, Flow, Spring};
+use super::{
+    bundle::{Body, Bundle},
+    scalars::RunScalars,
+};
 use crate::{
-    chain::{column::ColumnRun, part::Section, state::Element},
+    chain::{
+        column::ColumnRun,
+        element::{Plastic, Spring},
+        flow::FlowLaw,
+        state::State,
+    },
+    lanes::PerLane,
     material::{Hardening, YieldPoint},
     power::log_ratio,
 };
@@ -20,35 +29,22 @@ impl Bundle {
             self.masses[i].0[lane] = from.mass;
             self.frictions[i].0[lane] = from.friction;
         }
-        let elements = self.springs.iter_mut().zip(&mut self.flows);
-        for ((spring, flow), from) in elements.zip(&state.elements) {
-            spring.load_lane(lane, from);
-            flow.load_lane(lane, from);
+        for (e, from) in state.elements.iter().enumerate() {
+            self.springs[e].set_lane(lane, from.spring);
+            self.forces[e].set_lane(lane, from.axial_force);
+            self.plastics[e].set_lane(lane, from.plastic);
+            self.yields[e].set_lane(lane, from.yield_point.stress());
+            self.slopes[e].set_lane(lane, from.yield_point.strain_slope());
         }
-        let [projectile, _] = self.mesh.elements;
-        for (body, part) in self.bodies.iter_mut().zip(&state.parts) {
-            body.load_lane(lane, part);
-        }
-        for (b, (first, count)) in [(0, projectile), (projectile, self.mesh.elements[1])]
-            .into_iter()
-            .enumerate()
-        {
-            let body = &mut self.bodies[b];
-            let element = &state.elements[first];
-            let nodes = &state.nodes[first + b..=first + b + count];
-            let half = element.end_masses[0];
-            body.volume.0[lane] = element.volume;
-            body.end_mass.0[lane] = half;
-            body.mass.0[lane] = half + half;
-            body.friction.0[lane] = nodes[1.min(count - 1)].friction;
-            body.first_friction.0[lane] = nodes[0].friction;
-            body.last_friction.0[lane] = nodes[count].friction;
-            let length = element.rest_length;
+        for (b, body) in self.bodies.iter_mut().enumerate() {
+            let elements = self.mesh.elements_of(b);
             let stretch = run.solver.control.erosion_strain.exp();
-            body.shortest.0[lane] = length / stretch * CLOSE;
-            body.longest.0[lane] = length * stretch / CLOSE;
+            body.set_lane(
+                lane,
+                Body::of(state, b, elements.start, elements.len(), stretch),
+            );
         }
-        self.scalars.load_lane(lane, run);
+        self.follow(lane, run);
         self.unsettle();
     }
 
@@ -59,9 +55,9 @@ impl Bundle {
         }
     }
 
-    /// Keeps up what the single run has done with a lane that was let out.
+    /// Takes over what the single run has done with a lane that was let out.
     pub(super) fn follow(&mut self, lane: usize, run: &ColumnRun<'_>) {
-        self.scalars.follow(lane, run);
+        self.scalars.set_lane(lane, RunScalars::of(run));
     }
 
     /// Puts a lane into the state of its shot; false when an element has no length any more.
@@ -78,12 +74,13 @@ impl Bundle {
                 let to = &mut state.elements[e];
                 to.length = state.nodes[node + 1].position - state.nodes[node].position;
                 is_sound &= to.length > 0.0;
-                self.springs[e].store_lane(lane, to, self.now);
-                self.flows[e].store_lane(lane, to, self.springs[e].yield_stress.0[lane]);
+                to.spring = self.springs[e].lane(lane);
+                to.axial_force = self.forces[e].lane(lane);
+                to.plastic = self.plastics[e].lane(lane);
+                let (stress, slope) = (self.yields[e].lane(lane), self.slopes[e].lane(lane));
+                to.yield_point = YieldPoint::known(stress, slope);
+                to.strain = to.plastic.axial + log_ratio(to.spring.unloaded_length, to.length);
             }
-        }
-        if let Some(tip) = state.tip_segment() {
-            state.interfaces[tip].closed = self.scalars.closed.0[lane] > 0.0;
         }
         for interface in self
             .interfaces
@@ -92,7 +89,7 @@ impl Bundle {
         {
             state.interfaces[interface.place].closed = interface.closed;
         }
-        self.scalars.store_lane(lane, run);
+        self.scalars.lane(lane).store(run);
         is_sound
     }
 
@@ -106,102 +103,62 @@ impl Bundle {
             self.masses[i].0[lane] = 1.0;
             self.frictions[i].0[lane] = 0.0;
         }
-        for (spring, flow) in self.springs.iter_mut().zip(&mut self.flows) {
-            let steps = [&mut flow.plastic_step, &mut flow.step_before];
-            for of in spring
-                .stress
-                .iter_mut()
-                .chain(steps)
-                .chain([&mut spring.force])
-            {
-                of.0[lane] = 0.0;
-            }
-            spring.unloaded_length.0[lane] = 1.0;
-            spring.yield_stress.0[lane] = f64::INFINITY;
-            flow.plastic_strain.0[lane] = 0.0;
-            flow.strain_slope.0[lane] = 0.0;
+        for e in 0..self.springs.len() {
+            let unloaded_length = 1.0;
+            self.springs[e].set_lane(
+                lane,
+                Spring {
+                    unloaded_length,
+                    ..Spring::default()
+                },
+            );
+            self.forces[e].set_lane(lane, 0.0);
+            self.plastics[e].set_lane(lane, Plastic::default());
+            self.yields[e].set_lane(lane, f64::INFINITY);
+            self.slopes[e].set_lane(lane, 0.0);
         }
         for body in &mut self.bodies {
-            for of in [
-                &mut body.modulus,
-                &mut body.compliance,
-                &mut body.slowness,
-                &mut body.volume,
-                &mut body.mass,
-                &mut body.end_mass,
-                &mut body.first_strain,
-            ] {
-                of.0[lane] = 1.0;
-            }
-            for of in [
-                &mut body.friction,
-                &mut body.first_friction,
-                &mut body.last_friction,
-                &mut body.heating,
-                &mut body.coefficient,
-                &mut body.exponent,
-                &mut body.shortest,
-            ] {
-                of.0[lane] = 0.0;
-            }
-            body.longest.0[lane] = f64::INFINITY;
+            body.set_lane(lane, Body::idle());
         }
-        self.scalars.clear_lane(lane);
+        self.scalars.set_lane(lane, RunScalars::idle());
         self.mend(lane);
         self.unsettle();
     }
 }
 
-impl Spring {
-    fn load_lane(&mut self, lane: usize, from: &Element) {
-        self.unloaded_length.0[lane] = from.unloaded_length;
-        self.yield_stress.0[lane] = from.yield_point.stress();
-        self.force.0[lane] = from.axial_force;
-        // At the moment of impact nothing has changed yet.
-        for stress in &mut self.stress {
-            stress.0[lane] = from.stress;
+impl Body {
+    /// Body `b` of a state, `count` elements from one on, that erode when they are longer or shorter by a factor.
+    fn of(state: &State, b: usize, first: usize, count: usize, stretch: f64) -> Self {
+        let (part, element) = (&state.parts[b], &state.elements[first]);
+        let nodes = &state.nodes[first + b..=first + b + count];
+        let law = part.strength.hardening().unwrap_or(Hardening::none(0.0));
+        let half = element.end_masses[0];
+        Self {
+            law: FlowLaw::new(law, part.modulus, part.heating),
+            compliance: part.compliance,
+            slowness: part.slowness,
+            volume: element.volume,
+            mass: half + half,
+            end_mass: half,
+            friction: nodes[1.min(count - 1)].friction,
+            first_friction: nodes[0].friction,
+            last_friction: nodes[count].friction,
+            shortest: element.rest_length / stretch * CLOSE,
+            longest: element.rest_length * stretch / CLOSE,
         }
     }
 
-    fn store_lane(&self, lane: usize, to: &mut Element, now: usize) {
-        to.unloaded_length = self.unloaded_length.0[lane];
-        to.axial_force = self.force.0[lane];
-        to.stress = self.stress[now].0[lane];
-        to.stress_before = self.stress[1 - now].0[lane];
-    }
-}
-
-impl Flow {
-    fn load_lane(&mut self, lane: usize, from: &Element) {
-        self.plastic_step.0[lane] = from.plastic_step;
-        self.step_before.0[lane] = from.plastic_step;
-        self.plastic_strain.0[lane] = from.plastic_strain;
-        self.plastic_axial.0[lane] = from.plastic_axial;
-        self.strain_slope.0[lane] = from.yield_point.strain_slope();
-        self.temperature.0[lane] = from.temperature;
-        self.largest_rate.0[lane] = from.largest_rate;
-    }
-
-    fn store_lane(&self, lane: usize, to: &mut Element, yield_stress: f64) {
-        to.plastic_step = self.plastic_step.0[lane];
-        to.plastic_strain = self.plastic_strain.0[lane];
-        to.plastic_axial = self.plastic_axial.0[lane];
-        to.temperature = self.temperature.0[lane];
-        to.largest_rate = self.largest_rate.0[lane];
-        to.strain = to.plastic_axial + log_ratio(to.unloaded_length, to.length);
-        to.yield_point = YieldPoint::known(yield_stress, self.strain_slope.0[lane]);
-    }
-}
-
-impl Body {
-    fn load_lane(&mut self, lane: usize, part: &Section) {
-        let law = part.strength.hardening().unwrap_or(Hardening::none(0.0));
-        self.modulus.0[lane] = part.modulus;
-        self.compliance.0[lane] = part.compliance;
-        self.slowness.0[lane] = part.slowness;
-        self.heating.0[lane] = part.heating;
-        self.coefficient.0[lane] = law.coefficient;
-        self.exponent.0[lane] = law.exponent;
-        self.first_strain.0[lane] = law.first_strain;
+    /// That of a lane in which nothing ever happens.
+    fn idle() -> Self {
+        Self {
+            law: FlowLaw::new(Hardening::none(0.0), 1.0, 0.0),
+            compliance: 1.0,
+            slowness: 1.0,
+            volume: 1.0,
+            mass: 1.0,
+            end_mass: 1.0,
+            longest: f64::INFINITY,
+            ..Self::default()
+        }
     }
 }

@@ -1,9 +1,9 @@
 //! Joints between pieces of eroded bodies: contact of their ends, one by one.
 
-use super::{
-    bundle::Bundle,
-    contact::{Account, overlap},
-    step::Step,
+use super::{bundle::Bundle, step::Step};
+use crate::{
+    chain::pair::{ContactSums, overlap},
+    lanes::PerLane,
 };
 
 /// Two ends of a lane that may touch, other than the tip and the face of whole bodies.
@@ -39,26 +39,24 @@ impl Bundle {
 
     fn kick_joint(&mut self, j: usize, step: &Step) {
         let interface = self.interfaces[j];
-        let l = interface.lane;
-        let scalars = &self.scalars;
-        let account = Account {
-            loss: scalars.contact_loss.0[l],
-            work: scalars.friction_work.0[l],
-            impulse: scalars.friction_impulse.0[l],
+        let lane = interface.lane;
+        let pair = self.pair(interface.nodes(), lane);
+        let accumulated = &mut self.scalars.accumulated;
+        let sums = ContactSums {
+            loss: accumulated.contact_loss.0[lane],
+            friction: accumulated.friction.lane(lane),
         };
-        let pair = self.pair(interface.nodes(), l, interface.closed);
-        let kicked = pair.kick::<true>(step.kick.0[l], step.before.0[l], account);
+        let (kick, drift) = (step.kick.0[lane], step.before.0[lane]);
+        let kicked = pair.kick(interface.closed, 0.0, [kick, drift], sums);
+        accumulated.contact_loss.0[lane] = kicked.sums.loss;
+        accumulated.friction.set_lane(lane, kicked.sums.friction);
         self.interfaces[j].closed = kicked.closed;
-        let scalars = &mut self.scalars;
-        scalars.contact_loss.0[l] = kicked.account.loss;
-        scalars.friction_work.0[l] = kicked.account.work;
-        scalars.friction_impulse.0[l] = kicked.account.impulse;
         if interface.is_contact {
-            scalars.closed.0[l] = f64::from(kicked.closed);
-            scalars.contact_force.0[l] = kicked.push;
+            self.scalars.closed.0[lane] = kicked.closed;
+            self.scalars.contact_force.0[lane] = kicked.push;
         }
         for (node, velocity) in interface.nodes().into_iter().zip(kicked.velocity) {
-            self.nodes[node].velocity.0[l] = velocity;
+            self.nodes[node].velocity.0[lane] = velocity;
         }
     }
 
@@ -86,20 +84,11 @@ impl Bundle {
         let nodes = interface.nodes();
         if !interface.closed {
             let [a, b] = nodes.map(|node| &self.nodes[node]);
-            let gap = b.position.0[l] - a.position.0[l];
-            if overlap(gap, a.velocity.0[l] - b.velocity.0[l], length) {
-                let pair = self.pair(nodes, l, false);
-                let (velocity, lost) = pair.meet(gap, length, self.scalars.contact_loss.0[l]);
-                for (node, velocity) in nodes.into_iter().zip(velocity) {
-                    self.nodes[node].velocity.0[l] = velocity;
-                }
-                let scalars = &mut self.scalars;
-                scalars.contact_loss.0[l] = lost;
-                scalars.meetings.0[l] += 1.0;
+            let velocity = [a.velocity.0[l], b.velocity.0[l]];
+            if overlap(velocity, b.position.0[l] - a.position.0[l], length) {
+                self.meet(nodes, l, step);
                 self.interfaces[j].closed = true;
-                if interface.is_contact {
-                    scalars.closed.0[l] = 1.0;
-                }
+                self.scalars.closed.0[l] |= interface.is_contact;
             }
         }
         // Tip and face are moved in all lanes.

@@ -7,8 +7,11 @@ use super::{
     step::Step,
 };
 use crate::{
-    chain::friction::dry_friction,
-    lanes::{LANES, Lanes},
+    chain::{
+        friction::{dry_friction, kick, lost_impulse, slide},
+        solver::OpenEnd,
+    },
+    lanes::{LANES, Lanes, PerLane},
 };
 
 impl Bundle {
@@ -25,7 +28,7 @@ impl Bundle {
             }
             from = irregular + 1;
         }
-        self.springs[tip - 1].force
+        self.forces[tip - 1]
     }
 
     /// Kicks and moves nodes of the projectile that are like each other.
@@ -42,24 +45,17 @@ impl Bundle {
         }
         let mut force_behind = match nodes.start {
             0 => Lanes::all(0.0),
-            first => self.springs[first - 1].force,
+            first => self.forces[first - 1],
         };
         // Told that no index is out of range, the compiler would take several nodes at once, lane by lane.
         for i in nodes {
             let ratio = if i == 0 { end_ratio } else { ratio };
-            let force_ahead = self.springs[i].force;
-            let node = &mut self.nodes[i];
-            let (velocity, position) = (node.velocity.0, node.position.0);
-            let mut next_velocity = [0.0; LANES];
-            let mut next_position = [0.0; LANES];
+            let force_ahead = self.forces[i];
+            let mut velocity = self.nodes[i].velocity;
             for l in 0..LANES {
-                let change = (force_behind.0[l] - force_ahead.0[l]) * ratio[l];
-                next_velocity[l] = velocity[l] + change;
-                next_position[l] = position[l] + next_velocity[l] * step.length.0[l];
+                velocity.0[l] += (force_behind.0[l] - force_ahead.0[l]) * ratio[l];
             }
-            node.velocity = Lanes(next_velocity);
-            node.position = Lanes(next_position);
-            self.moves[i] = !is_still(node);
+            self.moves[i] = self.nodes[i].go_on(velocity, step);
             force_behind = force_ahead;
         }
     }
@@ -78,7 +74,7 @@ impl Bundle {
             }
             from = irregular + 1;
         }
-        self.kick_back(back, self.springs[back - 2].force, step);
+        self.kick_back(back, self.forces[back - 2], step);
     }
 
     /// Kicks and moves nodes of the target that are like each other.
@@ -88,20 +84,18 @@ impl Bundle {
             return;
         }
         let body = self.bodies[1];
-        let mut work = self.scalars.friction_work;
-        let mut impulse = self.scalars.friction_impulse;
+        let mut sums = self.scalars.accumulated.friction;
         let mut ratio = Lanes::all(0.0);
         let mut limit = Lanes::all(0.0);
         for l in 0..LANES {
             ratio.0[l] = step.kick.0[l] / body.mass.0[l];
             limit.0[l] = body.friction.0[l] * ratio.0[l];
         }
-        let mut force_behind = self.springs[inner.start - 2].force;
-        let springs = &self.springs[inner.start - 1..];
+        let mut force_behind = self.forces[inner.start - 2];
+        let forces = &self.forces[inner.start - 1..];
         let nodes = self.nodes[inner.clone()].iter_mut();
         let nodes = nodes.zip(&mut self.moves[inner]);
-        for ((node, is_moving), spring) in nodes.zip(springs) {
-            let force_ahead = spring.force;
+        for ((node, is_moving), &force_ahead) in nodes.zip(forces) {
             let mut change = [0.0; LANES];
             let mut is_held = true;
             for l in 0..LANES {
@@ -111,40 +105,38 @@ impl Bundle {
             force_behind = force_ahead;
             if is_held & !*is_moving {
                 for l in 0..LANES {
-                    impulse.0[l] += body.mass.0[l] * change[l];
+                    sums.impulse.0[l] += body.mass.0[l] * change[l];
                 }
                 continue;
             }
-            let (velocity, position) = (node.velocity.0, node.position.0);
-            let mut after = [0.0; LANES];
+            let velocity = node.velocity.0;
+            let mut after = Lanes::all(0.0);
             let mut is_sliding = true;
             for l in 0..LANES {
-                let sign = 1.0_f64.copysign(velocity[l]);
-                after[l] = velocity[l] + change[l] - sign * limit.0[l];
-                let loss = limit.0[l] - sign * change[l];
-                let slides = (loss <= 0.0) | (velocity[l].abs() >= loss);
-                is_sliding &= (slides & (velocity[l] != 0.0)) | (limit.0[l] == 0.0);
+                let (slides, _, slides_on) = slide(velocity[l], change[l], limit.0[l]);
+                after.0[l] = slides;
+                is_sliding &= (slides_on & (velocity[l] != 0.0)) | (limit.0[l] == 0.0);
             }
             if !is_sliding {
                 for l in 0..LANES {
-                    after[l] = dry_friction(velocity[l], change[l], limit.0[l]);
+                    after.0[l] = dry_friction(velocity[l], change[l], limit.0[l]);
                 }
             }
-            let mut next_position = [0.0; LANES];
-            let mut moves = false;
+            let mut next = sums;
             for l in 0..LANES {
-                let lost_impulse = body.mass.0[l] * (velocity[l] + change[l] - after[l]);
-                impulse.0[l] += lost_impulse;
-                work.0[l] += lost_impulse * 0.5 * (velocity[l] + after[l]);
-                next_position[l] = position[l] + after[l] * step.length.0[l];
-                moves |= after[l] != 0.0;
+                let (before, after) = (velocity[l], after.0[l]);
+                let mut sums = sums.lane(l);
+                sums.add(
+                    lost_impulse(body.mass.0[l], before, change[l], after),
+                    before,
+                    after,
+                );
+                next.set_lane(l, sums);
             }
-            node.velocity = Lanes(after);
-            node.position = Lanes(next_position);
-            *is_moving = moves;
+            sums = next;
+            *is_moving = node.go_on(after, step);
         }
-        self.scalars.friction_work = work;
-        self.scalars.friction_impulse = impulse;
+        self.scalars.accumulated.friction = sums;
     }
 
     /// The next node from one on that is not like the others of its body in every lane, or else the end.
@@ -161,31 +153,28 @@ impl Bundle {
         let (mass, friction) = (self.masses[i].0, self.frictions[i].0);
         let behind = match i {
             0 => Lanes::all(0.0),
-            _ => self.springs[i - 1 - body].force,
+            _ => self.forces[i - 1 - body],
         };
-        let ahead = self.springs[i - body].force;
+        let ahead = self.forces[i - body];
         let in_contact = self.in_contact[i];
-        let scalars = &mut self.scalars;
-        let node = &mut self.nodes[i];
-        let (velocity, position) = (node.velocity.0, node.position.0);
-        let mut after = velocity;
-        let mut next_position = position;
+        let sums = self.scalars.accumulated.friction;
+        let (velocity, position) = (self.nodes[i].velocity, self.nodes[i].position);
+        let (mut node, mut next) = (self.nodes[i], sums);
         for l in 0..LANES {
-            let ratio = step.kick.0[l] / mass[l];
-            let change = (behind.0[l] - ahead.0[l]) * ratio;
-            let next = dry_friction(velocity[l], change, friction[l] * ratio);
-            let lost_impulse = mass[l] * (velocity[l] + change - next);
+            let (before, mut sums) = (velocity.0[l], sums.lane(l));
+            let force = [behind.0[l] - ahead.0[l], friction[l]];
+            let kicked = kick([mass[l], before], force, step.kick.0[l] / mass[l]);
             let is_free = in_contact >> l & 1 == 0;
-            let lost_impulse = if is_free { lost_impulse } else { 0.0 };
-            scalars.friction_impulse.0[l] += lost_impulse;
-            scalars.friction_work.0[l] += lost_impulse * 0.5 * (velocity[l] + next);
-            let moved = position[l] + next * step.length.0[l];
-            after[l] = if is_free { next } else { velocity[l] };
-            next_position[l] = if is_free { moved } else { position[l] };
+            let lost = if is_free { kicked.lost } else { 0.0 };
+            sums.add(lost, before, kicked.velocity);
+            next.set_lane(l, sums);
+            let moved = position.0[l] + kicked.velocity * step.length.0[l];
+            node.velocity.0[l] = if is_free { kicked.velocity } else { before };
+            node.position.0[l] = if is_free { moved } else { position.0[l] };
         }
-        node.velocity = Lanes(after);
-        node.position = Lanes(next_position);
-        self.moves[i] = !is_still(node);
+        self.scalars.accumulated.friction = next;
+        self.moves[i] = node.moves();
+        self.nodes[i] = node;
         self.kick_joints(i, step);
     }
 
@@ -193,60 +182,63 @@ impl Bundle {
     #[inline(always)]
     fn kick_back(&mut self, node: usize, force: Lanes, step: &Step) {
         let body = self.bodies[1];
-        let scalars = &mut self.scalars;
-        let before = self.nodes[node].velocity.0;
-        let mut velocity = [0.0; LANES];
-        match self.mesh.back {
-            Back::Fixed => {
-                for l in 0..LANES {
-                    scalars.support_impulse.0[l] += force.0[l] * step.kick.0[l];
+        let (mass, friction) = (body.end_mass, body.last_friction);
+        let (before, impedance) = (self.nodes[node].velocity, self.scalars.impedance);
+        let mut velocity = Lanes::all(0.0);
+        let sums = &mut self.scalars.accumulated;
+        for l in 0..LANES {
+            let (mass, before, kick_time) = (mass.0[l], before.0[l], step.kick.0[l]);
+            match self.mesh.back {
+                Back::Fixed => sums.support_impulse.0[l] += force.0[l] * kick_time,
+                Back::Free => {
+                    let force = [force.0[l], friction.0[l]];
+                    let kicked = kick([mass, before], force, kick_time / mass);
+                    let mut friction = sums.friction.lane(l);
+                    friction.add(kicked.lost, before, kicked.velocity);
+                    sums.friction.set_lane(l, friction);
+                    velocity.0[l] = kicked.velocity;
                 }
-            }
-            Back::Free => {
-                for l in 0..LANES {
-                    let ratio = step.kick.0[l] / body.end_mass.0[l];
-                    let change = force.0[l] * ratio;
-                    velocity[l] = dry_friction(before[l], change, body.last_friction.0[l] * ratio);
-                    let lost_impulse = body.end_mass.0[l] * (before[l] + change - velocity[l]);
-                    scalars.friction_impulse.0[l] += lost_impulse;
-                    scalars.friction_work.0[l] += lost_impulse * 0.5 * (before[l] + velocity[l]);
-                }
-            }
-            Back::Open => {
-                for l in 0..LANES {
-                    let kick = step.kick.0[l];
-                    let half = 0.5 * scalars.impedance.0[l];
-                    let inertia = body.end_mass.0[l] / kick;
-                    velocity[l] = ((inertia - half) * before[l] + force.0[l]) / (inertia + half);
-                    let mean = 0.5 * (before[l] + velocity[l]);
-                    let back_force = scalars.impedance.0[l] * mean;
-                    scalars.support_impulse.0[l] += back_force * kick;
-                    scalars.boundary_work.0[l] += back_force * mean * kick;
+                Back::Open => {
+                    let end = OpenEnd {
+                        impedance: impedance.0[l],
+                        spring: 0.0,
+                    };
+                    let [after, mean, back] = end.kick(mass, before, force.0[l], kick_time);
+                    sums.support_impulse.0[l] += back * kick_time;
+                    sums.boundary_work.0[l] += back * mean * kick_time;
+                    velocity.0[l] = after;
                 }
             }
         }
-        self.nodes[node].velocity = Lanes(velocity);
+        self.nodes[node].velocity = velocity;
     }
 
     #[inline(always)]
     pub(super) fn drift(&mut self, i: usize, step: &Step) {
-        let node = &mut self.nodes[i];
-        let (position, velocity) = (node.position.0, node.velocity.0);
-        let mut next = [0.0; LANES];
-        for l in 0..LANES {
-            next[l] = position[l] + velocity[l] * step.length.0[l];
-        }
-        node.position = Lanes(next);
-        self.moves[i] = !is_still(node);
+        let velocity = self.nodes[i].velocity;
+        self.moves[i] = self.nodes[i].go_on(velocity, step);
     }
 }
 
-#[inline(always)]
-fn is_still(node: &Node) -> bool {
-    let velocity = node.velocity.0;
-    let mut moves = false;
-    for l in 0..LANES {
-        moves |= velocity[l] != 0.0;
+impl Node {
+    /// Moves the node at a velocity for a step; says whether it moves in any lane.
+    #[inline(always)]
+    fn go_on(&mut self, velocity: Lanes, step: &Step) -> bool {
+        let mut position = self.position;
+        for l in 0..LANES {
+            position.0[l] += velocity.0[l] * step.length.0[l];
+        }
+        (self.velocity, self.position) = (velocity, position);
+        self.moves()
     }
-    !moves
+
+    #[inline(always)]
+    fn moves(&self) -> bool {
+        let velocity = self.velocity.0;
+        let mut moves = false;
+        for l in 0..LANES {
+            moves |= velocity[l] != 0.0;
+        }
+        moves
+    }
 }

@@ -1,6 +1,6 @@
 //! Many independent shots at once: eight of them side by side, each in a lane of the processor's vector unit.
 //!
-//! [`Bundle`] advances the state of eight shots by the equations of the single run, in the same order, lane by lane: no lane knows
+//! [`Bundle`] advances the state of eight shots, lane by lane, by the functions of the single run and in its order: no lane knows
 //! of another one, so that a shot ends with the same bits in whatever company it was computed. Whatever is rare (the end of a shot,
 //! erosion) is left to the single run: the lane's state is put into its [`ColumnRun`], and what that makes of it is put back.
 
@@ -18,7 +18,6 @@ mod flow;
 mod interfaces;
 mod kick;
 mod scalars;
-mod spring;
 mod step;
 #[cfg(test)]
 mod tests;
@@ -33,14 +32,15 @@ use std::{
 use pulp::{Arch, NullaryFnOnce};
 
 pub(crate) use accepts::accepts;
-use balance::Sums;
 use bundle::{Bundle, Mesh};
-pub(in crate::chain) use flow::Start;
 
-use super::column::{AUDIT_INTERVAL, ColumnRun};
+use super::{
+    column::{AUDIT_INTERVAL, ColumnRun},
+    state::BodySums,
+};
 use crate::{
     Error, Scenario,
-    lanes::LANES,
+    lanes::{LANES, Lanes},
     options::constraint_factor,
     outcome::RunResult,
     scenario::TargetBody,
@@ -171,7 +171,7 @@ impl BatchScheduler<'_, '_> {
     }
 
     /// Lets the single run audit a lane.
-    fn audit(&mut self, lane: usize, sums: &Sums) -> Result<(), Stopped> {
+    fn audit(&mut self, lane: usize, sums: &[BodySums<Lanes>; 2]) -> Result<(), Stopped> {
         let Some(occupant) = &mut self.lanes[lane] else {
             return Ok(());
         };
@@ -271,10 +271,10 @@ impl NullaryFnOnce for Advance<'_> {
 struct Sum<'b>(&'b Bundle);
 
 impl NullaryFnOnce for Sum<'_> {
-    type Output = Sums;
+    type Output = [BodySums<Lanes>; 2];
 
     #[inline(always)]
-    fn call(self) -> Sums {
+    fn call(self) -> [BodySums<Lanes>; 2] {
         self.0.sums()
     }
 }

@@ -27,7 +27,7 @@ pub(super) struct StepEstimate {
 }
 
 impl Bundle {
-    /// Takes steps until a lane needs_scalar for the single run or none are left; says which ones do.
+    /// Takes steps until a lane needs the single run or none are left; says which ones do.
     #[inline(always)]
     pub(super) fn advance(&mut self, left: &mut u64) -> [bool; LANES] {
         while *left > 0 {
@@ -54,31 +54,26 @@ impl Bundle {
             self.drift(end, &step);
         }
         let estimate = self.update(&step);
-        self.now = 1 - self.now;
         self.end(&step, &estimate)
     }
 
     /// Chooses the time steps.
     #[inline(always)]
     fn begin(&self) -> Step {
-        let (before, stable, courant) = (
-            self.scalars.time_step.0,
-            self.scalars.stable_step.0,
-            self.scalars.courant.0,
-        );
-        let mut length = [0.0; LANES];
-        let mut kick = [0.0; LANES];
-        let mut rate = [0.0; LANES];
+        let (before, scalars) = (self.scalars.time_step, &self.scalars);
+        let (courant, stable) = (scalars.courant, scalars.stable_step);
+        let mut step = Step {
+            before,
+            length: before,
+            kick: before,
+            rate: before,
+        };
         for l in 0..LANES {
-            length[l] = choose_time_step(before[l], courant[l] * stable[l]);
-            kick[l] = 0.5 * (before[l] + length[l]);
-            rate[l] = 1.0 / length[l];
+            let length = choose_time_step(before.0[l], courant.0[l] * stable.0[l]);
+            step.length.0[l] = length;
+            step.kick.0[l] = 0.5 * (before.0[l] + length);
+            step.rate.0[l] = 1.0 / length;
         }
-        Step {
-            before: Lanes(before),
-            length: Lanes(length),
-            kick: Lanes(kick),
-            rate: Lanes(rate),
-        }
+        step
     }
 }

@@ -3,12 +3,15 @@
 use std::ops::Range;
 
 use super::{
-    bundle::{Bundle, LIMITS_AT_ONCE},
-    flow::{flow_gathered, flow_in_place},
+    bundle::{Body, Bundle, LIMITS_AT_ONCE, Node},
     interfaces::Interface,
     step::{Step, StepEstimate},
 };
-use crate::lanes::{LANES, Lanes, larger, smaller};
+use crate::{
+    chain::element::{Spring, approach_rate},
+    lanes::{LANES, Lanes, PerLane, larger, smaller},
+    power::small_log_ratio,
+};
 
 /// The lanes whose bits are set in a number, and after them others.
 const SET_LANES: [[u32; LANES]; 256] = {
@@ -52,20 +55,21 @@ impl Bundle {
     /// Updates the elements of a body as if nothing flowed; returns how many flow, or flowed in the last step.
     #[inline(always)]
     fn respond(&mut self, b: usize, elements: Range<usize>, estimate: &mut StepEstimate) -> usize {
-        let body = self.bodies[b].elastic();
-        let now = self.now;
+        let body = self.bodies[b];
         let of_nodes = elements.start + b..elements.end + b + 1;
         let (nodes, moves) = (&self.nodes[of_nodes.clone()], &self.moves[of_nodes]);
         let ends = nodes.iter().zip(&nodes[1..]);
         let ends = ends.zip(moves.iter().zip(&moves[1..]));
         let springs = self.springs[elements.clone()].iter_mut();
-        let springs = springs.zip(&mut self.limits[elements.clone()]);
+        let springs = springs.zip(&mut self.forces[elements.clone()]);
+        let springs = springs.zip(&self.yields[elements.clone()]);
+        let marks = self.marks[elements.clone()].iter_mut();
+        let marks = marks.zip(&mut self.limits[elements.clone()]);
         let mut fastest = estimate.fastest;
-        let mut erodes = false;
+        let mut is_eroding = false;
         let mut working = 0;
-        for (e, (((spring, limit), mark), (ends, moves))) in elements
-            .clone()
-            .zip(springs.zip(&mut self.marks[elements.clone()]).zip(ends))
+        for (e, ((((spring, force), yields), (mark, limit)), (ends, moves))) in
+            elements.zip(springs.zip(marks).zip(ends))
         {
             // Where no wave has come, or border shear holds, nothing changes.
             if !(moves.0 | moves.1) & mark.settled {
@@ -73,14 +77,14 @@ impl Bundle {
             }
             let ends = [ends.0, ends.1];
             let response = match mark.gone {
-                0 => spring.respond::<false>(ends, &body, now, 0),
-                gone => spring.respond::<true>(ends, &body, now, gone),
+                0 => respond::<false>(spring, yields, ends, &body, 0),
+                gone => respond::<true>(spring, yields, ends, &body, gone),
             };
-            *limit = response.limit;
+            (*force, *limit) = (response.force, response.limit);
             for l in 0..LANES {
                 fastest.0[l] = larger(response.approach.0[l], fastest.0[l]);
             }
-            erodes |= response.erodes;
+            is_eroding |= response.erodes;
             let works = response.flows | mark.flowed;
             mark.settled = !(response.changes | works);
             mark.flowed = response.flows;
@@ -88,7 +92,7 @@ impl Bundle {
             working += usize::from(works);
         }
         estimate.fastest = fastest;
-        estimate.erodes |= erodes;
+        estimate.erodes |= is_eroding;
         working
     }
 
@@ -98,49 +102,75 @@ impl Bundle {
         if working == 0 {
             return;
         }
-        let body = &self.bodies[b];
-        let now = self.now;
         let mut gathered = 0;
-        for &e in &self.working[..working] {
-            let flow = &mut self.flows[e];
-            flow.step_before = flow.plastic_step;
-            flow.plastic_step = Lanes::all(0.0);
+        for w in 0..working {
+            let e = self.working[w];
+            let plastic = &mut self.plastics[e];
+            self.steps_before[w] = plastic.step;
+            plastic.step = Lanes::all(0.0);
             if !self.marks[e].flowed {
                 continue;
             }
-            let ends = [&self.nodes[e + b], &self.nodes[e + b + 1]];
-            let spring = &mut self.springs[e];
-            let lanes = spring.flowing(ends, now) & !self.marks[e].gone;
+            let lanes = self.flowing(b, e) & !self.marks[e].gone;
             if lanes.count_ones() >= MANY {
-                flow_in_place(lanes, (spring, flow), ends, body, &step.rate, now);
+                self.flow_in_place(b, e, lanes, step);
             } else {
                 let places = SET_LANES[usize::from(lanes)].map(|lane| (e as u32, lane));
                 self.gathered[gathered..gathered + LANES].copy_from_slice(&places);
                 gathered += lanes.count_ones() as usize;
             }
         }
-        let chain = (&mut self.springs[..], &mut self.flows[..], &self.nodes[b..]);
-        flow_gathered(&mut self.gathered, gathered, chain, body, &step.rate, now);
-        let elastic = body.elastic();
+        self.flow_gathered(b, gathered, step);
+        self.settle(b, working);
+    }
+
+    /// A bit for every lane in which an element flows, or has to be looked at, after a response.
+    #[inline(always)]
+    fn flowing(&self, b: usize, e: usize) -> u8 {
+        let [back, front] = [e + b, e + b + 1].map(|node| self.nodes[node].position.0);
+        let (spring, yield_stress) = (&self.springs[e], self.yields[e].0);
+        let (stress, unloaded) = (spring.stress.0, spring.unloaded_length.0);
+        let mut flows = 0;
+        for l in 0..LANES {
+            let (_, is_exact) = small_log_ratio(unloaded[l], front[l] - back[l]);
+            flows |= u8::from((stress[l].abs() > yield_stress[l]) | !is_exact) << l;
+        }
+        flows
+    }
+
+    /// Sets forces and stable steps of elements that flow or flowed, and adds up their plastic work.
+    #[inline(always)]
+    fn settle(&mut self, b: usize, working: usize) {
+        let body = self.bodies[b];
         let mut work = Lanes::all(0.0);
-        let total = &mut self.scalars.plastic_work[b];
+        let total = &mut self.scalars.accumulated.plastic[b];
         let of_body = |interface: &&Interface| self.mesh.holds(b, interface.ahead);
         let mut interfaces = self.interfaces.iter().filter(of_body).peekable();
-        for &e in &self.working[..working] {
+        for (&e, step_before) in self.working[..working].iter().zip(&self.steps_before) {
             // The work of every piece is a sum of its own.
             while let Some(interface) = interfaces.next_if(|interface| interface.ahead <= e + b) {
                 let l = interface.lane;
                 total.0[l] += work.0[l];
                 work.0[l] = 0.0;
             }
-            let ends = [&self.nodes[e + b], &self.nodes[e + b + 1]];
-            let flow = &self.flows[e];
-            let spring = &mut self.springs[e];
-            let mut limit = spring.settle(flow, ends, &elastic, now, &mut work);
-            if self.marks[e].gone != 0 {
-                spring.part(&mut limit, self.marks[e].gone);
+            let [back, front] = [e + b, e + b + 1].map(|node| self.nodes[node].position.0);
+            let (spring, step_before) = (self.springs[e], step_before.0);
+            let step = self.plastics[e].step.0;
+            let [mut force, mut limit] = [Lanes::all(0.0); 2];
+            for l in 0..LANES {
+                let (one, length) = (spring.lane(l), front[l] - back[l]);
+                force.0[l] = one.force(body.volume.0[l], length);
+                work.0[l] += body.volume.0[l] * one.plastic_work(step_before[l], step[l]);
+                limit.0[l] = one.stable_step(length, body.compliance.0[l], body.slowness.0[l]);
             }
-            self.limits[e] = limit;
+            let gone = self.marks[e].gone;
+            if gone != 0 {
+                for l in (0..LANES).filter(|l| gone >> l & 1 == 1) {
+                    force.0[l] = 0.0;
+                    limit.0[l] = f64::INFINITY;
+                }
+            }
+            (self.forces[e], self.limits[e]) = (force, limit);
         }
         for l in 0..LANES {
             total.0[l] += work.0[l];
@@ -164,5 +194,65 @@ impl Bundle {
             a.0[l] = smaller(smaller(a.0[l], b.0[l]), smaller(c.0[l], d.0[l]));
         }
         a
+    }
+}
+
+/// What became of an element.
+struct Response {
+    force: Lanes,
+    /// Largest stable time step where it does not flow.
+    limit: Lanes,
+    /// Speed at which its ends approach or part, as a part of the length.
+    approach: Lanes,
+    /// Whether any lane flows, or has to be looked at.
+    flows: bool,
+    /// Whether the stress of any lane has changed.
+    changes: bool,
+    /// Whether it is about to erode in any lane.
+    erodes: bool,
+}
+
+/// Brings an element to the length that its ends give it, as if nothing flowed; it may have eroded in some lanes.
+#[inline(always)]
+fn respond<const ERODED: bool>(
+    spring: &mut Spring<Lanes>,
+    yields: &Lanes,
+    [back, front]: [&Node; 2],
+    body: &Body<Lanes>,
+    gone: u8,
+) -> Response {
+    let positions = [back.position.0, front.position.0];
+    let velocities = [back.velocity.0, front.velocity.0];
+    let (before, yield_stress) = (*spring, yields.0);
+    let mut after = before;
+    let [mut force, mut limit, mut approach] = [Lanes::all(0.0); 3];
+    let (mut flows, mut changes, mut erodes) = (false, false, false);
+    for l in 0..LANES {
+        let is_here = !ERODED || gone >> l & 1 == 0;
+        let length = positions[1][l] - positions[0][l];
+        let mut one = before.lane(l);
+        let (elastic, is_exact) = small_log_ratio(one.unloaded_length, length);
+        one.bear(body.law.modulus.0[l] * elastic);
+        flows |= is_here & ((one.stress.abs() > yield_stress[l]) | !is_exact);
+        changes |= is_here & (one.stress != one.stress_before);
+        erodes |= is_here & ((length <= body.shortest.0[l]) | (length >= body.longest.0[l]));
+        let stable = one.stable_step(length, body.compliance.0[l], body.slowness.0[l]);
+        let rate = approach_rate(velocities[0][l] - velocities[1][l], length);
+        after.stress_before.0[l] = one.stress_before;
+        after.stress.0[l] = if is_here { one.stress } else { 0.0 };
+        let pushes = one.force(body.volume.0[l], length);
+        force.0[l] = if is_here { pushes } else { 0.0 };
+        limit.0[l] = if is_here { stable } else { f64::INFINITY };
+        approach.0[l] = if is_here { rate } else { 0.0 };
+    }
+    spring.stress_before = after.stress_before;
+    spring.stress = after.stress;
+    Response {
+        force,
+        limit,
+        approach,
+        flows,
+        changes,
+        erodes,
     }
 }

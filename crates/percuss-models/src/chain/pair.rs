@@ -1,0 +1,213 @@
+//! Two ends that touch, part or meet.
+
+use super::friction::{FrictionSums, dry_friction, kick, lost_impulse};
+use crate::lanes::larger;
+
+/// Two ends at the start of a kick, or of a drift.
+#[derive(Clone, Copy)]
+pub(super) struct Pair {
+    pub(super) mass: [f64; 2],
+    pub(super) velocity: [f64; 2],
+    pub(super) force: [f64; 2],
+    /// Force of the elements without viscosity.
+    pub(super) spring_force: [f64; 2],
+    /// Largest friction on them.
+    pub(super) friction: [f64; 2],
+}
+
+/// Two ends that move as one in a kick.
+#[derive(Clone, Copy)]
+struct Joined {
+    /// Their common velocity at its start and at its end.
+    before: f64,
+    velocity: f64,
+    /// Force with which they push each other.
+    push: f64,
+    /// Impulse that friction took.
+    lost: f64,
+    /// Energy that contact has taken so far.
+    contact_loss: f64,
+}
+
+/// What contact takes.
+#[derive(Clone, Copy)]
+pub(super) struct ContactSums {
+    pub(super) loss: f64,
+    pub(super) friction: FrictionSums,
+}
+
+/// Two ends after a kick.
+pub(super) struct KickedPair {
+    /// Velocities from which the kick started.
+    pub(super) start: [f64; 2],
+    pub(super) velocity: [f64; 2],
+    /// Whether they touch still.
+    pub(super) closed: bool,
+    /// Force with which they push each other.
+    pub(super) push: f64,
+    pub(super) sums: ContactSums,
+}
+
+impl Pair {
+    /// Kicks two ends as one. Whether friction acts on the first of them, too, is known beforehand; `drift` is the length of the step
+    /// before.
+    ///
+    /// Both start the kick with their common velocity; what that costs is the loss of a plastic impact.
+    #[inline(always)]
+    fn join<const BOTH_RUB: bool>(&self, kick: f64, drift: f64, contact_loss: f64) -> Joined {
+        let ([mass_a, mass_b], [velocity_a, velocity_b]) = (self.mass, self.velocity);
+        let ([force_a, force_b], [friction_a, friction_b]) = (self.force, self.friction);
+        let mass = mass_a + mass_b;
+        let before = (mass_a * velocity_a + mass_b * velocity_b) / mass;
+        let contact_loss = contact_loss - self.jump_energy(0, before - velocity_a, -drift);
+        let contact_loss = contact_loss - self.jump_energy(1, before - velocity_b, -drift);
+        let change = (force_a + force_b) * kick / mass;
+        let friction = if BOTH_RUB {
+            friction_a + friction_b
+        } else {
+            friction_b
+        };
+        let velocity = dry_friction(before, change, friction * kick / mass);
+        let mut on_a = force_a;
+        if BOTH_RUB && friction != 0.0 {
+            on_a += mass * (velocity - before - change) / kick * friction_a / friction;
+        }
+        Joined {
+            before,
+            velocity,
+            push: on_a - mass_a * (velocity - before) / kick,
+            lost: lost_impulse(mass, before, change, velocity),
+            contact_loss,
+        }
+    }
+
+    /// Kicks two ends, together where they touch and stay so. They part where they would pull each other by more than `holds`, and
+    /// that pulls from then on. The times are those of the kick and of the drift before it.
+    #[inline(always)]
+    pub(super) fn kick(
+        &self,
+        closed: bool,
+        holds: f64,
+        [time, drift]: [f64; 2],
+        mut sums: ContactSums,
+    ) -> KickedPair {
+        let (mut start, mut pull) = (self.velocity, 0.0);
+        if closed {
+            let joined = self.join::<true>(time, drift, sums.loss);
+            sums.loss = joined.contact_loss;
+            start = [joined.before; 2];
+            if joined.push >= -holds {
+                sums.friction
+                    .add(joined.lost, joined.before, joined.velocity);
+                return KickedPair {
+                    start,
+                    velocity: [joined.velocity; 2],
+                    closed,
+                    push: joined.push,
+                    sums,
+                };
+            }
+            pull = holds;
+        }
+        let mut velocity = start;
+        for (end, pull) in [pull, -pull].into_iter().enumerate() {
+            let force = [self.force[end] + pull, self.friction[end]];
+            let (mass, before) = (self.mass[end], start[end]);
+            let kicked = kick([mass, before], force, time / mass);
+            sums.friction.add(kicked.lost, before, kicked.velocity);
+            velocity[end] = kicked.velocity;
+        }
+        KickedPair {
+            start,
+            velocity,
+            closed: false,
+            push: 0.0,
+            sums,
+        }
+    }
+
+    /// The same, to the same bits, where nothing holds the ends and no friction acts on the first one.
+    // Both cases are worked out and one is chosen, so that a loop over many pairs becomes vector instructions.
+    #[inline(always)]
+    pub(super) fn kick_beside(
+        &self,
+        closed: bool,
+        [time, drift]: [f64; 2],
+        mut sums: ContactSums,
+    ) -> KickedPair {
+        let joined = self.join::<false>(time, drift, sums.loss);
+        let stays = closed & (joined.push >= 0.0);
+        let [mass_a, mass_b] = self.mass;
+        let [velocity_a, velocity_b] = self.velocity;
+        let start_a = if closed { joined.before } else { velocity_a };
+        let start_b = if closed { joined.before } else { velocity_b };
+        let alone_a = start_a + self.force[0] * (time / mass_a);
+        let force = [self.force[1], self.friction[1]];
+        let alone_b = kick([mass_b, start_b], force, time / mass_b);
+        let velocity_a = if stays { joined.velocity } else { alone_a };
+        let velocity_b = if stays {
+            joined.velocity
+        } else {
+            alone_b.velocity
+        };
+        let lost = if stays { joined.lost } else { alone_b.lost };
+        sums.friction.add(lost, start_b, velocity_b);
+        sums.loss = if closed {
+            joined.contact_loss
+        } else {
+            sums.loss
+        };
+        KickedPair {
+            start: [start_a, start_b],
+            velocity: [velocity_a, velocity_b],
+            closed: stays,
+            push: if stays { joined.push } else { 0.0 },
+            sums,
+        }
+    }
+
+    /// Energy of a sudden change of a node's velocity.
+    ///
+    /// A kick does its work at the mean of the velocities before and after it, the springs do theirs at the velocities of
+    /// the two drifts around it: a jump between kick and drift leaves half a drift's work to account for. `drift` is the length
+    /// of the drift on the jump's side of the kick, negative when the jump comes before the kick.
+    #[inline(always)]
+    pub(super) fn jump_energy(&self, end: usize, jump: f64, drift: f64) -> f64 {
+        let (before, after) = (self.velocity[end], self.velocity[end] + jump);
+        let kinetic = 0.5 * self.mass[end] * (after * after - before * before);
+        kinetic - 0.5 * drift * self.spring_force[end] * jump
+    }
+
+    /// Lets two ends across a gap meet at the end of a drift, each taking its share of the change of velocity; gives the change.
+    pub(super) fn meet(
+        &mut self,
+        gap: f64,
+        drift: f64,
+        [share_a, share_b]: [f64; 2],
+        contact_loss: &mut f64,
+    ) -> f64 {
+        let approach = self.velocity[0] - self.velocity[1];
+        let change = approach - larger(gap, 0.0) / drift;
+        for (end, jump) in [-share_a * change, share_b * change]
+            .into_iter()
+            .enumerate()
+        {
+            *contact_loss -= self.jump_energy(end, jump, drift);
+            self.velocity[end] += jump;
+        }
+        change
+    }
+
+    /// Shares of two free ends in a change of their velocities.
+    pub(super) fn shares(&self) -> [f64; 2] {
+        let [mass_a, mass_b] = self.mass;
+        let mass = mass_a + mass_b;
+        [mass_b / mass, mass_a / mass]
+    }
+}
+
+/// Whether two ends across a gap would overlap at the end of a drift.
+#[inline(always)]
+pub(super) fn overlap(velocity: [f64; 2], gap: f64, drift: f64) -> bool {
+    gap - (velocity[0] - velocity[1]) * drift <= 0.0
+}
