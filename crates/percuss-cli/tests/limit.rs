@@ -119,7 +119,7 @@ fn a_range_that_is_stopped_or_perforated_throughout_is_an_answer() {
         &["shot.toml", "--model", "plugging", "--velocity", "10..100"],
     );
     assert!(
-        text.contains("never perforates: it is stopped at every speed up to 100 m/s"),
+        text.contains("never perforates: it is stopped at every velocity up to 100 m/s"),
         "{text}"
     );
     let quiet = ok(

@@ -60,7 +60,7 @@ fn a_users_shots_take_the_place_of_the_programs() {
 fn json_holds_statistics_and_predictions() {
     let folder = folder_with(SHOTS);
     let json = json(&ok(folder.path(), &["--json"]));
-    assert_eq!(json["shots"], 3);
+    assert_eq!(json["tests"], 3);
     let predictions = json["predictions"].as_array().unwrap();
     assert_eq!(predictions.len(), 4);
     assert_eq!(predictions[3]["standing"], "flagged");

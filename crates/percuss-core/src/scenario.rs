@@ -11,7 +11,7 @@ use crate::{
     resistance::CustomResistance,
 };
 
-/// What strikes what, how fast, and by which options.
+/// A case in SI units: projectile, target, impact velocity and options.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scenario {
     /// Name of the case.

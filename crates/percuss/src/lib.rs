@@ -1,4 +1,4 @@
-//! First-order impact and penetration mechanics: what strikes what, how fast, how deep it goes, and how far to trust that.
+//! First-order impact and penetration mechanics: depth of penetration, residual velocity and ballistic limit, with an estimated model error.
 //!
 //! A [`Scenario`] comes from a case file; a [`model::Model`] computes it; a [`outcome::RunResult`] carries the numbers, the
 //! energy and momentum balances and the warnings. Everything inside is in SI units, compression positive.

@@ -19,6 +19,6 @@ pub struct Calibrated {
     pub shots: Vec<String>,
     /// Version of the program.
     pub percuss_version: String,
-    /// What decided over everything drawn at random.
+    /// Seed of the random numbers.
     pub seed: u64,
 }

@@ -1,4 +1,4 @@
-//! Case files: what strikes what, how fast, and by which model options.
+//! Case files: projectile, target, impact velocity and the options of the models.
 
 #[cfg(test)]
 mod experiment_tests;

@@ -99,7 +99,7 @@ pub(super) struct Element {
     pub(super) damage: f64,
     /// Whether its failure has parted it from a neighbour.
     pub(super) parted: bool,
-    /// Length of target that the tip has gone through [m], and its part in the last step.
+    /// Length of target that the tip has penetrated [m], and its part in the last step.
     pub(super) advance: f64,
     pub(super) advance_step: f64,
 }

@@ -116,7 +116,7 @@ fn an_analysis_of_uncertainty_has_its_bounds() {
         outcome(&served, "uncertainty", &asked)
     };
     let last = elements("9000, 9001");
-    assert_eq!(last["problem"]["message"], "no shot has a result");
+    assert_eq!(last["problem"]["message"], "no run has a result");
     assert!(
         last["problem"]["help"]
             .to_string()

@@ -6,7 +6,7 @@
 //!
 //! ```
 //! use std::ops::ControlFlow;
-//! use percuss::{calibrate::{self, Fitted, Noise, Observations, Problem, Settings}, material::Library, model::model, tests};
+//! use percuss::{calibrate::{self, Fitted, Noise, Observations, Problem, Settings}, material::Library, model::model, experiments};
 //!
 //! let fitted = Fitted::read("materials.ofhc-copper-johnson-cook.strength.johnson_cook.a=20..300 MPa")?;
 //! let mut observations = Observations::default();
@@ -65,7 +65,7 @@ use crate::Error;
 pub struct Settings {
     /// How the posterior is sampled; least squares only when not given.
     pub sampling: Option<Sampling>,
-    /// What decides over everything drawn at random.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
@@ -118,7 +118,7 @@ pub struct Calibration {
     pub percuss_version: &'static str,
     /// The model.
     pub model: &'static str,
-    /// What decided over everything drawn at random.
+    /// Seed of the random numbers.
     pub seed: u64,
     /// Runs of the model.
     pub runs: u64,

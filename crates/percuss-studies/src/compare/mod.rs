@@ -1,7 +1,7 @@
 //! Every model on one case, at one or many impact velocities, and which of them to rely on.
 //!
 //! ```
-//! use percuss::{case, compare::{compare, Observer}, model::quick};
+//! use percuss::{case, compare::{compare, Observer}, model::fast_models};
 //!
 //! let scenario = case::load_str("taylor", r#"
 //!     projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", impact_velocity = "183 m/s" }

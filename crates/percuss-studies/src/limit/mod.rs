@@ -1,7 +1,7 @@
 //! Ballistic limit of a case by every model that predicts perforation, and residual velocities.
 //!
 //! ```
-//! use percuss::{case, limit::{limits, LimitOutcome, Search, Observer}, model::quick};
+//! use percuss::{case, limit::{limits, LimitOutcome, Search, Observer}, model::fast_models};
 //!
 //! let scenario = case::load_str("plate", r#"
 //!     projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "300 m/s" }

@@ -56,7 +56,7 @@ pub struct Sweep {
     pub model: &'static dyn Model,
     /// The numbers that are varied.
     pub axes: Vec<Axis>,
-    /// What decides over everything drawn at random.
+    /// Seed of the random numbers.
     pub seed: u64,
     /// Runs in a block; the last block may have fewer.
     pub block_size: u64,

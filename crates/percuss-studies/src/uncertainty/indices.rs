@@ -35,9 +35,9 @@ pub struct SobolIndices {
 pub struct Index {
     /// Key of the parameter.
     pub key: String,
-    /// Part of the variance that it causes alone.
+    /// Fraction of the variance that it causes alone.
     pub first_order: Estimate,
-    /// Part of the variance that it causes alone and together with others.
+    /// Fraction of the variance that it causes alone and together with others.
     pub total: Estimate,
 }
 

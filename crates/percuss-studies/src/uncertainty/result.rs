@@ -23,7 +23,7 @@ pub struct Uncertainty {
     pub model: &'static str,
     /// Runs that the statistics rest on.
     pub samples: u64,
-    /// What decided over everything drawn at random.
+    /// Seed of the random numbers.
     pub seed: u64,
     /// All runs that were computed.
     pub runs: u64,

@@ -33,7 +33,7 @@ pub struct Study {
 pub struct Settings {
     /// Runs that the statistics rest on: [`MIN_SAMPLES`] to [`MAX_SAMPLES`]; a power of two serves best.
     pub samples: u64,
-    /// Decides over everything drawn at random.
+    /// Seed of the random numbers.
     pub seed: u64,
     /// What to look at; the main quantities that the model gives when empty.
     pub quantities: Vec<&'static ResultNumber>,

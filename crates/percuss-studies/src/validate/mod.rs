@@ -2,7 +2,7 @@
 //!
 //! ```no_run
 //! use std::ops::ControlFlow;
-//! use percuss::{material::Library, model::quick, tests, validate};
+//! use percuss::{experiments, material::Library, model::fast_models, validate};
 //!
 //! let validation = validate::run(&fast_models(), experiments::built_in(), Library::built_in(), &|_| ControlFlow::Continue(()))?;
 //! for group in validate::statistics(&validation, validate::Grouping::All) {

@@ -85,7 +85,7 @@ pub(in crate::fdm) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
         let speed = law.wave_speed_at_rest();
         Refusal::new(format!(
             "geometry `planar` is uniaxial strain, and this projectile is {ratio:.2} diameters long: release from its edge \
-             reaches the axis after {:.2} us, before a wave has gone through it once ({:.2} us); uniaxial strain needs a \
+             reaches the axis after {:.2} us, before a wave has crossed it once ({:.2} us); uniaxial strain needs a \
              projectile shorter than half its diameter",
             0.5 * rod.diameter / speed * 1e6,
             rod.length / speed * 1e6
