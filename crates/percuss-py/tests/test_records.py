@@ -113,8 +113,8 @@ def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], 
                 save(axes, tmp_path / f"{type(record).__name__}-{i}.png")
     (run, _) = records[percuss.RunResult]
     assert isinstance(run, percuss.RunResult)
-    assert run.plot("contact_force_kn").get_ylabel() == "contact force [kN]"
-    assert run.plot_stress().get_ylabel() == "time [us]"
+    assert run.plot("contact_force_kn").get_ylabel() == "Contact force (kN)"
+    assert run.plot_stress().get_ylabel() == "Time (us)"
     (spread,) = records[percuss.Uncertainty]
     assert isinstance(spread, percuss.Uncertainty)
     drawn = [spread.plot_tornado(), spread.plot_indices(), spread.plot_bands(), spread.plot_perforation()]

@@ -109,7 +109,7 @@ def test_what_is_not_there_is_said() -> None:
     for plot in (found.plot_bands, found.plot_perforation):
         with pytest.raises(ValueError, match="give it a `velocity`"):
             plot()
-    with pytest.raises(percuss.UsageError, match="no shot of model `chain` has a value of ballistic_limit_m_s"):
+    with pytest.raises(percuss.UsageError, match="no run of model `chain` has a value of ballistic_limit_m_s"):
         percuss.uncertainty(case, samples=16, no_indices=True, quantity="ballistic_limit_m_s")
     with pytest.raises(percuss.UsageError, match="16..=1048576"):
         percuss.uncertainty(case, samples=3)
@@ -193,7 +193,7 @@ def test_a_bad_calibration_is_refused_in_the_words_of_the_program(program: Progr
         assert str(caught.value) == printed.stderr.rstrip(), text
     with pytest.raises(percuss.CaseError, match="fit.toml:6"):
         percuss.calibrate(fit={COEFFICIENT: {"normal": {"mean": "400 m", "standard_deviation": "20 MPa"}}}, **WILKINS)
-    with pytest.raises(percuss.UsageError, match="is no prior"):
+    with pytest.raises(percuss.UsageError, match="is not a prior"):
         percuss.calibrate(fit={COEFFICIENT: 3.0}, **WILKINS)  # type: ignore[dict-item]
     with pytest.raises(KeyError, match="names no single parameter"):
         percuss.calibrate(fit={COEFFICIENT: "150..900 MPa"}, least_squares=True, **WILKINS).parameter("exponent")

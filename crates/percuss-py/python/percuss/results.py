@@ -252,7 +252,7 @@ class Validation(Result):
     percuss_version: str
     data: list[str]
     models: list[str]
-    shots: int
+    tests: int
     statistics: list[Record]
     coverage: list[Record]
     predictions: list[Record]

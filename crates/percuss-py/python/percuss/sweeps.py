@@ -12,7 +12,7 @@ from .command_line import Path, answer, execute, several
 from .case import Case
 from .errors import UsageError
 from .progress import Progress, watching
-from .record import Answered, Record, table_html
+from .record import CommandRecord, Record, table_html
 
 if TYPE_CHECKING:
     import pandas
@@ -183,7 +183,7 @@ def merge(folders: Path | Sequence[Path], out: Path) -> int:
     return rows
 
 
-class Drawing(Answered):
+class Drawing(CommandRecord):
     """A figure that was written: :attr:`files` are its SVG and its PNG. A notebook shows it.
 
     Attributes
