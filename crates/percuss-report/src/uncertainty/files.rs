@@ -113,7 +113,7 @@ fn spread_columns() -> Vec<Column<Spread>> {
     };
     let mut columns = vec![
         Column::text("quantity", |s: &Spread| s.quantity.to_owned()),
-        number("shots", |s| s.runs as f64),
+        number("runs", |s| s.runs as f64),
         number("mean", |s| s.mean),
         number("standard_error", |s| s.standard_error),
         number("standard_deviation", |s| s.standard_deviation),

@@ -62,10 +62,10 @@ test("a picture of a calibration", () =>
   pictured("calibrate", "Calibrate", "taylor-copper-wilkins", async (of, page) => {
     await page.locator("#models").selectOption("wilkins_guinan");
     await answered(page, 3);
-    await of.getByLabel("by", { exact: true }).selectOption("sample");
+    await of.getByLabel("method", { exact: true }).selectOption("sample");
     // A sample that is worth a picture takes a minute.
     await of.getByLabel("steps", { exact: true }).fill(process.env.SCREENSHOTS ? "150" : "8");
-  }, "Measured and fitted values", 1150));
+  }, "Measured and predicted values", 1150));
 
 test("the browser had nothing to complain about", () => {
   assert.deepEqual(complaints, []);

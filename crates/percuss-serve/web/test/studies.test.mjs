@@ -66,19 +66,19 @@ test("uncertainty has the numbers of the command line", async () => {
   const found = JSON.parse(await take(page, of, "uncertainty.json"));
   assert.deepEqual({ ...found, case: "" }, { ...printed, case: "" });
   const text = await of.innerText();
-  assert.match(text, /5 % lie below/);
+  assert.match(text, /5th percentile/);
   assert.match(text, /materials\.plate … coefficient/);
   for (const chart of ["histogram", "tornado", "indices"]) {
     assert.ok(await of.locator(`figure[data-chart="${chart}-depth-of-penetration"]`).isVisible(), chart);
   }
-  assert.match(await take(page, of, "statistics.csv"), /^quantity,shots,mean/);
+  assert.match(await take(page, of, "statistics.csv"), /^quantity,runs,mean/);
   await page.context().close();
 });
 
 test("a case that says nothing of uncertainty is given an example", async () => {
   const page = await open();
   const of = await analysis(page, "the case says nothing of what is uncertain");
-  await of.getByRole("button", { name: "Put an example into the case" }).click();
+  await of.getByRole("button", { name: "Insert an example" }).click();
   await answered(page, 2);
   assert.match(await page.locator("#text").inputValue(), /\[\[uncertainty\.parameter\]\]\nkey = "projectile\.impact_velocity"/);
   assert.ok(await page.locator("#problem").isHidden());

@@ -56,7 +56,7 @@ test("a sweep of two numbers shows curves, a map, rows and files that the comman
   const depth = await pixels(page, "curves-depth_of_penetration_mm");
   await of.getByLabel("quantity", { exact: true }).selectOption("peak_force_kn");
   assert.notEqual(await pixels(page, "curves-peak_force_kn"), depth);
-  await of.getByLabel("as", { exact: true }).selectOption("map");
+  await of.getByLabel("style", { exact: true }).selectOption("map");
   await of.locator('figure[data-chart="map-peak_force_kn"] canvas').first().waitFor();
   await of.getByText("The rows").click();
   assert.equal(await of.locator("tbody tr").count(), 44);
@@ -116,7 +116,7 @@ test("a calibration shows its values, and the command prints the same", async ()
   await of.getByLabel("to", { exact: true }).fill("900 MPa");
   await of.getByLabel("seed", { exact: true }).fill("3");
   await start(of, "Calibrate");
-  await of.getByText("Measured and fitted values").waitFor({ timeout: 60_000 });
+  await of.getByText("Measured and predicted values").waitFor({ timeout: 60_000 });
   assert.equal(await of.locator("details[open] tbody tr").count(), 4);
   await of.locator('figure[data-chart="predictive"] canvas').first().waitFor();
   const found = JSON.parse((await take(page, of, "calibration.json"))[1]);
@@ -127,7 +127,7 @@ test("a calibration shows its values, and the command prints the same", async ()
   assert.deepEqual(found, named(printed.stdout));
   assert.match((await take(page, of, "material.toml"))[1], /^\[copper-calibrated\]/);
 
-  await of.getByLabel("by", { exact: true }).selectOption("sample");
+  await of.getByLabel("method", { exact: true }).selectOption("sample");
   await of.getByLabel("steps", { exact: true }).fill("8");
   await start(of, "Calibrate");
   await of.getByRole("columnheader", { name: "R-hat" }).waitFor({ timeout: 100_000 });
