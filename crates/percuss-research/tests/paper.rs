@@ -58,7 +58,7 @@ fn the_page_in_the_docs_is_up_to_date() {
         Assessment::Contradicted
     );
     assert_eq!(
-        verdict("Fig. 11", "agrees with Woodward's shots"),
+        verdict("Fig. 11", "agrees with Woodward's tests"),
         Assessment::CannotBeKnown
     );
 }
