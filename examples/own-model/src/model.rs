@@ -2,9 +2,9 @@
 
 use percuss::{
     Error, Refusal, Scenario,
-    validity::ValidityDomain,
     model::{Control, Model},
     outcome::{Outcome, RunResult, Termination},
+    validity::ValidityDomain,
 };
 use serde::Deserialize;
 
