@@ -131,8 +131,8 @@ cmp rows.parquet whole.parquet || fail "the rows differ from those without a sch
 before=$(find rows -name 'block-*' -printf '%p %T@\n' | sort | md5sum)
 job=$(array)
 ended "$job"
-[ "$(grep -l 'all of it was there' percuss-sweep-"$job"_*.log | wc -l)" -eq 4 ] || fail "an attempt with nothing to do failed"
-[ "$before" = "$(find rows -name 'block-*' -printf '%p %T@\n' | sort | md5sum)" ] || fail "complete parts were computed anew"
+[ "$(grep -l 'all rows were already computed' percuss-sweep-"$job"_*.log | wc -l)" -eq 4 ] || fail "an attempt with nothing to do failed"
+[ "$before" = "$(find rows -name 'block-*' -printf '%p %T@\n' | sort | md5sum)" ] || fail "complete parts were computed again"
 
 # A part of the array would count other parts: the script refuses it.
 ended "$(array --array=3 --output=refused.log)"
