@@ -197,12 +197,12 @@ impl DampingStudy {
     fn speeds(&self) -> Figure {
         let mut chart = LineChart::new(
             "damping-speed",
-            "Depth of penetration versus impact velocity with damping, case of the seed paper",
+            "Depth of penetration versus impact velocity with damping",
             Axis::new("Impact velocity (m/s)"),
             Axis::new("Depth of penetration (mm)").log(),
         )
         .caption(format!(
-            "chain, column, {PAPER_MESH} and {} elements; {REFERENCE}: the axisymmetric reference",
+            "case of the seed paper; chain, column, {PAPER_MESH} and {} elements; {REFERENCE}: the axisymmetric reference",
             2 * PAPER_MESH
         ));
         for (index, (way, _)) in WAYS.iter().enumerate() {

@@ -44,11 +44,7 @@ pub(super) fn bands(
     let color = palette::SERIES[0];
     let mut chart = LineChart::new(
         format!("bands-{}", stem(what.name)),
-        format!(
-            "{} versus impact velocity: {}",
-            capitalized(what.label),
-            found.case
-        ),
+        format!("{} versus impact velocity", capitalized(what.label)),
         Axis::new("Impact velocity (m/s)"),
         Axis::new(with_unit(what.label, what.unit.symbol)),
     )
@@ -57,7 +53,7 @@ pub(super) fn bands(
         caption(scenario, None)
     ))
     .series(
-        Series::new("median (25th-75th percentile darker)", percentile(50.0))
+        Series::new("median", percentile(50.0))
             .color(color)
             .band(between(5.0, 95.0)),
     )

@@ -106,7 +106,7 @@ fn map(verdicts: &[ErrorRecord], candidate: &str) -> Option<Figure> {
     let map = HeatMap::new(
         [
             &format!("error-{}", stem(candidate)),
-            &format!("Median error of {candidate} against the axisymmetric reference"),
+            &format!("Median error of {candidate}"),
         ],
         [
             axis("Impact velocity (m/s)", VELOCITIES),
@@ -117,7 +117,7 @@ fn map(verdicts: &[ErrorRecord], candidate: &str) -> Option<Figure> {
         in_percent,
     );
     Some(
-        map.caption("red: too deep, blue: too shallow; median over all pairs of materials")
+        map.caption("against the axisymmetric reference, over all pairs of materials; red: too deep, blue: too shallow")
             .texts(texts)
             .limit(100.0 * STRONGEST)
             .height(MAP_HEIGHT)
@@ -141,14 +141,11 @@ fn depths(verdicts: &[ErrorRecord], projectile: &str, target: &str, length: f64)
     }
     let chart = LineChart::new(
         format!("depth-{}-on-{}-{length}", stem(projectile), stem(target)),
-        format!(
-            "Depth of penetration versus impact velocity: {}, L/D {length}",
-            pair_name(projectile, target)
-        ),
+        format!("{}, L/D {length}", pair_name(projectile, target)),
         Axis::new("Impact velocity (m/s)"),
         Axis::new("Depth of penetration (mm)").log(),
     )
-    .caption("error bars: uncertainty of the reference due to the cell size");
+    .caption("depth of penetration versus impact velocity; error bars: uncertainty of the reference due to the cell size");
     let chart = candidates()
         .iter()
         .enumerate()
