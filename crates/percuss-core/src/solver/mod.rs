@@ -25,7 +25,7 @@ pub use control::{Checkpoints, Control, OnFrame, Progress};
 pub use courant_retry::AttemptError;
 pub use input_limit::InputLimit;
 pub use particle::Particle;
-pub use particle::{equivalent, kinetic_energy};
+pub use particle::equivalent;
 
 /// Order of the time that one run of a model takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -12,7 +12,7 @@ pub struct Particle {
     pub position: [f64; 2],
     /// Velocity [m/s].
     pub velocity: [f64; 2],
-    /// Velocity gradient `[∂v_r/∂r, ∂v_r/∂z, ∂v_z/∂r, ∂v_z/∂z]` [1/s].
+    /// Gradient of the affine velocity field about it, `[∂v_r/∂r, ∂v_r/∂z, ∂v_z/∂r, ∂v_z/∂z]` [1/s].
     pub gradient: [f64; 4],
     /// Stress deviator `[rr, zz, rz]` [Pa]; that of the hoop makes the trace vanish.
     pub deviator: [f64; 3],
@@ -34,6 +34,8 @@ pub struct Particle {
     pub energy: f64,
     /// Damage: 0 sound, 1 failed, without strength in shear and tension.
     pub damage: f64,
+    /// Width and height of its section before the impact [m].
+    pub sides: [f64; 2],
 }
 
 impl Particle {
@@ -72,14 +74,6 @@ impl Particle {
             pressure: self.pressure,
         }
     }
-}
-
-/// Kinetic energy of a particle, that of the velocity gradient within its kernel included [J].
-#[inline(always)]
-pub fn kinetic_energy(mass: f64, velocity: [f64; 2], gradient: [f64; 4], cell: f64) -> f64 {
-    let [r, z] = velocity;
-    let affine: f64 = gradient.iter().map(|entry| entry * entry).sum();
-    0.5 * mass * (r * r + z * z + 0.25 * cell * cell * affine)
 }
 
 /// Equivalent stress of von Mises of a deviator `[rr, zz, rz]` [Pa].

@@ -4,23 +4,24 @@ use super::{
     body::Body,
     crater::{axis_velocity, ends},
     field::VOLUME,
+    mesh::Mesh,
     solver::Grid,
 };
 use crate::history::{ElementState, Profile, Sample};
 
 /// State at this time, with the depth of the crater floor [m].
 pub(super) fn sample(solver: &Grid, depth: f64) -> Sample {
-    let cell = solver.cell;
+    let mesh = &solver.mesh;
     let rod = &solver.bodies[0];
-    let (tail, tip) = ends(rod, cell).unwrap_or((0.0, 0.0));
+    let (tail, tip) = ends(rod, mesh).unwrap_or((0.0, 0.0));
     let sums = &solver.sums[0];
     let target = solver.bodies.get(1);
     let mut sample = Sample::default();
     sample.time = solver.time;
     sample.step = solver.step;
-    sample.tip_velocity = axis_velocity(rod, tip, cell);
-    sample.tail_velocity = axis_velocity(rod, tail, cell);
-    sample.interface_velocity = target.map_or(0.0, |body| axis_velocity(body, depth, cell));
+    sample.tip_velocity = axis_velocity(rod, tip, mesh);
+    sample.tail_velocity = axis_velocity(rod, tail, mesh);
+    sample.interface_velocity = target.map_or(0.0, |body| axis_velocity(body, depth, mesh));
     sample.back_velocity = back_velocity(solver);
     sample.mean_velocity = if sums.mass > 0.0 {
         sums.momentum / sums.mass
@@ -40,8 +41,10 @@ pub(super) fn sample(solver: &Grid, depth: f64) -> Sample {
 /// Speed on the axis at the back of the last layer [m/s]; 0 without a target.
 fn back_velocity(solver: &Grid) -> f64 {
     let layer = solver.bodies[1..].last();
-    let back = layer.and_then(|layer| Some((layer, ends(layer, solver.cell)?.1)));
-    back.map_or(0.0, |(layer, back)| axis_velocity(layer, back, solver.cell))
+    let back = layer.and_then(|layer| Some((layer, ends(layer, &solver.mesh)?.1)));
+    back.map_or(0.0, |(layer, back)| {
+        axis_velocity(layer, back, &solver.mesh)
+    })
 }
 
 /// Means over the particles within a cell of the axis, a row of cells at a time; the diameter is that of a circle with the area of
@@ -51,24 +54,25 @@ pub(super) fn profile(solver: &Grid) -> Profile {
     Profile {
         time: solver.time,
         elements: elements
-            .flat_map(|(part, body)| along_axis(part, body, solver.cell))
+            .flat_map(|(part, body)| along_axis(part, body, &solver.mesh))
             .collect(),
     }
 }
 
-fn along_axis(part: usize, body: &Body, cell: f64) -> Vec<ElementState> {
-    let Some((tail, tip)) = ends(body, cell) else {
+fn along_axis(part: usize, body: &Body, mesh: &Mesh) -> Vec<ElementState> {
+    let Some((tail, tip)) = ends(body, mesh) else {
         return Vec::new();
     };
-    let (first, last) = ((tail / cell).floor() as isize, (tip / cell).ceil() as isize);
+    let [first, last] = [tail, tip].map(|depth| mesh.indices([0.0, depth])[1]);
+    let (first, last) = (first.floor() as isize, last.ceil() as isize);
     let rows = (last - first).max(0) as usize;
     let mut sums = vec![[0.0_f64; 7]; rows];
     for particle in body
         .particles
         .iter()
-        .filter(|p| p.mass > 0.0 && p.position[0] < cell)
+        .filter(|p| p.mass > 0.0 && p.position[0] < mesh.cell)
     {
-        let row = (particle.position[1] / cell).floor() as isize - first;
+        let row = mesh.indices(particle.position)[1].floor() as isize - first;
         let Some(sum) = usize::try_from(row).ok().and_then(|row| sums.get_mut(row)) else {
             continue;
         };
@@ -93,7 +97,7 @@ fn along_axis(part: usize, body: &Body, cell: f64) -> Vec<ElementState> {
         columns
             .map(|column| body.field.node(row, column)[VOLUME])
             .sum::<f64>()
-            / cell
+            / (mesh.cell * mesh.row_stretch(row))
     };
     let means = sums.iter().enumerate().filter(|(_, sum)| sum[0] > 0.0);
     means
@@ -113,7 +117,7 @@ fn along_axis(part: usize, body: &Body, cell: f64) -> Vec<ElementState> {
                 part,
                 initial_position: position,
                 position,
-                length: cell,
+                length: mesh.cell * mesh.row_stretch(at),
                 stress,
                 strain,
                 plastic_strain,

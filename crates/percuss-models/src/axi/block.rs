@@ -1,10 +1,18 @@
 //! Eight particles side by side, so that one instruction works on all of them.
 
-use super::{field::Field, law::Law, transfer::gather};
+use super::{
+    field::Field,
+    law::Law,
+    mesh::Places,
+    transfer::{Motion, gather},
+};
 use crate::{
     lanes::{LANES, Lanes, each_of, lanes, one},
-    solver::{Particle, kinetic_energy},
+    solver::Particle,
 };
+
+/// Strains, inverted, after which the part of an affine field that the nodes do not resolve has fallen by a factor of e.
+const FORGETTING: f64 = 2.0;
 
 /// What a step reads and changes of its particles, named as there.
 #[derive(Debug, Clone, Copy)]
@@ -12,7 +20,13 @@ use crate::{
 pub(super) struct Block {
     pub(super) position: [Lanes; 2],
     pub(super) velocity: [Lanes; 2],
+    /// Velocity of the nodes at the particle, which carries it.
+    pub(super) drift: [Lanes; 2],
+    /// Affine velocity field of the particle, and velocity gradient of the nodes in this step.
     pub(super) gradient: [Lanes; 4],
+    pub(super) rate: [Lanes; 4],
+    /// What the nodes did not resolve of the affine field before the step.
+    unresolved: [Lanes; 4],
     pub(super) deviator: [Lanes; 3],
     pub(super) pressure: Lanes,
     pub(super) viscous_pressure: Lanes,
@@ -64,15 +78,18 @@ impl Members {
 }
 
 impl Block {
-    /// Particles as they are, except for their velocities and gradients: those are yet to come.
+    /// Particles as they are.
     #[inline(always)]
     pub(super) fn of(particles: &[Particle], members: &Members) -> Self {
         let places = &members.places;
         let each = |value: fn(&Particle) -> f64| lanes(|l| value(&particles[places[l]]));
         Self {
             position: [each(|p| p.position[0]), each(|p| p.position[1])],
-            velocity: [Lanes::all(0.0); 2],
-            gradient: [Lanes::all(0.0); 4],
+            velocity: [each(|p| p.velocity[0]), each(|p| p.velocity[1])],
+            drift: [Lanes::all(0.0); 2],
+            rate: [Lanes::all(0.0); 4],
+            unresolved: [Lanes::all(0.0); 4],
+            gradient: each_of(|l| particles[places[l]].gradient),
             deviator: [
                 each(|p| p.deviator[0]),
                 each(|p| p.deviator[1]),
@@ -105,35 +122,71 @@ impl Block {
         }
     }
 
-    /// Takes over velocities and their gradients as the particles have them.
-    pub(super) fn keep_motion(&mut self, particles: &[Particle], members: &Members) {
-        let places = &members.places;
-        self.velocity = each_of(|l| particles[places[l]].velocity);
-        self.gradient = each_of(|l| particles[places[l]].gradient);
+    /// Takes the motion of the nodes: what the step changed there is added to the velocity of a particle and to its affine field.
+    ///
+    /// So a particle keeps what the nodes do not resolve of its motion. Means over the nodes alone \[jiang2015\] would lose that in every
+    /// step, the more the shorter the steps are; with the velocity alone kept \[fei2021\], the affine field still does.
+    #[inline(always)]
+    pub(super) fn gather(&mut self, places: &Places, cell: f64, field: &Field) {
+        let [radius, depth] = places.index;
+        // One particle after the other into memory: so the work on each becomes vector instructions too.
+        let mut motions = [Motion::default(); LANES];
+        for lane in 0..LANES {
+            motions[lane] = gather([radius[lane], depth[lane]], field);
+        }
+        let [stretch_r, stretch_z] = places.stretch;
+        let scale = 4.0 / cell;
+        self.drift = each_of(|l| [motions[l].velocity[0], motions[l].velocity[1]]);
+        let before = self.velocity;
+        self.velocity = each_of(|l| {
+            let [r, z, r_before, z_before] = motions[l].velocity;
+            [r + (before[0][l] - r_before), z + (before[1][l] - z_before)]
+        });
+        self.rate = each_of(|l| {
+            let (along_r, along_z) = (scale / stretch_r[l], scale / stretch_z[l]);
+            let ([rr, zr, ..], [rz, zz, ..]) = (motions[l].along_r, motions[l].along_z);
+            [along_r * rr, along_z * rz, along_r * zr, along_z * zz]
+        });
+        let before = self.gradient;
+        self.unresolved = each_of(|l| {
+            let (along_r, along_z) = (scale / stretch_r[l], scale / stretch_z[l]);
+            let ([_, _, rr, zr], [_, _, rz, zz]) = (motions[l].along_r, motions[l].along_z);
+            [
+                before[0][l] - along_r * rr,
+                before[1][l] - along_z * rz,
+                before[2][l] - along_r * zr,
+                before[3][l] - along_z * zz,
+            ]
+        });
     }
 
-    /// Takes velocities and their gradients from the nodes.
+    /// Carries the affine fields along: neighbours that a step has moved apart by `1 + C Δt` have the same velocities as before, so the
+    /// gradient of the nodes is that before times its inverse. In a turning body that balances what its centripetal forces add.
+    ///
+    /// What the nodes do not resolve is forgotten as the material deforms, not as steps pass: kept for ever, it would grow in jets.
     #[inline(always)]
-    pub(super) fn gather(&mut self, per_cell: f64, field: &Field) {
-        let [radius, depth] = self.position;
-        // One particle after the other into memory: so the work on each becomes vector instructions too.
-        let mut motions = [[0.0; 6]; LANES];
-        for lane in 0..LANES {
-            motions[lane] = gather([radius[lane], depth[lane]], per_cell, field);
-        }
-        let scale = 4.0 * per_cell;
-        self.velocity = each_of(|l| [motions[l][0], motions[l][1]]);
+    fn carry(&mut self, time_step: f64) {
+        let ([rr, rz, zr, zz], rest) = (self.rate, self.unresolved);
         self.gradient = each_of(|l| {
-            let [_, _, rr, zr, rz, zz] = motions[l];
-            [scale * rr, scale * rz, scale * zr, scale * zz]
+            let product = time_step * (rr[l] * zz[l] - rz[l] * zr[l]);
+            let scale = 1.0 / (1.0 + time_step * (rr[l] + zz[l] + product));
+            let squared = rr[l] * rr[l] + rz[l] * rz[l] + zr[l] * zr[l] + zz[l] * zz[l];
+            let kept = 1.0 / (1.0 + FORGETTING * time_step * squared.sqrt());
+            [
+                (rr[l] + product) * scale + kept * rest[0][l],
+                rz[l] * scale + kept * rest[1][l],
+                zr[l] * scale + kept * rest[2][l],
+                (zz[l] + product) * scale + kept * rest[3][l],
+            ]
         });
     }
 
     /// Moves the particles, reflected in the axis.
     #[inline(always)]
     pub(super) fn travel(&mut self, time_step: f64) {
+        self.carry(time_step);
         let [radius, depth] = self.position;
-        let [radial, axial] = self.velocity;
+        let [radial, axial] = self.drift;
         self.position = [
             lanes(|l| (radius[l] + time_step * radial[l]).abs()),
             lanes(|l| depth[l] + time_step * axial[l]),
@@ -143,7 +196,7 @@ impl Block {
     /// Hoop rate before the particles move [1/s].
     #[inline(always)]
     pub(super) fn hoop_rate(&self, law: &Law) -> Lanes {
-        let (radius, velocity) = (self.position[0], self.velocity[0]);
+        let (radius, velocity) = (self.position[0], self.drift[0]);
         if law.axisymmetric {
             lanes(|l| velocity[l] / radius[l])
         } else {
@@ -151,13 +204,16 @@ impl Block {
         }
     }
 
-    /// Kinetic energies [J].
+    /// Kinetic energies, those of the velocity gradients within the kernels included [J].
     #[inline(always)]
-    pub(super) fn kinetic_energy(&self, cell: f64) -> Lanes {
-        let (mass, velocity, gradient) = (self.mass, self.velocity, self.gradient);
+    pub(super) fn kinetic_energy(&self, places: &Places, cell: f64) -> Lanes {
+        let (mass, [v_r, v_z]) = (self.mass, self.velocity);
+        let ([rr, rz, zr, zz], [radial, axial]) = (self.gradient, places.stretch);
         lanes(|l| {
-            let velocity = one(&velocity, l);
-            kinetic_energy(mass[l], velocity, one(&gradient, l), cell)
+            let along_r = radial[l] * radial[l] * (rr[l] * rr[l] + zr[l] * zr[l]);
+            let along_z = axial[l] * axial[l] * (rz[l] * rz[l] + zz[l] * zz[l]);
+            let affine = 0.25 * cell * cell * (along_r + along_z);
+            0.5 * mass[l] * (v_r[l] * v_r[l] + v_z[l] * v_z[l] + affine)
         })
     }
 }

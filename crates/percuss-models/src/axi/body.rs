@@ -1,34 +1,45 @@
 //! A body: its law, its particles in chunks, and its nodes.
 
 use super::{
-    block::{Block, Members},
-    deform::Work,
     field::{Field, Strip},
-    kernel::first_node,
     law::Law,
-    transfer::Deposit,
+    mesh::Mesh,
 };
-use crate::{lanes::LANES, solver::Particle};
+use crate::solver::Particle;
 
-/// Particles that one task takes. It does not depend on the number of threads, so sums come out the same on any.
-pub(super) const CHUNK: usize = 2048;
+/// Least number of particles that one task takes. It does not depend on the number of threads, so sums come out the same on any.
+const CHUNK: usize = 1024;
 
 /// A body with a velocity field of its own.
 #[derive(Debug)]
 pub(super) struct Body {
     pub(super) law: Law,
+    /// In groups, each of which was in one cell when the particles were last put in order.
     pub(super) particles: Vec<Particle>,
-    pub(super) strips: Vec<Strip>,
+    pub(super) chunks: Vec<Chunk>,
     pub(super) field: Field,
-    /// Rows of all strips together when the particles were last put in order.
-    pub(super) rows_in_order: usize,
+}
+
+/// Particles that one task takes, in whole groups.
+#[derive(Debug, Default, serde::Serialize, serde::Deserialize)]
+pub(super) struct Chunk {
+    /// Ends of the groups, counted from the first particle of the chunk.
+    pub(super) group_ends: Vec<usize>,
+    pub(super) strip: Strip,
+}
+
+impl Chunk {
+    /// Particles in it.
+    pub(super) fn len(&self) -> usize {
+        self.group_ends.last().copied().unwrap_or(0)
+    }
 }
 
 /// What all particles of a step have in common.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pass {
     pub(super) time_step: f64,
-    pub(super) cell: f64,
+    pub(super) mesh: Mesh,
     /// Radius and range of depth beyond which particles are given up [m].
     pub(super) limits: Limits,
 }
@@ -92,167 +103,60 @@ impl Sums {
 }
 
 impl Body {
+    /// A body whose particles are yet to be put in order.
     pub(super) fn new(law: Law, particles: Vec<Particle>) -> Self {
-        let chunks = particles.len().div_ceil(CHUNK);
         Self {
             law,
             particles,
-            strips: (0..chunks).map(|_| Strip::default()).collect(),
+            chunks: Vec::new(),
             field: Field::default(),
-            rows_in_order: 0,
         }
     }
 
-    /// Puts particles in the order of their cells, row by row, and drops those that have left.
-    pub(super) fn put_in_order(&mut self, cell: f64) {
-        let per_cell = 1.0 / cell;
+    /// Puts particles in the order of their cells, row by row, drops those that have left, and groups those of each cell.
+    pub(super) fn put_in_order(&mut self, mesh: &Mesh) {
         self.particles.retain(|particle| particle.mass > 0.0);
-        self.particles.sort_by_cached_key(|particle| {
-            let [radius, depth] = particle.position.map(|x| (x * per_cell).floor() as i64);
+        let cell = |particle: &Particle| {
+            let [radius, depth] = mesh.indices(particle.position).map(|x| x.floor() as i64);
             (depth, radius)
-        });
-        let chunks = self.particles.len().div_ceil(CHUNK);
-        self.strips.resize_with(chunks, Strip::default);
-        self.rows_in_order = 0;
-    }
-
-    /// Whether the chunks have spread so far that putting them in order pays.
-    pub(super) fn is_spread(&mut self) -> bool {
-        let rows: usize = self.strips.iter().map(|strip| strip.rows).sum();
-        if self.rows_in_order == 0 {
-            self.rows_in_order = rows;
+        };
+        self.particles.sort_by_cached_key(cell);
+        let mut chunks = vec![Chunk::default()];
+        let groups = self.particles.chunk_by(|a, b| cell(a) == cell(b));
+        for group in groups {
+            if let Some(chunk) = chunks.last_mut() {
+                chunk.group_ends.push(chunk.len() + group.len());
+                if chunk.len() >= CHUNK {
+                    chunks.push(Chunk::default());
+                }
+            }
         }
-        rows > self.rows_in_order + self.rows_in_order / 3 + self.strips.len()
+        chunks.retain(|chunk| chunk.len() > 0);
+        self.chunks = chunks;
     }
-}
 
-/// Moves and deforms the particles of a chunk; `time_step` 0 leaves them as they are. Then adds them to the chunk's nodes.
-///
-/// Compiled for each width of vectors and chosen when it runs. Nothing is fused or summed in another order, so every processor
-/// comes to the same bits.
-pub(super) fn advance(
-    particles: &mut [Particle],
-    law: &Law,
-    field: &Field,
-    strip: &mut Strip,
-    pass: &Pass,
-) -> Sums {
-    pulp::Arch::new().dispatch(Advance {
-        particles,
-        law,
-        field,
-        strip,
-        pass,
-    })
-}
-
-struct Advance<'a> {
-    particles: &'a mut [Particle],
-    law: &'a Law,
-    field: &'a Field,
-    strip: &'a mut Strip,
-    pass: &'a Pass,
-}
-
-impl pulp::NullaryFnOnce for Advance<'_> {
-    type Output = Sums;
-
-    #[inline(always)]
-    fn call(self) -> Sums {
-        advance_here(self.particles, self.law, self.field, self.strip, self.pass)
-    }
-}
-
-#[inline(always)]
-fn advance_here(
-    particles: &mut [Particle],
-    law: &Law,
-    field: &Field,
-    strip: &mut Strip,
-    pass: &Pass,
-) -> Sums {
-    let per_cell = 1.0 / pass.cell;
-    let mut sums = Sums::default();
-    let (mut least, mut most, mut widest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
-    let mut from = 0;
-    while let Some(members) = Members::next(particles, &mut from) {
-        let mut block = Block::of(particles, &members);
-        // Not in a closure: what is in one is compiled without the wide instructions.
-        let mut work = Work::NONE;
-        if pass.time_step > 0.0 {
-            block.gather(per_cell, field);
-            let hoop_rate = block.hoop_rate(law);
-            block.travel(pass.time_step);
-            work = law.deform(
+    /// Chunks with their particles.
+    pub(super) fn tasks(&mut self) -> impl Iterator<Item = Task<'_>> {
+        let (law, field) = (&self.law, &self.field);
+        let mut rest = &mut *self.particles;
+        self.chunks.iter_mut().map(move |chunk| {
+            let (particles, others) = std::mem::take(&mut rest).split_at_mut(chunk.len());
+            rest = others;
+            Task {
                 particles,
-                &members,
-                &mut block,
-                hoop_rate,
-                pass.time_step,
-                pass.cell,
-            );
-        } else {
-            block.keep_motion(particles, &members);
-        }
-        let kinetic = block.kinetic_energy(pass.cell);
-        let wave_squared = law.wave_speed_squared(&block);
-        for (l, place) in members.iter() {
-            sums.work.total += work.total[l];
-            sums.work.plastic += work.plastic[l];
-            sums.work.viscous += work.viscous[l];
-            sums.work.failure += work.failure[l];
-            sums.work.power_at_start += work.power_at_start[l];
-            let particle = &mut particles[place];
-            let [radius, depth] = particle.position;
-            // A comparison with what is no number fails, so this finds those too.
-            if !(kinetic[l] + particle.pressure + depth + radius).is_finite() {
-                sums.broken = true;
-                particle.mass = 0.0;
-                continue;
+                chunk,
+                law,
+                field,
             }
-            let limits = &pass.limits;
-            let is_beyond = radius > limits.radius || depth < limits.back || depth > limits.front;
-            if is_beyond || law.erodes(particle) {
-                sums.lost.0 += 1;
-                sums.lost.1 += particle.mass * particle.velocity[1];
-                sums.lost.2 += kinetic[l];
-                sums.work.failure += law.elastic_energy(particle);
-                particle.mass = 0.0;
-                continue;
-            }
-            sums.work.power_at_end += work.power_at_end[l];
-            least = least.min(depth);
-            most = most.max(depth);
-            widest = widest.max(radius);
-            let [v_r, v_z] = particle.velocity;
-            sums.mass += particle.mass;
-            sums.momentum += particle.mass * v_z;
-            sums.kinetic += kinetic[l];
-            sums.speed_squared = sums.speed_squared.max(v_r * v_r + v_z * v_z);
-            sums.wave_squared = sums.wave_squared.max(wave_squared[l]);
-        }
+        })
     }
-    if least > most {
-        strip.open(0, 0, 0);
-        return sums;
-    }
-    let row = |depth: f64| first_node(depth * per_cell);
-    let columns = first_node(widest * per_cell) + 4;
-    strip.open(
-        row(least),
-        (row(most) + 3 - row(least)) as usize,
-        columns as usize,
-    );
-    // All of a block by way of memory: so a node's numbers stay side by side.
-    let mut deposits = [Deposit::default(); LANES];
-    let mut from = 0;
-    while let Some(members) = Members::next(particles, &mut from) {
-        for (l, place) in members.iter() {
-            deposits[l] = Deposit::of(&particles[place], per_cell, law.axisymmetric);
-        }
-        for deposit in &deposits[..members.count()] {
-            deposit.add_to(strip);
-        }
-    }
-    sums
+}
+
+/// A chunk, its particles, and what they need of their body.
+#[derive(Debug)]
+pub(super) struct Task<'a> {
+    pub(super) particles: &'a mut [Particle],
+    pub(super) chunk: &'a mut Chunk,
+    pub(super) law: &'a Law,
+    pub(super) field: &'a Field,
 }

@@ -1,6 +1,9 @@
 //! Boundary conditions of a body: symmetry axis, rigid wall, rear face and far edge.
 
-use super::field::{FORCE, Field, MASS, MOMENTUM, Node};
+use super::{
+    field::{FORCE, Field, MASS, MOMENTUM, Node},
+    mesh::Mesh,
+};
 
 /// BoundaryCondition of a plane of a target.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -148,13 +151,10 @@ impl BoundaryConditions {
         node: &Node,
         velocity: [f64; 2],
         (row, column): (isize, usize),
-        cell: f64,
+        mesh: &Mesh,
         time_step: f64,
     ) -> [f64; 2] {
         let mut velocity = velocity;
-        let area = |column: usize, width: f64| {
-            2.0 * std::f64::consts::PI * (column - 1) as f64 * cell * width
-        };
         let (back, support) = self.back;
         match support {
             BoundaryCondition::Smooth if row >= back => velocity[1] = 0.0,
@@ -163,14 +163,8 @@ impl BoundaryConditions {
                 stiffness,
             } => {
                 if let Some(share) = share(row - back) {
-                    // The axis has a disc of half a cell's radius.
-                    let ring = if column == 1 {
-                        0.25 * std::f64::consts::PI * cell * cell
-                    } else {
-                        area(column, cell)
-                    };
                     let moved = self.displacement.get(column).copied().unwrap_or(0.0);
-                    let load = time_step * share * ring;
+                    let load = time_step * share * mesh.ring(column);
                     let mass = node[MASS];
                     velocity[1] = (mass * velocity[1] - load * stiffness * moved)
                         / (mass + load * impedance[0]);
@@ -184,7 +178,7 @@ impl BoundaryConditions {
             BoundaryCondition::Smooth if column >= edge => velocity[0] = 0.0,
             BoundaryCondition::NonReflecting { impedance, .. } => {
                 if let Some(share) = share(column as isize - edge as isize) {
-                    let load = time_step * share * area(edge, cell);
+                    let load = time_step * share * mesh.sleeve(edge, row);
                     let mass = node[MASS];
                     velocity[0] *= mass / (mass + load * impedance[0]);
                     velocity[1] *= mass / (mass + load * impedance[1]);

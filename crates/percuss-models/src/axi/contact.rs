@@ -1,6 +1,9 @@
 //! Contact of bodies where their nodes meet.
 
-use super::field::{FORCE, Field, MASS, MOMENTUM, Node, VOLUME, full_volume};
+use super::{
+    field::{FORCE, Field, MASS, MOMENTUM, Node, VOLUME},
+    mesh::Mesh,
+};
 
 /// How bodies meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +23,7 @@ pub(super) fn exchange_contact_impulses(
     contact: Contact,
     first: &mut Field,
     second: &mut Field,
-    cell: f64,
+    mesh: &Mesh,
     time_step: f64,
 ) -> f64 {
     let mut passed = 0.0;
@@ -43,11 +46,11 @@ pub(super) fn exchange_contact_impulses(
                 Contact::Sticking => [reduced * closing[0], reduced * closing[1]],
                 Contact::Frictional(coefficient) => {
                     let filled = (first.nodes[a][VOLUME] + second.nodes[b][VOLUME])
-                        / (2.0 * std::f64::consts::PI * cell.powi(3) * full_volume(column));
+                        / mesh.full_volume(row, column);
                     if filled < TOUCHING {
                         continue;
                     }
-                    let Some(normal) = normal(first, second, row, column) else {
+                    let Some(normal) = normal(first, second, row, column, mesh) else {
                         continue;
                     };
                     let approach = closing[0] * normal[0] + closing[1] * normal[1];
@@ -78,19 +81,25 @@ pub(super) fn exchange_contact_impulses(
 }
 
 /// Unit normal from the first body into the second: down the first's and up the second's filling.
-fn normal(first: &Field, second: &Field, row: isize, column: usize) -> Option<[f64; 2]> {
+fn normal(
+    first: &Field,
+    second: &Field,
+    row: isize,
+    column: usize,
+    mesh: &Mesh,
+) -> Option<[f64; 2]> {
     let filling = |row: isize, column: usize| {
         // Column 0 is the mirror image of column 2.
         let column = if column == 0 { 2 } else { column };
         let difference = second.node(row, column)[VOLUME] - first.node(row, column)[VOLUME];
-        difference / full_volume(column)
+        difference / mesh.full_volume(row, column)
     };
     let radial = if column == 1 {
         0.0
     } else {
-        filling(row, column + 1) - filling(row, column - 1)
+        (filling(row, column + 1) - filling(row, column - 1)) / mesh.column_stretch(column)
     };
-    let axial = filling(row + 1, column) - filling(row - 1, column);
+    let axial = (filling(row + 1, column) - filling(row - 1, column)) / mesh.row_stretch(row);
     let size = radial.hypot(axial);
     (size > 0.0).then(|| [radial / size, axial / size])
 }

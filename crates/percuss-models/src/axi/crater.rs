@@ -2,20 +2,20 @@
 
 use super::{
     body::Body,
-    field::{Field, VOLUME, full_volume},
+    field::{Field, VOLUME},
+    mesh::Mesh,
 };
 
 /// Part of a cell from which it counts as inside a body.
 const FILLED: f64 = 0.9;
 
 /// Part of the cell at a node of the axis that bodies fill; the axis and the column beside it count together.
-fn axis_filling(fields: &[&Field], row: isize, cell: f64) -> f64 {
+fn axis_filling(fields: &[&Field], row: isize, mesh: &Mesh) -> f64 {
     let volume: f64 = fields
         .iter()
         .map(|field| field.node(row, 1)[VOLUME] + field.node(row, 2)[VOLUME])
         .sum();
-    let full = 2.0 * std::f64::consts::PI * cell.powi(3) * (full_volume(1) + full_volume(2));
-    volume / full
+    volume / (mesh.full_volume(row, 1) + mesh.full_volume(row, 2))
 }
 
 /// Range of rows of all fields together.
@@ -26,55 +26,55 @@ fn rows(fields: &[&Field]) -> std::ops::Range<isize> {
 }
 
 /// Where the filling of the axis passes one half on the way from `full` to `empty`, both rows beside each other.
-fn crossing(full: (isize, f64), empty: (isize, f64), cell: f64) -> f64 {
+fn crossing(full: (isize, f64), empty: (isize, f64), mesh: &Mesh) -> f64 {
     let part = (full.1 - 0.5) / (full.1 - empty.1);
-    (full.0 as f64 + part * (empty.0 - full.0) as f64) * cell
+    mesh.depth(full.0 as f64 + part * (empty.0 - full.0) as f64)
 }
 
 /// Depth of the crater floor on the axis [m]: the first surface that one meets from behind the target's deepest material on the
 /// axis; `None` when there is no material on the axis.
-pub(super) fn floor(targets: &[Body], cell: f64) -> Option<f64> {
+pub(super) fn floor(targets: &[Body], mesh: &Mesh) -> Option<f64> {
     let fields: Vec<&Field> = targets.iter().map(|body| &body.field).collect();
     let mut below: Option<(isize, f64)> = None;
     for row in rows(&fields).rev() {
-        let here = (row, axis_filling(&fields, row, cell));
+        let here = (row, axis_filling(&fields, row, mesh));
         match below {
-            Some(full) if here.1 < 0.5 => return Some(crossing(full, here, cell)),
+            Some(full) if here.1 < 0.5 => return Some(crossing(full, here, mesh)),
             Some(_) => below = Some(here),
             None => below = (here.1 >= 0.5).then_some(here),
         }
     }
     // Material up to the last row: the window of nodes ends where the weights of particles do.
-    below.map(|(row, _)| row as f64 * cell)
+    below.map(|(row, _)| mesh.depth(row as f64))
 }
 
 /// Tail and tip of a body on the axis [m].
-pub(super) fn ends(body: &Body, cell: f64) -> Option<(f64, f64)> {
+pub(super) fn ends(body: &Body, mesh: &Mesh) -> Option<(f64, f64)> {
     let fields = [&body.field];
-    let full = |row: &isize| axis_filling(&fields, *row, cell) >= 0.5;
+    let full = |row: &isize| axis_filling(&fields, *row, mesh) >= 0.5;
     let tail = rows(&fields).find(full)?;
     let tip = rows(&fields).rev().find(full)?;
-    let at = |row: isize| (row, axis_filling(&fields, row, cell));
+    let at = |row: isize| (row, axis_filling(&fields, row, mesh));
     Some((
-        crossing(at(tail), at(tail - 1), cell),
-        crossing(at(tip), at(tip + 1), cell),
+        crossing(at(tail), at(tail - 1), mesh),
+        crossing(at(tip), at(tip + 1), mesh),
     ))
 }
 
 /// Axial velocity at the node of the axis that is nearest to a depth [m/s].
-pub(super) fn axis_velocity(body: &Body, depth: f64, cell: f64) -> f64 {
-    let row = (depth / cell).round() as isize;
+pub(super) fn axis_velocity(body: &Body, depth: f64, mesh: &Mesh) -> f64 {
+    let row = mesh.row(depth);
     body.field
         .index(row, 1)
         .map_or(0.0, |index| body.field.velocity[index][1])
 }
 
-/// Profile of the crater: radius and depth of the floor at every column of nodes, where material is left [m].
-pub(super) fn profile(targets: &[Body], cell: f64) -> Vec<[f64; 2]> {
+/// Profile of the crater: radius and depth of the floor at every column of nodes, where material is left [m]. Depths below the struck
+/// face are scaled so that the first one, on the axis, is a known depth of the floor.
+pub(super) fn profile(targets: &[Body], mesh: &Mesh, depth: f64) -> Vec<[f64; 2]> {
     let fields: Vec<&Field> = targets.iter().map(|body| &body.field).collect();
     let columns = fields.iter().map(|field| field.columns).max().unwrap_or(0);
-    let ring = 2.0 * std::f64::consts::PI * cell.powi(3);
-    let mut profile: Vec<[f64; 2]> = floor(targets, cell)
+    let mut profile: Vec<[f64; 2]> = floor(targets, mesh)
         .map(|depth| [0.0, depth])
         .into_iter()
         .collect();
@@ -84,7 +84,7 @@ pub(super) fn profile(targets: &[Body], cell: f64) -> Vec<[f64; 2]> {
                 .iter()
                 .map(|field| field.node(row, column)[VOLUME])
                 .sum();
-            volume / (ring * full_volume(column))
+            volume / mesh.full_volume(row, column)
         };
         let fullest = rows(&fields).map(filling).fold(0.0, f64::max);
         if fullest < FILLED {
@@ -96,7 +96,7 @@ pub(super) fn profile(targets: &[Body], cell: f64) -> Vec<[f64; 2]> {
             let here = (row, filling(row));
             match below {
                 Some(full) if here.1 < 0.5 => {
-                    profile.push([(column - 1) as f64 * cell, crossing(full, here, cell)]);
+                    profile.push([mesh.radius(column as f64), crossing(full, here, mesh)]);
                     break;
                 }
                 Some(_) => below = Some(here),
@@ -104,19 +104,23 @@ pub(super) fn profile(targets: &[Body], cell: f64) -> Vec<[f64; 2]> {
             }
         }
     }
+    if let Some(&[_, read]) = profile.first().filter(|[_, read]| *read > 0.0) {
+        for [_, below] in profile.iter_mut().filter(|[_, below]| *below > 0.0) {
+            *below *= depth / read;
+        }
+    }
     profile
 }
 
 /// Outer surface of a body from its tail to its tip: radius and depth [m]. Its end faces are where the columns of nodes begin and
 /// end, its side is where the rows between do.
-pub(super) fn outline(body: &Body, cell: f64) -> Vec<[f64; 2]> {
-    let Some((tail, tip)) = ends(body, cell) else {
+pub(super) fn outline(body: &Body, mesh: &Mesh) -> Vec<[f64; 2]> {
+    let Some((tail, tip)) = ends(body, mesh) else {
         return Vec::new();
     };
     let field = &body.field;
-    let ring = 2.0 * std::f64::consts::PI * cell.powi(3);
     let filling =
-        |row: isize, column: usize| field.node(row, column)[VOLUME] / (ring * full_volume(column));
+        |row: isize, column: usize| field.node(row, column)[VOLUME] / mesh.full_volume(row, column);
     let at = |row: isize, column: usize| (row, filling(row, column));
     // End face of a column: its first full row from one side, and the one before.
     let face = |column: usize, from_tail: bool| {
@@ -128,15 +132,15 @@ pub(super) fn outline(body: &Body, cell: f64) -> Vec<[f64; 2]> {
             let row = rows(&[field]).rev().find(full)?;
             (row, row + 1)
         };
-        let depth = crossing(at(row, column), at(before, column), cell);
-        Some([(column - 1) as f64 * cell, depth])
+        let depth = crossing(at(row, column), at(before, column), mesh);
+        Some([mesh.radius(column as f64), depth])
     };
     let side = |row: isize| {
         let mut columns = (2..field.columns).rev();
         let column = columns.find(|column| filling(row, *column) >= 0.5)?;
         let (inner, outer) = (filling(row, column), filling(row, column + 1));
         let part = (inner - 0.5) / (inner - outer);
-        Some([((column - 1) as f64 + part) * cell, row as f64 * cell])
+        Some([mesh.radius(column as f64 + part), mesh.depth(row as f64)])
     };
     let sides: Vec<[f64; 2]> = rows(&[field]).filter_map(side).collect();
     let end = |from_tail, beside: Option<&[f64; 2]>| -> Vec<[f64; 2]> {

@@ -42,11 +42,15 @@ impl Law {
         particles: &mut [Particle],
         members: &Members,
         block: &mut Block,
-        hoop_rate: Lanes,
+        rates: &Rates,
         time_step: f64,
-        cell: f64,
+        cell: &Lanes,
     ) -> Work {
-        let [rr, zz, rz, expansion, spin] = rates(block, hoop_rate, time_step);
+        let Rates {
+            shape: [rr, zz, rz],
+            expansion,
+            spin,
+        } = *rates;
         let rate = |l: usize| [rr[l], zz[l], rz[l]];
         let before = block.deviator;
         let pressure_before = block.pressure;
@@ -167,12 +171,12 @@ impl Law {
 
     /// Artificial viscosity [Pa].
     #[inline(always)]
-    fn artificial_viscosity(&self, block: &Block, expansion: &Lanes, cell: f64) -> Lanes {
+    fn artificial_viscosity(&self, block: &Block, expansion: &Lanes, cell: &Lanes) -> Lanes {
         let squared = self.wave_speed_squared(block);
         let (mass, volume) = (block.mass, block.volume);
         lanes(|l| {
             let density = mass[l] / volume[l];
-            let approach = -cell * expansion[l];
+            let approach = -cell[l] * expansion[l];
             let sound = squared[l].sqrt();
             let pressure = density
                 * approach
@@ -227,34 +231,59 @@ impl Law {
     }
 }
 
-/// Deviatoric strain rates rr, zz, rz, the rate of volume, and the spin [1/s], all on the configuration half a step on.
-///
-/// Particles move by the velocities at the start of the step, which the gradient C belongs to: on the mean configuration,
-/// `C (1 + C Δt/2)⁻¹`, it gives their change of shape to second order, and that of a turning body, which straight ways make larger, too.
-#[inline(always)]
-fn rates(block: &Block, hoop_rate: Lanes, time_step: f64) -> [Lanes; 5] {
-    let [rr, rz, zr, zz] = block.gradient;
-    let half = 0.5 * time_step;
-    each_of(|l| {
-        let product = half * (rr[l] * zz[l] - rz[l] * zr[l]);
-        let scale = 1.0 / (1.0 + half * (rr[l] + zz[l] + product));
-        let (rr, rz, zr, zz) = (
-            (rr[l] + product) * scale,
-            rz[l] * scale,
-            zr[l] * scale,
-            (zz[l] + product) * scale,
-        );
-        let hoop = hoop_rate[l] / (1.0 + half * hoop_rate[l]);
-        let expansion = rr + zz + hoop;
-        let third = expansion / 3.0;
-        [
-            rr - third,
-            zz - third,
-            0.5 * (rz + zr),
+/// Rates of strain of a block [1/s], on the configuration half a step on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rates {
+    /// Deviatoric strain rates rr, zz, rz.
+    pub(super) shape: [Lanes; 3],
+    /// Rate of volume.
+    pub(super) expansion: Lanes,
+    pub(super) spin: Lanes,
+}
+
+impl Rates {
+    /// Those of a step that takes no time.
+    pub(super) const NONE: Self = Self {
+        shape: [Lanes::all(0.0); 3],
+        expansion: Lanes::all(0.0),
+        spin: Lanes::all(0.0),
+    };
+
+    /// Those of a block whose gradients and hoop rates are new.
+    ///
+    /// Particles move by the velocities at the start of the step, which the gradient C belongs to: on the mean configuration,
+    /// `C (1 + C Δt/2)⁻¹`, it gives their change of shape to second order, and that of a turning body, which straight ways make larger,
+    /// too.
+    #[inline(always)]
+    pub(super) fn of(block: &Block, hoop_rate: Lanes, time_step: f64) -> Self {
+        let [rr, rz, zr, zz] = block.rate;
+        let half = 0.5 * time_step;
+        let [shape_rr, shape_zz, shape_rz, expansion, spin] = each_of(|l| {
+            let product = half * (rr[l] * zz[l] - rz[l] * zr[l]);
+            let scale = 1.0 / (1.0 + half * (rr[l] + zz[l] + product));
+            let (rr, rz, zr, zz) = (
+                (rr[l] + product) * scale,
+                rz[l] * scale,
+                zr[l] * scale,
+                (zz[l] + product) * scale,
+            );
+            let hoop = hoop_rate[l] / (1.0 + half * hoop_rate[l]);
+            let expansion = rr + zz + hoop;
+            let third = expansion / 3.0;
+            [
+                rr - third,
+                zz - third,
+                0.5 * (rz + zr),
+                expansion,
+                0.5 * (rz - zr),
+            ]
+        });
+        Self {
+            shape: [shape_rr, shape_zz, shape_rz],
             expansion,
-            0.5 * (rz - zr),
-        ]
-    })
+            spin,
+        }
+    }
 }
 
 /// Power per volume of a deviator on a deviatoric rate, both `[rr, zz, rz]` [W/m3].

@@ -1,5 +1,7 @@
 //! Nodes of one body: masses, momenta and forces come in from particles, velocities go back.
 
+use super::body::Chunk;
+
 /// What particles add to a node: mass [kg], momentum radial and axial [kg m/s], volume [m3], force radial and axial [N].
 ///
 /// Filled up to a line of the cache, which one instruction loads.
@@ -61,23 +63,26 @@ pub(super) struct Field {
     pub(super) rows: usize,
     pub(super) columns: usize,
     pub(super) nodes: Vec<Node>,
-    pub(super) velocity: Vec<[f64; 2]>,
+    /// Velocity after the step, radial and axial, and before it as it came from the particles [m/s].
+    pub(super) velocity: Vec<[f64; 4]>,
     /// What contact takes from a node in this step [N s].
     #[serde(skip)]
     pub(super) impulse: Vec<[f64; 2]>,
 }
 
 impl Field {
-    /// Makes the window as large as the strips.
-    pub(super) fn cover(&mut self, strips: &[Strip]) {
-        let first = strips.iter().map(|strip| strip.first_row).min();
-        let last = strips.iter().map(|s| s.first_row + s.rows as isize).max();
+    /// Makes the window as large as the strips of all chunks.
+    pub(super) fn cover(&mut self, chunks: &[Chunk]) {
+        let strips = chunks.iter().map(|chunk| &chunk.strip);
+        let strips = strips.filter(|strip| strip.rows > 0);
+        let first = strips.clone().map(|strip| strip.first_row).min();
+        let last = strips.clone().map(|s| s.first_row + s.rows as isize).max();
         let (first, last) = (first.unwrap_or(0), last.unwrap_or(0));
         self.first_row = first;
         self.rows = (last - first) as usize;
-        self.columns = strips.iter().map(|s| s.columns).max().unwrap_or(0);
+        self.columns = strips.map(|strip| strip.columns).max().unwrap_or(0);
         self.nodes.resize(self.rows * self.columns, Node::default());
-        self.velocity.resize(self.rows * self.columns, [0.0; 2]);
+        self.velocity.resize(self.rows * self.columns, [0.0; 4]);
         self.impulse.clear();
         self.impulse.resize(self.rows * self.columns, [0.0; 2]);
     }
@@ -98,16 +103,5 @@ impl Field {
     pub(super) fn node(&self, row: isize, column: usize) -> Node {
         self.index(row, column)
             .map_or(Node::default(), |index| self.nodes[index])
-    }
-}
-
-/// Volume of the cell around a node of a column that is full of material, over `2π h³`: the integral of its kernel. Columns are
-/// counted with the mirrored one: column 1 is the axis.
-pub(super) fn full_volume(column: usize) -> f64 {
-    match column {
-        0 => 0.0,
-        1 => 13.0 / 64.0,
-        2 => 1.0 + 1.0 / 192.0,
-        _ => (column - 1) as f64,
     }
 }

@@ -26,16 +26,10 @@ impl Stencil {
     }
 }
 
-/// Index of the first of the three nodes that a particle reaches from a place counted in cells.
-#[inline(always)]
-pub(super) fn first_node(place: f64) -> isize {
-    nearest(place).1 - 1
-}
-
 /// The whole number nearest to `x`, of magnitude below 2⁵¹, as both kinds of number. Unlike `f64::round` and a conversion it is a sum,
 /// on any processor.
 #[inline(always)]
-fn nearest(x: f64) -> (f64, isize) {
+pub(super) fn nearest(x: f64) -> (f64, isize) {
     // The last place of numbers of this size is 1.
     const LARGE: f64 = 1.5 * (1_u64 << 52) as f64;
     let shifted = x + LARGE;

@@ -1,5 +1,6 @@
 //! Model `axi`: axisymmetric continuum mechanics by the material point method, the reference of the one-dimensional models.
 
+mod advance;
 mod axial;
 mod balance;
 mod block;
@@ -10,8 +11,10 @@ mod crater;
 mod deform;
 mod end;
 mod field;
+mod floor;
 mod kernel;
 mod law;
+mod mesh;
 mod results;
 mod run;
 mod setup;

@@ -30,16 +30,16 @@ pub(super) fn complete(run: &Axisymmetric<'_>, result: &mut RunResult, monitor: 
     } else {
         0.0
     });
-    result.projectile_final_length = crater::ends(rod, solver.cell).map(|(tail, tip)| tip - tail);
+    result.projectile_final_length = crater::ends(rod, &solver.mesh).map(|(tail, tip)| tip - tail);
     result.projectile_final_diameter = (sums.mass > 0.0).then(|| 2.0 * crater::largest_radius(rod));
     result.projectile_final_mass = Some(sums.mass);
     let shapes = Shapes {
         crater: if solid {
-            crater::profile(&solver.bodies[1..], solver.cell)
+            crater::profile(&solver.bodies[1..], &solver.mesh, run.depth)
         } else {
             Vec::new()
         },
-        projectile: crater::outline(rod, solver.cell),
+        projectile: crater::outline(rod, &solver.mesh),
     };
     result.details = details(run, &shapes.crater);
     result.shapes = Some(shapes);
@@ -89,7 +89,7 @@ fn details(run: &Axisymmetric<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
     let mut details = vec![Detail {
         name: "cell size",
         unit: "mm",
-        value: solver.cell * 1e3,
+        value: solver.mesh.cell * 1e3,
     }];
     let present = solver.bodies.iter().flat_map(|body| &body.particles);
     details.push(Detail {
@@ -100,7 +100,7 @@ fn details(run: &Axisymmetric<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
     let Some(extent) = extent(run.scenario) else {
         return details;
     };
-    let (mouth, volume) = mouth(crater, NOTICEABLE * solver.cell);
+    let (mouth, volume) = mouth(crater, NOTICEABLE * solver.mesh.cell);
     details.extend([
         Detail {
             name: "modelled target radius",

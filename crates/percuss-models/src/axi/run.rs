@@ -2,7 +2,7 @@
 
 use std::iter;
 
-use super::{axial, crater, end::Window, results, setup::build, solver::Grid};
+use super::{axial, crater, end::Window, floor::Floor, results, setup::build, solver::Grid};
 use crate::{
     Error, Refusal, Scenario,
     error::NumericalError,
@@ -35,6 +35,7 @@ pub(crate) struct Axisymmetric<'a> {
     pub(super) scenario: &'a Scenario,
     pub(super) grid: Grid,
     pub(super) window: Window,
+    floor: Floor,
     /// Depth of the crater floor [m], and whether the last step left it where it was or higher.
     pub(super) depth: f64,
     floor_stopped: bool,
@@ -124,6 +125,7 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
             touches: grid.deferred.contact_force > 0.0,
             grid,
             window: Window::default(),
+            floor: Floor::new(scenario.projectile.nose, scenario.projectile.diameter),
             depth: 0.0,
             floor_stopped: false,
             before: 0.0,
@@ -164,12 +166,14 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
     fn probe(&mut self, monitor: &RunMonitor) -> Probe {
         let grid = &self.grid;
         for (gauge, &body) in self.gauges.iter_mut().zip(&self.gauge_bodies) {
-            let velocity = crater::axis_velocity(&grid.bodies[body], *gauge, grid.cell);
+            let velocity = crater::axis_velocity(&grid.bodies[body], *gauge, &grid.mesh);
             *gauge += velocity * (grid.time - self.before);
         }
         let before = self.depth;
         if grid.bodies.len() > 1 {
-            match crater::floor(&grid.bodies[1..], grid.cell) {
+            let elapsed = grid.time - self.before;
+            self.floor.follow(&grid.bodies[1], &grid.mesh, elapsed);
+            match self.floor.depth(&grid.bodies[1..], &grid.mesh) {
                 Some(depth) => self.depth = depth,
                 None => self.window.perforated = true,
             }
@@ -244,13 +248,14 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
     fn fields(&self) -> Fields<'_> {
         let bodies = self.grid.bodies.iter();
         Fields::Particles {
-            cell: self.grid.cell,
+            cell: self.grid.mesh.cell,
             bodies: bodies.map(|body| &*body.particles).collect(),
         }
     }
 
     fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
         archive.item(&mut self.window)?;
+        archive.item(&mut self.floor)?;
         archive.item(&mut self.depth)?;
         archive.item(&mut self.touches)?;
         archive.item(&mut self.gauges)?;

@@ -7,6 +7,7 @@ use super::{
     boundary::{BoundaryCondition, BoundaryConditions},
     contact::Contact,
     law::{Law, Pressure},
+    mesh::{Axis, Mesh},
     solver::{Accumulators, DeferredWork, Grid},
 };
 use crate::{
@@ -72,6 +73,36 @@ pub(super) fn extent(scenario: &Scenario) -> Option<Extent> {
     })
 }
 
+/// Radii of the projectile within which the grid is even, about the axis and below the expected depth.
+const EVEN: (f64, f64) = (2.5, 2.0);
+/// Part of the first cell by which each one beyond is larger than the one before.
+const GROWTH: f64 = 0.5;
+
+/// Least distance of a rear face from the even part, in radii of the projectile: closer, the plate is even all the way through.
+const CLEAR: f64 = 4.0;
+
+/// Nodes of a case: even about the projectile and where the crater is expected. The far edge and the rear face stand on nodes.
+fn mesh(scenario: &Scenario) -> Mesh {
+    let cell = cell(scenario);
+    let mut mesh = Mesh {
+        cell,
+        radial: Axis::even(cell),
+        axial: Axis::even(cell),
+    };
+    if let (Some(extent), TargetBody::Layers { layers, .. }) = (extent(scenario), &scenario.target)
+    {
+        let radius = 0.5 * scenario.projectile.diameter;
+        let even = (EVEN.0 * radius / cell).ceil();
+        mesh.radial = Axis::fitted(cell, even, GROWTH, extent.radius);
+        let even = ((expected_depth(scenario, layers) + EVEN.1 * radius) / cell).ceil();
+        let thickness: f64 = extent.layers.iter().sum();
+        if extent.cut || thickness > even * cell + CLEAR * radius {
+            mesh.axial = Axis::fitted(cell, even, GROWTH, thickness);
+        }
+    }
+    mesh
+}
+
 /// Depth for sizing only: the energy of the impact against three times the target's flow stress over the rod's area, and no more
 /// than a jet of no strength would reach.
 fn expected_depth(scenario: &Scenario, layers: &[Plate]) -> f64 {
@@ -123,27 +154,48 @@ fn law(material: &Material, scenario: &Scenario) -> Law {
     }
 }
 
+/// Sides of the rings or layers of particles between two positions: evenly spaced, and one to a cell where cells grow.
+fn sides(axis: &Axis, (from, to): (f64, f64), per_cell: u32) -> Vec<f64> {
+    let [start, end] = [from, to].map(|position| axis.index(position));
+    // Rounding of a position on the last even node must not leave a sliver behind it.
+    let even_to = if end < axis.even_to() + 0.5 {
+        end
+    } else {
+        axis.even_to().max(start)
+    };
+    let per_cell = f64::from(per_cell);
+    let even = (((even_to - start) * per_cell).round() as usize).max(usize::from(even_to == end));
+    let far = (end - even_to).ceil() as usize;
+    let mut sides = vec![from];
+    sides.extend(
+        (1..=even).map(|k| axis.position(start + (even_to - start) * k as f64 / even as f64)),
+    );
+    sides.extend(
+        (1..=far).map(|k| axis.position(even_to + (end - even_to) * k as f64 / far as f64)),
+    );
+    sides
+}
+
 /// Fills a body of revolution with particles.
 ///
-/// Particles stand in rings of equal width and in layers of equal height that fit the body; a ring that the surface cuts has
+/// Particles stand in rings and in layers that fit the body, of equal width and height where cells are; a ring that the surface cuts has
 /// the part of its mass that lies inside.
 pub(super) fn fill(
     law: &Law,
     radius: f64,
     (from, to): (f64, f64),
-    spacing: f64,
+    (mesh, per_cell): (&Mesh, u32),
     velocity: f64,
     temperature: f64,
     inside: impl Fn(f64, f64) -> f64,
 ) -> Vec<Particle> {
-    let count = |length: f64| ((length / spacing).round() as usize).max(1);
-    let (rings, layers) = (count(radius), count(to - from));
-    let (width, height) = (radius / rings as f64, (to - from) / layers as f64);
-    let mut particles = Vec::with_capacity(rings * layers);
-    for layer in 0..layers {
-        let depth = from + (layer as f64 + 0.5) * height;
-        for ring in 0..rings {
-            let at = (ring as f64 + 0.5) * width;
+    let rings = sides(&mesh.radial, (0.0, radius), per_cell);
+    let layers = sides(&mesh.axial, (from, to), per_cell);
+    let mut particles = Vec::with_capacity(rings.len() * layers.len());
+    for layer in layers.windows(2) {
+        let (depth, height) = (0.5 * (layer[0] + layer[1]), layer[1] - layer[0]);
+        for ring in rings.windows(2) {
+            let (at, width) = (0.5 * (ring[0] + ring[1]), ring[1] - ring[0]);
             let part = inside_part(at, depth, width, height, &inside);
             if part <= 0.0 {
                 continue;
@@ -155,6 +207,7 @@ pub(super) fn fill(
                 mass: law.density * volume,
                 volume,
                 temperature,
+                sides: [width, height],
                 ..Particle::default()
             };
             particle.yield_point = law.slow_yield_point(&particle);
@@ -183,21 +236,15 @@ fn inside_part(
     sum / f64::from(SAMPLES)
 }
 
-fn projectile(rod: &Rod, law: &Law, spacing: f64, speed: f64) -> Vec<Particle> {
+fn projectile(rod: &Rod, law: &Law, mesh: (&Mesh, u32), speed: f64) -> Vec<Particle> {
     let radius = 0.5 * rod.diameter;
     let temperature = rod
         .temperature
         .unwrap_or(rod.material.room_temperature.si());
     let span = (-rod.length, 0.0);
-    fill(
-        law,
-        radius,
-        span,
-        spacing,
-        speed,
-        temperature,
-        |depth, _| nose_radius(rod.nose, rod.diameter, -depth),
-    )
+    fill(law, radius, span, mesh, speed, temperature, |depth, _| {
+        nose_radius(rod.nose, rod.diameter, -depth)
+    })
 }
 
 /// Radius of a projectile at a distance behind its tip [m].
@@ -225,11 +272,11 @@ fn nose_radius(nose: Nose, diameter: f64, behind: f64) -> f64 {
 /// Builds the bodies of a case.
 pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
     let options = &scenario.options.axi;
-    let cell = cell(scenario);
-    let spacing = cell / f64::from(options.particles_per_side());
+    let mesh = mesh(scenario);
+    let filled = (&mesh, options.particles_per_side());
     let rod = &scenario.projectile;
     let rod_law = law(&rod.material, scenario);
-    let particles = projectile(rod, &rod_law, spacing, scenario.impact_velocity);
+    let particles = projectile(rod, &rod_law, filled, scenario.impact_velocity);
     let mut bodies = vec![Body::new(rod_law, particles)];
     let mut supports = vec![BoundaryConditions {
         wall: scenario.target == TargetBody::RigidWall,
@@ -261,13 +308,12 @@ pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
                 &law,
                 extent.radius,
                 (from, to),
-                spacing,
+                filled,
                 0.0,
                 temperature,
                 whole,
             );
             bodies.push(Body::new(law, particles));
-            let row = |depth: f64| (depth / cell).round() as isize;
             let last = supports.len() == extent.layers.len();
             let held = if extent.cut {
                 RearFaceCondition::NonReflecting
@@ -276,7 +322,7 @@ pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
             };
             supports.push(BoundaryConditions {
                 back: (
-                    row(to),
+                    mesh.row(to),
                     if last {
                         back_support(held, &plate.material, total)
                     } else {
@@ -284,7 +330,7 @@ pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
                     },
                 ),
                 edge: (
-                    row(extent.radius) as usize + 1,
+                    mesh.column(extent.radius),
                     edge_support(options.edge(), &plate.material),
                 ),
                 ..BoundaryConditions::NONE
@@ -299,12 +345,13 @@ pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
             ContactKind::Sticking => Contact::Sticking,
             ContactKind::Frictional => Contact::Frictional(options.friction()),
         },
-        cell,
+        mesh,
         courant,
         limits,
         step: 0,
         time: 0.0,
         time_step: 0.0,
+        travel: 0.0,
         sums: Vec::new(),
         accumulated: Accumulators::default(),
         deferred: DeferredWork::default(),

@@ -3,12 +3,17 @@
 use rayon::prelude::*;
 
 use super::{
-    body::{Body, CHUNK, Limits, Pass, Sums, advance},
+    advance::{advance, deposit},
+    body::{Body, Chunk, Limits, Pass, Sums, Task},
     boundary::{BoundaryConditions, Load},
     contact::{Contact, exchange_contact_impulses, pushed},
-    field::{FORCE, Field, MASS, MOMENTUM, Node, Strip},
+    field::{FORCE, Field, MASS, MOMENTUM, Node},
+    mesh::Mesh,
 };
 use crate::{Error, solver::archive::Archive};
+
+/// Part of a cell that particles may go until they are put in order again.
+const ORDER: f64 = 0.5;
 
 /// Bodies in motion. The first one is the projectile.
 #[derive(Debug)]
@@ -16,13 +21,15 @@ pub(super) struct Grid {
     pub(super) bodies: Vec<Body>,
     pub(super) supports: Vec<BoundaryConditions>,
     pub(super) contact: Contact,
-    pub(super) cell: f64,
+    pub(super) mesh: Mesh,
     pub(super) courant: f64,
     pub(super) limits: Limits,
     pub(super) step: u64,
     pub(super) time: f64,
     /// Step that the next advance of particles takes [s]; 0 before the first.
     pub(super) time_step: f64,
+    /// Way of the fastest particle since the particles were last put in order [m].
+    pub(super) travel: f64,
     /// Sums over the particles of each body after the last step.
     pub(super) sums: Vec<Sums>,
     /// Accumulators as of the particles' last step.
@@ -88,14 +95,14 @@ impl Grid {
         archive.item(&mut self.step)?;
         archive.item(&mut self.time)?;
         archive.item(&mut self.time_step)?;
+        archive.item(&mut self.travel)?;
         archive.item(&mut self.sums)?;
         archive.item(&mut self.accumulated)?;
         archive.item(&mut self.deferred)?;
         for (body, supports) in self.bodies.iter_mut().zip(&mut self.supports) {
             archive.item(&mut body.particles)?;
-            archive.item(&mut body.strips)?;
+            archive.item(&mut body.chunks)?;
             archive.item(&mut body.field)?;
-            archive.item(&mut body.rows_in_order)?;
             archive.item(&mut supports.displacement)?;
         }
         Ok(())
@@ -104,10 +111,10 @@ impl Grid {
     /// Makes the nodes ready from particles as they are.
     pub(super) fn start(&mut self) {
         for body in &mut self.bodies {
-            body.put_in_order(self.cell);
+            body.put_in_order(&self.mesh);
         }
         self.time_step = 0.0;
-        self.pass();
+        self.pass(false);
         let (energy, momentum) = self.motion();
         self.accumulated.initial_energy = energy;
         self.accumulated.initial_momentum = momentum;
@@ -131,13 +138,11 @@ impl Grid {
 
     /// Lets the particles take over what the nodes did, and adds them up on the nodes; false when a number ceased to be one.
     pub(super) fn take_over(&mut self) -> bool {
-        for body in &mut self.bodies {
-            if body.is_spread() {
-                body.put_in_order(self.cell);
-            }
-        }
         let deferred = self.deferred;
-        self.pass();
+        let fastest = self.sums.iter().map(|sums| sums.speed_squared);
+        self.travel += self.time_step * fastest.fold(0.0, f64::max).sqrt();
+        let in_order = self.travel < ORDER * self.mesh.cell;
+        self.pass(!in_order);
         self.step += 1;
         self.time += self.time_step;
         let accumulated = &mut self.accumulated;
@@ -172,31 +177,49 @@ impl Grid {
         !self.sums.iter().any(|sums| sums.broken)
     }
 
-    /// Moves all particles by the current step and adds them up on the nodes.
-    fn pass(&mut self) {
+    /// Moves all particles by the current step and adds them up on the nodes, in a new order if asked to.
+    ///
+    /// The nodes get the pressures of the groups that are to share a rate of volume in the next step.
+    fn pass(&mut self, reorder: bool) {
+        let mesh = self.mesh;
         let pass = Pass {
             time_step: self.time_step,
-            cell: self.cell,
+            mesh,
             limits: self.limits,
         };
         let mut tasks = Vec::new();
         for (index, body) in self.bodies.iter_mut().enumerate() {
-            let chunks = body.particles.chunks_mut(CHUNK).zip(&mut body.strips);
-            tasks
-                .extend(chunks.map(|(chunk, strip)| (index, chunk, strip, &body.law, &body.field)));
+            tasks.extend(body.tasks().map(|task| (index, task)));
         }
+        let at_once = chunks_at_once(tasks.len());
         let sums: Vec<(usize, Sums)> = tasks
             .into_par_iter()
-            .map(|(index, chunk, strip, law, field)| {
-                (index, advance(chunk, law, field, strip, &pass))
+            .with_min_len(at_once)
+            .map(|(index, mut task)| {
+                let sums = advance(&mut task, &pass);
+                if !reorder {
+                    deposit(&mut task, &mesh);
+                }
+                (index, sums)
             })
             .collect();
         self.sums = vec![Sums::default(); self.bodies.len()];
         for (index, sum) in &sums {
             self.sums[*index].add(sum);
         }
+        if reorder {
+            self.travel = 0.0;
+            for body in &mut self.bodies {
+                body.put_in_order(&mesh);
+            }
+            let tasks: Vec<Task<'_>> = self.bodies.iter_mut().flat_map(Body::tasks).collect();
+            tasks
+                .into_par_iter()
+                .with_min_len(at_once)
+                .for_each(|mut task| deposit(&mut task, &mesh));
+        }
         for body in &mut self.bodies {
-            body.field.cover(&body.strips);
+            body.field.cover(&body.chunks);
             let Field {
                 first_row,
                 columns,
@@ -204,12 +227,13 @@ impl Grid {
                 ..
             } = &mut body.field;
             let (first_row, columns) = (*first_row, *columns);
-            let strips = &body.strips;
+            let chunks = &body.chunks;
+            let rows = nodes.len() / columns.max(1);
             nodes
                 .par_chunks_mut(columns.max(1))
                 .enumerate()
-                .with_min_len(8)
-                .for_each(|(index, row)| add_up(strips, first_row + index as isize, row));
+                .with_min_len(rows_at_once(rows, columns))
+                .for_each(|(index, row)| add_up(chunks, first_row + index as isize, row));
         }
     }
 
@@ -217,8 +241,8 @@ impl Grid {
     pub(super) fn move_nodes(&mut self) {
         let most = |value: fn(&Sums) -> f64| self.sums.iter().map(value).fold(0.0, f64::max).sqrt();
         let (wave, speed) = (most(|s| s.wave_squared), most(|s| s.speed_squared));
-        self.time_step = self.courant * self.cell / (wave + speed);
-        let (time_step, cell) = (self.time_step, self.cell);
+        self.time_step = self.courant * self.mesh.cell / (wave + speed);
+        let (time_step, mesh) = (self.time_step, self.mesh);
         let mut passed = 0.0;
         for second in 1..self.bodies.len() {
             let (before, after) = self.bodies.split_at_mut(second);
@@ -228,7 +252,7 @@ impl Grid {
                     self.contact,
                     &mut body.field,
                     other,
-                    cell,
+                    &mesh,
                     time_step,
                 );
                 if first == 0 {
@@ -244,10 +268,10 @@ impl Grid {
             let rows: Vec<RowSums> = velocity
                 .par_chunks_mut(columns.max(1))
                 .enumerate()
-                .with_min_len(8)
+                .with_min_len(rows_at_once(field.rows, columns))
                 .map(|(index, row)| {
                     let at = field.first_row + index as isize;
-                    move_row(field, supports, at, row, cell, time_step)
+                    move_row(field, supports, at, row, &mesh, time_step)
                 })
                 .collect();
             body.field.velocity = velocity;
@@ -283,10 +307,27 @@ impl Grid {
     }
 }
 
-/// Adds up a row of nodes over all strips, in their order, and folds the image in the axis onto its original.
-fn add_up(strips: &[Strip], row: isize, nodes: &mut [Node]) {
+/// Rows of nodes that one task takes: all of them where the work is too small to be shared out.
+fn rows_at_once(rows: usize, columns: usize) -> usize {
+    const SMALL: usize = 10_000;
+    match rows * columns {
+        0..SMALL => rows.max(1),
+        _ => 8,
+    }
+}
+
+/// Chunks that one task takes: all of them where there is one thread.
+fn chunks_at_once(chunks: usize) -> usize {
+    match rayon::current_num_threads() {
+        1 => chunks.max(1),
+        _ => 1,
+    }
+}
+
+/// Adds up a row of nodes over the strips of all chunks, in their order, and folds the image in the axis onto its original.
+fn add_up(chunks: &[Chunk], row: isize, nodes: &mut [Node]) {
     nodes.fill(Node::default());
-    for source in strips.iter().filter_map(|strip| strip.row(row)) {
+    for source in chunks.iter().filter_map(|chunk| chunk.strip.row(row)) {
         for (node, added) in nodes.iter_mut().zip(source) {
             for (entry, value) in node.iter_mut().zip(added.0) {
                 *entry += value;
@@ -315,20 +356,19 @@ fn move_row(
     field: &Field,
     supports: &BoundaryConditions,
     row: isize,
-    velocity: &mut [[f64; 2]],
-    cell: f64,
+    velocity: &mut [[f64; 4]],
+    mesh: &Mesh,
     time_step: f64,
 ) -> RowSums {
     let mut sums = RowSums::default();
     let energy = |mass: f64, v: [f64; 2]| 0.5 * mass * (v[0] * v[0] + v[1] * v[1]);
     for (column, velocity) in velocity.iter_mut().enumerate().skip(1) {
         let raw = field.node(row, column);
-        *velocity = [0.0; 2];
+        *velocity = [0.0; 4];
         if raw[MASS] > 0.0 {
-            sums.kinetic[0] += energy(
-                raw[MASS],
-                [raw[MOMENTUM] / raw[MASS], raw[MOMENTUM + 1] / raw[MASS]],
-            );
+            let came = [raw[MOMENTUM] / raw[MASS], raw[MOMENTUM + 1] / raw[MASS]];
+            sums.kinetic[0] += energy(raw[MASS], came);
+            [velocity[2], velocity[3]] = came;
         }
         let pushed_raw =
             raw[MOMENTUM + 1] + time_step * raw[FORCE + 1] - field.taken(row, column)[1];
@@ -338,8 +378,8 @@ fn move_row(
             let original = supports.folded(field, place.0, place.1, time_step);
             if let Some(load) = original.filter(|load| load.node[MASS] > 0.0) {
                 let pushed = pushed(&load.node, load.taken, time_step);
-                let [radial, axial] = supports.held(&load.node, pushed, place, cell, time_step);
-                *velocity = [signs[0] * radial, signs[1] * axial];
+                let [radial, axial] = supports.held(&load.node, pushed, place, mesh, time_step);
+                [velocity[0], velocity[1]] = [signs[0] * radial, signs[1] * axial];
             }
             let impulse = pushed_raw - raw[MASS] * velocity[1];
             sums.impulse += impulse;
@@ -352,7 +392,7 @@ fn move_row(
         }
         let before = [node[MOMENTUM] / mass, node[MOMENTUM + 1] / mass];
         let pushed = pushed(&node, taken, time_step);
-        let held = supports.held(&node, pushed, (row, column), cell, time_step);
+        let held = supports.held(&node, pushed, (row, column), mesh, time_step);
         sums.kinetic[1] += energy(mass, before);
         sums.kinetic[2] += energy(mass, held);
         for k in 0..2 {
@@ -363,10 +403,11 @@ fn move_row(
         }
         sums.impulse += pushed_raw - raw[MASS] * held[1];
         sums.wall += pushed_raw - raw[MASS] * pushed[1];
-        *velocity = held;
+        [velocity[0], velocity[1]] = held;
     }
     if velocity.len() > 2 {
-        velocity[0] = [-velocity[2][0], velocity[2][1]];
+        let [r, z, r_before, z_before] = velocity[2];
+        velocity[0] = [-r, z, -r_before, z_before];
     }
     if !supports.wall {
         // What a smooth rear face takes is the support's, not a contact's.

@@ -21,36 +21,52 @@ impl Deposit {
     /// Mass, momentum and forces of a particle.
     ///
     /// The gradient of a kernel is its weight times `(4/h²)(x_node − x_particle)`, which the transfer back uses too: so the power of
-    /// the nodal forces is that of the stress in the particle.
+    /// the nodal forces is that of the stress in the particle. The pressure is the mean one of the particle's group.
     #[inline(always)]
-    pub(super) fn of(particle: &Particle, per_cell: f64, axisymmetric: bool) -> Self {
-        let [radius, depth] = particle.position;
-        let radial = Stencil::at(radius * per_cell);
-        let axial = Stencil::at(depth * per_cell);
+    pub(super) fn of(
+        particle: &Particle,
+        pressure: f64,
+        ([radial, axial], [stretch_r, stretch_z]): ([f64; 2], [f64; 2]),
+        cell: f64,
+        axisymmetric: bool,
+    ) -> Self {
+        let radial = Stencil::at(radial);
+        let axial = Stencil::at(axial);
         let mass = particle.mass;
         let [v_r, v_z] = particle.velocity;
-        let cell = 1.0 / per_cell;
-        let pressure = particle.pressure + particle.viscous_pressure;
         let stress = particle.deviator;
-        // Distances below are counted in cells.
-        let pull = -4.0 * per_cell * particle.volume;
+        // Distances below are counted in cells, each as large as those at the particle.
+        let pull = -4.0 / cell * particle.volume;
+        let (pull_r, pull_z) = (pull / stretch_r, pull / stretch_z);
         let hoop = if axisymmetric {
-            -particle.volume * (particle.hoop_deviator() - pressure) / radius
+            -particle.volume * (particle.hoop_deviator() - pressure) / particle.position[0]
         } else {
             0.0
         };
-        let spread = mass * cell;
+        let (spread_r, spread_z) = (mass * cell * stretch_r, mass * cell * stretch_z);
         let [rr, rz, zr, zz] = particle.gradient;
-        let (c_rr, c_rz, c_zr, c_zz) = (spread * rr, spread * rz, spread * zr, spread * zz);
-        let (s_rr, s_zz, s_rz) = (
-            pull * (stress[0] - pressure),
-            pull * (stress[1] - pressure),
-            pull * stress[2],
-        );
         let volume = particle.volume;
         let middle = [mass, mass * v_r, mass * v_z, volume, hoop, 0.0, 0.0, 0.0];
-        let along_r = [0.0, c_rr, c_zr, 0.0, s_rr, s_rz, 0.0, 0.0];
-        let along_z = [0.0, c_rz, c_zz, 0.0, s_rz, s_zz, 0.0, 0.0];
+        let along_r = [
+            0.0,
+            spread_r * rr,
+            spread_r * zr,
+            0.0,
+            pull_r * (stress[0] - pressure),
+            pull_r * stress[2],
+            0.0,
+            0.0,
+        ];
+        let along_z = [
+            0.0,
+            spread_z * rz,
+            spread_z * zz,
+            0.0,
+            pull_z * stress[2],
+            pull_z * (stress[1] - pressure),
+            0.0,
+            0.0,
+        ];
         let mut corner = middle;
         for k in 0..8 {
             corner[k] = corner[k] + radial.offset * along_r[k] + axial.offset * along_z[k];
@@ -90,39 +106,42 @@ impl Deposit {
     }
 }
 
-/// The velocity at a place, and its derivatives along the radius and along the axis, from the nodes around it.
+/// Motion of the nodes at a place: radial and axial velocity after their step, and both before it.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Motion {
+    pub(super) velocity: [f64; 4],
+    /// Derivatives by the index along the radius and along the axis, over four.
+    pub(super) along_r: [f64; 4],
+    pub(super) along_z: [f64; 4],
+}
+
+/// Motion of the nodes at a place given by its indices.
 #[inline(always)]
-pub(super) fn gather(position: [f64; 2], per_cell: f64, field: &Field) -> [f64; 6] {
-    let radial = Stencil::at(position[0] * per_cell);
-    let axial = Stencil::at(position[1] * per_cell);
+pub(super) fn gather([radial, axial]: [f64; 2], field: &Field) -> Motion {
+    let radial = Stencil::at(radial);
+    let axial = Stencil::at(axial);
     let first =
         (axial.first - field.first_row) as usize * field.columns + (radial.first + 1) as usize;
-    // Radial and axial velocity: summed up, and each with its arm along the radius.
-    let mut total = [0.0; 4];
-    let mut along_z = [0.0; 2];
+    let mut motion = Motion::default();
     for row in 0..3 {
         let at = first + row * field.columns;
         let nodes = &field.velocity[at..at + 3];
-        let mut sum = [0.0; 4];
-        for (column, [v_r, v_z]) in nodes.iter().enumerate() {
+        let (mut sum, mut arms) = ([0.0; 4], [0.0; 4]);
+        for (column, node) in nodes.iter().enumerate() {
             let weight = radial.weights[column];
             let arm = weight * (radial.offset + column as f64);
-            let weights = [weight, weight, arm, arm];
-            let values = [v_r, v_z, v_r, v_z];
             for k in 0..4 {
-                sum[k] += weights[k] * values[k];
+                sum[k] += weight * node[k];
+                arms[k] += arm * node[k];
             }
         }
         let weight = axial.weights[row];
         let arm = weight * (axial.offset + row as f64);
         for k in 0..4 {
-            total[k] += weight * sum[k];
-        }
-        for k in 0..2 {
-            along_z[k] += arm * sum[k];
+            motion.velocity[k] += weight * sum[k];
+            motion.along_r[k] += weight * arms[k];
+            motion.along_z[k] += arm * sum[k];
         }
     }
-    [
-        total[0], total[1], total[2], total[3], along_z[0], along_z[1],
-    ]
+    motion
 }

@@ -159,7 +159,8 @@ impl Slide {
                 for (sum, part) in self.passed.iter_mut().zip(impulse) {
                     *sum += part;
                 }
-                let inside = (1.6 * SIDE..2.4 * SIDE).contains(&(row as f64 * self.solver.cell));
+                let inside =
+                    (1.6 * SIDE..2.4 * SIDE).contains(&(row as f64 * self.solver.mesh.cell));
                 if inside && impulse[0] > 0.0 {
                     self.ratios.push((impulse[1] / impulse[0], slip));
                 }

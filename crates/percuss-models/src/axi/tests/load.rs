@@ -68,7 +68,7 @@ pub(super) fn load(
         let ramp = (solver.time / loading.rise).min(1.0);
         // A smooth rise starts no waves.
         let pressure = loading.pressure * ramp * ramp * (3.0 - 2.0 * ramp);
-        let cell = solver.cell;
+        let cell = solver.mesh.cell;
         press(&mut solver.bodies[0], cell, pressure, part);
         let kept = 1.0 - loading.damping * solver.time_step;
         for node in &mut solver.bodies[0].field.nodes {
@@ -77,6 +77,7 @@ pub(super) fn load(
         }
         for particle in &mut solver.bodies[0].particles {
             particle.velocity = particle.velocity.map(|speed| kept * speed);
+            particle.gradient = particle.gradient.map(|rate| kept * rate);
         }
         solver.move_nodes();
     }

@@ -17,7 +17,9 @@ use super::{
     body::{Body, Limits},
     boundary::BoundaryConditions,
     contact::Contact,
+    deform::Rates,
     law::{Law, Pressure},
+    mesh::Mesh,
     solver::{Accumulators, DeferredWork, Grid},
 };
 use crate::{
@@ -126,15 +128,10 @@ fn deform(law: &Law, particle: &mut Particle, hoop_rate: f64) -> [f64; 3] {
     let particles = std::slice::from_mut(particle);
     let members = Members::next(particles, &mut 0).unwrap();
     let mut block = Block::of(particles, &members);
-    block.keep_motion(particles, &members);
-    let work = law.deform(
-        particles,
-        &members,
-        &mut block,
-        Lanes::all(hoop_rate),
-        1.0,
-        1.0,
-    );
+    block.rate = block.gradient;
+    let rates = Rates::of(&block, Lanes::all(hoop_rate), 1.0);
+    let cells = Lanes::all(1.0);
+    let work = law.deform(particles, &members, &mut block, &rates, 1.0, &cells);
     [work.total, work.plastic, work.failure].map(|lane| lane[0])
 }
 
@@ -197,7 +194,7 @@ fn supported(bodies: Vec<Body>, supports: Vec<BoundaryConditions>, cell: f64) ->
         bodies,
         supports,
         contact: Contact::Frictional(0.0),
-        cell,
+        mesh: Mesh::even(cell),
         courant: 0.5,
         limits: Limits {
             radius: f64::INFINITY,
@@ -207,6 +204,7 @@ fn supported(bodies: Vec<Body>, supports: Vec<BoundaryConditions>, cell: f64) ->
         step: 0,
         time: 0.0,
         time_step: 0.0,
+        travel: 0.0,
         sums: Vec::new(),
         accumulated: Accumulators::default(),
         deferred: DeferredWork::default(),

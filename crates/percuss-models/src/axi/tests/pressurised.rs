@@ -189,6 +189,8 @@ fn lame_cylinder(inner: f64, pressure: f64, ratio: f64) -> [impl Fn(f64) -> f64;
 
 /// Cells through the wall.
 const CELLS: f64 = 12.0;
+/// In a plastic sphere the mean pressures of cells that its faces cut count: displacements err by 2 % on the coarser mesh.
+const FINE: f64 = 24.0;
 
 #[test]
 fn an_elastic_sphere_is_lames() {
@@ -228,7 +230,7 @@ fn a_sphere_that_is_plastic_inside_is_hills() {
         }
         FLOW_STRESS - outside - 2.0 * FLOW_STRESS * (front / radius).ln()
     };
-    let loaded = sphere(steel(ratio, FLOW_STRESS), pressure, CELLS);
+    let loaded = sphere(steel(ratio, FLOW_STRESS), pressure, FINE);
     check("plastic sphere", &loaded, displacement, stress);
 }
 
