@@ -87,7 +87,11 @@ pub(crate) fn spacing(profile: &Profile, part: usize) -> f64 {
 /// Stress of a profile at ascending places.
 fn stresses(profile: &Profile, places: &[f64], spacings: &[f64]) -> Vec<f64> {
     let elements = &profile.elements;
-    let reach = |element: &ElementState| spacings.get(element.part).copied().unwrap_or(0.0);
+    // Elements far from the impact may be longer than most.
+    let reach = |element: &ElementState| {
+        let usual = spacings.get(element.part).copied().unwrap_or(0.0);
+        usual.max(element.length)
+    };
     let at = |place: f64| {
         let after = elements.partition_point(|e| e.initial_position < place);
         let left = after.checked_sub(1).map(|i| &elements[i]);

@@ -22,7 +22,7 @@ const MARKER: &[u8] = b"<AppendedData encoding=\"raw\">\n_";
 /// An array: name, components, and what it takes of a particle.
 type Column = (&'static str, usize, fn(&Particle) -> [f64; 3]);
 
-const COLUMNS: [Column; 8] = [
+const COLUMNS: [Column; 9] = [
     ("velocity", 3, |p| [p.velocity[0], -p.velocity[1], 0.0]),
     ("pressure", 1, |p| {
         [p.pressure + p.viscous_pressure, 0.0, 0.0]
@@ -33,7 +33,10 @@ const COLUMNS: [Column; 8] = [
     ("density", 1, |p| [p.mass / p.volume, 0.0, 0.0]),
     ("damage", 1, |p| [p.damage, 0.0, 0.0]),
     ("volume", 1, |p| [p.volume, 0.0, 0.0]),
+    (SIDES, 2, |p| [p.sides[0], p.sides[1], 0.0]),
 ];
+/// Width and height of a particle's section before the impact.
+const SIDES: &str = "sides";
 const POINTS: &str = "points";
 const BODY: &str = "body";
 
@@ -313,7 +316,7 @@ pub(crate) fn decode(file: &[u8], array: &str, components: usize) -> Option<Poin
     let size = |([radius, _], volume): (&[f32; 2], &f32)| {
         (volume / (2.0 * std::f32::consts::PI * radius)).sqrt()
     };
-    Some(Points {
+    let points = Points {
         time: number("TimeValue")?,
         depth: number("depth")?,
         sizes: places.iter().zip(&volumes).map(size).collect(),
@@ -326,7 +329,52 @@ pub(crate) fn decode(file: &[u8], array: &str, components: usize) -> Option<Poin
                 vector => vector.iter().map(|entry| entry * entry).sum::<f32>().sqrt(),
             })
             .collect(),
-    })
+    };
+    let sides: Vec<[f32; 2]> = floats(SIDES, 2)?
+        .chunks_exact(2)
+        .map(|pair| [pair[0], pair[1]])
+        .collect();
+    Some(points.in_equal_parts(&sides))
+}
+
+impl Points {
+    /// Large particles as several of the size that most have: a picture closes gaps of that size.
+    fn in_equal_parts(self, sides: &[[f32; 2]]) -> Self {
+        /// Along a side: beyond, no picture shows a difference.
+        const MOST: f32 = 64.0;
+        let mut smallest: Vec<f32> = sides.iter().map(|[a, b]| a.min(*b)).collect();
+        let middle = smallest.len() / 2;
+        if middle == 0 {
+            return self;
+        }
+        let usual = *smallest.select_nth_unstable_by(middle, f32::total_cmp).1;
+        let mut parts = Self {
+            time: self.time,
+            depth: self.depth,
+            ..Self::default()
+        };
+        for (index, [radius, depth]) in self.places.iter().enumerate() {
+            let [across, along] = sides[index].map(|side| match side > 0.0 {
+                true => (side / usual).round().clamp(1.0, MOST),
+                false => 1.0,
+            });
+            for part in 0..(across * along) as usize {
+                let [column, row] = [part % across as usize, part / across as usize];
+                let off =
+                    |part: usize, count: f32, side: f32| ((part as f32 + 0.5) / count - 0.5) * side;
+                parts.places.push([
+                    radius + off(column, across, sides[index][0]),
+                    depth + off(row, along, sides[index][1]),
+                ]);
+                parts.bodies.push(self.bodies[index]);
+                parts
+                    .sizes
+                    .push(self.sizes[index] / (across * along).sqrt());
+                parts.values.push(self.values[index]);
+            }
+        }
+        parts
+    }
 }
 
 #[cfg(test)]
