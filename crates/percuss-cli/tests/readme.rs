@@ -79,7 +79,7 @@ fn the_short_case_of_the_readme_runs() {
     let output = Command::new(env!("CARGO_BIN_EXE_percuss"))
         .arg("run")
         .arg(&path)
-        .arg("--quiet")
+        .args(["--fast", "--quiet"])
         .output()
         .unwrap();
     assert!(

@@ -32,7 +32,7 @@ def test_a_run_gives_the_numbers_of_the_program(case: str, program: Program) -> 
     # By a model that the case has expected values of.
     named = re.search(r'^model = "(\w+)"', Path(f"cases/{case}/expected.toml").read_text(), re.MULTILINE)
     model = named[1] if named else "chain"
-    whole = answer(program, "run", path, "--model", model)
+    whole = answer(program, "run", path, "--model", model, "--fast")
     (result,) = whole.pop("results")
     assert percuss.run(path, model).to_dict() == whole | result
     assert percuss.run(percuss.load(path), model, history=False).to_dict() == whole | result
@@ -50,7 +50,7 @@ def test_a_run_without_a_model_takes_the_one_of_the_program(program: Program, tm
         target={"material": "6061-t6", "thickness": "semi-infinite"},
     )
     sharp.save(tmp_path / "sharp.toml")
-    whole = answer(program, "run", str(tmp_path / "sharp.toml"))
+    whole = answer(program, "run", str(tmp_path / "sharp.toml"), "--fast")
     (result,) = whole.pop("results")
     ran = percuss.run(tmp_path / "sharp.toml")
     assert ran.to_dict() == whole | result
@@ -104,7 +104,7 @@ def test_histories_are_those_of_the_program(program: Program, tmp_path: Path) ->
     import pyarrow.parquet
 
     case = "cases/paper-table1/scenario.toml"
-    assert program("run", case, "--out", tmp_path).returncode == 0
+    assert program("run", case, "--fast", "--out", tmp_path).returncode == 0
     written = pyarrow.parquet.read_table(tmp_path / "history.parquet")
     result = percuss.run(case)
     history = result.history
@@ -127,7 +127,7 @@ def test_gauges_are_those_of_the_program(program: Program, tmp_path: Path) -> No
     text = Path("cases/paper-table1/scenario.toml").read_text()
     file = tmp_path / "gauges.toml"
     file.write_text(text + "\n[[gauges]]\nname = 'tip'\nposition = '-1 mm'\n[[gauges]]\nposition = '5 mm'\n")
-    assert program("run", file, "--out", tmp_path).returncode == 0
+    assert program("run", file, "--fast", "--out", tmp_path).returncode == 0
     written = pandas.read_csv(tmp_path / "gauges.csv")
     gauges = percuss.run(file).history.gauges
     assert list(gauges) == ["tip", "gauge 2"]
