@@ -59,7 +59,7 @@ fn the_axisymmetric_depth_is_the_headline_below_the_first_result() {
     let chain = written["results"][0]["depth_of_penetration_mm"]
         .as_f64()
         .unwrap();
-    let difference = format!(", {:+.0} %", 100.0 * (chain / value - 1.0));
+    let difference = format!(", {:+.0} %", 100.0 * (chain / value - 1.0)).replace('-', "−");
     assert!(
         rest.lines().next().unwrap().ends_with(&difference),
         "{text}"
@@ -162,7 +162,6 @@ chain = { projectile_elements = 20 }
         text.contains(" of processor time; `--reference standard` computes them"),
         "{text}"
     );
-    assert!(text.contains("estimated model error"), "{text}");
 }
 
 #[test]
@@ -201,7 +200,9 @@ fn a_stopped_answer_keeps_the_first_result() {
         process::{Command, Stdio},
     };
 
-    let folder = shot(&SHORT.replace("5 mm\", diameter", "60 mm\", diameter"));
+    // Half a minute of processor time on a target as large as the model takes by itself.
+    let long = SHORT.replace("5 mm\", diameter", "15 mm\", diameter");
+    let folder = shot(long.split("axi = ").next().unwrap());
     let mut child = Command::new(env!("CARGO_BIN_EXE_percuss"))
         .args(["run", "shot.toml", "--reference", "fine", "--out", "out"])
         .current_dir(folder.path())

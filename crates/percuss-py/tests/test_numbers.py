@@ -62,6 +62,35 @@ def test_a_run_without_a_model_takes_the_one_of_the_program(program: Program, tm
         percuss.run(sharp.replace({"target": {"rigid_wall": True}}))
 
 
+def test_the_axisymmetric_answer_is_that_of_the_program(program: Program, tmp_path: Path) -> None:
+    case = percuss.Case(
+        projectile={"material": "copper", "length": "5 mm", "diameter": "5 mm", "impact_velocity": 300.0},
+        target={"material": "aluminium-2024-t351", "thickness": "25 mm"},
+        axi={"target_radius": "8 mm", "target_depth": "8 mm"},
+    )
+    case.save(tmp_path / "short.toml")
+    whole = answer(program, "run", str(tmp_path / "short.toml"))
+    (result,) = whole.pop("results")
+    ran = percuss.run(tmp_path / "short.toml", reference="standard")
+    assert ran.to_dict() == whole | result
+    written = percuss.run(tmp_path / "short.toml", reference="standard", out=tmp_path / "out")
+    assert written.to_dict() == ran.to_dict()
+    found = ran.axisymmetric
+    assert found is not None and found.quantity == "depth_of_penetration_mm"
+    assert found.value > found.uncertainty > 0 and [mesh.cells_per_radius for mesh in found.meshes] == [3, 4, 6]
+    assert "axisymmetric depth_of_penetration_mm" in ran._repr_html_() and " ± " in repr(ran)
+    assert len(ran.history) > 2
+    # Unless it is asked for, there is none.
+    fast = percuss.run(case)
+    assert fast.axisymmetric is None and "axisymmetric d" not in fast._repr_html_()
+    pressed = case.replace({"target": {"constant_pressure": "2 GPa"}, "axi": None, "projectile.material": "ofhc-copper"})
+    refused = percuss.run(pressed, reference="fine").axisymmetric
+    assert refused is not None and refused.value is None and "constant pressure" in refused.reason
+    for arguments in ({"model": "fdm", "reference": "fine"}, {"reference": "finest"}):
+        with pytest.raises(percuss.UsageError, match="`reference`"):
+            percuss.run(case, **arguments)
+
+
 def test_every_command_gives_the_answer_of_the_program(program: Program, tmp_path: Path) -> None:
     case = "cases/taylor-copper-wilkins/scenario.toml"
     loaded = percuss.load(case).replace({"materials.mine": MINE})

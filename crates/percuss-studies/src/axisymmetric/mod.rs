@@ -6,6 +6,7 @@
 //! let scenario = case::load_str("slow ball", r#"
 //!     projectile = { material = "copper", length = "5 mm", diameter = "5 mm", impact_velocity = "200 m/s" }
 //!     target = { material = "aluminium-2024-t351", thickness = "25 mm" }
+//!     axi = { target_radius = "8 mm", target_depth = "8 mm" }
 //! "#)?;
 //! let plan = plan(&scenario, ReferenceMeshes::Standard, None).expect("`axi` applies");
 //! let answer = answer(&scenario, &plan, &mut |_| std::ops::ControlFlow::Continue(()))?;

@@ -81,7 +81,8 @@ fn scenario(text: &str) -> Scenario {
 }
 
 const BALL: &str = "projectile = { material = 'copper', length = '5 mm', diameter = '5 mm', impact_velocity = '300 m/s' }\n\
-                    target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n";
+                    target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n\
+                    axi = { target_radius = '8 mm', target_depth = '8 mm' }\n";
 const WALL: &str = "projectile = { material = 'ofhc-copper', length = '10 mm', diameter = '5 mm', impact_velocity = '180 m/s' }\n\
                     target = { rigid_wall = true }\n";
 

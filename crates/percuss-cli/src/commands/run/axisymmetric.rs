@@ -160,7 +160,7 @@ fn rows(
     if let Some(own) = record.value(quantity) {
         let difference = match value {
             0.0 => String::new(),
-            _ => format!(", {:+.0} %", 100.0 * (own / value - 1.0)),
+            _ => format!(", {:+.0} %", 100.0 * (own / value - 1.0)).replace('-', "−"),
         };
         let label = format!("one-dimensional ({})", record.model);
         add(&label, format!("{}{difference}", number(own, unit)));

@@ -43,14 +43,14 @@ depth of penetration (on a rigid wall the final length, after perforation the
 residual velocity) in the limit of fine meshes follows: the number to use. The
 number after ± is the error of the mesh alone, not of the material data.
 --reference fine takes 6, 8 and 12 cells; --fast leaves the runs out. They are
-also left out with a --model other than `chain`, where `axi` does not apply, and,
-unless --reference is given, where they take more than 60 s of processor time.
-Ctrl-C during these runs keeps the first result.
+also left out with a --model other than `chain`, where `axi` does not apply,
+and where they take more than 60 s of processor time, unless --reference is
+given. Ctrl-C during these runs keeps the first result.
 
 With --quiet one line is printed, of NAME=VALUE pairs with the names of --json:
   outcome=at_rest depth_of_penetration_mm=0.0436 residual_velocity_m_s=-1.2
-  ballistic_limit_m_s=null projectile_final_length_mm=12.7 warnings=1 model=chain
-  axisymmetric.value=0.0412 axisymmetric.uncertainty=0.0021
+  ballistic_limit_m_s=null projectile_final_length_mm=12.7 warnings=1
+  model=chain axisymmetric.value=0.0412 axisymmetric.uncertainty=0.0021
 (in one line; a number that the model does not give is `null`).
 
 With --out DIR a copy of the case (case-as-run.toml, with the materials of the
