@@ -49,6 +49,8 @@ pub enum Failure {
     },
     /// The user stopped a computation without output: its name.
     Interrupted(&'static str),
+    /// The user stopped the axisymmetric runs; the result of the model is there.
+    AxisymmetricStopped,
     /// The command line asks for something that does not exist.
     Usage {
         /// Message.
@@ -114,7 +116,10 @@ impl Failure {
             | Self::CommandLine(_)
             | Self::NoResult(_) => 2,
             // Exit code of shells for a program that Ctrl-C ended.
-            Self::Stopped { .. } | Self::SweepStopped { .. } | Self::Interrupted(_) => 130,
+            Self::Stopped { .. }
+            | Self::SweepStopped { .. }
+            | Self::Interrupted(_)
+            | Self::AxisymmetricStopped => 130,
             Self::Library(Error::Numerical(_) | Error::Cancelled { .. }) | Self::Report(_) => 3,
             Self::Library(Error::Read { .. }) | Self::Write { .. } | Self::Output(_) => 4,
             Self::Library(_) => 2,
@@ -181,6 +186,10 @@ impl Failure {
             Self::Interrupted(what) => {
                 message(&format!("{what} was stopped and left no result"), "")
             }
+            Self::AxisymmetricStopped => message(
+                "the axisymmetric runs were stopped; the result of the model stands",
+                "`--fast` leaves them out",
+            ),
             Self::Usage {
                 message: what,
                 help,

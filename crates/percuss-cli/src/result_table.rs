@@ -113,7 +113,7 @@ fn block(heading: &str, lines: &[Row], text: &mut String) {
 }
 
 /// Rows of a label and a value; the values of a block are aligned.
-fn rows(rows: &[Row]) -> String {
+pub fn rows(rows: &[Row]) -> String {
     let longest = rows.iter().map(|(label, _)| label.chars().count()).max();
     let column = LABEL.max(longest.unwrap_or(0) + GAP);
     let line = |(label, value): &Row| {

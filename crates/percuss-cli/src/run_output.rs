@@ -2,7 +2,9 @@
 
 use std::{slice, sync::Arc};
 
-use percuss::{Scenario, outcome::RunResult, summary::CaseResults};
+use percuss::{
+    Scenario, axisymmetric::AxisymmetricAnswer, outcome::RunResult, summary::CaseResults,
+};
 
 /// Case with the result of its run.
 #[derive(Debug)]
@@ -11,11 +13,14 @@ pub struct RunOutput {
     pub scenario: Arc<Scenario>,
     /// Result.
     pub result: Arc<RunResult>,
+    /// Axisymmetric answer; `None` where none is wanted.
+    pub axisymmetric: Option<AxisymmetricAnswer>,
 }
 
 impl RunOutput {
     /// Output of `percuss run --json`.
     pub fn results(&self) -> CaseResults {
         CaseResults::new(&self.scenario, slice::from_ref(&self.result))
+            .with_axisymmetric(self.axisymmetric.clone())
     }
 }

@@ -10,6 +10,7 @@ fn a_series_of_rectangles_is_written_on_request() {
     for (model, least) in [("chain", 10), ("fdm", 10)] {
         let arguments = [
             "run",
+            "--fast",
             "shot.toml",
             "--model",
             model,
@@ -50,7 +51,17 @@ fn a_run_that_is_interrupted_continues_with_the_same_numbers() {
         chain = { target_resistance = "column", projectile_elements = 1500, target_elements = 3000 }
         "#;
     let folder = shot(case);
-    let run = |out: &'static str| ["run", "shot.toml", "--model", "chain", "--out", out];
+    let run = |out: &'static str| {
+        [
+            "run",
+            "--fast",
+            "shot.toml",
+            "--model",
+            "chain",
+            "--out",
+            out,
+        ]
+    };
     let child = spawn(folder.path(), &run("out"));
     // Its copy of the case is written before the run begins.
     while !folder.path().join("out/case-as-run.toml").exists() {

@@ -88,7 +88,7 @@ fn a_sweep_has_one_row_per_velocity() {
 #[test]
 fn json_extends_the_object_of_run() {
     let folder = shot(TAYLOR);
-    let said = percuss(folder.path(), ["run", "shot.toml", "--json"]);
+    let said = percuss(folder.path(), ["run", "--fast", "shot.toml", "--json"]);
     let run = json(&said.stdout);
     let object = json(&ok(&folder, &["--json"]));
     for key in ["case", "percuss_version"] {

@@ -1,6 +1,7 @@
 //! All integration tests of this crate as one program: what it tests is linked once, not once per file.
 
 mod axi;
+mod axisymmetric;
 mod bad_input;
 mod benchmark;
 mod calibrate;

@@ -131,7 +131,7 @@ fn a_file_of_materials_has_headers_of_its_own_or_those_of_a_case() {
             format!("{header}\n{record}"),
         )
         .unwrap();
-        ok(folder.path(), &["run", "shot.toml", "-q"])
+        ok(folder.path(), &["run", "--fast", "shot.toml", "-q"])
     };
     assert_eq!(depth("[foam]"), depth("[materials.foam]"));
 }

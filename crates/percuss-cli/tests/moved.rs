@@ -106,7 +106,7 @@ fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 #[test]
 fn a_moved_folder_gives_the_same_results_to_the_last_bit() {
     for command in [
-        &["run"][..],
+        &["run", "--fast"][..],
         &["run", "--model", "fdm"],
         &["compare"],
         &[

@@ -44,7 +44,7 @@ fn a_new_case_runs_and_is_not_overwritten() {
         text.ends_with("next: percuss run 'cases/my shot/scenario.toml'\n"),
         "{text}"
     );
-    let text = ok(path, &["run", "cases/my shot/scenario.toml"]);
+    let text = ok(path, &["run", "--fast", "cases/my shot/scenario.toml"]);
     assert!(text.contains("case my shot, impact at 230 m/s"), "{text}");
 
     let file = path.join("cases/my shot/scenario.toml");
@@ -69,7 +69,7 @@ fn a_new_case_runs_and_is_not_overwritten() {
 fn a_new_case_shows_every_option_at_its_default() {
     let (text, options) = starter();
     let folder = shot(&text);
-    let reference = ok(folder.path(), &["run", "shot.toml", "--json"]);
+    let reference = ok(folder.path(), &["run", "--fast", "shot.toml", "--json"]);
     // These stand instead of something else, or have no default.
     let no_defaults = [
         "mass",
@@ -107,13 +107,16 @@ fn a_new_case_shows_every_option_at_its_default() {
     ] {
         let folder = shot(&case);
         assert_eq!(
-            ok(folder.path(), &["run", "shot.toml", "--json"]),
+            ok(folder.path(), &["run", "--fast", "shot.toml", "--json"]),
             reference,
             "{case}"
         );
     }
     let scheme = text.replace("# scheme = \"conservative\"", "scheme = \"published\"");
-    let reference = ok(shot(&scheme).path(), &["run", "shot.toml", "--json"]);
+    let reference = ok(
+        shot(&scheme).path(),
+        &["run", "--fast", "shot.toml", "--json"],
+    );
     let case = uncommented(&scheme, |number, line| {
         number == published
             || ((published..materials).contains(&number)
@@ -122,7 +125,7 @@ fn a_new_case_shows_every_option_at_its_default() {
     });
     let folder = shot(&case);
     assert_eq!(
-        ok(folder.path(), &["run", "shot.toml", "--json"]),
+        ok(folder.path(), &["run", "--fast", "shot.toml", "--json"]),
         reference,
         "{case}"
     );
@@ -181,7 +184,7 @@ fn the_example_options_of_a_new_case_can_be_written() {
     ];
     for example in examples {
         let folder = shot(&format!("{text}\n{example}\n"));
-        ok(folder.path(), &["run", "shot.toml"]);
+        ok(folder.path(), &["run", "--fast", "shot.toml"]);
     }
 }
 

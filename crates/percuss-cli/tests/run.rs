@@ -9,7 +9,7 @@ use crate::support::{CASE, flat, json, ok, percuss, shot};
 #[test]
 fn a_run_prints_its_results() {
     let folder = shot(CASE);
-    let text = ok(folder.path(), &["run", "shot.toml"]);
+    let text = ok(folder.path(), &["run", "--fast", "shot.toml"]);
     for part in [
         "Copper on aluminium\n",
         "case shot, impact at 230 m/s, model chain, scheme conservative, target\nresistance model expanding-cavity\n",
@@ -42,14 +42,20 @@ fn a_run_prints_its_results() {
         text.lines().all(|line| line.chars().count() <= 80),
         "{text}"
     );
-    let named = ok(folder.path(), &["run", "shot.toml", "--model", "chain"]);
+    let named = ok(
+        folder.path(),
+        &["run", "--fast", "shot.toml", "--model", "chain"],
+    );
     assert!(!named.contains("by other models"), "{named}");
 }
 
 #[test]
 fn json_is_one_object_with_stable_names() {
     let folder = shot(CASE);
-    let object = json(&ok(folder.path(), &["run", "shot.toml", "--json"]));
+    let object = json(&ok(
+        folder.path(),
+        &["run", "--fast", "shot.toml", "--json"],
+    ));
     assert_eq!(object["case"], "shot");
     assert_eq!(object["results"].as_array().unwrap().len(), 1);
     let result = object["results"][0].as_object().unwrap();
@@ -79,7 +85,10 @@ fn json_is_one_object_with_stable_names() {
     let wall = "projectile = { material = 'copper', length = '10 mm', diameter = '5 mm', impact_velocity = '100 m/s' }\n\
                 target = { rigid_wall = true }";
     let folder = shot(wall);
-    let object = json(&ok(folder.path(), &["run", "shot.toml", "--json"]));
+    let object = json(&ok(
+        folder.path(),
+        &["run", "--fast", "shot.toml", "--json"],
+    ));
     let result = object["results"][0].as_object().unwrap();
     assert!(result["depth_of_penetration_mm"].is_null());
     assert_eq!(names, result.keys().map(String::as_str).collect::<Vec<_>>());
@@ -88,8 +97,12 @@ fn json_is_one_object_with_stable_names() {
 #[test]
 fn quiet_is_one_line_with_the_values_of_json() {
     let folder = shot(CASE);
-    let line = ok(folder.path(), &["run", "shot.toml", "--quiet"]);
-    let result = json(&ok(folder.path(), &["run", "shot.toml", "--json"]))["results"][0].clone();
+    let line = ok(folder.path(), &["run", "--fast", "shot.toml", "--quiet"]);
+    let result = json(&ok(
+        folder.path(),
+        &["run", "--fast", "shot.toml", "--json"],
+    ))["results"][0]
+        .clone();
     assert_eq!(line.lines().count(), 1);
     for pair in line.split_whitespace() {
         let (name, value) = pair.split_once('=').unwrap();
@@ -142,7 +155,15 @@ chain = { projectile_elements = 10 }
             }
             let model = result["model"].as_str().unwrap();
             let out = format!("out-{model}");
-            let arguments = ["run", "shot.toml", "--model", model, "--out", &out];
+            let arguments = [
+                "run",
+                "--fast",
+                "shot.toml",
+                "--model",
+                model,
+                "--out",
+                &out,
+            ];
             let text = ok(folder.path(), &arguments);
             let written = folder.path().join(&out);
             assert!(text.contains("outcome  "), "{model}: {text}");
@@ -154,7 +175,15 @@ chain = { projectile_elements = 10 }
     }
     assert!(silent >= 5, "{silent}");
     let folder = shot(PLATE);
-    let arguments = ["run", "shot.toml", "--model", "plugging", "--out", "out"];
+    let arguments = [
+        "run",
+        "--fast",
+        "shot.toml",
+        "--model",
+        "plugging",
+        "--out",
+        "out",
+    ];
     let text = ok(folder.path(), &arguments);
     assert!(text.contains("no time history: this model is a formula\n"));
 }
@@ -162,7 +191,7 @@ chain = { projectile_elements = 10 }
 #[test]
 fn a_folder_holds_case_result_histories_and_figures() {
     let folder = shot(CASE);
-    let arguments = ["run", "shot.toml", "--json", "--out", "deep/out"];
+    let arguments = ["run", "--fast", "shot.toml", "--json", "--out", "deep/out"];
     for _ in 0..2 {
         let said = percuss(folder.path(), arguments);
         assert_eq!(said.code, 0, "{}", said.stderr);
@@ -189,6 +218,7 @@ fn a_folder_holds_case_result_histories_and_figures() {
     // The copy of the case can be run, into its own folder.
     let again = [
         "run",
+        "--fast",
         "deep/out/case-as-run.toml",
         "-q",
         "--out",
@@ -201,7 +231,7 @@ fn a_folder_holds_case_result_histories_and_figures() {
 fn a_folder_that_cannot_be_written_is_said_before_the_run() {
     let folder = shot(CASE);
     for out in ["shot.toml", "shot.toml/out"] {
-        let said = percuss(folder.path(), ["run", "shot.toml", "--out", out]);
+        let said = percuss(folder.path(), ["run", "--fast", "shot.toml", "--out", out]);
         assert_eq!((said.code, said.stdout.as_str()), (4, ""));
         let start = format!("error: cannot write `{out}`: ");
         assert!(said.stderr.starts_with(&start), "{}", said.stderr);
@@ -215,9 +245,15 @@ fn the_published_scheme_and_a_named_model_run() {
         "scheme = 'published', projectile_elements = 20",
     );
     let folder = shot(&case);
-    let text = ok(folder.path(), &["run", "shot.toml", "--model", "chain"]);
+    let text = ok(
+        folder.path(),
+        &["run", "--fast", "shot.toml", "--model", "chain"],
+    );
     assert!(text.contains("scheme published"), "{text}");
-    let said = percuss(folder.path(), ["run", "shot.toml", "--model", "chian"]);
+    let said = percuss(
+        folder.path(),
+        ["run", "--fast", "shot.toml", "--model", "chian"],
+    );
     assert_eq!(said.code, 2);
     assert!(
         said.stderr.contains("a similar value exists: 'chain'"),
@@ -233,7 +269,7 @@ fn a_numerical_failure_has_its_own_exit_code() {
                 target = { material = 'aluminium-2024-t351', thickness = 'semi-infinite' }\n\
                 chain = { erosion_strain = 'never', courant = 1.0 }";
     let folder = shot(case);
-    let said = percuss(folder.path(), ["run", "shot.toml"]);
+    let said = percuss(folder.path(), ["run", "--fast", "shot.toml"]);
     assert_eq!(
         (said.code, said.stdout.as_str()),
         (3, ""),
@@ -260,7 +296,10 @@ fn a_case_that_the_chain_does_not_take_runs_by_the_recommended_model() {
     let compared = json(&ok(folder.path(), &["compare", "shot.toml", "--json"]));
     let recommended = &compared["recommended"][0]["models"][0];
     let model = recommended["model"].as_str().unwrap();
-    let ran = json(&ok(folder.path(), &["run", "shot.toml", "--json"]));
+    let ran = json(&ok(
+        folder.path(),
+        &["run", "--fast", "shot.toml", "--json"],
+    ));
     assert_eq!(ran["results"][0]["model"], model);
     let choice = ran["results"][0]["model_choice"].as_str().unwrap();
     let start = format!(
@@ -270,7 +309,7 @@ fn a_case_that_the_chain_does_not_take_runs_by_the_recommended_model() {
     let because = recommended["because"].as_str().unwrap();
     assert!(choice.contains(because), "{choice}");
 
-    let text = ok(folder.path(), &["run", "shot.toml"]);
+    let text = ok(folder.path(), &["run", "--fast", "shot.toml"]);
     let first: Vec<&str> = text.lines().take(4).collect();
     assert!(
         flat(&first.join(" ")).contains("instead of the default `chain`"),
@@ -279,7 +318,10 @@ fn a_case_that_the_chain_does_not_take_runs_by_the_recommended_model() {
     // The model that ran does not stand among the others.
     assert!(!text.contains(&format!("\n{model}  ")), "{text}");
 
-    let named = percuss(folder.path(), ["run", "shot.toml", "--model", "chain"]);
+    let named = percuss(
+        folder.path(),
+        ["run", "--fast", "shot.toml", "--model", "chain"],
+    );
     assert_eq!((named.code, named.stdout.as_str()), (2, ""));
     assert!(
         flat(&named.stderr).contains("it takes flat noses"),
@@ -288,12 +330,12 @@ fn a_case_that_the_chain_does_not_take_runs_by_the_recommended_model() {
     );
     let asked = json(&ok(
         folder.path(),
-        &["run", "shot.toml", "--json", "--model", model],
+        &["run", "--fast", "shot.toml", "--json", "--model", model],
     ));
     assert_eq!(asked["results"][0]["model_choice"], Value::Null);
     ok(
         folder.path(),
-        &["run", "shot.toml", "--out", "results", "-q"],
+        &["run", "--fast", "shot.toml", "--out", "results", "-q"],
     );
     assert!(folder.path().join("results/result.json").is_file());
 }
@@ -304,7 +346,10 @@ fn where_no_model_applies_the_error_gives_every_reason() {
         "target = { material = \"6061-t6\", thickness = \"semi-infinite\" }",
         "target = { rigid_wall = true }",
     ));
-    let said = percuss(folder.path(), ["run", "shot.toml", "--out", "results"]);
+    let said = percuss(
+        folder.path(),
+        ["run", "--fast", "shot.toml", "--out", "results"],
+    );
     assert_eq!((said.code, said.stdout.as_str()), (2, ""));
     assert!(
         said.stderr

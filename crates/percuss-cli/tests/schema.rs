@@ -7,7 +7,7 @@ use crate::support::{CASE, flat, json, ok, percuss, shot};
 /// The keys that the reader of case files allows beside one that does not exist.
 fn keys_allowed(case: &str) -> Vec<String> {
     let folder = shot(case);
-    let said = percuss(folder.path(), ["run", "shot.toml"]);
+    let said = percuss(folder.path(), ["run", "--fast", "shot.toml"]);
     assert_eq!(said.code, 2, "{case}");
     let message = flat(&said.stderr);
     let (_, allowed) = message

@@ -8,6 +8,7 @@ use std::{
 
 use percuss::{
     Scenario,
+    axisymmetric::{self, AxisymmetricAnswer, ReferenceMeshes},
     model::{self, Control, Progress},
     outcome::RunResult as Computed,
     summary::CaseResults,
@@ -15,13 +16,20 @@ use percuss::{
 use percuss_cli::{Failure, RunOutput};
 use pyo3::{exceptions::PyValueError, prelude::*};
 
-use crate::{case::Case, errors::raise, history::Column, law::Laws, monitor::PythonMonitor};
+use crate::{
+    case::Case,
+    errors::raise,
+    history::Column,
+    law::Laws,
+    monitor::{PythonMonitor, run_monitored},
+};
 
 /// The result of a run.
 #[pyclass(frozen, module = "percuss._percuss")]
 pub struct RunResult {
     scenario: Arc<Scenario>,
     result: Arc<Computed>,
+    axisymmetric: Option<AxisymmetricAnswer>,
     /// `None` where files were written on the way.
     solver_time: Option<Duration>,
 }
@@ -32,6 +40,7 @@ impl RunResult {
         Self {
             scenario: Arc::clone(&run_output.scenario),
             result: Arc::clone(&run_output.result),
+            axisymmetric: run_output.axisymmetric.clone(),
             solver_time: None,
         }
     }
@@ -39,7 +48,7 @@ impl RunResult {
 
 /// Computes a case by a model, the default one of the case where none is named.
 #[pyfunction]
-#[pyo3(signature = (case, model, record, progress=None, projectile_law=None, target_law=None, resistance_law=None))]
+#[pyo3(signature = (case, model, record, progress=None, projectile_law=None, target_law=None, resistance_law=None, reference=None))]
 #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub fn run(
     py: Python<'_>,
@@ -50,6 +59,7 @@ pub fn run(
     projectile_law: Option<Py<PyAny>>,
     target_law: Option<Py<PyAny>>,
     resistance_law: Option<Py<PyAny>>,
+    reference: Option<&str>,
 ) -> PyResult<RunResult> {
     let laws = Laws {
         projectile: projectile_law,
@@ -82,10 +92,30 @@ pub fn run(
         return Err(error);
     }
     let result = Arc::new(monitor.finish(py, result)?);
+    let meshes = reference.and_then(ReferenceMeshes::named);
+    let answer = meshes.map(|meshes| axisymmetric_answer(py, &scenario, meshes, progress.as_ref()));
     Ok(RunResult {
         scenario,
         result,
+        axisymmetric: answer.transpose()?,
         solver_time: Some(solver_time),
+    })
+}
+
+/// Axisymmetric answer of a case, whatever it costs.
+fn axisymmetric_answer(
+    py: Python<'_>,
+    scenario: &Scenario,
+    meshes: ReferenceMeshes,
+    progress: Option<&Py<PyAny>>,
+) -> PyResult<AxisymmetricAnswer> {
+    let plan = match axisymmetric::plan(scenario, meshes, None) {
+        Ok(plan) => plan,
+        Err(refusal) => return Ok(AxisymmetricAnswer::without(meshes, refusal.to_string())),
+    };
+    run_monitored(py, progress, |state| {
+        let mut report = |fraction: f64| state.on_progress(fraction, "axisymmetric runs");
+        Ok(axisymmetric::answer(scenario, &plan, &mut report)?)
     })
 }
 
@@ -93,7 +123,8 @@ pub fn run(
 impl RunResult {
     /// What `percuss run --json` prints.
     fn json(&self) -> PyResult<String> {
-        let results = CaseResults::new(&self.scenario, std::slice::from_ref(&self.result));
+        let results = CaseResults::new(&self.scenario, std::slice::from_ref(&self.result))
+            .with_axisymmetric(self.axisymmetric.clone());
         serde_json::to_string(&results).map_err(|error| PyValueError::new_err(error.to_string()))
     }
 

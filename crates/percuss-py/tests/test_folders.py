@@ -37,7 +37,7 @@ def small(path: str, folder: Path, **more: Any) -> percuss.Case:
 
 # Words of the command before --out, and the same in Python; both get a folder with the files that they name.
 CALLS: dict[str, tuple[Callable[[Path], list[str]], Call]] = {
-    "run": (lambda _: ["run", TAYLOR], lambda _, out: percuss.run(TAYLOR, out=out)),
+    "run": (lambda _: ["run", TAYLOR, "--fast"], lambda _, out: percuss.run(TAYLOR, out=out)),
     "compare": (
         lambda _: ["compare", TAYLOR, "--model", "taylor", "--velocity", "150,190"],
         lambda _, out: percuss.compare(TAYLOR, model="taylor", velocity=[150, 190], out=out),

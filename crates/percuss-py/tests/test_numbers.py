@@ -32,7 +32,7 @@ def test_a_run_gives_the_numbers_of_the_program(case: str, program: Program) -> 
     # By a model that the case has expected values of.
     named = re.search(r'^model = "(\w+)"', Path(f"cases/{case}/expected.toml").read_text(), re.MULTILINE)
     model = named[1] if named else "chain"
-    whole = answer(program, "run", path, "--model", model)
+    whole = answer(program, "run", path, "--model", model, "--fast")
     (result,) = whole.pop("results")
     assert percuss.run(path, model).to_dict() == whole | result
     assert percuss.run(percuss.load(path), model, history=False).to_dict() == whole | result
@@ -50,7 +50,7 @@ def test_a_run_without_a_model_takes_the_one_of_the_program(program: Program, tm
         target={"material": "6061-t6", "thickness": "semi-infinite"},
     )
     sharp.save(tmp_path / "sharp.toml")
-    whole = answer(program, "run", str(tmp_path / "sharp.toml"))
+    whole = answer(program, "run", str(tmp_path / "sharp.toml"), "--fast")
     (result,) = whole.pop("results")
     ran = percuss.run(tmp_path / "sharp.toml")
     assert ran.to_dict() == whole | result
@@ -60,6 +60,35 @@ def test_a_run_without_a_model_takes_the_one_of_the_program(program: Program, tm
         percuss.run(sharp, "chain")
     with pytest.raises(percuss.NotApplicableError, match="no model applies"):
         percuss.run(sharp.replace({"target": {"rigid_wall": True}}))
+
+
+def test_the_axisymmetric_answer_is_that_of_the_program(program: Program, tmp_path: Path) -> None:
+    case = percuss.Case(
+        projectile={"material": "copper", "length": "5 mm", "diameter": "5 mm", "impact_velocity": 300.0},
+        target={"material": "aluminium-2024-t351", "thickness": "25 mm"},
+        axi={"target_radius": "8 mm", "target_depth": "8 mm"},
+    )
+    case.save(tmp_path / "short.toml")
+    whole = answer(program, "run", str(tmp_path / "short.toml"))
+    (result,) = whole.pop("results")
+    ran = percuss.run(tmp_path / "short.toml", reference="standard")
+    assert ran.to_dict() == whole | result
+    written = percuss.run(tmp_path / "short.toml", reference="standard", out=tmp_path / "out")
+    assert written.to_dict() == ran.to_dict()
+    found = ran.axisymmetric
+    assert found is not None and found.quantity == "depth_of_penetration_mm"
+    assert found.value > found.uncertainty > 0 and [mesh.cells_per_radius for mesh in found.meshes] == [3, 4, 6]
+    assert "axisymmetric depth_of_penetration_mm" in ran._repr_html_() and " ± " in repr(ran)
+    assert len(ran.history) > 2
+    # Unless it is asked for, there is none.
+    fast = percuss.run(case)
+    assert fast.axisymmetric is None and "axisymmetric d" not in fast._repr_html_()
+    pressed = case.replace({"target": {"constant_pressure": "2 GPa"}, "axi": None, "projectile.material": "ofhc-copper"})
+    refused = percuss.run(pressed, reference="fine").axisymmetric
+    assert refused is not None and refused.value is None and "constant pressure" in refused.reason
+    for arguments in ({"model": "fdm", "reference": "fine"}, {"reference": "finest"}):
+        with pytest.raises(percuss.UsageError, match="`reference`"):
+            percuss.run(case, **arguments)
 
 
 def test_every_command_gives_the_answer_of_the_program(program: Program, tmp_path: Path) -> None:
@@ -104,7 +133,7 @@ def test_histories_are_those_of_the_program(program: Program, tmp_path: Path) ->
     import pyarrow.parquet
 
     case = "cases/paper-table1/scenario.toml"
-    assert program("run", case, "--out", tmp_path).returncode == 0
+    assert program("run", case, "--fast", "--out", tmp_path).returncode == 0
     written = pyarrow.parquet.read_table(tmp_path / "history.parquet")
     result = percuss.run(case)
     history = result.history
@@ -127,7 +156,7 @@ def test_gauges_are_those_of_the_program(program: Program, tmp_path: Path) -> No
     text = Path("cases/paper-table1/scenario.toml").read_text()
     file = tmp_path / "gauges.toml"
     file.write_text(text + "\n[[gauges]]\nname = 'tip'\nposition = '-1 mm'\n[[gauges]]\nposition = '5 mm'\n")
-    assert program("run", file, "--out", tmp_path).returncode == 0
+    assert program("run", file, "--fast", "--out", tmp_path).returncode == 0
     written = pandas.read_csv(tmp_path / "gauges.csv")
     gauges = percuss.run(file).history.gauges
     assert list(gauges) == ["tip", "gauge 2"]

@@ -73,7 +73,8 @@ fn in_table(
     })
 }
 
-fn expected_error(record: &ResultRecord) -> Option<Row> {
+/// Estimated model error of a depth, if similar cases are in the benchmark.
+pub fn expected_error(record: &ResultRecord) -> Option<Row> {
     let expected = record.expected_error.as_ref()?;
     let words = format!(
         "{} against the axisymmetric reference, from the {} most similar benchmark cases",
@@ -135,6 +136,19 @@ pub fn number(value: f64, unit: &str) -> String {
         .to_owned()
 }
 
+/// A value to three digits with its uncertainty, rounded up to the last of them, and its unit.
+pub fn with_uncertainty(value: f64, uncertainty: f64, unit: &str) -> String {
+    let magnitude = value.abs().max(uncertainty).log10().floor();
+    if !magnitude.is_finite() {
+        return format!("{value} ± {uncertainty} {unit}");
+    }
+    let decimals = (2.0 - magnitude).max(0.0) as usize;
+    let step = 10_f64.powi(-(decimals as i32));
+    // A multiple of the step is not rounded up by the last bit of a division.
+    let uncertainty = (uncertainty / step - 1e-9).ceil() * step;
+    format!("{value:.decimals$} ± {uncertainty:.decimals$} {unit}")
+}
+
 fn of_initial(value: f64, initial: f64, unit: &str) -> String {
     format!(
         "{} ({} % of {})",
@@ -151,5 +165,28 @@ pub fn percentage(share: f64) -> String {
         format!("{percent:.0e}")
     } else {
         format!("{percent:.2}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_uncertainty;
+
+    #[test]
+    fn an_uncertainty_is_rounded_up_to_the_last_digit_of_the_value() {
+        for (value, uncertainty, words) in [
+            (0.21733, 0.01045, "0.217 ± 0.011 mm"),
+            (2.2111, 0.0167, "2.21 ± 0.02 mm"),
+            (12.34, 0.51, "12.3 ± 0.6 mm"),
+            (0.0512, 0.001, "0.0512 ± 0.0010 mm"),
+            (345.6, 3.2, "346 ± 4 mm"),
+            (1.5, 0.03, "1.50 ± 0.03 mm"),
+            // The uncertainty has the digits where it is the larger of the two.
+            (0.001, 0.25, "0.001 ± 0.250 mm"),
+            (-4.0, 0.5, "-4.00 ± 0.50 mm"),
+            (0.0, 0.0, "0 ± 0 mm"),
+        ] {
+            assert_eq!(with_uncertainty(value, uncertainty, "mm"), words);
+        }
     }
 }

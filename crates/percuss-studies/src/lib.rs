@@ -2,6 +2,7 @@
 //!
 //! Depend on `percuss`, which re-exports what users need.
 
+pub mod axisymmetric;
 pub mod calibrate;
 pub mod compare;
 pub mod converge;
@@ -18,8 +19,8 @@ pub mod validate;
 
 // What the studies use of the layers below.
 use percuss_core::{
-    Error, Scenario, check, document, error, fragments, material, options, outcome, problem,
-    regime, richardson, scenario, statistics, units, validity,
+    Error, Refusal, Scenario, check, document, error, fragments, material, options, outcome,
+    problem, regime, richardson, scenario, statistics, units, validity,
 };
 #[cfg(test)]
 use percuss_core::{NumericalError, solver};

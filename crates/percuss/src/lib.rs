@@ -35,8 +35,8 @@ pub use percuss_input::{case, inputs};
 pub use percuss_models::{analytic, axi, chain, fdm, model};
 #[doc(inline)]
 pub use percuss_studies::{
-    calibrate, compare, converge, experiments, limit, model_error, summary, sweep, uncertainty,
-    v50, validate,
+    axisymmetric, calibrate, compare, converge, experiments, limit, model_error, summary, sweep,
+    uncertainty, v50, validate,
 };
 
 /// The README's library example, run from the folder that it stands in.

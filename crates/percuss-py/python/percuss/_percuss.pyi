@@ -94,6 +94,7 @@ def run(
     projectile_law: StrengthLaw | None = None,
     target_law: StrengthLaw | None = None,
     resistance_law: ResistanceLaw | None = None,
+    reference: str | None = None,
 ) -> RunResult: ...
 def execute(
     words: Sequence[str],

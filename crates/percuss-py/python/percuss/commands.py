@@ -22,6 +22,7 @@ def run(
     case: CaseLike,
     model: str | None = None,
     *,
+    reference: str | None = None,
     history: bool = True,
     out: Path | None = None,
     field: str | None = None,
@@ -44,6 +45,11 @@ def run(
     model : str, optional
         Name of the model; :func:`percuss.models` lists them. When not given, it is ``chain``; where that does not apply, it is the model
         that :func:`compare` recommends, and ``result.model_choice`` says why.
+    reference : str, optional
+        Meshes of the axisymmetric answer: ``"standard"``, 3, 4 and 6 cells along the projectile's radius, or ``"fine"``, 6, 8 and 12.
+        Then ``result.axisymmetric`` has the ``value`` in the limit of fine meshes of the main ``quantity``, its ``uncertainty`` by the
+        mesh alone, the observed ``order``, and the ``meshes``; where there is none, the ``reason``. When not given, there is no
+        answer, as with ``percuss run --fast``. For model ``chain`` or no model.
     history : bool
         Whether to keep time histories; with ``out`` they are kept.
     out : path, optional
@@ -93,23 +99,34 @@ def run(
     >>> result = percuss.run("cases/paper-table1/scenario.toml")
     >>> result.outcome, round(result.depth_of_penetration_mm, 4)
     ('rebounded', 0.2034)
+    >>> answer = percuss.run("cases/paper-table1/scenario.toml", reference="standard").axisymmetric
+    >>> answer.quantity, len(answer.meshes), answer.value > answer.uncertainty > 0
+    ('depth_of_penetration_mm', 3, True)
     """
     laws = (projectile_law, target_law, resistance_law)
+    if reference not in (None, "standard", "fine"):
+        raise UsageError(f"`reference` is {reference!r}; allowed: None, 'standard' or 'fine'")
+    if reference is not None and model not in (None, "chain"):
+        raise UsageError(f"`reference` has no effect with model `{model}`: leave one of both out, or give model `chain`")
+    if reference is not None and any(law is not None for law in laws):
+        raise UsageError("`reference` needs laws of the library: leave it out, or add the law to the library")
     written: dict[str, Any] = {"field": field, "fields": fields, "animation": animation, "frames": frames, "resume": resume}
     if out is not None or checkpoint is not None or any(value not in (None, False) for value in written.values()):
         if any(law is not None for law in laws):
             raise UsageError("files can be written only for runs with laws of the library: leave out `out`, or add the law to the library")
         every = f"{float(checkpoint)!r} s" if isinstance(checkpoint, (int, float)) else checkpoint
-        response = execute("run", of=case, model=model, out=out, checkpoint=every, progress=progress, **written)
+        response = execute(
+            "run", of=case, model=model, out=out, reference=reference, fast=reference is None, checkpoint=every, progress=progress, **written
+        )
         run_output = response.run()
         assert run_output is not None
         return RunResult(run_output, response)
     native_case = case._native if isinstance(case, Case) else native(case)
     if progress is False or callable(progress):
         on_progress = progress or None
-        return RunResult(_percuss.run(native_case, model, history, on_progress, *laws))
+        return RunResult(_percuss.run(native_case, model, history, on_progress, *laws, reference))
     with watching(progress) as bar:
-        return RunResult(_percuss.run(native_case, model, history, bar, *laws))
+        return RunResult(_percuss.run(native_case, model, history, bar, *laws, reference))
 
 
 def compare(

@@ -23,11 +23,15 @@ class RunResult(ResultValues, Result):
     ----------
     case, percuss_version : str
         Name of the case and version of the program.
+    axisymmetric : Record or None
+        Axisymmetric answer, if ``reference`` asked for it: ``quantity``, ``value``, ``uncertainty``, ``order``, ``outcome``, ``meshes``, and the
+        ``reason`` where there is none.
     {fields}
     """
 
     case: str
     percuss_version: str
+    axisymmetric: Record | None
 
     _native: _percuss.RunResult
 
@@ -78,8 +82,21 @@ class RunResult(ResultValues, Result):
         """Draws the axial stress [MPa] versus position [mm] and time [us]."""
         return plots.stress(self, ax)
 
+    def _headline(self) -> list[list[str]]:
+        answer = self.axisymmetric
+        if answer is None:
+            return []
+        if answer.value is None:
+            return [["no axisymmetric answer", answer.reason]]
+        off = "" if answer.uncertainty is None else f" ± {answer.uncertainty:.2g}"
+        return [[f"axisymmetric {answer.quantity}", f"{shown(answer.value)}{off} ({len(answer.meshes)} meshes)"]]
+
+    def __repr__(self) -> str:
+        words = "".join(f"{label}={value}, " for label, value in self._headline())
+        return super().__repr__().replace("(", f"({words}", 1)
+
     def _repr_html_(self) -> str:
-        rows = [[name, value] for name, value in self._shown()]
+        rows = self._headline() + [[name, value] for name, value in self._shown()]
         if self.expected_error is not None:
             error = self.expected_error
             ends = f"10th-90th percentile {100 * error.low:+.0f} % to {100 * error.high:+.0f} %, from {error.cases} similar benchmark cases"

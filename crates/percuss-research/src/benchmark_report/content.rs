@@ -1,10 +1,10 @@
 //! Content of the benchmark report.
 
-use percuss_report::page::Block;
+use percuss_report::{page::Block, result_rows::with_uncertainty};
 
 use super::{BenchmarkResults, Origin, figures::BenchmarkFigures, tables};
 use crate::{
-    benchmark::{self, Estimate, Grouping},
+    benchmark::{self, Grouping},
     paper_case,
 };
 
@@ -88,7 +88,10 @@ fn paper_case<'a>(compared: &BenchmarkResults) -> Vec<Block<'a>> {
     if !compared.paper_case.is_empty() {
         let depths = paper_case::SPEEDS.iter().filter_map(|&speed| {
             let estimate = paper_case::depth(&compared.paper_case, speed)?;
-            Some(format!("{} at {speed} m/s", with_uncertainty(&estimate)))
+            Some(format!(
+                "{} at {speed} m/s",
+                with_uncertainty(estimate.depth_mm, estimate.uncertainty_mm, "mm")
+            ))
         });
         let depths: Vec<String> = depths.collect();
         blocks.extend([
@@ -104,39 +107,4 @@ fn paper_case<'a>(compared: &BenchmarkResults) -> Vec<Block<'a>> {
         ]);
     }
     blocks
-}
-
-/// A depth to three digits, and its uncertainty rounded up to the last of them.
-fn with_uncertainty(estimate: &Estimate) -> String {
-    let before = estimate.depth_mm.log10().floor().max(0.0) as usize;
-    let leading_zeros = (-estimate.depth_mm.log10()).ceil().max(0.0) as usize;
-    let decimals = (2 + leading_zeros).saturating_sub(before);
-    let unit = 10_f64.powi(-(decimals as i32));
-    let uncertainty = (estimate.uncertainty_mm / unit).ceil() * unit;
-    format!(
-        "{:.decimals$} ± {uncertainty:.decimals$} mm",
-        estimate.depth_mm
-    )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_uncertainty_is_rounded_up_to_the_last_digit_of_the_depth() {
-        for (depth_mm, uncertainty_mm, words) in [
-            (0.21733, 0.01045, "0.217 ± 0.011 mm"),
-            (2.2111, 0.0167, "2.21 ± 0.02 mm"),
-            (12.34, 0.51, "12.3 ± 0.6 mm"),
-            (0.0512, 0.001, "0.0512 ± 0.0010 mm"),
-            (345.6, 3.2, "346 ± 4 mm"),
-        ] {
-            let estimate = Estimate {
-                depth_mm,
-                uncertainty_mm,
-            };
-            assert_eq!(with_uncertainty(&estimate), words);
-        }
-    }
 }

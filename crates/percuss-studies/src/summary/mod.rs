@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::{
     Error,
+    axisymmetric::AxisymmetricAnswer,
     chain::resistance_model_in_use,
     fragments::FragmentRecord,
     model_error::expected_error,
@@ -42,6 +43,8 @@ pub struct CaseResults {
     pub percuss_version: &'static str,
     /// One entry per model.
     pub results: Vec<ResultRecord>,
+    /// Axisymmetric answer; null where none was asked for.
+    pub axisymmetric: Option<AxisymmetricAnswer>,
 }
 
 impl ResultRecord {
@@ -103,6 +106,16 @@ impl CaseResults {
                 .iter()
                 .map(|result| ResultRecord::new(scenario, result))
                 .collect(),
+            axisymmetric: None,
+        }
+    }
+
+    /// The results with the axisymmetric answer of the case.
+    #[must_use]
+    pub fn with_axisymmetric(self, axisymmetric: Option<AxisymmetricAnswer>) -> Self {
+        Self {
+            axisymmetric,
+            ..self
         }
     }
 }

@@ -1,5 +1,6 @@
 //! `percuss run`: one case by one model.
 
+mod axisymmetric;
 mod checkpoints;
 mod other_models;
 mod task;
@@ -8,13 +9,15 @@ use std::{path::PathBuf, sync::Arc, sync::atomic::AtomicBool, time::Duration};
 
 use clap::{Args, builder::PossibleValuesParser, value_parser};
 use percuss::{
+    Error,
+    axisymmetric::{AxisymmetricAnswer, ReferenceMeshes},
     model::{DEFAULT_MODEL, MODELS},
     outcome::{RunResult, Termination},
-    summary::ResultRecord,
+    summary::{CaseResults, ResultRecord},
 };
 use percuss_report::FieldQuantity;
 
-use self::task::Task;
+use self::{axisymmetric::Wanted, task::Task};
 use crate::{
     diagnostic,
     failure::Failure,
@@ -35,9 +38,19 @@ model is `chain`; where that does not apply, it is the model that
 `percuss compare` recommends, and the first lines name it. The main result of
 every other applicable model is listed too, except models that take minutes.
 
+Then the axisymmetric model `axi` runs on 3, 4 and 6 cells per radius, and its
+depth of penetration (on a rigid wall the final length, after perforation the
+residual velocity) in the limit of fine meshes follows: the number to use. The
+number after ± is the error of the mesh alone, not of the material data.
+--reference fine takes 6, 8 and 12 cells; --fast leaves the runs out. They are
+also left out with a --model other than `chain`, where `axi` does not apply,
+and where they take more than 60 s of processor time, unless --reference is
+given. Ctrl-C during these runs keeps the first result.
+
 With --quiet one line is printed, of NAME=VALUE pairs with the names of --json:
   outcome=at_rest depth_of_penetration_mm=0.0436 residual_velocity_m_s=-1.2
-  ballistic_limit_m_s=null projectile_final_length_mm=12.7 warnings=1 model=chain
+  ballistic_limit_m_s=null projectile_final_length_mm=12.7 warnings=1
+  model=chain axisymmetric.value=0.0412 axisymmetric.uncertainty=0.0021
 (in one line; a number that the model does not give is `null`).
 
 With --out DIR a copy of the case (case-as-run.toml, with the materials of the
@@ -62,6 +75,8 @@ After one second a progress bar appears, if standard error is a terminal.";
 const AFTER_HELP: &str = "\
 Examples:
   percuss run my-case/scenario.toml
+  percuss run my-case/scenario.toml --fast
+  percuss run my-case/scenario.toml --reference fine
   percuss run my-case/scenario.toml --out results
   percuss run my-case/scenario.toml --json > result.json
   percuss run my-case/scenario.toml --quiet
@@ -83,6 +98,13 @@ pub struct Run {
     #[arg(long, value_name = "NAME")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: Option<String>,
+    /// Meshes of the axisymmetric answer, whatever they cost [default: standard, within 60 s of processor time]
+    #[arg(long, value_name = "MESHES", conflicts_with = "fast")]
+    #[arg(value_parser = PossibleValuesParser::new(ReferenceMeshes::ALL.map(ReferenceMeshes::name)))]
+    reference: Option<String>,
+    /// Leave out the axisymmetric answer
+    #[arg(long)]
+    fast: bool,
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]
     json: bool,
@@ -113,8 +135,10 @@ pub struct Run {
     resume: bool,
 }
 
-/// Fraction of the work that is the run itself; the rest is writing files.
+/// Fraction of the work that is computation; the rest is writing files.
 const COMPUTED: f64 = 0.9;
+/// Fraction of the computation that is the run of the model, where an axisymmetric answer follows.
+const MODEL: f64 = 0.1;
 
 impl Run {
     pub fn run(&self) -> Result<(), Failure> {
@@ -132,11 +156,42 @@ impl Run {
         let mut progress = Progress::new(!self.quiet);
         let run_output = task.compute(&mut progress.callback());
         progress.finish();
-        let run_output = run_output?;
+        let mut run_output = run_output?;
+        let wanted = Wanted::of(self, &run_output.scenario);
+        let is_planned = wanted.as_ref().is_some_and(Wanted::is_planned);
+        let is_text = !(self.json || self.quiet);
+        if is_planned && is_text {
+            output::print(&self.first_text(&run_output, true)?)?;
+        }
+        let mut was_stopped = false;
+        if let Some(wanted) = &wanted {
+            let stop = match is_planned && !self.leaves_checkpoints() {
+                true => workers::stop_on_request(),
+                false => Arc::clone(&stop),
+            };
+            let answer = self.axisymmetric(wanted, &run_output, &stop)?;
+            was_stopped = answer.is_none();
+            run_output.axisymmetric = Some(answer.unwrap_or_else(|| wanted.stopped()));
+        }
         let mut progress = Progress::new(!self.quiet);
         let files = task.write(&run_output, &mut |part, words| progress.update(part, words));
         progress.finish();
-        self.print(&run_output, &files?)
+        let files = self.file_list(&run_output, &files?);
+        if self.json {
+            files.print_json(&run_output.results(), self.quiet)?;
+        } else if self.quiet {
+            output::print(&one_line(&run_output.results()))?;
+        } else {
+            let first = match is_planned {
+                true => String::new(),
+                false => self.first_text(&run_output, false)?,
+            };
+            files.print_under(first + &axisymmetric_text(&run_output, is_planned))?;
+        }
+        match was_stopped {
+            true => Err(Failure::AxisymmetricStopped),
+            false => Ok(()),
+        }
     }
 
     /// Result of the command, with histories where it writes them.
@@ -147,7 +202,18 @@ impl Run {
         on_progress: ProgressCallback<'_>,
     ) -> Result<Response, Failure> {
         let mut task = Task::new(self, virtual_files, stop, &|_| ())?;
-        let run_output = task.compute(&mut |part, words| on_progress(COMPUTED * part, words))?;
+        let wanted = Wanted::of(self, task.scenario());
+        let is_planned = wanted.as_ref().is_some_and(Wanted::is_planned);
+        let model = if is_planned { MODEL } else { 1.0 };
+        let mut run_output =
+            task.compute(&mut |part, words| on_progress(COMPUTED * model * part, words))?;
+        if let Some(wanted) = wanted {
+            let mut report = |part: f64, words: &str| {
+                on_progress(COMPUTED * (model + (1.0 - model) * part), words)
+            };
+            let answer = wanted.compute(&run_output.scenario, stop, &mut report)?;
+            run_output.axisymmetric = Some(answer);
+        }
         let files = task.write(&run_output, &mut |part, words| {
             // What is left takes seconds.
             let _ = on_progress(COMPUTED + (1.0 - COMPUTED) * part, words);
@@ -158,6 +224,22 @@ impl Run {
         })
     }
 
+    /// The axisymmetric answer of a run; `None` where the user stopped it.
+    fn axisymmetric(
+        &self,
+        wanted: &Wanted,
+        run_output: &RunOutput,
+        stop: &AtomicBool,
+    ) -> Result<Option<AxisymmetricAnswer>, Failure> {
+        let mut progress = Progress::new(!self.quiet);
+        let answer = wanted.compute(&run_output.scenario, stop, &mut progress.callback());
+        progress.finish();
+        match answer {
+            Err(Error::Cancelled { .. }) => Ok(None),
+            answer => Ok(Some(answer?)),
+        }
+    }
+
     /// Whether the model leaves checkpoints in the folder.
     fn leaves_checkpoints(&self) -> bool {
         let asked = self.model.as_deref().unwrap_or(DEFAULT_MODEL);
@@ -165,36 +247,45 @@ impl Run {
         self.out.is_some() && chosen.is_some_and(|model| model.has_fields())
     }
 
-    fn print(&self, run_output: &RunOutput, files: &[PathBuf]) -> Result<(), Failure> {
-        let results = run_output.results();
-        let mut written = FileList::new(files);
-        if !run_folder::has_history(&run_output.result) {
-            let why = without_history(&run_output.result);
-            written = written.with_note(&format!("no time history: this model {why}"));
+    /// List of the written files.
+    fn file_list(&self, run_output: &RunOutput, files: &[PathBuf]) -> FileList {
+        let written = FileList::new(files);
+        if run_folder::has_history(&run_output.result) {
+            return written;
         }
-        if self.json {
-            return written.print_json(&results, self.quiet);
-        }
-        if self.quiet {
-            let lines: String = results.results.iter().map(one_line).collect();
-            return output::print(&lines);
-        }
+        let why = without_history(&run_output.result);
+        written.with_note(&format!("no time history: this model {why}"))
+    }
+
+    /// Results of the model, and of others if none is named. Where an axisymmetric answer `follows`, it stands for the estimated model
+    /// error.
+    fn first_text(&self, run_output: &RunOutput, follows: bool) -> Result<String, Failure> {
+        let (scenario, result) = (&run_output.scenario, &run_output.result);
         let others = match self.model {
             Some(_) => None,
             None => {
                 let mut progress = Progress::new(true);
-                let others = other_models::rows(
-                    &run_output.scenario,
-                    run_output.result.model,
-                    &mut progress,
-                );
+                let others = other_models::rows(scenario, result.model, &mut progress);
                 progress.finish();
                 Some(others?)
             }
         };
-        let record = &results.results[0];
-        let text = result_table::text(&run_output.scenario, &run_output.result, record, others);
-        written.print_under(text)
+        let mut record = ResultRecord::new(scenario, result);
+        if follows {
+            record.expected_error = None;
+        }
+        Ok(result_table::text(scenario, result, &record, others))
+    }
+}
+
+/// The axisymmetric answer as text, if there is one; the first text `lacks_estimate` where an answer was to follow.
+fn axisymmetric_text(run_output: &RunOutput, lacks_estimate: bool) -> String {
+    match &run_output.axisymmetric {
+        Some(answer) => {
+            let record = ResultRecord::new(&run_output.scenario, &run_output.result);
+            axisymmetric::text(answer, &record, lacks_estimate)
+        }
+        None => String::new(),
     }
 }
 
@@ -207,10 +298,21 @@ fn without_history(result: &RunResult) -> &'static str {
 }
 
 /// Result as one line of NAME=VALUE pairs.
-fn one_line(record: &ResultRecord) -> String {
+fn one_line(results: &CaseResults) -> String {
+    let mut line: String = results.results.iter().map(pairs).collect();
+    if let Some(answer) = &results.axisymmetric {
+        for (name, value) in [("value", answer.value), ("uncertainty", answer.uncertainty)] {
+            let value = value.map_or("null".to_owned(), |value| value.to_string());
+            line += &format!(" axisymmetric.{name}={value}");
+        }
+    }
+    line + "\n"
+}
+
+fn pairs(record: &ResultRecord) -> String {
     let outcome = serde_json::json!(record.outcome);
     format!(
-        "outcome={} {} warnings={} model={}\n",
+        "outcome={} {} warnings={} model={}",
         outcome.as_str().unwrap_or_default(),
         output::main_numbers(record),
         record.warnings.len(),

@@ -17,7 +17,7 @@ use percuss::{
 use percuss_report::{FieldQuantity, FieldSeries, FinalField};
 
 use super::{
-    Run,
+    Run, axisymmetric,
     checkpoints::{self, CheckpointWriter},
 };
 use crate::{
@@ -94,6 +94,11 @@ impl<'a> Task<'a> {
         })
     }
 
+    /// The case.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
     /// Executes the run. A run with checkpoints is stopped by its checkpoint writer alone.
     pub fn compute(&mut self, on_progress: ProgressCallback<'_>) -> Result<RunOutput, Failure> {
         let by_checkpoint = self.fields.is_some();
@@ -118,6 +123,7 @@ impl<'a> Task<'a> {
         Ok(RunOutput {
             scenario: Arc::clone(&self.scenario),
             result: Arc::new(result),
+            axisymmetric: None,
         })
     }
 
@@ -288,6 +294,10 @@ fn check_use(options: &Run, model: &dyn Model) -> Result<(), Failure> {
             let what = "whose fields are one-dimensional";
             return Err(useless(what, option, "`--model axi`"));
         }
+    }
+    if options.reference.is_some() && !axisymmetric::is_added_to(options.model.as_deref()) {
+        let what = "to which no axisymmetric answer is added";
+        return Err(useless(what, "--reference", "`--model chain`, or no model"));
     }
     if options.frames.is_some() && !(options.fields || options.animation) {
         return Err(Failure::Usage {

@@ -1,0 +1,386 @@
+//! Axisymmetric answer of a case: the model `axi` on several meshes, the limit of its main number, and the discretisation uncertainty.
+//!
+//! ```
+//! use percuss::{axisymmetric::{answer, plan, ReferenceMeshes}, case};
+//!
+//! let scenario = case::load_str("slow ball", r#"
+//!     projectile = { material = "copper", length = "5 mm", diameter = "5 mm", impact_velocity = "200 m/s" }
+//!     target = { material = "aluminium-2024-t351", thickness = "25 mm" }
+//!     axi = { target_radius = "8 mm", target_depth = "8 mm" }
+//! "#)?;
+//! let plan = plan(&scenario, ReferenceMeshes::Standard, None).expect("`axi` applies");
+//! let answer = answer(&scenario, &plan, &mut |_| std::ops::ControlFlow::Continue(()))?;
+//! assert_eq!(answer.meshes.len(), 3);
+//! assert!(answer.uncertainty.unwrap() < answer.depth_of_penetration_mm.unwrap());
+//! # Ok::<(), percuss::Error>(())
+//! ```
+
+mod cost;
+mod limit;
+#[cfg(test)]
+mod tests;
+
+use std::{
+    ops::ControlFlow,
+    sync::{Mutex, PoisonError},
+};
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::{
+    Error, Refusal, Scenario,
+    model::{self, Control, Model},
+    outcome::{BandQuantity, Outcome, RunResult},
+    richardson::OnMesh,
+    scenario::TargetBody,
+};
+
+pub use cost::{BUDGET, seconds};
+pub use limit::{MeshLimit, limit};
+
+/// Name of the model.
+const MODEL: &str = "axi";
+/// Fewest meshes of an answer: one alone has no uncertainty.
+const FEWEST: usize = 2;
+
+/// Meshes of an axisymmetric answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ReferenceMeshes {
+    /// 3, 4 and 6 cells along the projectile's radius: about a second for a short rod.
+    #[default]
+    Standard,
+    /// 6, 8 and 12 cells: eight times the cost.
+    Fine,
+}
+
+impl ReferenceMeshes {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Standard, Self::Fine];
+
+    /// Name on the command line and in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Standard => "standard",
+            Self::Fine => "fine",
+        }
+    }
+
+    /// The meshes of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|meshes| meshes.name() == name)
+    }
+
+    /// Cells along the projectile's radius, from coarse to fine.
+    pub fn cells(self) -> [u32; 3] {
+        match self {
+            Self::Standard => [3, 4, 6],
+            Self::Fine => [6, 8, 12],
+        }
+    }
+}
+
+/// Runs of an axisymmetric answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Meshes that are asked for.
+    pub reference: ReferenceMeshes,
+    /// Cells along the projectile's radius of the meshes that are run, from coarse to fine.
+    pub cells: Vec<u32>,
+    /// Reason why that is not all of them.
+    pub note: Option<String>,
+}
+
+/// Plans the runs of a case: all meshes, or without the finest where all would cost more than `budget` [s of processor time].
+///
+/// # Errors
+/// The reason why there is no answer: `axi` does not apply, or the coarser meshes alone cost more than the budget.
+pub fn plan(
+    scenario: &Scenario,
+    reference: ReferenceMeshes,
+    budget: Option<f64>,
+) -> Result<Plan, Refusal> {
+    let axi = model::model(MODEL).map_err(|error| Refusal::new(error.to_string()))?;
+    model::applicability(axi, scenario)?;
+    let all = reference.cells();
+    let cost = |cells: &[u32]| cells.iter().map(|&n| seconds(scenario, n)).sum::<f64>();
+    let whole = cost(&all);
+    let within = |cost: f64| budget.is_none_or(|budget| cost <= budget);
+    let remedy = format!("`--reference {}` computes them", reference.name());
+    if within(whole) {
+        return Ok(Plan {
+            reference,
+            cells: all.to_vec(),
+            note: None,
+        });
+    }
+    let [coarser @ .., finest] = &all;
+    let expected = |seconds: f64| format!("about {} of processor time", in_words(seconds));
+    if within(cost(coarser)) {
+        return Ok(Plan {
+            reference,
+            cells: coarser.to_vec(),
+            note: Some(format!(
+                "the mesh of {finest} cells is left out: all meshes take {}; {remedy}",
+                expected(whole)
+            )),
+        });
+    }
+    Err(Refusal::new(format!("the runs take {}", expected(whole))).with_remedy(remedy))
+}
+
+/// A time as `90 s`, `5 min` or `2 h`.
+fn in_words(seconds: f64) -> String {
+    match seconds {
+        ..120.0 => format!("{seconds:.0} s"),
+        ..7200.0 => format!("{:.0} min", seconds / 60.0),
+        _ => format!("{:.0} h", seconds / 3600.0),
+    }
+}
+
+/// Axisymmetric answer of a case. The names are stable; a number that does not exist is null.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AxisymmetricAnswer {
+    /// Meshes that were asked for.
+    pub reference: ReferenceMeshes,
+    /// Reason why there is no answer.
+    pub reason: Option<String>,
+    /// Meshes that are missing, with the reason.
+    pub note: Option<String>,
+    /// Outcome on the finest mesh.
+    pub outcome: Option<Outcome>,
+    /// Main number: final length on a rigid wall, residual velocity after perforation, depth of penetration otherwise.
+    pub quantity: Option<BandQuantity>,
+    /// Its value in the limit of fine meshes, in the unit of its name.
+    pub value: Option<f64>,
+    /// Half width of its discretisation uncertainty ([`limit`]). The error of models and data of the materials is not part of it.
+    pub uncertainty: Option<f64>,
+    /// Observed order of convergence, where the value is extrapolated.
+    pub order: Option<f64>,
+    /// Depth of penetration: the limit where it is the main number, otherwise that of the finest mesh.
+    pub depth_of_penetration_mm: Option<f64>,
+    /// Residual velocity, in the same way.
+    pub residual_velocity_m_s: Option<f64>,
+    /// Final length of the projectile, in the same way.
+    pub projectile_final_length_mm: Option<f64>,
+    /// Results of the meshes, from coarse to fine.
+    pub meshes: Vec<MeshResult>,
+}
+
+/// Result of one mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MeshResult {
+    /// Cells along the projectile's radius.
+    pub cells_per_radius: u32,
+    /// Outcome.
+    pub outcome: Outcome,
+    /// Depth of penetration.
+    pub depth_of_penetration_mm: Option<f64>,
+    /// Residual velocity.
+    pub residual_velocity_m_s: Option<f64>,
+    /// Final length of the projectile.
+    pub projectile_final_length_mm: Option<f64>,
+    /// Time steps.
+    pub steps: Option<u64>,
+    /// Energy balance error, as a part of the initial energy.
+    pub energy_residual: Option<f64>,
+}
+
+impl MeshResult {
+    fn new(cells_per_radius: u32, result: &RunResult) -> Self {
+        let value = |quantity: BandQuantity| Some(quantity.in_unit(result.measurable(quantity)?));
+        let perforated = result.outcome == Outcome::Perforated;
+        let numerics = result.numerics.as_ref();
+        Self {
+            cells_per_radius,
+            outcome: result.outcome,
+            depth_of_penetration_mm: value(BandQuantity::DepthOfPenetration)
+                .filter(|_| !perforated),
+            residual_velocity_m_s: value(BandQuantity::ResidualVelocity),
+            projectile_final_length_mm: value(BandQuantity::ProjectileFinalLength),
+            steps: numerics.map(|numerics| numerics.steps),
+            energy_residual: numerics.map(|numerics| numerics.energy_residual),
+        }
+    }
+
+    /// A main number, in the unit of its name.
+    pub fn value(&self, quantity: BandQuantity) -> Option<f64> {
+        match quantity {
+            BandQuantity::DepthOfPenetration => self.depth_of_penetration_mm,
+            BandQuantity::ResidualVelocity => self.residual_velocity_m_s,
+            BandQuantity::ProjectileFinalLength => self.projectile_final_length_mm,
+            BandQuantity::BallisticLimit => None,
+        }
+    }
+}
+
+/// Runs the planned meshes in parallel and takes the limit of the main number. `progress` gets the fraction done, 0 to 1, from any thread
+/// but never from two at once; [`ControlFlow::Break`] stops the runs.
+///
+/// # Errors
+/// [`Error::Cancelled`]. A mesh that fails is left out with a note; with fewer than two meshes left there is only a reason.
+pub fn answer(
+    scenario: &Scenario,
+    plan: &Plan,
+    progress: &mut (dyn FnMut(f64) -> ControlFlow<()> + Send),
+) -> Result<AxisymmetricAnswer, Error> {
+    let axi = model::model(MODEL)?;
+    let costs: Vec<f64> = plan.cells.iter().map(|&n| seconds(scenario, n)).collect();
+    let whole: f64 = costs.iter().sum();
+    let done = Mutex::new((vec![0.0; costs.len()], progress));
+    let report = |mesh: usize, fraction: f64| {
+        // A caller whose callback has panicked gets its panic anyway.
+        let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
+        let (fractions, progress) = &mut *done;
+        fractions[mesh] = fraction.clamp(0.0, 1.0);
+        let sum: f64 = fractions.iter().zip(&costs).map(|(f, cost)| f * cost).sum();
+        progress(sum / whole)
+    };
+    // The finest mesh takes longest and starts first.
+    let mut runs: Vec<Result<MeshResult, Error>> = (0..costs.len())
+        .into_par_iter()
+        .with_max_len(1)
+        .rev()
+        .map(|mesh| {
+            let mut watch = |now: model::Progress| report(mesh, now.fraction);
+            on_mesh(axi, scenario, plan.cells[mesh], &mut watch)
+        })
+        .collect();
+    runs.reverse();
+    let mut meshes = Vec::new();
+    let mut notes = Vec::from_iter(plan.note.clone());
+    for (run, cells) in runs.into_iter().zip(&plan.cells) {
+        match run {
+            Ok(mesh) => meshes.push(mesh),
+            Err(stop @ Error::Cancelled { .. }) => return Err(stop),
+            Err(error) => notes.push(format!("the run on {cells} cells failed: {error}")),
+        }
+    }
+    Ok(AxisymmetricAnswer::of(
+        scenario,
+        plan.reference,
+        meshes,
+        &notes,
+    ))
+}
+
+fn on_mesh(
+    axi: &dyn Model,
+    scenario: &Scenario,
+    cells: u32,
+    watch: &mut dyn FnMut(model::Progress) -> ControlFlow<()>,
+) -> Result<MeshResult, Error> {
+    let mut scenario = scenario.clone();
+    scenario.options.axi.cells_per_radius = Some(cells);
+    let mut control = Control {
+        progress: Some(watch),
+        ..Control::default()
+    };
+    let result = model::run(axi, &scenario, &mut control)?;
+    Ok(MeshResult::new(cells, &result))
+}
+
+impl AxisymmetricAnswer {
+    /// No answer, with the reason.
+    pub fn without(reference: ReferenceMeshes, reason: impl Into<String>) -> Self {
+        Self {
+            reference,
+            reason: Some(reason.into()),
+            note: None,
+            outcome: None,
+            quantity: None,
+            value: None,
+            uncertainty: None,
+            order: None,
+            depth_of_penetration_mm: None,
+            residual_velocity_m_s: None,
+            projectile_final_length_mm: None,
+            meshes: Vec::new(),
+        }
+    }
+
+    /// The answer of the results on meshes from coarse to fine.
+    fn of(
+        scenario: &Scenario,
+        reference: ReferenceMeshes,
+        meshes: Vec<MeshResult>,
+        notes: &[String],
+    ) -> Self {
+        let note = (!notes.is_empty()).then(|| notes.join("; "));
+        let Some(finest) = meshes.last().filter(|_| meshes.len() >= FEWEST) else {
+            return Self::without(reference, note.unwrap_or_default());
+        };
+        let quantity = leading(scenario, finest.outcome);
+        let on_meshes: Vec<OnMesh> = meshes
+            .iter()
+            .filter(|mesh| leading(scenario, mesh.outcome) == quantity)
+            .filter_map(|mesh| {
+                Some(OnMesh {
+                    cells: f64::from(mesh.cells_per_radius),
+                    value: mesh.value(quantity)?,
+                })
+            })
+            .collect();
+        // Meshes that perforate and meshes that do not have no common limit.
+        let whole = on_meshes.len() == meshes.len();
+        let limit = limit(
+            &on_meshes,
+            untouched(scenario, quantity),
+            resolution(scenario, quantity, finest.cells_per_radius),
+        )
+        .filter(|_| whole);
+        let value = limit.map_or(finest.value(quantity), |limit| Some(limit.value));
+        let of = |number: BandQuantity| match number == quantity {
+            true => value,
+            false => finest.value(number),
+        };
+        Self {
+            reference,
+            reason: None,
+            note,
+            outcome: Some(finest.outcome),
+            quantity: Some(quantity),
+            value,
+            uncertainty: limit.map(|limit| limit.uncertainty),
+            order: limit.and_then(|limit| limit.order),
+            depth_of_penetration_mm: of(BandQuantity::DepthOfPenetration),
+            residual_velocity_m_s: of(BandQuantity::ResidualVelocity),
+            projectile_final_length_mm: of(BandQuantity::ProjectileFinalLength),
+            meshes,
+        }
+    }
+}
+
+/// Main number of a run.
+fn leading(scenario: &Scenario, outcome: Outcome) -> BandQuantity {
+    match (&scenario.target, outcome) {
+        (TargetBody::RigidWall, _) => BandQuantity::ProjectileFinalLength,
+        (_, Outcome::Perforated) => BandQuantity::ResidualVelocity,
+        _ => BandQuantity::DepthOfPenetration,
+    }
+}
+
+/// Value of a number if the impact changed nothing, in the unit of its name.
+fn untouched(scenario: &Scenario, quantity: BandQuantity) -> f64 {
+    let si = match quantity {
+        BandQuantity::ProjectileFinalLength => scenario.projectile.length,
+        BandQuantity::ResidualVelocity => scenario.impact_velocity,
+        BandQuantity::DepthOfPenetration | BandQuantity::BallisticLimit => 0.0,
+    };
+    quantity.in_unit(si)
+}
+
+/// Part of a cell to which a surface is read: depths below a cell scatter by about as much from mesh to mesh.
+const SURFACE: f64 = 0.05;
+
+/// Smallest difference of a number that a mesh shows, in the unit of its name.
+fn resolution(scenario: &Scenario, quantity: BandQuantity, cells_per_radius: u32) -> f64 {
+    let cell = 0.5 * scenario.projectile.diameter / f64::from(cells_per_radius);
+    match quantity {
+        BandQuantity::DepthOfPenetration | BandQuantity::ProjectileFinalLength => {
+            quantity.in_unit(SURFACE * cell)
+        }
+        BandQuantity::ResidualVelocity | BandQuantity::BallisticLimit => 0.0,
+    }
+}
