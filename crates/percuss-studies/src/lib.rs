@@ -25,4 +25,4 @@ use percuss_core::{
 #[cfg(test)]
 use percuss_core::{NumericalError, solver};
 use percuss_input::{case, inputs};
-use percuss_models::{analytic, chain, model};
+use percuss_models::{analytic, axi, chain, model};

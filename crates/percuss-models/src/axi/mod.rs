@@ -39,6 +39,11 @@ use crate::{
 #[derive(Debug, Clone, Copy)]
 pub struct Axi;
 
+/// Number of particles that a run of a case begins with, for estimates of its cost. A nose that is not flat has fewer.
+pub fn particles(scenario: &Scenario) -> usize {
+    setup::particles(scenario)
+}
+
 impl Model for Axi {
     fn name(&self) -> &'static str {
         "axi"
@@ -62,7 +67,7 @@ impl Model for Axi {
                 start_temperature: true,
                 notes: &[
                     "normal impact of a body of revolution",
-                    "minutes rather than seconds: it runs only when asked for by name",
+                    "a second to minutes: it runs when asked for by name, and beside a run",
                 ],
                 ..ValidityDomain::OPEN
             }

@@ -176,6 +176,25 @@ fn sides(axis: &Axis, (from, to): (f64, f64), per_cell: u32) -> Vec<f64> {
     sides
 }
 
+/// Number of particles of a case before its nose is cut to shape, without building it.
+pub(super) fn particles(scenario: &Scenario) -> usize {
+    let (mesh, per_cell) = (mesh(scenario), scenario.options.axi.particles_per_side());
+    let count = |radius: f64, span: (f64, f64)| {
+        let rings = sides(&mesh.radial, (0.0, radius), per_cell).len() - 1;
+        rings * (sides(&mesh.axial, span, per_cell).len() - 1)
+    };
+    let rod = &scenario.projectile;
+    let mut sum = count(0.5 * rod.diameter, (-rod.length, 0.0));
+    if let Some(extent) = extent(scenario) {
+        let mut from = 0.0;
+        for thickness in &extent.layers {
+            sum += count(extent.radius, (from, from + thickness));
+            from += thickness;
+        }
+    }
+    sum
+}
+
 /// Fills a body of revolution with particles.
 ///
 /// Particles stand in rings and in layers that fit the body, of equal width and height where cells are; a ring that the surface cuts has
