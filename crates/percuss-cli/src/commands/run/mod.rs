@@ -176,18 +176,7 @@ impl Run {
         let mut progress = Progress::new(!self.quiet);
         let files = task.write(&run_output, &mut |part, words| progress.update(part, words));
         progress.finish();
-        let files = self.file_list(&run_output, &files?);
-        if self.json {
-            files.print_json(&run_output.results(), self.quiet)?;
-        } else if self.quiet {
-            output::print(&one_line(&run_output.results()))?;
-        } else {
-            let first = match is_planned {
-                true => String::new(),
-                false => self.first_text(&run_output, false)?,
-            };
-            files.print_under(first + &axisymmetric_text(&run_output, is_planned))?;
-        }
+        self.print(&run_output, &files?, is_planned)?;
         match was_stopped {
             true => Err(Failure::AxisymmetricStopped),
             false => Ok(()),
@@ -245,6 +234,27 @@ impl Run {
         let asked = self.model.as_deref().unwrap_or(DEFAULT_MODEL);
         let chosen = MODELS.iter().find(|model| model.name() == asked);
         self.out.is_some() && chosen.is_some_and(|model| model.has_fields())
+    }
+
+    /// Prints what is left to print: the first text may be on the terminal already.
+    fn print(
+        &self,
+        run_output: &RunOutput,
+        files: &[PathBuf],
+        first_is_printed: bool,
+    ) -> Result<(), Failure> {
+        let files = self.file_list(run_output, files);
+        if self.json {
+            return files.print_json(&run_output.results(), self.quiet);
+        }
+        if self.quiet {
+            return output::print(&one_line(&run_output.results()));
+        }
+        let first = match first_is_printed {
+            true => String::new(),
+            false => self.first_text(run_output, false)?,
+        };
+        files.print_under(first + &axisymmetric_text(run_output, first_is_printed))
     }
 
     /// List of the written files.
