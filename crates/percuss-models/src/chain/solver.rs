@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::{
-    friction::{FrictionSums, dry_friction_one, lost_impulse},
+    friction::{FrictionSums, KickedMasses},
     part::Section,
     state::{BoundaryCondition, Element, Node, Segment, State},
 };
@@ -110,19 +110,20 @@ impl Node {
         self.velocity_before = self.velocity;
     }
 
-    /// Kicks the node for a time over its mass and returns the impulse of friction.
+    /// Kicks the node for a time over its mass.
     #[inline(always)]
-    fn kick(&mut self, ratio: f64, sums: &mut FrictionSums) -> f64 {
-        let change = self.force * ratio;
-        let before = self.velocity;
+    fn kick(&mut self, ratio: f64, sums: &mut FrictionSums) {
+        let velocity = self.velocity;
         if self.friction > 0.0 {
-            self.velocity = dry_friction_one(before, change, self.friction * ratio);
-            let lost = lost_impulse(self.mass, before, change, self.velocity);
-            sums.add(lost, before, self.velocity);
-            lost
+            let kicked = KickedMasses {
+                mass: self.mass,
+                ratio,
+                limit: self.friction * ratio,
+            };
+            let after = sums.kick(&kicked, velocity, velocity != 0.0, self.force);
+            self.velocity = after.unwrap_or(velocity);
         } else {
-            self.velocity = before + change;
-            0.0
+            self.velocity = velocity + self.force * ratio;
         }
     }
 }
@@ -249,10 +250,14 @@ impl State {
 
     pub(super) fn kick_free(&mut self, i: usize, kick: f64) {
         let node = &mut self.nodes[i];
-        let lost = node.kick(kick / node.mass, &mut self.accumulated.friction);
+        let mut of_node = FrictionSums::default();
+        node.kick(kick / node.mass, &mut of_node);
+        let sums = &mut self.accumulated.friction;
+        sums.impulse += of_node.impulse;
+        sums.work += of_node.work;
         if self.tip_friction > 0.0 && node.friction > 0.0 {
             // A constant-pressure target has no other friction.
-            self.contact_force = lost / kick;
+            self.contact_force = of_node.impulse / kick;
         }
     }
 

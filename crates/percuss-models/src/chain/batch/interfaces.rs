@@ -30,10 +30,13 @@ impl Bundle {
     /// Kicks the interfaces behind a node.
     #[inline(always)]
     pub(super) fn kick_joints(&mut self, ahead: usize, step: &Step) {
-        for j in 0..self.interfaces.len() {
-            if self.interfaces[j].ahead == ahead {
-                self.kick_joint(j, step);
+        let is_behind = |interface: &Interface| interface.ahead < ahead;
+        let first = self.interfaces.partition_point(is_behind);
+        for j in first..self.interfaces.len() {
+            if self.interfaces[j].ahead > ahead {
+                break;
             }
+            self.kick_joint(j, step);
         }
     }
 
