@@ -78,43 +78,33 @@ pub trait PerLane {
     fn choose(&mut self, lane: usize, is_so: bool, yes: Self::One, no: Self::One);
 }
 
-impl PerLane for f64 {
-    type One = Self;
+/// What one run has by itself.
+macro_rules! one_run {
+    ($($one:ty),*) => {
+        $(
+            impl PerLane for $one {
+                type One = Self;
 
-    #[inline(always)]
-    fn lane(&self, _: usize) -> Self {
-        *self
-    }
+                #[inline(always)]
+                fn lane(&self, _: usize) -> Self {
+                    *self
+                }
 
-    #[inline(always)]
-    fn set_lane(&mut self, _: usize, one: Self) {
-        *self = one;
-    }
+                #[inline(always)]
+                fn set_lane(&mut self, _: usize, one: Self) {
+                    *self = one;
+                }
 
-    #[inline(always)]
-    fn choose(&mut self, _: usize, is_so: bool, yes: Self, no: Self) {
-        *self = if is_so { yes } else { no };
-    }
+                #[inline(always)]
+                fn choose(&mut self, _: usize, is_so: bool, yes: Self, no: Self) {
+                    *self = if is_so { yes } else { no };
+                }
+            }
+        )*
+    };
 }
 
-impl PerLane for bool {
-    type One = Self;
-
-    #[inline(always)]
-    fn lane(&self, _: usize) -> Self {
-        *self
-    }
-
-    #[inline(always)]
-    fn set_lane(&mut self, _: usize, one: Self) {
-        *self = one;
-    }
-
-    #[inline(always)]
-    fn choose(&mut self, _: usize, is_so: bool, yes: Self, no: Self) {
-        *self = if is_so { yes } else { no };
-    }
-}
+one_run!(f64, bool);
 
 impl PerLane for Lanes {
     type One = f64;

@@ -186,7 +186,8 @@ mod tests {
         let mut held = 0;
         for i in 0..4000 {
             // Eight masses of which most, some or none are held.
-            let random = |l: usize, n: usize| ((i * 8 + l) * (2 * n + 1) * 7919 % 1000) as f64 / 1e3;
+            let random =
+                |l: usize, n: usize| ((i * 8 + l) * (2 * n + 1) * 7919 % 1000) as f64 / 1e3;
             let mass = lanes(|l| 0.1 + random(l, 1));
             let velocity = lanes(|l| if i % 3 == 0 { 0.0 } else { random(l, 2) - 0.5 });
             let force = lanes(|l| (random(l, 3) - 0.5) * if i % 2 == 0 { 1.0 } else { 9.0 });

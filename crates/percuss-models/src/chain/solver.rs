@@ -131,11 +131,9 @@ impl Node {
 impl State {
     /// Advances by one step.
     pub(super) fn advance(&mut self, control: &StepControl) -> Result<(), NumericalError> {
-        let previous = self.time_step;
-        let time_step = choose_time_step(
-            previous,
-            (control.courant * control.damped(self.stable_step)).min(control.longest_step),
-        );
+        let allowed = control.courant * control.damped(self.stable_step);
+        let step = StepTimes::choose(self.time_step, allowed.min(control.longest_step));
+        let (kick, time_step) = (step.kick, step.length);
         self.collect_forces();
         self.collect_band_forces();
         self.apply_cohesive_traction();
@@ -143,8 +141,6 @@ impl State {
         if control.local_damping > 0.0 {
             self.damp_locally(control.local_damping);
         }
-        // Velocities live half a step behind positions: the kick spans the two half steps around the current time.
-        let kick = 0.5 * (previous + time_step);
         self.kick(kick, control.is_viscous());
         if control.local_damping > 0.0 {
             self.account_for_local_damping(kick);
@@ -235,7 +231,7 @@ impl State {
             }
             return;
         }
-        let mut sums = self.accumulated.friction;
+        let mut sums = self.accumulated.kicks.friction;
         let (mut mass, mut ratio) = (f64::NAN, f64::NAN);
         for node in &mut self.nodes[nodes] {
             // Neighbours mostly have one mass, and a division takes long.
@@ -245,14 +241,14 @@ impl State {
             }
             node.kick(ratio, &mut sums);
         }
-        self.accumulated.friction = sums;
+        self.accumulated.kicks.friction = sums;
     }
 
     pub(super) fn kick_free(&mut self, i: usize, kick: f64) {
         let node = &mut self.nodes[i];
         let mut of_node = FrictionSums::default();
         node.kick(kick / node.mass, &mut of_node);
-        let sums = &mut self.accumulated.friction;
+        let sums = &mut self.accumulated.kicks.friction;
         sums.impulse += of_node.impulse;
         sums.work += of_node.work;
         if self.tip_friction > 0.0 && node.friction > 0.0 {
@@ -296,17 +292,39 @@ impl State {
     }
 }
 
-/// Time step after one of length `previous`, when `allowed` is the largest one allowed.
-///
-/// Every change of the time step costs a little energy, so small changes are not made.
-#[inline(always)]
-pub(super) fn choose_time_step(previous: f64, allowed: f64) -> f64 {
-    if previous == 0.0 || allowed < previous {
-        STEP_MARGIN * allowed
-    } else if allowed > STEP_SLACK * previous {
-        LARGEST_STEP_GROWTH * previous
-    } else {
-        previous
+percuss_core::per_lane! {
+    /// Times of a step [s].
+    #[derive(Debug, Clone, Copy, Default)]
+    pub(super) struct StepTimes<R = f64> {
+        /// Length of the step before, of this one, and of the kick between them.
+        pub(super) before: R,
+        pub(super) length: R,
+        pub(super) kick: R,
+        /// Inverse of its length [1/s].
+        pub(super) rate: R,
+    }
+}
+
+impl StepTimes {
+    /// Those of a step after one of length `before`, when `allowed` is the largest one allowed.
+    ///
+    /// Every change of the time step costs a little energy, so small changes are not made.
+    #[inline(always)]
+    pub(super) fn choose(before: f64, allowed: f64) -> Self {
+        let length = if before == 0.0 || allowed < before {
+            STEP_MARGIN * allowed
+        } else if allowed > STEP_SLACK * before {
+            LARGEST_STEP_GROWTH * before
+        } else {
+            before
+        };
+        Self {
+            before,
+            length,
+            // Velocities live half a step behind positions: the kick spans the two half steps around the current time.
+            kick: 0.5 * (before + length),
+            rate: 1.0 / length,
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::{
-    bundle::{Back, Bundle, Node},
+    bundle::{Bundle, Node},
     step::Step,
 };
 use crate::{
@@ -12,6 +12,7 @@ use crate::{
         solver::OpenEnd,
     },
     lanes::{LANES, Lanes, PerLane},
+    problem::RearFaceCondition,
 };
 
 impl Bundle {
@@ -84,7 +85,7 @@ impl Bundle {
             return;
         }
         let body = self.bodies[1];
-        let mut sums = self.scalars.accumulated.friction;
+        let mut sums = self.scalars.accumulated.kicks.friction;
         let kicked = KickedMasses::of(body.mass, body.friction, step);
         let mut force_behind = self.forces[inner.start - 2];
         let forces = &self.forces[inner.start - 1..];
@@ -100,7 +101,7 @@ impl Bundle {
                 *is_moving = node.go_on(velocity, step);
             }
         }
-        self.scalars.accumulated.friction = sums;
+        self.scalars.accumulated.kicks.friction = sums;
     }
 
     /// The next node from one on that is not like the others of its body in every lane, or else the end.
@@ -130,18 +131,22 @@ impl Bundle {
             force.0[l] = if is_free { net } else { 0.0 };
             kicked.limit.0[l] = if is_free { kicked.limit.0[l] } else { 0.0 };
         }
-        let mut sums = self.scalars.accumulated.friction;
+        let mut sums = self.scalars.accumulated.kicks.friction;
         let mut node = self.nodes[i];
         if let Some(velocity) = sums.kick(&kicked, node.velocity, self.moves[i], force) {
             let position = node.position;
             self.moves[i] = node.go_on(velocity, step);
             for l in 0..LANES {
                 let is_free = in_contact >> l & 1 == 0;
-                node.position.0[l] = if is_free { node.position.0[l] } else { position.0[l] };
+                node.position.0[l] = if is_free {
+                    node.position.0[l]
+                } else {
+                    position.0[l]
+                };
             }
             self.nodes[i] = node;
         }
-        self.scalars.accumulated.friction = sums;
+        self.scalars.accumulated.kicks.friction = sums;
         if in_contact != 0 {
             self.kick_joints(i, step);
         }
@@ -158,16 +163,16 @@ impl Bundle {
         for l in 0..LANES {
             let (mass, before, kick_time) = (mass.0[l], before.0[l], step.kick.0[l]);
             match self.mesh.back {
-                Back::Fixed => sums.support_impulse.0[l] += force.0[l] * kick_time,
-                Back::Free => {
+                RearFaceCondition::Fixed => sums.support_impulse.0[l] += force.0[l] * kick_time,
+                RearFaceCondition::Free => {
                     let force = [force.0[l], friction.0[l]];
                     let kicked = kick([mass, before], force, kick_time / mass);
-                    let mut friction = sums.friction.lane(l);
+                    let mut friction = sums.kicks.friction.lane(l);
                     friction.add(kicked.lost, before, kicked.velocity);
-                    sums.friction.set_lane(l, friction);
+                    sums.kicks.friction.set_lane(l, friction);
                     velocity.0[l] = kicked.velocity;
                 }
-                Back::Open => {
+                RearFaceCondition::NonReflecting => {
                     let end = OpenEnd {
                         impedance: impedance.0[l],
                         spring: 0.0,
