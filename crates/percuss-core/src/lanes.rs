@@ -4,7 +4,8 @@
 //! `#[inline(always)]` and has no branches. The loop works on copies of whole arrays: what a compiler can tell apart from memory becomes
 //! vector instructions. Code that uses lanes is dispatched to an instruction set by `pulp`, and has the same bits on all of them.
 //!
-//! A struct that is generic over [`Real`] has the numbers of one run or of eight; `per_lane!` gives it those of a lane.
+//! A struct that is generic over [`Real`] has the numbers of one run or of eight; `per_lane!` gives it those of a lane. A function that is generic
+//! over it loops over the lanes, and is that of one run where there is one.
 
 use std::ops::{Deref, DerefMut};
 
@@ -29,20 +30,40 @@ impl Lanes {
 pub struct LaneFlags(pub [bool; LANES]);
 
 /// A number of one run, or one of each of eight.
-pub trait Real: Copy {
+pub trait Real: PerLane<One = f64> + Copy + Default {
     /// The same for what is so or not.
-    type Flag: Copy;
+    type Flag: PerLane<One = bool> + Copy + Default;
+
+    /// Runs that it has a number of. A loop over the lanes of one run is no loop once it is compiled.
+    const LANES: usize;
+
+    /// The same number in every lane.
+    fn all(value: f64) -> Self;
 }
 
 impl Real for f64 {
     type Flag = bool;
+
+    const LANES: usize = 1;
+
+    #[inline(always)]
+    fn all(value: f64) -> Self {
+        value
+    }
 }
 
 impl Real for Lanes {
     type Flag = LaneFlags;
+
+    const LANES: usize = LANES;
+
+    #[inline(always)]
+    fn all(value: f64) -> Self {
+        Self::all(value)
+    }
 }
 
-/// What eight runs have, each in a lane.
+/// What one run has, or each of eight in a lane.
 pub trait PerLane {
     /// What one run has.
     type One;
@@ -56,6 +77,34 @@ pub trait PerLane {
     /// Gives one of two to a lane: the first one where something is so.
     fn choose(&mut self, lane: usize, is_so: bool, yes: Self::One, no: Self::One);
 }
+
+/// What one run has by itself.
+macro_rules! one_run {
+    ($($one:ty),*) => {
+        $(
+            impl PerLane for $one {
+                type One = Self;
+
+                #[inline(always)]
+                fn lane(&self, _: usize) -> Self {
+                    *self
+                }
+
+                #[inline(always)]
+                fn set_lane(&mut self, _: usize, one: Self) {
+                    *self = one;
+                }
+
+                #[inline(always)]
+                fn choose(&mut self, _: usize, is_so: bool, yes: Self, no: Self) {
+                    *self = if is_so { yes } else { no };
+                }
+            }
+        )*
+    };
+}
+
+one_run!(f64, bool);
 
 impl PerLane for Lanes {
     type One = f64;
@@ -117,7 +166,7 @@ impl<T: PerLane> PerLane for [T; 2] {
     }
 }
 
-/// A struct that is generic over [`Real`], with [`PerLane`] for that of eight runs.
+/// A struct that is generic over [`Real`], with [`PerLane`].
 #[doc(hidden)]
 #[macro_export]
 macro_rules! per_lane {
@@ -132,7 +181,7 @@ macro_rules! per_lane {
             $($(#[$note])* $seen $field: $type,)*
         }
 
-        impl $crate::lanes::PerLane for $name<$crate::lanes::Lanes> {
+        impl<R: $crate::lanes::Real> $crate::lanes::PerLane for $name<R> {
             type One = $name<f64>;
 
             #[inline(always)]

@@ -72,7 +72,9 @@ pub enum LayerInterface {
 }
 
 /// Boundary condition of the rear face of a target.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum RearFaceCondition {
     /// Does not move; waves come back.

@@ -1,7 +1,7 @@
 //! Contact between the ends of two segments: closing, moving as one, parting, and what holds across a gap.
 
 use super::{
-    pair::{ContactSums, Pair, overlap},
+    pair::{Pair, overlap},
     state::State,
 };
 
@@ -13,15 +13,9 @@ impl State {
             return self.kick_wall(s, kick);
         }
         let holds = self.interfaces[s].bond.holds();
-        let sums = ContactSums {
-            loss: self.accumulated.contact_loss,
-            friction: self.accumulated.friction,
-        };
-        let kicked = self
-            .pair(ends)
-            .kick(true, holds, [kick, self.time_step], sums);
-        self.accumulated.contact_loss = kicked.sums.loss;
-        self.accumulated.friction = kicked.sums.friction;
+        let times = [kick, self.time_step];
+        let kicked = (self.pair(ends)).kick(true, holds, times, self.accumulated.kicks);
+        self.accumulated.kicks = kicked.sums;
         for (end, i) in ends.into_iter().enumerate() {
             self.nodes[i].velocity_before = kicked.start[end];
             self.nodes[i].velocity = kicked.velocity[end];
@@ -109,7 +103,7 @@ impl State {
 
     /// Accounts for the energy of a sudden change of a node's velocity: see [`Pair::jump_energy`].
     pub(super) fn account_for_jump(&mut self, i: usize, jump: f64, drift: f64) {
-        self.accumulated.contact_loss -= self.pair([i, i]).jump_energy(0, jump, drift);
+        self.accumulated.kicks.contact_loss -= self.pair([i, i]).jump_energy(0, jump, drift);
     }
 
     /// Closes every gap that would overlap at the end of the step, so that it is zero then.
@@ -128,7 +122,7 @@ impl State {
             let fixed = self.is_fixed(b);
             let shares = if fixed { [1.0, 0.0] } else { pair.shares() };
             let accumulated = &mut self.accumulated;
-            let change = pair.meet(gap, time_step, shares, &mut accumulated.contact_loss);
+            let change = pair.meet(gap, time_step, shares, &mut accumulated.kicks.contact_loss);
             if fixed {
                 accumulated.support_impulse += pair.mass[0] * change;
             }
@@ -136,7 +130,7 @@ impl State {
             // was accounted for at the speed before the jump, the one before the next kick will not be.
             let pulled = 0.5 * self.interfaces[s].pull * (time_step * change - gap.max(0.0));
             accumulated.fracture_work += pulled;
-            accumulated.contact_loss -= pulled;
+            accumulated.kicks.contact_loss -= pulled;
             [self.nodes[a].velocity, self.nodes[b].velocity] = pair.velocity;
             self.interfaces[s].closed = true;
             self.meetings += 1;

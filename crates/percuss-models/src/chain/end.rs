@@ -92,7 +92,7 @@ impl Window {
         let accumulated = &state.accumulated;
         let dissipation = accumulated.plastic[0]
             + accumulated.plastic[1]
-            + accumulated.friction.work
+            + accumulated.kicks.friction.work
             + accumulated.viscous_work
             + accumulated.fracture_work
             + accumulated.eroded_energy

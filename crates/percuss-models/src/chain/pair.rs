@@ -1,18 +1,22 @@
 //! Two ends that touch, part or meet.
 
+use serde::{Deserialize, Serialize};
+
 use super::friction::{FrictionSums, dry_friction, kick, lost_impulse};
 use crate::lanes::larger;
 
-/// Two ends at the start of a kick, or of a drift.
-#[derive(Clone, Copy)]
-pub(super) struct Pair {
-    pub(super) mass: [f64; 2],
-    pub(super) velocity: [f64; 2],
-    pub(super) force: [f64; 2],
-    /// Force of the elements without viscosity.
-    pub(super) spring_force: [f64; 2],
-    /// Largest friction on them.
-    pub(super) friction: [f64; 2],
+percuss_core::per_lane! {
+    /// Two ends at the start of a kick, or of a drift.
+    #[derive(Clone, Copy)]
+    pub(super) struct Pair<R = f64> {
+        pub(super) mass: [R; 2],
+        pub(super) velocity: [R; 2],
+        pub(super) force: [R; 2],
+        /// Force of the elements without viscosity.
+        pub(super) spring_force: [R; 2],
+        /// Largest friction on them.
+        pub(super) friction: [R; 2],
+    }
 }
 
 /// Two ends that move as one in a kick.
@@ -29,11 +33,14 @@ struct Joined {
     contact_loss: f64,
 }
 
-/// What contact takes.
-#[derive(Clone, Copy)]
-pub(super) struct ContactSums {
-    pub(super) loss: f64,
-    pub(super) friction: FrictionSums,
+percuss_core::per_lane! {
+    /// What kicks take.
+    #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+    pub(super) struct KickSums<R = f64> {
+        /// Energy that contact takes.
+        pub(super) contact_loss: R,
+        pub(super) friction: FrictionSums<R>,
+    }
 }
 
 /// Two ends after a kick.
@@ -45,7 +52,7 @@ pub(super) struct KickedPair {
     pub(super) closed: bool,
     /// Force with which they push each other.
     pub(super) push: f64,
-    pub(super) sums: ContactSums,
+    pub(super) sums: KickSums,
 }
 
 impl Pair {
@@ -89,12 +96,12 @@ impl Pair {
         closed: bool,
         holds: f64,
         [time, drift]: [f64; 2],
-        mut sums: ContactSums,
+        mut sums: KickSums,
     ) -> KickedPair {
         let (mut start, mut pull) = (self.velocity, 0.0);
         if closed {
-            let joined = self.join::<true>(time, drift, sums.loss);
-            sums.loss = joined.contact_loss;
+            let joined = self.join::<true>(time, drift, sums.contact_loss);
+            sums.contact_loss = joined.contact_loss;
             start = [joined.before; 2];
             if joined.push >= -holds {
                 sums.friction
@@ -133,9 +140,9 @@ impl Pair {
         &self,
         closed: bool,
         [time, drift]: [f64; 2],
-        mut sums: ContactSums,
+        mut sums: KickSums,
     ) -> KickedPair {
-        let joined = self.join::<false>(time, drift, sums.loss);
+        let joined = self.join::<false>(time, drift, sums.contact_loss);
         let stays = closed & (joined.push >= 0.0);
         let [mass_a, mass_b] = self.mass;
         let [velocity_a, velocity_b] = self.velocity;
@@ -152,10 +159,10 @@ impl Pair {
         };
         let lost = if stays { joined.lost } else { alone_b.lost };
         sums.friction.add(lost, start_b, velocity_b);
-        sums.loss = if closed {
+        sums.contact_loss = if closed {
             joined.contact_loss
         } else {
-            sums.loss
+            sums.contact_loss
         };
         KickedPair {
             start: [start_a, start_b],

@@ -120,7 +120,7 @@ impl State {
             let jump = -node.velocity * mass / (node.mass + mass);
             self.account_for_jump(i, jump, -self.time_step);
             let after = node.velocity + jump;
-            self.accumulated.contact_loss -= 0.5 * mass * after * after;
+            self.accumulated.kicks.contact_loss -= 0.5 * mass * after * after;
             self.nodes[i].mass += mass;
             self.nodes[i].velocity = after;
             self.nodes[i].velocity_before = after;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::{
-    friction::{FrictionSums, dry_friction_one, lost_impulse},
+    friction::{FrictionSums, KickedMasses},
     part::Section,
     state::{BoundaryCondition, Element, Node, Segment, State},
 };
@@ -110,19 +110,20 @@ impl Node {
         self.velocity_before = self.velocity;
     }
 
-    /// Kicks the node for a time over its mass and returns the impulse of friction.
+    /// Kicks the node for a time over its mass.
     #[inline(always)]
-    fn kick(&mut self, ratio: f64, sums: &mut FrictionSums) -> f64 {
-        let change = self.force * ratio;
-        let before = self.velocity;
+    fn kick(&mut self, ratio: f64, sums: &mut FrictionSums) {
+        let velocity = self.velocity;
         if self.friction > 0.0 {
-            self.velocity = dry_friction_one(before, change, self.friction * ratio);
-            let lost = lost_impulse(self.mass, before, change, self.velocity);
-            sums.add(lost, before, self.velocity);
-            lost
+            let kicked = KickedMasses {
+                mass: self.mass,
+                ratio,
+                limit: self.friction * ratio,
+            };
+            let after = sums.kick(&kicked, velocity, velocity != 0.0, self.force);
+            self.velocity = after.unwrap_or(velocity);
         } else {
-            self.velocity = before + change;
-            0.0
+            self.velocity = velocity + self.force * ratio;
         }
     }
 }
@@ -130,11 +131,9 @@ impl Node {
 impl State {
     /// Advances by one step.
     pub(super) fn advance(&mut self, control: &StepControl) -> Result<(), NumericalError> {
-        let previous = self.time_step;
-        let time_step = choose_time_step(
-            previous,
-            (control.courant * control.damped(self.stable_step)).min(control.longest_step),
-        );
+        let allowed = control.courant * control.damped(self.stable_step);
+        let step = StepTimes::choose(self.time_step, allowed.min(control.longest_step));
+        let (kick, time_step) = (step.kick, step.length);
         self.collect_forces();
         self.collect_band_forces();
         self.apply_cohesive_traction();
@@ -142,8 +141,6 @@ impl State {
         if control.local_damping > 0.0 {
             self.damp_locally(control.local_damping);
         }
-        // Velocities live half a step behind positions: the kick spans the two half steps around the current time.
-        let kick = 0.5 * (previous + time_step);
         self.kick(kick, control.is_viscous());
         if control.local_damping > 0.0 {
             self.account_for_local_damping(kick);
@@ -234,7 +231,7 @@ impl State {
             }
             return;
         }
-        let mut sums = self.accumulated.friction;
+        let mut sums = self.accumulated.kicks.friction;
         let (mut mass, mut ratio) = (f64::NAN, f64::NAN);
         for node in &mut self.nodes[nodes] {
             // Neighbours mostly have one mass, and a division takes long.
@@ -244,15 +241,19 @@ impl State {
             }
             node.kick(ratio, &mut sums);
         }
-        self.accumulated.friction = sums;
+        self.accumulated.kicks.friction = sums;
     }
 
     pub(super) fn kick_free(&mut self, i: usize, kick: f64) {
         let node = &mut self.nodes[i];
-        let lost = node.kick(kick / node.mass, &mut self.accumulated.friction);
+        let mut of_node = FrictionSums::default();
+        node.kick(kick / node.mass, &mut of_node);
+        let sums = &mut self.accumulated.kicks.friction;
+        sums.impulse += of_node.impulse;
+        sums.work += of_node.work;
         if self.tip_friction > 0.0 && node.friction > 0.0 {
             // A constant-pressure target has no other friction.
-            self.contact_force = lost / kick;
+            self.contact_force = of_node.impulse / kick;
         }
     }
 
@@ -291,17 +292,39 @@ impl State {
     }
 }
 
-/// Time step after one of length `previous`, when `allowed` is the largest one allowed.
-///
-/// Every change of the time step costs a little energy, so small changes are not made.
-#[inline(always)]
-pub(super) fn choose_time_step(previous: f64, allowed: f64) -> f64 {
-    if previous == 0.0 || allowed < previous {
-        STEP_MARGIN * allowed
-    } else if allowed > STEP_SLACK * previous {
-        LARGEST_STEP_GROWTH * previous
-    } else {
-        previous
+percuss_core::per_lane! {
+    /// Times of a step [s].
+    #[derive(Debug, Clone, Copy, Default)]
+    pub(super) struct StepTimes<R = f64> {
+        /// Length of the step before, of this one, and of the kick between them.
+        pub(super) before: R,
+        pub(super) length: R,
+        pub(super) kick: R,
+        /// Inverse of its length [1/s].
+        pub(super) rate: R,
+    }
+}
+
+impl StepTimes {
+    /// Those of a step after one of length `before`, when `allowed` is the largest one allowed.
+    ///
+    /// Every change of the time step costs a little energy, so small changes are not made.
+    #[inline(always)]
+    pub(super) fn choose(before: f64, allowed: f64) -> Self {
+        let length = if before == 0.0 || allowed < before {
+            STEP_MARGIN * allowed
+        } else if allowed > STEP_SLACK * before {
+            LARGEST_STEP_GROWTH * before
+        } else {
+            before
+        };
+        Self {
+            before,
+            length,
+            // Velocities live half a step behind positions: the kick spans the two half steps around the current time.
+            kick: 0.5 * (before + length),
+            rate: 1.0 / length,
+        }
     }
 }
 

@@ -10,8 +10,8 @@ use super::{
     dishing::Dishing,
     drift::YieldingElement,
     element::{Plastic, Spring},
-    friction::FrictionSums,
     interface::Interface,
+    pair::KickSums,
     part::{Role, Section},
     penetration::Penetration,
     plug::PlugConstraint,
@@ -20,6 +20,7 @@ use super::{
 };
 use crate::{
     Error,
+    lanes::{PerLane, Real},
     ledger::{EnergyLedger, MomentumLedger},
     material::YieldPoint,
     solver::archive::Archive,
@@ -120,9 +121,8 @@ percuss_core::per_lane! {
         pub(super) initial_energy: R,
         pub(super) initial_momentum: R,
         pub(super) plastic: [R; 2],
-        pub(super) friction: FrictionSums<R>,
+        pub(super) kicks: KickSums<R>,
         pub(super) viscous_work: R,
-        pub(super) contact_loss: R,
         pub(super) boundary_work: R,
         pub(super) eroded_energy: R,
         pub(super) fracture_work: R,
@@ -142,11 +142,27 @@ percuss_core::per_lane! {
     }
 }
 
-impl BodySums {
+impl<R: Real> BodySums<R> {
     #[inline(always)]
-    pub(super) fn add_node(&mut self, mass: f64, velocity: f64) {
-        self.kinetic += 0.5 * mass * velocity * velocity;
-        self.momentum += mass * velocity;
+    pub(super) fn add_node(&mut self, mass: &R, velocity: &R) {
+        let before = *self;
+        for l in 0..R::LANES {
+            let (mass, velocity) = (mass.lane(l), velocity.lane(l));
+            let mut one = before.lane(l);
+            one.kinetic += 0.5 * mass * velocity * velocity;
+            one.momentum += mass * velocity;
+            self.set_lane(l, one);
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn add_spring(&mut self, spring: &Spring<R>, volume: &R, modulus: &R) {
+        let mut sum = self.elastic;
+        for l in 0..R::LANES {
+            let energy = (spring.lane(l)).elastic_energy(volume.lane(l), modulus.lane(l));
+            sum.set_lane(l, sum.lane(l) + energy);
+        }
+        self.elastic = sum;
     }
 }
 
@@ -287,10 +303,10 @@ impl State {
             let part = &self.parts[segment.part];
             let sums = &mut sums[part.role as usize];
             for node in &self.nodes[segment.first_node..=segment.last_node] {
-                sums.add_node(node.mass, node.velocity);
+                sums.add_node(&node.mass, &node.velocity);
             }
-            for e in segment.elements() {
-                sums.elastic += self.elastic_energy(e, part);
+            for element in &self.elements[segment.elements()] {
+                sums.add_spring(&element.spring, &element.volume, &part.modulus);
             }
         }
         sums
@@ -314,9 +330,9 @@ impl State {
         energy.plastic_projectile = accumulated.plastic[0];
         energy.plastic_target = accumulated.plastic[1];
         energy.border_shear =
-            accumulated.friction.work + bands.map_or(0.0, |bands| bands.accumulated.work);
+            accumulated.kicks.friction.work + bands.map_or(0.0, |bands| bands.accumulated.work);
         energy.viscous = accumulated.viscous_work;
-        energy.contact = accumulated.contact_loss;
+        energy.contact = accumulated.kicks.contact_loss;
         energy.boundary = accumulated.boundary_work;
         energy.eroded = accumulated.eroded_energy;
         energy.fracture = accumulated.fracture_work;
@@ -346,7 +362,7 @@ impl State {
         new_momentum.target = target.momentum;
         new_momentum.support =
             accumulated.support_impulse + plate.map_or(0.0, |plate| plate.support_impulse);
-        new_momentum.border_shear = accumulated.friction.impulse + held_still;
+        new_momentum.border_shear = accumulated.kicks.friction.impulse + held_still;
         new_momentum.eroded = accumulated.eroded_momentum;
         new_momentum.plate = plate.map_or(0.0, Dishing::momentum);
         new_momentum.damping = accumulated.damping_impulse;

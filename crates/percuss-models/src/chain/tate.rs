@@ -101,9 +101,10 @@ impl State {
         self.nodes[node].velocity = after;
         self.nodes[partner].velocity = after;
         let kinetic = |mass: f64, velocity: f64| 0.5 * mass * velocity * velocity;
-        self.accumulated.contact_loss += pair.iter().map(|&(m, v)| kinetic(m, v)).sum::<f64>()
-            - kinetic(rest, after)
-            - kinetic(mass, leaving);
+        self.accumulated.kicks.contact_loss +=
+            pair.iter().map(|&(m, v)| kinetic(m, v)).sum::<f64>()
+                - kinetic(rest, after)
+                - kinetic(mass, leaving);
         Some((node, leaving))
     }
 
@@ -134,7 +135,8 @@ impl State {
         let before = 0.5 * node.mass * node.velocity * node.velocity + energy;
         node.velocity = (node.mass * node.velocity + momentum) / (node.mass + tip.mass);
         node.mass += tip.mass;
-        self.accumulated.contact_loss += before - 0.5 * node.mass * node.velocity * node.velocity;
+        self.accumulated.kicks.contact_loss +=
+            before - 0.5 * node.mass * node.velocity * node.velocity;
         self.tip = Some(Tip {
             node: across,
             ..tip

@@ -3,7 +3,7 @@
 use super::bundle::Bundle;
 use crate::{
     chain::{column::ColumnRun, state::BodySums},
-    lanes::{LANES, Lanes, PerLane},
+    lanes::{Lanes, PerLane},
     solver::AttemptError,
 };
 
@@ -17,18 +17,10 @@ impl Bundle {
             let nodes = elements.start + b..=elements.end + b;
             let mut of_body = BodySums::<Lanes>::default();
             for (node, mass) in self.nodes[nodes.clone()].iter().zip(&self.masses[nodes]) {
-                let before = of_body;
-                for l in 0..LANES {
-                    let mut one = before.lane(l);
-                    one.add_node(mass.0[l], node.velocity.0[l]);
-                    of_body.set_lane(l, one);
-                }
+                of_body.add_node(mass, &node.velocity);
             }
             for spring in &self.springs[elements] {
-                for l in 0..LANES {
-                    let (volume, modulus) = (body.volume.0[l], body.law.modulus.0[l]);
-                    of_body.elastic.0[l] += spring.lane(l).elastic_energy(volume, modulus);
-                }
+                of_body.add_spring(spring, &body.volume, &body.law.modulus);
             }
             sums[b] = of_body;
         }

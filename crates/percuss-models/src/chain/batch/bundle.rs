@@ -18,27 +18,16 @@ use crate::{
 pub(super) struct Mesh {
     /// Elements of projectile and target.
     pub(super) elements: [usize; 2],
-    pub(super) back: Back,
-}
-
-/// What holds the back of the target.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Back {
-    Free,
-    Fixed,
-    Open,
+    /// What holds the back of the target.
+    pub(super) back: RearFaceCondition,
 }
 
 impl Mesh {
     pub(super) fn of(scenario: &Scenario) -> Self {
         let chain = &scenario.options.chain;
         let back = match &scenario.target {
-            TargetBody::Layers { back_face, .. } => match back_face {
-                RearFaceCondition::Free => Back::Free,
-                RearFaceCondition::Fixed => Back::Fixed,
-                RearFaceCondition::NonReflecting => Back::Open,
-            },
-            _ => Back::Free,
+            TargetBody::Layers { back_face, .. } => *back_face,
+            _ => RearFaceCondition::Free,
         };
         Self {
             elements: [chain.projectile_elements(), chain.target_elements()],
@@ -129,9 +118,9 @@ pub(super) struct Bundle {
     pub(super) interfaces: Vec<Interface>,
     /// Lanes in which projectile and target meet at other nodes than those of whole bodies.
     pub(super) displaced: u8,
-    /// Tail of the projectile and face of the target in every lane.
+    /// Tail of the projectile, and its tip with the face of the target, in every lane.
     pub(super) tails: [usize; LANES],
-    pub(super) faces: [usize; LANES],
+    pub(super) contacts: [[usize; 2]; LANES],
     /// What is known of the elements.
     pub(super) marks: Vec<Mark>,
     /// Largest stable time step of every element, and of none up to a multiple of [`LIMITS_AT_ONCE`].
@@ -164,7 +153,7 @@ impl Bundle {
             interfaces: Vec::new(),
             displaced: 0,
             tails: [0; LANES],
-            faces: [mesh.elements[0] + 1; LANES],
+            contacts: [[0, 1].map(|side| mesh.elements[0] + side); LANES],
             marks: vec![Mark::default(); elements],
             limits: vec![Lanes::all(f64::INFINITY); elements.next_multiple_of(LIMITS_AT_ONCE)],
             working: vec![0; elements],

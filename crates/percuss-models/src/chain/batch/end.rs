@@ -1,12 +1,13 @@
 //! The end of a step: `RunMonitor::follow` in every lane, and which lanes the single run has to look at.
 
 use super::{
-    bundle::{Back, Bundle},
+    bundle::Bundle,
     step::{Step, StepEstimate},
 };
 use crate::{
     chain::solver::strain_limited_step,
     lanes::{LANES, Lanes, larger, smaller},
+    problem::RearFaceCondition,
 };
 
 impl Bundle {
@@ -17,10 +18,10 @@ impl Bundle {
         let back = self.nodes[projectile + 1 + target].position.0;
         let (mut face, mut tail) = ([0.0; LANES], [0.0; LANES]);
         for l in 0..LANES {
-            face[l] = self.nodes[self.faces[l]].position.0[l];
+            face[l] = self.nodes[self.contacts[l][1]].position.0[l];
             tail[l] = self.nodes[self.tails[l]].velocity.0[l];
         }
-        let is_open = self.mesh.back == Back::Open;
+        let is_open = self.mesh.back == RearFaceCondition::NonReflecting;
         let mut depth = [0.0; LANES];
         let mut needs_scalar = [false; LANES];
         let mut may_rest = false;

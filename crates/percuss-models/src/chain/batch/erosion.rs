@@ -11,7 +11,7 @@ impl Bundle {
     /// left to go on here.
     pub(super) fn erode(&mut self, lane: usize, run: &ColumnRun<'_>) -> bool {
         let state = &run.solver.state;
-        let (Some(tip), Some(face)) = (state.tip_segment(), state.face_segment()) else {
+        let (Some(tip), Some(_)) = (state.tip_segment(), state.face_segment()) else {
             return false;
         };
         let back = self.nodes.len() - 1;
@@ -19,7 +19,6 @@ impl Bundle {
             return false;
         }
         self.tails[lane] = state.segments[0].first_node;
-        self.faces[lane] = state.segments[face].first_node;
         let bit = 1 << lane;
         for (e, element) in state.elements.iter().enumerate() {
             if element.eroded {
@@ -56,20 +55,24 @@ impl Bundle {
         for (place, interface) in state.interfaces.iter().enumerate() {
             let behind = state.segments[place].last_node;
             let ahead = state.segments[place + 1].first_node;
-            let is_contact = place == tip;
-            if is_contact && [behind, ahead] == [projectile, projectile + 1] {
-                continue;
+            if place == tip {
+                self.contacts[lane] = [behind, ahead];
+                if [behind, ahead] == [projectile, projectile + 1] {
+                    continue;
+                }
+                self.displaced |= 1 << lane;
             }
-            self.displaced |= u8::from(is_contact) << lane;
             for node in [behind, ahead] {
                 self.in_contact[node] |= 1 << lane;
+            }
+            if place == tip {
+                continue;
             }
             self.interfaces.push(Interface {
                 ahead,
                 behind,
                 lane,
                 place,
-                is_contact,
                 closed: interface.closed,
             });
         }
@@ -88,7 +91,8 @@ impl Bundle {
     /// Makes the bodies of a lane whole again.
     pub(super) fn mend(&mut self, lane: usize) {
         self.tails[lane] = 0;
-        self.faces[lane] = self.mesh.elements[0] + 1;
+        let tip = self.mesh.elements[0];
+        self.contacts[lane] = [tip, tip + 1];
         for mark in &mut self.marks {
             mark.gone &= !(1 << lane);
         }

@@ -26,6 +26,7 @@ impl Bundle {
         for (i, from) in state.nodes.iter().enumerate() {
             self.nodes[i].position.0[lane] = from.position;
             self.nodes[i].velocity.0[lane] = from.velocity;
+            self.moves[i] |= from.velocity != 0.0;
             self.masses[i].0[lane] = from.mass;
             self.frictions[i].0[lane] = from.friction;
         }

@@ -1,12 +1,9 @@
 //! Joints between pieces of eroded bodies: contact of their ends, one by one.
 
 use super::{bundle::Bundle, step::Step};
-use crate::{
-    chain::pair::{ContactSums, overlap},
-    lanes::PerLane,
-};
+use crate::lanes::PerLane;
 
-/// Two ends of a lane that may touch, other than the tip and the face of whole bodies.
+/// Two ends of a lane that may touch, other than tip and face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Interface {
     /// The nodes behind it and ahead of it, which nothing else kicks or moves.
@@ -15,8 +12,6 @@ pub(super) struct Interface {
     pub(super) lane: usize,
     /// Its place among the interfaces of the shot.
     pub(super) place: usize,
-    /// Whether projectile and target meet there.
-    pub(super) is_contact: bool,
     pub(super) closed: bool,
 }
 
@@ -30,10 +25,13 @@ impl Bundle {
     /// Kicks the interfaces behind a node.
     #[inline(always)]
     pub(super) fn kick_joints(&mut self, ahead: usize, step: &Step) {
-        for j in 0..self.interfaces.len() {
-            if self.interfaces[j].ahead == ahead {
-                self.kick_joint(j, step);
+        let is_behind = |interface: &Interface| interface.ahead < ahead;
+        let first = self.interfaces.partition_point(is_behind);
+        for j in first..self.interfaces.len() {
+            if self.interfaces[j].ahead > ahead {
+                break;
             }
+            self.kick_joint(j, step);
         }
     }
 
@@ -41,20 +39,11 @@ impl Bundle {
         let interface = self.interfaces[j];
         let lane = interface.lane;
         let pair = self.pair(interface.nodes(), lane);
-        let accumulated = &mut self.scalars.accumulated;
-        let sums = ContactSums {
-            loss: accumulated.contact_loss.0[lane],
-            friction: accumulated.friction.lane(lane),
-        };
+        let sums = &mut self.scalars.accumulated.kicks;
         let (kick, drift) = (step.kick.0[lane], step.before.0[lane]);
-        let kicked = pair.kick(interface.closed, 0.0, [kick, drift], sums);
-        accumulated.contact_loss.0[lane] = kicked.sums.loss;
-        accumulated.friction.set_lane(lane, kicked.sums.friction);
+        let kicked = pair.kick(interface.closed, 0.0, [kick, drift], sums.lane(lane));
+        sums.set_lane(lane, kicked.sums);
         self.interfaces[j].closed = kicked.closed;
-        if interface.is_contact {
-            self.scalars.closed.0[lane] = kicked.closed;
-            self.scalars.contact_force.0[lane] = kicked.push;
-        }
         for (node, velocity) in interface.nodes().into_iter().zip(kicked.velocity) {
             self.nodes[node].velocity.0[lane] = velocity;
         }
@@ -77,28 +66,8 @@ impl Bundle {
     }
 
     fn close_joint(&mut self, j: usize, step: &Step) {
-        let projectile = self.mesh.elements[0];
-        let interface = self.interfaces[j];
-        let l = interface.lane;
-        let length = step.length.0[l];
-        let nodes = interface.nodes();
-        if !interface.closed {
-            let [a, b] = nodes.map(|node| &self.nodes[node]);
-            let velocity = [a.velocity.0[l], b.velocity.0[l]];
-            if overlap(velocity, b.position.0[l] - a.position.0[l], length) {
-                self.meet(nodes, l, step);
-                self.interfaces[j].closed = true;
-                self.scalars.closed.0[l] |= interface.is_contact;
-            }
-        }
-        // Tip and face are moved in all lanes.
-        for i in nodes
-            .into_iter()
-            .filter(|i| ![projectile, projectile + 1].contains(i))
-        {
-            let node = &mut self.nodes[i];
-            node.position.0[l] += node.velocity.0[l] * length;
-            self.moves[i] |= node.velocity.0[l] != 0.0;
-        }
+        let Interface { lane, closed, .. } = self.interfaces[j];
+        let nodes = self.interfaces[j].nodes();
+        self.interfaces[j].closed = self.close(closed, nodes, lane, step);
     }
 }

@@ -3,15 +3,16 @@
 use std::ops::Range;
 
 use super::{
-    bundle::{Back, Bundle, Node},
+    bundle::{Bundle, Node},
     step::Step,
 };
 use crate::{
     chain::{
-        friction::{dry_friction, kick, lost_impulse, slide},
+        friction::{KickedMasses, kick},
         solver::OpenEnd,
     },
     lanes::{LANES, Lanes, PerLane},
+    problem::RearFaceCondition,
 };
 
 impl Bundle {
@@ -84,98 +85,71 @@ impl Bundle {
             return;
         }
         let body = self.bodies[1];
-        let mut sums = self.scalars.accumulated.friction;
-        let mut ratio = Lanes::all(0.0);
-        let mut limit = Lanes::all(0.0);
-        for l in 0..LANES {
-            ratio.0[l] = step.kick.0[l] / body.mass.0[l];
-            limit.0[l] = body.friction.0[l] * ratio.0[l];
-        }
+        let mut sums = self.scalars.accumulated.kicks.friction;
+        let kicked = KickedMasses::of(body.mass, body.friction, step);
         let mut force_behind = self.forces[inner.start - 2];
         let forces = &self.forces[inner.start - 1..];
         let nodes = self.nodes[inner.clone()].iter_mut();
         let nodes = nodes.zip(&mut self.moves[inner]);
         for ((node, is_moving), &force_ahead) in nodes.zip(forces) {
-            let mut change = [0.0; LANES];
-            let mut is_held = true;
+            let mut force = Lanes::all(0.0);
             for l in 0..LANES {
-                change[l] = (force_behind.0[l] - force_ahead.0[l]) * ratio.0[l];
-                is_held &= change[l].abs() <= limit.0[l];
+                force.0[l] = force_behind.0[l] - force_ahead.0[l];
             }
             force_behind = force_ahead;
-            if is_held & !*is_moving {
-                for l in 0..LANES {
-                    sums.impulse.0[l] += body.mass.0[l] * change[l];
-                }
-                continue;
+            if let Some(velocity) = sums.kick(&kicked, node.velocity, *is_moving, force) {
+                *is_moving = node.go_on(velocity, step);
             }
-            let velocity = node.velocity.0;
-            let mut after = Lanes::all(0.0);
-            let mut is_sliding = true;
-            for l in 0..LANES {
-                let (slides, _, slides_on) = slide(velocity[l], change[l], limit.0[l]);
-                after.0[l] = slides;
-                is_sliding &= (slides_on & (velocity[l] != 0.0)) | (limit.0[l] == 0.0);
-            }
-            if !is_sliding {
-                for l in 0..LANES {
-                    after.0[l] = dry_friction(velocity[l], change[l], limit.0[l]);
-                }
-            }
-            let mut next = sums;
-            for l in 0..LANES {
-                let (before, after) = (velocity[l], after.0[l]);
-                let mut sums = sums.lane(l);
-                sums.add(
-                    lost_impulse(body.mass.0[l], before, change[l], after),
-                    before,
-                    after,
-                );
-                next.set_lane(l, sums);
-            }
-            sums = next;
-            *is_moving = node.go_on(after, step);
         }
-        self.scalars.accumulated.friction = sums;
+        self.scalars.accumulated.kicks.friction = sums;
     }
 
     /// The next node from one on that is not like the others of its body in every lane, or else the end.
     #[inline(always)]
     fn next_irregular(&self, from: usize, end: usize) -> usize {
-        let irregular = self.irregular.iter().copied().find(|&node| node >= from);
-        irregular.map_or(end, |node| node.min(end))
+        let passed = self.irregular.partition_point(|&node| node < from);
+        let next = self.irregular.get(passed);
+        next.map_or(end, |&node| node.min(end))
     }
 
     /// Kicks and moves a node that is not like the others of its body, and the interfaces behind it.
     #[inline(always)]
     fn kick_irregular(&mut self, i: usize, step: &Step) {
         let body = usize::from(i > self.mesh.elements[0]);
-        let (mass, friction) = (self.masses[i].0, self.frictions[i].0);
         let behind = match i {
             0 => Lanes::all(0.0),
             _ => self.forces[i - 1 - body],
         };
         let ahead = self.forces[i - body];
         let in_contact = self.in_contact[i];
-        let sums = self.scalars.accumulated.friction;
-        let (velocity, position) = (self.nodes[i].velocity, self.nodes[i].position);
-        let (mut node, mut next) = (self.nodes[i], sums);
+        let mut kicked = KickedMasses::of(self.masses[i], self.frictions[i], step);
+        let mut force = Lanes::all(0.0);
         for l in 0..LANES {
-            let (before, mut sums) = (velocity.0[l], sums.lane(l));
-            let force = [behind.0[l] - ahead.0[l], friction[l]];
-            let kicked = kick([mass[l], before], force, step.kick.0[l] / mass[l]);
+            // What an interface kicks goes on as it is.
             let is_free = in_contact >> l & 1 == 0;
-            let lost = if is_free { kicked.lost } else { 0.0 };
-            sums.add(lost, before, kicked.velocity);
-            next.set_lane(l, sums);
-            let moved = position.0[l] + kicked.velocity * step.length.0[l];
-            node.velocity.0[l] = if is_free { kicked.velocity } else { before };
-            node.position.0[l] = if is_free { moved } else { position.0[l] };
+            let net = behind.0[l] - ahead.0[l];
+            force.0[l] = if is_free { net } else { 0.0 };
+            kicked.limit.0[l] = if is_free { kicked.limit.0[l] } else { 0.0 };
         }
-        self.scalars.accumulated.friction = next;
-        self.moves[i] = node.moves();
-        self.nodes[i] = node;
-        self.kick_joints(i, step);
+        let mut sums = self.scalars.accumulated.kicks.friction;
+        let mut node = self.nodes[i];
+        if let Some(velocity) = sums.kick(&kicked, node.velocity, self.moves[i], force) {
+            let position = node.position;
+            self.moves[i] = node.go_on(velocity, step);
+            for l in 0..LANES {
+                let is_free = in_contact >> l & 1 == 0;
+                node.position.0[l] = if is_free {
+                    node.position.0[l]
+                } else {
+                    position.0[l]
+                };
+            }
+            self.nodes[i] = node;
+        }
+        self.scalars.accumulated.kicks.friction = sums;
+        if in_contact != 0 {
+            self.kick_joints(i, step);
+        }
     }
 
     /// Kicks the back of the target.
@@ -189,16 +163,16 @@ impl Bundle {
         for l in 0..LANES {
             let (mass, before, kick_time) = (mass.0[l], before.0[l], step.kick.0[l]);
             match self.mesh.back {
-                Back::Fixed => sums.support_impulse.0[l] += force.0[l] * kick_time,
-                Back::Free => {
+                RearFaceCondition::Fixed => sums.support_impulse.0[l] += force.0[l] * kick_time,
+                RearFaceCondition::Free => {
                     let force = [force.0[l], friction.0[l]];
                     let kicked = kick([mass, before], force, kick_time / mass);
-                    let mut friction = sums.friction.lane(l);
+                    let mut friction = sums.kicks.friction.lane(l);
                     friction.add(kicked.lost, before, kicked.velocity);
-                    sums.friction.set_lane(l, friction);
+                    sums.kicks.friction.set_lane(l, friction);
                     velocity.0[l] = kicked.velocity;
                 }
-                Back::Open => {
+                RearFaceCondition::NonReflecting => {
                     let end = OpenEnd {
                         impedance: impedance.0[l],
                         spring: 0.0,
@@ -217,6 +191,23 @@ impl Bundle {
     pub(super) fn drift(&mut self, i: usize, step: &Step) {
         let velocity = self.nodes[i].velocity;
         self.moves[i] = self.nodes[i].go_on(velocity, step);
+    }
+}
+
+impl KickedMasses<Lanes> {
+    /// Masses with the largest friction on them in a step.
+    #[inline(always)]
+    fn of(mass: Lanes, friction: Lanes, step: &Step) -> Self {
+        let mut kicked = Self {
+            mass,
+            ratio: mass,
+            limit: mass,
+        };
+        for l in 0..LANES {
+            kicked.ratio.0[l] = step.kick.0[l] / mass.0[l];
+            kicked.limit.0[l] = friction.0[l] * kicked.ratio.0[l];
+        }
+        kicked
     }
 }
 

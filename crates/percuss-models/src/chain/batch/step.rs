@@ -2,20 +2,12 @@
 
 use super::bundle::Bundle;
 use crate::{
-    chain::solver::choose_time_step,
-    lanes::{LANES, Lanes},
+    chain::solver::StepTimes,
+    lanes::{LANES, Lanes, PerLane},
 };
 
-/// What a step has for every lane besides the state.
-#[derive(Clone, Copy)]
-pub(super) struct Step {
-    /// Length of the step before, of this one, and of the kick between them.
-    pub(super) before: Lanes,
-    pub(super) length: Lanes,
-    pub(super) kick: Lanes,
-    /// Inverse of its length.
-    pub(super) rate: Lanes,
-}
+/// Times of a step of every lane.
+pub(super) type Step = StepTimes<Lanes>;
 
 /// What a step finds out about the elements.
 pub(super) struct StepEstimate {
@@ -47,7 +39,6 @@ impl Bundle {
         let [projectile, target] = self.mesh.elements;
         let [tip, face] = [projectile, projectile + 1];
         self.kick_contact(force_behind, &step);
-        self.kick_joints(face, &step);
         self.kick_target(&step);
         self.close_joints(&step);
         for end in [tip, face, face + target] {
@@ -60,19 +51,12 @@ impl Bundle {
     /// Chooses the time steps.
     #[inline(always)]
     fn begin(&self) -> Step {
-        let (before, scalars) = (self.scalars.time_step, &self.scalars);
-        let (courant, stable) = (scalars.courant, scalars.stable_step);
-        let mut step = Step {
-            before,
-            length: before,
-            kick: before,
-            rate: before,
-        };
+        let scalars = &self.scalars;
+        let (before, courant, stable) = (scalars.time_step, scalars.courant, scalars.stable_step);
+        let mut step = Step::default();
         for l in 0..LANES {
-            let length = choose_time_step(before.0[l], courant.0[l] * stable.0[l]);
-            step.length.0[l] = length;
-            step.kick.0[l] = 0.5 * (before.0[l] + length);
-            step.rate.0[l] = 1.0 / length;
+            let allowed = courant.0[l] * stable.0[l];
+            step.set_lane(l, StepTimes::choose(before.0[l], allowed));
         }
         step
     }

@@ -12,7 +12,7 @@ use crate::{
     Error,
     chain::{
         part::Role,
-        solver::{StepControl, choose_time_step},
+        solver::{StepControl, StepTimes},
     },
     error::NumericalError,
     ledger::{EnergyLedger, MomentumLedger},
@@ -96,19 +96,16 @@ impl State {
 
     /// Advances by one step.
     pub(super) fn advance(&mut self, control: &StepControl) -> Result<(), NumericalError> {
-        let previous = self.time_step;
         let stable = self
             .rod
             .stable_step(LARGEST_STRAIN_STEP)
             .min(self.far_field_step);
-        let time_step = choose_time_step(
-            previous,
-            (control.courant * stable).min(control.longest_step),
-        );
-        let kick = 0.5 * (previous + time_step);
+        let allowed = (control.courant * stable).min(control.longest_step);
+        let step = StepTimes::choose(self.time_step, allowed);
+        let (kick, time_step) = (step.kick, step.length);
         self.rod.collect();
         self.far_field.collect();
-        self.limit_approach(0.0, -previous);
+        self.limit_approach(0.0, -step.before);
         if control.is_damped() {
             let force = self.contact_force;
             self.rod.damp(control, -force);
