@@ -55,8 +55,8 @@ pub(super) fn warning(
         TargetBody::Layers { layers, back_face: RearFaceCondition::Fixed, .. } if layers.iter().all(|plate| plate.thickness.is_some())
     );
     let rear = rear.then(|| {
-        "the force on the fixed rear face is that of a plate of infinite width: in the seed paper's case 8 to 31 % above that of `axi` at 5 \
-         projectile diameters of thickness, and 57 to 84 % at one"
+        "the force on the fixed rear face is that of a plate of infinite width: in the seed paper's case 16 to 47 % above that of `axi` at 5 \
+         projectile diameters of thickness, and 59 to 85 % at one"
             .to_owned()
     });
     match (peak, rear) {
