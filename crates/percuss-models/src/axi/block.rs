@@ -187,10 +187,19 @@ impl Block {
         self.carry(time_step);
         let [radius, depth] = self.position;
         let [radial, axial] = self.drift;
+        let place = lanes(|l| radius[l] + time_step * radial[l]);
         self.position = [
-            lanes(|l| (radius[l] + time_step * radial[l]).abs()),
+            lanes(|l| place[l].abs()),
             lanes(|l| depth[l] + time_step * axial[l]),
         ];
+        // Beyond the axis it is the mirror image that goes on.
+        let side = lanes(|l| 1.0_f64.copysign(place[l]));
+        for l in 0..LANES {
+            self.velocity[0][l] *= side[l];
+            self.gradient[1][l] *= side[l];
+            self.gradient[2][l] *= side[l];
+            self.deviator[2][l] *= side[l];
+        }
     }
 
     /// Hoop rate before the particles move [1/s].
