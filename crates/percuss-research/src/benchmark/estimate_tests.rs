@@ -121,26 +121,38 @@ fn a_long_rod_that_stops_short_of_a_shorter_one_is_refused() {
     ));
 }
 
-/// Two meshes of these entries, extrapolated at order 1, are contradicted by finer runs: 0.567 mm by 0.91 on 12 cells, 92.6 and 34.7 mm
-/// by 65.2 and 25.7 on 8. No such extrapolation is a reference.
+/// The two coarsest meshes of these entries, extrapolated at order 1, are contradicted by finer runs: 0.199 and 0.0911 mm by 0.388 and
+/// 0.128 on 12 cells, 0.0207 mm by 0.117 on 8. No such extrapolation is a reference.
 #[test]
 fn two_meshes_that_finer_runs_contradict_are_no_reference() {
     let checked = check_references(&cases(), &reference::built_in());
     assert!(checked.len() == cases().len());
-    for (projectile, target, speed, contradicted) in [
-        ("4340-johnson-cook", "6061-t6-lesuer", 150.0, 0.567),
-        ("ofhc-copper-johnson-cook", "6061-t6-lesuer", 1500.0, 92.6),
-        ("4340-johnson-cook", "weldox-460-e-borvik", 1500.0, 34.7),
+    for (projectile, target, slenderness, speed, contradicted) in [
+        (
+            "copper-woodward",
+            "aluminium-2024-t351-woodward",
+            3.0,
+            300.0,
+            0.1994,
+        ),
+        (
+            "4340-johnson-cook",
+            "weldox-460-e-borvik",
+            3.0,
+            150.0,
+            0.0911,
+        ),
+        ("6061-t6-lesuer", "4340-johnson-cook", 10.0, 600.0, 0.0207),
     ] {
         let entry = checked.iter().find(|entry| {
             (entry.case.projectile.as_str(), entry.case.target.as_str()) == (projectile, target)
-                && entry.case.length_to_diameter == 10.0
+                && entry.case.length_to_diameter == slenderness
                 && entry.case.speed == speed
         });
         let entry = entry.unwrap();
         let coarse = &entry.meshes[..2];
         let two = extrapolate(coarse[0], coarse[1], 1.0);
-        assert!((two / contradicted - 1.0).abs() < 2e-3, "{two}");
+        assert!((two / contradicted - 1.0).abs() < 4e-3, "{two}");
         assert_eq!(depth_of(coarse), Err(Refusal::TooFewMeshes));
         if let Ok(estimate) = entry.estimate {
             let finest = entry.meshes.last().unwrap().value;
