@@ -63,7 +63,8 @@ fn a_run_has_a_time() {
         },
         ..Options::default()
     });
-    let axi = json!({ "case": PAPER, "model": "axi" });
+    let fine = format!("{PAPER}\n[axi]\ncells_per_radius = 24\n");
+    let axi = json!({ "case": fine, "model": "axi" });
     let answer = served.post("/api/answer", &axi);
     assert_eq!(answer.status, 400, "{}", answer.text());
     let last = outcome(&served, "run", &axi);
@@ -148,7 +149,8 @@ fn runs_have_places_and_free_them_when_nobody_waits() {
         },
         ..Options::default()
     });
-    let long = json!({ "case": PAPER, "model": "axi" }).to_string();
+    let fine = format!("{PAPER}\n[axi]\ncells_per_radius = 24\n");
+    let long = json!({ "case": fine, "model": "axi" }).to_string();
     let request = post_request(served.address, "/api/study/run", long.as_bytes(), "");
     let mut waiting = served.connect();
     waiting.write_all(&request).unwrap();
