@@ -63,7 +63,7 @@ fn a_run_has_a_time() {
         },
         ..Options::default()
     });
-    let fine = format!("{PAPER}\n[axi]\ncells_per_radius = 24\n");
+    let fine = format!("{PAPER}\n[axi]\ncells_per_radius = 16\ncourant = 0.2\n");
     let axi = json!({ "case": fine, "model": "axi" });
     let answer = served.post("/api/answer", &axi);
     assert_eq!(answer.status, 400, "{}", answer.text());
@@ -149,7 +149,7 @@ fn runs_have_places_and_free_them_when_nobody_waits() {
         },
         ..Options::default()
     });
-    let fine = format!("{PAPER}\n[axi]\ncells_per_radius = 24\n");
+    let fine = format!("{PAPER}\n[axi]\ncells_per_radius = 16\ncourant = 0.2\n");
     let long = json!({ "case": fine, "model": "axi" }).to_string();
     let request = post_request(served.address, "/api/study/run", long.as_bytes(), "");
     let mut waiting = served.connect();
