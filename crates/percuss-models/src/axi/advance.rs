@@ -135,22 +135,22 @@ fn advance_run(
         });
     }
     share_means(volumes, expansions, (start, group_ends));
-    for Moving {
-        members,
-        block,
-        rates,
-        places,
-    } in moving
-    {
+    for one in moving {
         let mut work = Work::NONE;
         if pass.time_step > 0.0 {
-            for (l, place) in members.iter() {
-                rates.expansion[l] = expansions[place];
+            for (l, place) in one.members.iter() {
+                one.rates.expansion[l] = expansions[place];
             }
-            let lengths = cell_lengths(cell, places);
+            let lengths = cell_lengths(cell, &one.places);
+            let Moving {
+                members,
+                block,
+                rates,
+                ..
+            } = one;
             work = law.deform(particles, members, block, rates, pass.time_step, &lengths);
         }
-        add_up(particles, members, block, places, &work, law, pass, sums);
+        add_up(particles, one, &work, law, pass, sums);
     }
 }
 
@@ -183,14 +183,18 @@ fn share_means(weights: &[f64], values: &mut [f64], (start, group_ends): (usize,
 #[inline(always)]
 fn add_up(
     particles: &mut [Particle],
-    members: &Members,
-    block: &Block,
-    places: &Places,
+    moving: &Moving,
     work: &Work,
     law: &Law,
     pass: &Pass,
     sums: &mut Sums,
 ) {
+    let Moving {
+        members,
+        block,
+        places,
+        ..
+    } = moving;
     let kinetic = block.kinetic_energy(places, pass.mesh.cell);
     let wave_squared = law.wave_speed_squared(block);
     for (l, place) in members.iter() {
