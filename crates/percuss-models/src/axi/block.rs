@@ -11,7 +11,7 @@ use crate::{
     solver::Particle,
 };
 
-/// Strains, inverted, after which the part of an affine field that the nodes do not resolve has fallen by a factor of e.
+/// Rate, per unit of strain, at which the part of an affine field that the nodes do not resolve decays.
 const FORGETTING: f64 = 2.0;
 
 /// What a step reads and changes of its particles, named as there.
