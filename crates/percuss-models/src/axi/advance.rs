@@ -2,7 +2,8 @@
 //!
 //! The rate of volume and the pressure are means over the particles of a group, which have been in one cell: with a rate of volume of its
 //! own in each of four particles of a cell, plastic flow, which keeps the volume, would have too few ways to go \[hughes1980\]. Both means
-//! are weighted with volumes, so the power of the nodal forces stays that of the stresses.
+//! are weighted with volumes, so the power of the nodal forces stays that of the stresses. Nodes do not see what the pressures of a group
+//! differ by, so that would drift as groups change: it decays as the material deforms.
 
 use super::{
     block::{Block, Members},
@@ -21,6 +22,8 @@ use crate::{
 
 /// Particles after which a run of groups is worth a pass of its own, still close to the processor.
 const RUN: usize = 32;
+/// Rate, per unit of strain, at which the pressures of a group come together.
+const RELAXING: f64 = 4.0;
 
 /// Moves and deforms the particles of a chunk; a time step of 0 leaves them as they are.
 ///
@@ -70,13 +73,43 @@ impl pulp::NullaryFnOnce for Advance<'_, '_> {
     }
 }
 
-/// What passes from one part of the work on a run to the next.
+/// What passes from one part of the work on a run to the next, by particle.
 #[derive(Debug, Default)]
 struct Scratch {
     moving: Vec<Moving>,
-    /// Volume and rate of volume of each particle; then the mean rate of its group.
+    /// Whether a particle is alone in its group: 1 if it is.
+    lone: Vec<f64>,
+    /// Weights of the means: volumes, or 0 where a particle has failed.
     volumes: Vec<f64>,
+    /// Own rates of volume, pressures and rates of shear; then their means.
     expansions: Vec<f64>,
+    pressures: Vec<f64>,
+    shears: Vec<f64>,
+}
+
+impl Scratch {
+    /// Makes room for a run and finds who is alone.
+    fn start(&mut self, particles: usize, (start, group_ends): (usize, &[usize])) {
+        self.moving.clear();
+        for values in [
+            &mut self.lone,
+            &mut self.volumes,
+            &mut self.expansions,
+            &mut self.pressures,
+            &mut self.shears,
+        ] {
+            values.clear();
+            values.resize(particles, 0.0);
+        }
+        let mut from = 0;
+        for end in group_ends {
+            let to = end - start;
+            if to - from == 1 {
+                self.lone[from] = 1.0;
+            }
+            from = to;
+        }
+    }
 }
 
 /// Particles that have moved and are yet to be deformed.
@@ -98,16 +131,15 @@ fn advance_run(
     scratch: &mut Scratch,
     sums: &mut Sums,
 ) {
+    scratch.start(particles.len(), (start, group_ends));
     let Scratch {
         moving,
+        lone,
         volumes,
         expansions,
+        pressures,
+        shears,
     } = scratch;
-    moving.clear();
-    volumes.clear();
-    volumes.resize(particles.len(), 0.0);
-    expansions.clear();
-    expansions.resize(particles.len(), 0.0);
     let cell = pass.mesh.cell;
     let mut from = 0;
     while let Some(members) = Members::next(particles, &mut from) {
@@ -117,13 +149,15 @@ fn advance_run(
         if pass.time_step > 0.0 {
             block.gather(&places, cell, field);
             let hoop_rate = block.hoop_rate(law);
-            block.travel(pass.time_step);
+            block.travel(pass.time_step, &members.lanes(lone));
             rates = Rates::of(&block, hoop_rate, pass.time_step);
             for (l, place) in members.iter() {
                 // A failed particle bears no tension: it is no part of the mean of sound ones.
                 let sound = if block.damage[l] < 1.0 { 1.0 } else { 0.0 };
                 volumes[place] = sound * block.volume[l];
                 expansions[place] = rates.expansion[l];
+                pressures[place] = block.pressure[l];
+                shears[place] = rates.shear(l);
             }
             places = pass.mesh.places(&block.position);
         }
@@ -134,12 +168,21 @@ fn advance_run(
             places,
         });
     }
-    share_means(volumes, expansions, (start, group_ends));
+    for values in [&mut *expansions, pressures, shears] {
+        share_means(volumes, values, (start, group_ends));
+    }
     for one in moving {
         let mut work = Work::NONE;
         if pass.time_step > 0.0 {
             for (l, place) in one.members.iter() {
                 one.rates.expansion[l] = expansions[place];
+                if volumes[place] > 0.0 {
+                    let rate = RELAXING * shears[place];
+                    let excess = one.block.pressure[l] - pressures[place];
+                    one.rates.excess[l] = excess;
+                    one.rates.relaxation[l] =
+                        excess / law.bulk_modulus * rate / (1.0 + rate * pass.time_step);
+                }
             }
             let lengths = cell_lengths(cell, &one.places);
             let Moving {

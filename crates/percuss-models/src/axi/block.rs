@@ -70,6 +70,12 @@ impl Members {
         self.count
     }
 
+    /// Values of the members.
+    #[inline(always)]
+    pub(super) fn lanes(&self, values: &[f64]) -> Lanes {
+        lanes(|l| values[self.places[l]])
+    }
+
     /// Lanes in use and the places of their particles.
     #[inline(always)]
     pub(super) fn iter(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
@@ -163,15 +169,25 @@ impl Block {
     /// Carries the affine fields along: neighbours that a step has moved apart by `1 + C Δt` have the same velocities as before, so the
     /// gradient of the nodes is that before times its inverse. In a turning body that balances what its centripetal forces add.
     ///
-    /// What the nodes do not resolve is forgotten as the material deforms, not as steps pass: kept for ever, it would grow in jets.
+    /// What the nodes do not resolve is forgotten as the material deforms, not as steps pass: kept for ever, it would grow in jets. The
+    /// field of a particle that is alone in its cell, which no neighbours stand for, only decays: a fluid particle whose inertia cannot
+    /// shrink as it does would draw energy from being carried.
     #[inline(always)]
-    fn carry(&mut self, time_step: f64) {
+    fn carry(&mut self, time_step: f64, lone: &Lanes) {
         let ([rr, rz, zr, zz], rest) = (self.rate, self.unresolved);
         self.gradient = each_of(|l| {
             let product = time_step * (rr[l] * zz[l] - rz[l] * zr[l]);
             let scale = 1.0 / (1.0 + time_step * (rr[l] + zz[l] + product));
             let squared = rr[l] * rr[l] + rz[l] * rz[l] + zr[l] * zr[l] + zz[l] * zz[l];
             let kept = 1.0 / (1.0 + FORGETTING * time_step * squared.sqrt());
+            let shear = rz[l] + zr[l];
+            let strain = (rr[l] * rr[l] + zz[l] * zz[l] + 0.5 * shear * shear).sqrt();
+            let alone = lone[l] > 0.0;
+            let (product, scale) = if alone {
+                (0.0, 1.0 / (1.0 + time_step * strain))
+            } else {
+                (product, scale)
+            };
             [
                 (rr[l] + product) * scale + kept * rest[0][l],
                 rz[l] * scale + kept * rest[1][l],
@@ -183,8 +199,8 @@ impl Block {
 
     /// Moves the particles, reflected in the axis.
     #[inline(always)]
-    pub(super) fn travel(&mut self, time_step: f64) {
-        self.carry(time_step);
+    pub(super) fn travel(&mut self, time_step: f64, lone: &Lanes) {
+        self.carry(time_step, lone);
         let [radius, depth] = self.position;
         let [radial, axial] = self.drift;
         let place = lanes(|l| radius[l] + time_step * radial[l]);

@@ -49,6 +49,8 @@ impl Law {
         let Rates {
             shape: [rr, zz, rz],
             expansion,
+            relaxation,
+            excess,
             spin,
         } = *rates;
         let rate = |l: usize| [rr[l], zz[l], rz[l]];
@@ -57,7 +59,7 @@ impl Law {
         let volume_before = block.volume;
         let volume = lanes(|l| {
             // (1 + x/2)/(1 − x/2) is the exponential to third order and reversible.
-            let half = 0.5 * time_step * expansion[l];
+            let half = 0.5 * time_step * (expansion[l] + relaxation[l]);
             volume_before[l] * ((1.0 + half) / (1.0 - half))
         });
         let stiffness = 2.0 * self.shear_modulus * time_step;
@@ -113,7 +115,11 @@ impl Law {
         block.viscous_pressure = self.artificial_viscosity(block, &expansion, cell);
         let viscous_pressure = block.viscous_pressure;
         let change = lanes(|l| volume[l] - volume_before[l]);
-        let viscous = lanes(|l| -viscous_pressure[l] * change[l]);
+        // What the difference from the mean pressure gives up in its decay is heat.
+        let viscous = lanes(|l| {
+            let decay = mean_volume[l] * time_step * relaxation[l] * excess[l];
+            decay - viscous_pressure[l] * change[l]
+        });
         let volume_work = self.compress(block, &change, &lanes(|l| shear_work[l] + viscous[l]));
         let (temperature, mass) = (block.temperature, block.mass);
         block.temperature =
@@ -238,6 +244,9 @@ pub(super) struct Rates {
     pub(super) shape: [Lanes; 3],
     /// Rate of volume.
     pub(super) expansion: Lanes,
+    /// Part of the pressure beyond the mean of the group [Pa], and rate of volume by which it decays.
+    pub(super) excess: Lanes,
+    pub(super) relaxation: Lanes,
     pub(super) spin: Lanes,
 }
 
@@ -246,8 +255,17 @@ impl Rates {
     pub(super) const NONE: Self = Self {
         shape: [Lanes::all(0.0); 3],
         expansion: Lanes::all(0.0),
+        relaxation: Lanes::all(0.0),
+        excess: Lanes::all(0.0),
         spin: Lanes::all(0.0),
     };
+
+    /// Equivalent rate of shear in a lane.
+    #[inline(always)]
+    pub(super) fn shear(&self, l: usize) -> f64 {
+        let [rr, zz, rz] = one(&self.shape, l);
+        (rr * rr + zz * zz + rr * zz + rz * rz).sqrt()
+    }
 
     /// Those of a block whose gradients and hoop rates are new.
     ///
@@ -281,6 +299,8 @@ impl Rates {
         Self {
             shape: [shape_rr, shape_zz, shape_rz],
             expansion,
+            relaxation: Lanes::all(0.0),
+            excess: Lanes::all(0.0),
             spin,
         }
     }
