@@ -22,8 +22,6 @@ use crate::{
 
 /// Particles after which a run of groups is worth a pass of its own, still close to the processor.
 const RUN: usize = 32;
-/// Rate, per unit of strain, at which the pressures of a group come together.
-const RELAXING: f64 = 4.0;
 
 /// Moves and deforms the particles of a chunk; a time step of 0 leaves them as they are.
 ///
@@ -174,16 +172,10 @@ fn advance_run(
     for one in moving {
         let mut work = Work::NONE;
         if pass.time_step > 0.0 {
-            for (l, place) in one.members.iter() {
-                one.rates.expansion[l] = expansions[place];
-                if volumes[place] > 0.0 {
-                    let rate = RELAXING * shears[place];
-                    let excess = one.block.pressure[l] - pressures[place];
-                    one.rates.excess[l] = excess;
-                    one.rates.relaxation[l] =
-                        excess / law.bulk_modulus * rate / (1.0 + rate * pass.time_step);
-                }
-            }
+            let (mean, shear) = (one.members.lanes(pressures), one.members.lanes(shears));
+            one.rates.expansion = one.members.lanes(expansions);
+            one.rates
+                .relax(&one.block, &mean, &shear, law, pass.time_step);
             let lengths = cell_lengths(cell, &one.places);
             let Moving {
                 members,

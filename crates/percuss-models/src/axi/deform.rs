@@ -10,6 +10,9 @@ use crate::{
     solver::{Particle, equivalent},
 };
 
+/// Rate, per unit of strain, at which the pressures of a group come together.
+const RELAXING: f64 = 4.0;
+
 /// What a step did in every particle of a block [J].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Work {
@@ -265,6 +268,31 @@ impl Rates {
     pub(super) fn shear(&self, l: usize) -> f64 {
         let [rr, zz, rz] = one(&self.shape, l);
         (rr * rr + zz * zz + rr * zz + rz * rz).sqrt()
+    }
+
+    /// Lets the pressures of sound particles come together with the mean of their group, at a part of its mean rate of shear.
+    #[inline(always)]
+    pub(super) fn relax(
+        &mut self,
+        block: &Block,
+        mean: &Lanes,
+        shear: &Lanes,
+        law: &Law,
+        time_step: f64,
+    ) {
+        let per_modulus = 1.0 / law.bulk_modulus;
+        [self.excess, self.relaxation] = each_of(|l| {
+            let excess = if block.damage[l] < 1.0 {
+                block.pressure[l] - mean[l]
+            } else {
+                0.0
+            };
+            let rate = RELAXING * shear[l];
+            [
+                excess,
+                excess * per_modulus * rate / (1.0 + rate * time_step),
+            ]
+        });
     }
 
     /// Those of a block whose gradients and hoop rates are new.

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use crate::lanes::{Lanes, lanes, larger};
+use crate::lanes::{LANES, Lanes, each_of, lanes, larger};
 
 /// Positions of nodes along one direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +15,9 @@ pub(super) struct Axis {
     even: f64,
     /// Part by which each cell beyond is larger than the one before.
     growth: f64,
+    /// One over the side of an even cell [1/m], and one over the growth.
+    per_cell: f64,
+    per_growth: f64,
 }
 
 impl Axis {
@@ -25,7 +28,13 @@ impl Axis {
 
     /// Even up to a number of cells; beyond, each cell is larger than the one before by a part of the first.
     pub(super) const fn graded(cell: f64, even: f64, growth: f64) -> Self {
-        Self { cell, even, growth }
+        Self {
+            cell,
+            even,
+            growth,
+            per_cell: 1.0 / cell,
+            per_growth: 1.0 / growth,
+        }
     }
 
     /// Even up to a number of cells; beyond, cells grow by up to a part of the first, so that a node stands at an end [m].
@@ -43,10 +52,20 @@ impl Axis {
     /// Index of a position [m], and how much a cell there is stretched.
     #[inline(always)]
     fn mapped(&self, position: f64) -> [f64; 2] {
-        let place = position / self.cell;
+        let place = position * self.per_cell;
         let beyond = larger(place - self.even, 0.0);
         let stretch = (1.0 + 2.0 * self.growth * beyond).sqrt();
-        [place - beyond + (stretch - 1.0) / self.growth, stretch]
+        [place - beyond + (stretch - 1.0) * self.per_growth, stretch]
+    }
+
+    /// Indices and stretches of a block; the same numbers without a root where all of it is in even cells.
+    #[inline(always)]
+    fn mapped_lanes(&self, position: &Lanes) -> [Lanes; 2] {
+        let place = lanes(|l| position[l] * self.per_cell);
+        if (0..LANES).all(|l| place[l] <= self.even) {
+            return [place, Lanes::all(1.0)];
+        }
+        each_of(|l| self.mapped(position[l]))
     }
 
     /// Index of a position [m].
@@ -125,22 +144,12 @@ impl Mesh {
     /// Places of particles at positions [m].
     #[inline(always)]
     pub(super) fn places(&self, [radius, depth]: &[Lanes; 2]) -> Places {
-        let mut places = Places {
-            index: [Lanes::all(0.0); 2],
-            stretch: [Lanes::all(0.0); 2],
-        };
-        for (k, (axis, position)) in [(self.radial, radius), (self.axial, depth)]
-            .into_iter()
-            .enumerate()
-        {
-            let mut index = Lanes::all(0.0);
-            let mut stretch = Lanes::all(0.0);
-            for l in 0..crate::lanes::LANES {
-                [index[l], stretch[l]] = axis.mapped(position[l]);
-            }
-            (places.index[k], places.stretch[k]) = (index, stretch);
+        let [radial, radial_stretch] = self.radial.mapped_lanes(radius);
+        let [axial, axial_stretch] = self.axial.mapped_lanes(depth);
+        Places {
+            index: [radial, axial],
+            stretch: [radial_stretch, axial_stretch],
         }
-        places
     }
 
     /// Indices of a position [m].
