@@ -8,7 +8,7 @@ pub mod reference;
 pub mod resume;
 mod statistics;
 
-pub use case::{BenchmarkCase, DIAMETER, PAIRS, cases};
+pub use case::{BenchmarkCase, DIAMETER, Design, PAIRS, SPREAD_PAIRS, cases};
 pub use compare::{compare, to_csv};
 pub use estimate::{
     CheckedReference, Estimate, Refusal, RefusedReference, check_references, depth_of,

@@ -40,6 +40,8 @@ pub(super) fn complete(
     let left = paper_case
         .map(|file| paper_case::read_file(file).map(|known| paper_case::seconds_left(&known)));
     let left = left.transpose()?.unwrap_or(0.0);
+    let within = within_budget(options, cases, reference)?;
+    let cases = &*within;
     let due = reference.map(|file| Due::of(file, cases, options.cells));
     let due = due.transpose()?;
     let work = due.as_ref().map_or(Some(0.0), |due| due.work);
@@ -84,6 +86,21 @@ pub(super) fn complete(
     }
     let state = progress.state.into_inner();
     Ok(state.unwrap_or_else(PoisonError::into_inner).failures)
+}
+
+/// Cases whose estimated time on one core is within the budget; one without an estimate is.
+fn within_budget(
+    options: &Benchmark,
+    cases: &[BenchmarkCase],
+    reference: Option<&Path>,
+) -> Result<Vec<BenchmarkCase>, Failure> {
+    let known = reference.map(reference::read_file).transpose()?;
+    let known = known.unwrap_or_default();
+    let is_within = |case: &&BenchmarkCase| match options.budget {
+        Some(budget) => seconds(case, options.cells, &known).is_none_or(|time| time <= budget),
+        None => true,
+    };
+    Ok(cases.iter().filter(is_within).cloned().collect())
 }
 
 /// Cases that a file of the reference lacks.

@@ -8,7 +8,9 @@ use std::{path::PathBuf, sync::atomic::AtomicBool};
 use clap::{Args, ValueEnum};
 use percuss::model_error::ErrorRecord;
 use percuss_research::{
-    benchmark::{self, CheckedReference, Group, Grouping, Reference, RefusedReference, reference},
+    benchmark::{
+        self, CheckedReference, Design, Group, Grouping, Reference, RefusedReference, reference,
+    },
     benchmark_report::{self, BenchmarkResults, Origin},
     paper_case::{self, variants::VariantResult},
 };
@@ -77,6 +79,13 @@ pub struct Benchmark {
     #[arg(long, value_name = "N", default_value_t = 8, requires = "compute")]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=64))]
     cells: u32,
+    /// Leave out cases that take longer than this on one core [s], for --compute with --reference
+    #[arg(long, value_name = "SECONDS", requires = "compute")]
+    #[arg(value_parser = positive)]
+    budget: Option<f64>,
+    /// Cases: the grid of the tables and figures, or other pairs of materials spread over L/D 1 to 20 and 100 to 2500 m/s
+    #[arg(long, value_enum, value_name = "DESIGN", default_value_t = DesignName::Grid)]
+    design: DesignName,
     /// Print the errors by this property; may be given several times
     #[arg(long, value_name = "WHAT")]
     by: Vec<By>,
@@ -89,6 +98,30 @@ pub struct Benchmark {
     /// No table and no progress: one line of NAME=VALUE pairs per model
     #[arg(long, short)]
     quiet: bool,
+}
+
+/// A positive number of an option.
+fn positive(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    match number.is_finite() && number > 0.0 {
+        true => Ok(number),
+        false => Err("must be positive".to_owned()),
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum DesignName {
+    Grid,
+    Spread,
+}
+
+impl From<DesignName> for Design {
+    fn from(name: DesignName) -> Self {
+        match name {
+            DesignName::Grid => Self::Grid,
+            DesignName::Spread => Self::Spread,
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -180,7 +213,7 @@ impl Benchmark {
         on_progress: ProgressCallback<'_>,
         say: &dyn Fn(&str),
     ) -> Result<BenchmarkOutput, Failure> {
-        let cases = benchmark::cases();
+        let cases = Design::from(self.design).cases();
         if let Some(out) = &self.out {
             make_folder(out)?;
         }
