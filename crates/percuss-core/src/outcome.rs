@@ -193,20 +193,22 @@ pub struct Band {
 }
 
 /// What a range is of; the name carries the unit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BandQuantity {
     /// Depth of penetration [mm].
-    #[serde(rename = "depth_of_penetration_mm")]
     DepthOfPenetration,
     /// Residual velocity [m/s].
-    #[serde(rename = "residual_velocity_m_s")]
     ResidualVelocity,
     /// Ballistic limit [m/s].
-    #[serde(rename = "ballistic_limit_m_s")]
     BallisticLimit,
     /// Final length of the projectile [mm].
-    #[serde(rename = "projectile_final_length_mm")]
     ProjectileFinalLength,
+}
+
+impl Serialize for BandQuantity {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
 }
 
 impl BandQuantity {
@@ -217,6 +219,16 @@ impl BandQuantity {
         Self::BallisticLimit,
         Self::ProjectileFinalLength,
     ];
+
+    /// Its name in results, with the unit.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::DepthOfPenetration => "depth_of_penetration_mm",
+            Self::ResidualVelocity => "residual_velocity_m_s",
+            Self::BallisticLimit => "ballistic_limit_m_s",
+            Self::ProjectileFinalLength => "projectile_final_length_mm",
+        }
+    }
 
     /// A value in SI units as one in the quantity's own unit.
     pub fn in_unit(self, si: f64) -> f64 {

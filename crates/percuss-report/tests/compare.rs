@@ -118,7 +118,7 @@ fn comparison(case: &str, speeds: &[f64]) -> (Scenario, Comparison) {
         .collect();
     let models: Vec<&dyn Model> = fakes.iter().map(|fake| fake as &dyn Model).collect();
     let scenario = case::load_str("made-up", case).unwrap();
-    let comparison = compare(&models, &scenario, speeds, &mut Observer::default()).unwrap();
+    let comparison = compare(&models, None, &scenario, speeds, &mut Observer::default()).unwrap();
     (scenario, comparison)
 }
 

@@ -29,15 +29,27 @@ pub use crate::solver::Particle;
 
 use crate::{
     Error, Refusal, Scenario,
+    material::MaterialClass,
     outcome::RunResult,
-    regime::TargetKind,
+    regime::{ProjectileRegime, TargetKind},
     solver::{Control, CostClass, Model},
-    validity::ValidityDomain,
+    validity::{FirstChoice, NoseKind, ValidityDomain},
 };
 
 /// Axisymmetric material point method.
 #[derive(Debug, Clone, Copy)]
 pub struct Axi;
+
+/// Thick metal targets, where one dimension has no crater.
+const fn resolves(projectile: ProjectileRegime) -> FirstChoice {
+    FirstChoice {
+        projectile,
+        targets: &[TargetKind::SemiInfinite, TargetKind::ThickPlate],
+        noses: NoseKind::ALL,
+        target_material: MaterialClass::Metal,
+        because: "it resolves projectile and crater, and states the error of its mesh",
+    }
+}
 
 /// Number of particles that a run of a case begins with, for estimates of its cost. A nose that is not flat has fewer.
 pub fn particles(scenario: &Scenario) -> usize {
@@ -65,6 +77,10 @@ impl Model for Axi {
                     TargetKind::RigidWall,
                 ],
                 start_temperature: true,
+                first_choice: &[
+                    resolves(ProjectileRegime::Deforming),
+                    resolves(ProjectileRegime::Eroding),
+                ],
                 notes: &[
                     "normal impact of a body of revolution",
                     "a second to minutes: it runs when asked for by name, and beside a run",

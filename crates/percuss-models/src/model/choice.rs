@@ -185,6 +185,7 @@ mod tests {
             let chosen = default_model(&case).unwrap_or_else(|error| panic!("{target}: {error}"));
             let compared = compare(
                 &fast_models(),
+                None,
                 &case,
                 &[case.impact_velocity],
                 &mut Observer::default(),

@@ -3,6 +3,7 @@
 //! A block's file is complete or absent, and the same whoever writes it: a sweep that was ended, in whatever way, goes on with
 //! the blocks that are missing.
 
+mod axisymmetric;
 mod checksum;
 mod columns;
 mod folder;
@@ -13,6 +14,7 @@ mod plot;
 mod rows;
 mod table;
 
+pub use axisymmetric::AxisymmetricFile;
 pub use folder::{Block, Status, SweepFolder, status};
 pub use manifest::{ColumnName, Manifest, Varied};
 pub use merge::merge;

@@ -8,7 +8,7 @@ use percuss::{
 
 use super::stem;
 use crate::{
-    Axis, Bar, BarRows, Histogram, Mark, caption::caption, names,
+    Axis, Bar, BarRows, Histogram, LineChart, Mark, Series, Style, caption::caption, names,
     names::with_unit as label_with_unit, palette,
 };
 
@@ -151,5 +151,56 @@ pub(super) fn indices(
         ];
         chart = chart.row(names::parameter(&index.key), bars);
     }
+    Some(chart)
+}
+
+/// Axisymmetric number against that of the model, with the line through them.
+pub(super) fn axisymmetric(scenario: &Scenario, found: &Uncertainty) -> Option<LineChart> {
+    let spread = found.axisymmetric.as_ref()?;
+    let what = spread.what();
+    let unit = what.unit.symbol;
+    let points = || spread.points.iter();
+    let error = |error: f64| format!("{} {unit}", significant(error, 2));
+    let ends_of = |uncertainty: Option<f64>| uncertainty.map_or((0.0, 0.0), |u| (u, u));
+    let ends = [points().next()?, points().next_back()?].map(|point| {
+        let at = point.model_value;
+        (at, spread.intercept + spread.slope * at)
+    });
+    let chart = LineChart::new(
+        format!("axisymmetric-{}", stem(spread.quantity)),
+        format!(
+            "Axisymmetric {} against {}: {}",
+            what.label, found.model, found.case
+        ),
+        Axis::new(label_with_unit(
+            &format!("{} by {}", what.label, found.model),
+            unit,
+        )),
+        Axis::new(label_with_unit(&format!("{} by axi", what.label), unit)),
+    )
+    .caption(format!(
+        "{}; mean {} ± {}, standard deviation {} ± {}",
+        caption(scenario, None),
+        significant(spread.mean, 4),
+        error(spread.standard_error),
+        significant(spread.standard_deviation, 3),
+        error(spread.standard_deviation_error),
+    ))
+    .series(
+        Series::new(
+            format!("line, correlation {}", significant(spread.correlation, 3)),
+            ends,
+        )
+        .color(palette::symbol_color(1)),
+    )
+    .series(
+        Series::new(
+            "samples, ± mesh",
+            points().map(|point| (point.model_value, point.value)),
+        )
+        .style(Style::Markers)
+        .color(palette::symbol_color(0))
+        .error_bars(points().map(|point| ends_of(point.uncertainty))),
+    );
     Some(chart)
 }

@@ -10,7 +10,7 @@ pub use files::{uncertainty_files, write_uncertainty};
 
 use crate::{Chart, Figure};
 
-/// Draws, of each quantity, `histogram-…`, `tornado-…` and, where there are indices, `indices-…`; and over a range of speeds
+/// Draws `axisymmetric-…` where mean and spread are corrected; of each quantity, `histogram-…`, `tornado-…` and, where there are indices, `indices-…`; and over a range of speeds
 /// `bands-…` and, where perforation is decided, `perforation`.
 pub fn uncertainty_figures(scenario: &Scenario, found: &Uncertainty) -> Vec<Figure> {
     let charts = uncertainty_charts(scenario, found);
@@ -26,6 +26,7 @@ pub fn uncertainty_charts(scenario: &Scenario, found: &Uncertainty) -> Vec<Chart
         charts.extend(figures::indices(scenario, found, quantity).map(Chart::from));
         charts.extend(bands::bands(scenario, found, quantity).map(Chart::from));
     }
+    charts.extend(figures::axisymmetric(scenario, found).map(Chart::from));
     charts.extend(bands::perforation(scenario, found).map(Chart::from));
     charts
 }

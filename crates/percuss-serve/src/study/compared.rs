@@ -27,7 +27,7 @@ pub(super) fn compared(job: &Job<'_>) -> Result<Study, Problem> {
     let mut watch = compare::Observer {
         progress: Some(&mut report),
     };
-    let comparison = compare::compare(&model::fast_models(), &scenario, &speeds, &mut watch)
+    let comparison = compare::compare(&model::fast_models(), None, &scenario, &speeds, &mut watch)
         .map_err(|error| job.stop.problem(error))?;
     let regimes: Vec<String> = comparison
         .regime

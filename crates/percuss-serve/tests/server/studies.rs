@@ -25,7 +25,7 @@ fn studies_end_with_what_the_library_says() {
     let scenario = case::load_str("shot", PAPER).unwrap();
     let mut watch = compare::Observer::default();
     let comparison =
-        compare::compare(&model::fast_models(), &scenario, &[230.0], &mut watch).unwrap();
+        compare::compare(&model::fast_models(), None, &scenario, &[230.0], &mut watch).unwrap();
     let printed = serde_json::to_string(&comparison).unwrap();
     let expected: Value = serde_json::from_str(&printed).unwrap();
     assert_eq!(last["done"]["comparison"], expected);

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use crate::{
     Error, Scenario,
+    axisymmetric::Request,
     model::{self, Control, Model},
     regime::Regime,
     summary::ResultRecord,
@@ -50,9 +51,38 @@ pub(super) fn scenarios(scenario: &Scenario, velocities: &[f64]) -> Vec<(Scenari
         .collect()
 }
 
+/// What runs at every velocity.
+pub(super) enum Entry<'a> {
+    /// A model, once.
+    Model(&'a dyn Model),
+    /// The axisymmetric model, on several meshes.
+    Axisymmetric(&'a dyn Model, Request),
+}
+
+impl<'a> Entry<'a> {
+    pub(super) fn model(&self) -> &'a dyn Model {
+        match self {
+            Self::Model(model) | Self::Axisymmetric(model, _) => *model,
+        }
+    }
+}
+
+/// The axisymmetric answer where it is requested, and the models.
+pub(super) fn all_of<'a>(
+    models: &[&'a dyn Model],
+    axisymmetric: Option<Request>,
+) -> Result<Vec<Entry<'a>>, Error> {
+    let mut all = Vec::new();
+    if let Some(request) = axisymmetric {
+        all.push(Entry::Axisymmetric(model::model("axi")?, request));
+    }
+    all.extend(models.iter().map(|model| Entry::Model(*model)));
+    Ok(all)
+}
+
 /// Runs every model at every velocity; the results of one velocity are consecutive.
 pub(super) fn run(
-    models: &[&dyn Model],
+    models: &[Entry<'_>],
     runs: &[(Scenario, Regime)],
     observer: &mut Observer<'_>,
 ) -> Result<Vec<ResultRecord>, Error> {
@@ -68,7 +98,7 @@ pub(super) fn run(
         .into_par_iter()
         .map(|job| {
             let (scenario, regime) = &runs[job / models.len()];
-            run_one(models[job % models.len()], scenario, regime, |fraction| {
+            run_one(&models[job % models.len()], scenario, regime, |fraction| {
                 // A caller whose callback has panicked gets its panic anyway.
                 let mut board = board.lock().unwrap_or_else(PoisonError::into_inner);
                 board.update(job, fraction)
@@ -78,10 +108,10 @@ pub(super) fn run(
 }
 
 fn run_one(
-    model: &dyn Model,
+    entry: &Entry<'_>,
     scenario: &Scenario,
     regime: &Regime,
-    update: impl Fn(f64) -> ControlFlow<()>,
+    update: impl Fn(f64) -> ControlFlow<()> + Sync,
 ) -> Result<ResultRecord, Error> {
     let check = |flow: ControlFlow<()>| match flow {
         ControlFlow::Continue(()) => Ok(()),
@@ -91,16 +121,24 @@ fn run_one(
         }),
     };
     check(update(0.0))?;
-    let mut report = |now: model::Progress| update(now.fraction.clamp(0.0, 1.0));
-    let mut control = Control {
-        record: false,
-        progress: Some(&mut report),
-        ..Control::default()
-    };
-    let record = match model::run_in(model, scenario, regime, &mut control) {
-        Ok(result) => ResultRecord::in_regime(scenario, regime, &result),
-        Err(stop @ Error::Cancelled { .. }) => return Err(stop),
-        Err(error) => ResultRecord::without_result(scenario, model.name(), &error),
+    let record = match entry {
+        Entry::Axisymmetric(_, request) => {
+            let mut report = |fraction: f64| update(fraction.clamp(0.0, 1.0));
+            request.record(scenario, &mut report)?
+        }
+        Entry::Model(model) => {
+            let mut report = |now: model::Progress| update(now.fraction.clamp(0.0, 1.0));
+            let mut control = Control {
+                record: false,
+                progress: Some(&mut report),
+                ..Control::default()
+            };
+            match model::run_in(*model, scenario, regime, &mut control) {
+                Ok(result) => ResultRecord::in_regime(scenario, regime, &result),
+                Err(stop @ Error::Cancelled { .. }) => return Err(stop),
+                Err(error) => ResultRecord::without_result(scenario, model.name(), &error),
+            }
+        }
     };
     check(update(FINISHED))?;
     Ok(record)

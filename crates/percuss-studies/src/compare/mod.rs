@@ -7,7 +7,7 @@
 //!     projectile = { material = "copper", length = "23.47 mm", diameter = "7.62 mm", impact_velocity = "183 m/s" }
 //!     target = { rigid_wall = true }
 //! "#)?;
-//! let comparison = compare(&fast_models(), &scenario, &[89.0, 183.0], &mut Observer::default())?;
+//! let comparison = compare(&fast_models(), None, &scenario, &[89.0, 183.0], &mut Observer::default())?;
 //! assert_eq!(comparison.results.len(), 2 * fast_models().len());
 //! assert!(comparison.has_results());
 //! # Ok::<(), percuss::Error>(())
@@ -22,6 +22,7 @@ use serde::Serialize;
 
 use crate::{
     Error, Scenario,
+    axisymmetric::Request,
     model::{Model, recommend},
     outcome::{BandQuantity, Outcome},
     regime::Regime,
@@ -93,7 +94,8 @@ impl ExperimentRecord {
     }
 }
 
-/// Runs models on a case at each of these impact velocities [m/s], on all cores.
+/// Runs models on a case at each of these impact velocities [m/s], on all cores. With an `axisymmetric` request the model `axi` is the
+/// first one: its main number is the limit of the meshes, and its range the discretisation uncertainty.
 ///
 /// A model that does not apply or that fails leaves the reason in its entry and never stops the others. The order of the
 /// entries does not depend on the order in which runs end.
@@ -102,18 +104,21 @@ impl ExperimentRecord {
 /// [`Error::Cancelled`] when `observer` says so.
 pub fn compare(
     models: &[&dyn Model],
+    axisymmetric: Option<Request>,
     scenario: &Scenario,
     velocities: &[f64],
     observer: &mut Observer<'_>,
 ) -> Result<Comparison, Error> {
+    let all = jobs::all_of(models, axisymmetric)?;
+    let models: Vec<&dyn Model> = all.iter().map(|job| job.model()).collect();
     let runs: Vec<(Scenario, Regime)> = jobs::scenarios(scenario, velocities);
-    let results = jobs::run(models, &runs, observer)?;
+    let results = jobs::run(&all, &runs, observer)?;
     let recommended = runs
         .iter()
         .zip(results.chunks(models.len().max(1)))
         .map(|((scenario, regime), results)| {
             let given: Vec<_> = results.iter().map(ResultRecord::given).collect();
-            recommend(models, scenario, regime, &given)
+            recommend(&models, scenario, regime, &given)
         })
         .collect();
     Ok(Comparison {

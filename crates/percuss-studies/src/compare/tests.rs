@@ -4,7 +4,9 @@ use std::{ops::ControlFlow, sync::Mutex};
 
 use super::{Observer, compare};
 use crate::{
-    Error, NumericalError, Scenario, case,
+    Error, NumericalError, Scenario,
+    axisymmetric::{self, ReferenceMeshes, Request},
+    case,
     made_up::MadeUp,
     material::MaterialClass,
     model::{self, Control, Model},
@@ -104,6 +106,7 @@ fn entries_stand_in_order_and_a_failure_stops_nothing() {
     let velocities: Vec<f64> = (1..=40).map(|i| 20.0 * f64::from(i)).collect();
     let comparison = compare(
         &models,
+        None,
         &scenario(SEMI_INFINITE, ""),
         &velocities,
         &mut Observer::default(),
@@ -133,6 +136,7 @@ fn entries_stand_in_order_and_a_failure_stops_nothing() {
     assert!(comparison.has_results());
     let none = compare(
         &models[..1],
+        None,
         &scenario(SEMI_INFINITE, ""),
         &[100.0],
         &mut Observer::default(),
@@ -146,6 +150,7 @@ fn a_comparison_is_the_same_every_time() {
     let scenario = scenario(SEMI_INFINITE, "");
     let one = compare(
         &model::fast_models(),
+        None,
         &scenario,
         &velocities,
         &mut Observer::default(),
@@ -153,6 +158,7 @@ fn a_comparison_is_the_same_every_time() {
     .unwrap();
     let two = compare(
         &model::fast_models(),
+        None,
         &scenario,
         &velocities,
         &mut Observer::default(),
@@ -179,6 +185,7 @@ fn the_leading_quantity_follows_from_the_target() {
     let leading = |model: &MadeUp, target: &str| {
         compare(
             &[model],
+            None,
             &scenario(target, ""),
             &[200.0],
             &mut Observer::default(),
@@ -199,6 +206,7 @@ fn the_leading_quantity_follows_from_the_target() {
     let chain = model::model("chain").unwrap();
     let wall = compare(
         &[chain],
+        None,
         &scenario("rigid_wall = true", ""),
         &[90.0],
         &mut Observer::default(),
@@ -234,7 +242,14 @@ fn a_first_choice_is_recommended_if_it_gives_a_result() {
     };
     let at = |models: &[&dyn Model], velocity: f64| {
         let scenario = scenario(SEMI_INFINITE, "");
-        let comparison = compare(models, &scenario, &[velocity], &mut Observer::default()).unwrap();
+        let comparison = compare(
+            models,
+            None,
+            &scenario,
+            &[velocity],
+            &mut Observer::default(),
+        )
+        .unwrap();
         let recommendation = comparison.recommended[0].clone();
         let names: Vec<&str> = recommendation
             .models
@@ -292,7 +307,8 @@ fn a_neighbouring_regime_is_named() {
                 strength.perfectly_plastic.flow_stress = '400 MPa'";
     let scenario = case::load_str("edge", text).unwrap();
     let recommend = |models: &[&dyn Model]| {
-        let comparison = compare(models, &scenario, &[100.0], &mut Observer::default()).unwrap();
+        let comparison =
+            compare(models, None, &scenario, &[100.0], &mut Observer::default()).unwrap();
         let recommendation = comparison.recommended[0].clone();
         (recommendation.models[0].model, recommendation.note.unwrap())
     };
@@ -317,6 +333,7 @@ fn measured_values_are_found_by_their_velocity() {
     let scenario = scenario(SEMI_INFINITE, more);
     let comparison = compare(
         &[&OPEN],
+        None,
         &scenario,
         &[200.0, 300.0],
         &mut Observer::default(),
@@ -343,7 +360,14 @@ fn progress_grows_to_the_end_and_can_stop_everything() {
         progress: Some(&mut note),
     };
     let scenario = scenario(SEMI_INFINITE, "");
-    compare(&[&OPEN, &OPEN], &scenario, &[100.0, 200.0], &mut observer).unwrap();
+    compare(
+        &[&OPEN, &OPEN],
+        None,
+        &scenario,
+        &[100.0, 200.0],
+        &mut observer,
+    )
+    .unwrap();
     let seen = seen.into_inner().unwrap();
     assert!(
         seen.windows(2)
@@ -360,6 +384,51 @@ fn progress_grows_to_the_end_and_can_stop_everything() {
     let mut observer = Observer {
         progress: Some(&mut stop),
     };
-    let stopped = compare(&[&OPEN, &OPEN], &scenario, &[100.0, 200.0], &mut observer);
+    let stopped = compare(
+        &[&OPEN, &OPEN],
+        None,
+        &scenario,
+        &[100.0, 200.0],
+        &mut observer,
+    );
     assert!(matches!(stopped, Err(Error::Cancelled { .. })));
+}
+
+/// The entry of `axi` is the limit of its meshes with the discretisation uncertainty, and a first choice; beyond the budget it has the
+/// reason.
+#[test]
+fn the_axisymmetric_answer_is_an_entry_with_its_range() {
+    let scenario = case::load_str(
+        "slow ball",
+        "projectile = { material = 'copper', length = '5 mm', diameter = '5 mm', impact_velocity = '200 m/s' }\n\
+         target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n\
+         axi = { target_radius = '8 mm', target_depth = '8 mm' }\n",
+    )
+    .unwrap();
+    let models: [&dyn Model; 1] = [crate::model::model("chain").unwrap()];
+    let entry = |request: Request| {
+        let mut observer = Observer::default();
+        let found = compare(&models, Some(request), &scenario, &[200.0], &mut observer).unwrap();
+        assert_eq!(found.models(), ["axi", "chain"]);
+        let recommended = found.recommended[0].models.iter();
+        let is_first = recommended.clone().any(|choice| choice.model == "axi");
+        (found.results[0].clone(), is_first)
+    };
+    let (record, is_first) = entry(Request::default());
+    let plan = axisymmetric::plan(&scenario, ReferenceMeshes::Standard, None).unwrap();
+    let answer =
+        axisymmetric::answer(&scenario, &plan, &mut |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!(
+        record.depth_of_penetration_mm,
+        answer.depth_of_penetration_mm
+    );
+    let band = record.band.unwrap();
+    let width = 0.5 * (band.high - band.low);
+    assert!((width - answer.uncertainty.unwrap()).abs() < 1e-12 && is_first);
+    let (refused, is_first) = entry(Request {
+        budget: Some(1e-6),
+        ..Request::default()
+    });
+    let reason = refused.reason.unwrap();
+    assert!(reason.contains("processor time") && !is_first, "{reason}");
 }

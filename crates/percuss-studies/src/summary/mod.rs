@@ -14,7 +14,7 @@ use crate::{
     fragments::FragmentRecord,
     model_error::expected_error,
     options::TargetResistanceModel,
-    outcome::{Outcome, RunResult},
+    outcome::{Band, BandQuantity, Outcome, RunResult},
     regime::Regime,
     scenario::Scenario,
 };
@@ -71,6 +71,24 @@ impl ResultRecord {
             warnings: result.warnings.clone(),
             ..Self::of_numbers(scenario, Some(result))
         }
+    }
+
+    /// The record with another value and range of a main number, in the unit of its name.
+    pub(crate) fn with_main_number(
+        self,
+        quantity: BandQuantity,
+        value: Option<f64>,
+        band: Option<Band>,
+    ) -> Self {
+        let mut record = Self { band, ..self };
+        let place = match quantity {
+            BandQuantity::DepthOfPenetration => &mut record.depth_of_penetration_mm,
+            BandQuantity::ResidualVelocity => &mut record.residual_velocity_m_s,
+            BandQuantity::BallisticLimit => &mut record.ballistic_limit_m_s,
+            BandQuantity::ProjectileFinalLength => &mut record.projectile_final_length_mm,
+        };
+        *place = value;
+        record
     }
 
     /// The record of a model that gave no result on a case, with the reason.

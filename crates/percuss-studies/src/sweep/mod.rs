@@ -3,6 +3,7 @@
 //! SweepRun i of a sweep is a pure function of the sweep file, the base case and i, and so is its row: which thread, process or
 //! machine computes it, and when, makes no difference.
 
+mod axisymmetric;
 mod batch;
 #[cfg(test)]
 mod block_tests;
@@ -25,6 +26,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
+pub use axisymmetric::AxisymmetricRow;
 pub use batch::BatchKernel;
 pub use compute::Observer;
 pub(crate) use compute::in_blocks;

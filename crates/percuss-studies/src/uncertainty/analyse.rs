@@ -118,6 +118,7 @@ pub fn analyse(
             .iter()
             .map(|(velocity, runs)| bands::band(*velocity, runs, &quantities))
             .collect(),
+        axisymmetric: None,
         warnings: Vec::new(),
         draws,
     };

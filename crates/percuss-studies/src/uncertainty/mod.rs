@@ -4,6 +4,7 @@
 //! that it finds is that of the inputs alone: the error of the model itself is not in it.
 
 mod analyse;
+mod axisymmetric;
 mod bands;
 mod design;
 mod indices;
@@ -18,6 +19,9 @@ mod tests;
 mod tornado;
 
 pub use analyse::analyse;
+pub use axisymmetric::{
+    AxisymmetricPoint, AxisymmetricSpread, FEWEST_POINTS, MOST_POINTS, correct,
+};
 pub use indices::{Index, SobolIndices};
 pub use perforation::Perforation;
 pub use quantity::{quantities, quantity};

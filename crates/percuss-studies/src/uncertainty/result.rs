@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::{
+    axisymmetric::AxisymmetricSpread,
     indices::SobolIndices,
     perforation::Perforation,
     quantity::{quantities, quantity},
@@ -43,6 +44,8 @@ pub struct Uncertainty {
     pub no_indices: Option<String>,
     /// Spread at each impact velocity, where velocities were asked for.
     pub bands: Vec<Band>,
+    /// Mean and spread corrected by axisymmetric runs; null where none were asked for.
+    pub axisymmetric: Option<AxisymmetricSpread>,
     /// Limitations of the numbers.
     pub warnings: Vec<String>,
     /// The runs of the sample; not in JSON.

@@ -14,7 +14,9 @@ use std::path::PathBuf;
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
-    Scenario, case,
+    Scenario,
+    axisymmetric::{BUDGET, ReferenceMeshes, Request},
+    case,
     compare::{self, Comparison, Observer},
     model::{self, CostClass, MODELS},
 };
@@ -35,8 +37,12 @@ const LONG_ABOUT: &str = "\
 Run every model on a case and compare their results: impact regime, recommended
 model with the reason, results of each model, differences from the experiments
 of the case, and the reason where a model does not apply. A model that fails
-does not stop the others. A model that may take minutes, such as `axi`, runs
-only when --model names it.
+does not stop the others.
+
+The axisymmetric model `axi` runs on 3, 4 and 6 cells per radius: its number is
+the limit of the meshes, its range the discretisation uncertainty. It is left out
+with --fast, where it costs more than 60 s of processor time, and at several
+velocities unless --reference asks for it.
 
 With --velocity the case is run at other impact velocities:
   --velocity 200..1500:27         27 velocities, 200 and 1500 included
@@ -55,6 +61,7 @@ const AFTER_HELP: &str = "\
 Examples:
   percuss compare my-case/scenario.toml
   percuss compare my-case/scenario.toml --velocity 200..1500:27 --out results
+  percuss compare my-case/scenario.toml --velocity 200..1500:14 --reference standard
   percuss compare my-case/scenario.toml --model chain --json
 
 Exit codes: 0 ok, 2 bad input or no model gives a result, 4 a file could not be
@@ -71,10 +78,17 @@ pub struct Compare {
     // A negative velocity gets the error that names the allowed range.
     #[arg(long, value_name = "SPEEDS", allow_hyphen_values = true)]
     velocity: Option<Speeds>,
-    /// Compare this model only; may be given several times. `axi` runs only when it is named
+    /// Compare this model only; may be given several times. `axi` runs on the mesh of the case when it is named
     #[arg(long, value_name = "NAME")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: Vec<String>,
+    /// Meshes of the axisymmetric model, whatever they cost [default: standard at one velocity, within 60 s of processor time]
+    #[arg(long, value_name = "MESHES", conflicts_with_all = ["fast", "model"])]
+    #[arg(value_parser = PossibleValuesParser::new(ReferenceMeshes::ALL.map(ReferenceMeshes::name)))]
+    reference: Option<String>,
+    /// Leave out the axisymmetric model
+    #[arg(long)]
+    fast: bool,
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]
     json: bool,
@@ -151,7 +165,30 @@ impl Compare {
         let mut watch = Observer {
             progress: Some(&mut report),
         };
-        Ok(compare::compare(&models, scenario, speeds, &mut watch)?)
+        let axisymmetric = self.axisymmetric(speeds);
+        Ok(compare::compare(
+            &models,
+            axisymmetric,
+            scenario,
+            speeds,
+            &mut watch,
+        )?)
+    }
+
+    /// Axisymmetric answers that are wanted.
+    fn axisymmetric(&self, speeds: &[f64]) -> Option<Request> {
+        let named = self.reference.as_deref().and_then(ReferenceMeshes::named);
+        match named {
+            Some(meshes) => Some(Request {
+                meshes,
+                budget: None,
+            }),
+            None if self.fast || !self.model.is_empty() || speeds.len() > 1 => None,
+            None => Some(Request {
+                meshes: ReferenceMeshes::default(),
+                budget: Some(BUDGET),
+            }),
+        }
     }
 
     fn speeds(&self, scenario: &Scenario) -> Result<Vec<f64>, Failure> {
@@ -161,21 +198,20 @@ impl Compare {
         }
     }
 
-    /// Line that names the applicable models that take minutes and were not run.
-    fn left_out(&self, scenario: &Scenario) -> String {
-        let slow = MODELS
+    /// Line that names the axisymmetric model where it applies and was not run.
+    fn left_out(&self, scenario: &Scenario, comparison: &Comparison) -> String {
+        let axi = MODELS
             .iter()
-            .filter(|model| model.cost() == CostClass::Minutes);
-        let applying = slow.filter(|model| model::applicability(**model, scenario).is_ok());
-        let names: Vec<&str> = applying.map(|model| model.name()).collect();
-        if !self.model.is_empty() || names.is_empty() {
+            .find(|model| model.cost() == CostClass::Minutes);
+        let applies = axi.is_some_and(|axi| {
+            model::applicability(*axi, scenario).is_ok()
+                && !comparison.models().contains(&axi.name())
+        });
+        if !self.model.is_empty() || !applies {
             return String::new();
         }
-        let line = format!(
-            "not run because it may take minutes: {}; `--model NAME` runs it.",
-            names.join(", ")
-        );
-        format!("{}\n", terminal::wrap(&line, terminal::width(), 0))
+        let line = "not run: `axi`; `--reference standard` runs it, about a second per velocity for a short rod.";
+        format!("{}\n", terminal::wrap(line, terminal::width(), 0))
     }
 
     fn print(&self, found: &ComparisonOutput) -> Result<(), Failure> {
@@ -202,7 +238,7 @@ impl Compare {
             text += &quantities::elsewhere(comparison);
             text += &warnings::text(comparison);
             text += &missing::text(comparison);
-            text += &self.left_out(scenario);
+            text += &self.left_out(scenario, comparison);
             text += &format!(
                 "{}\n",
                 terminal::wrap(

@@ -134,7 +134,8 @@ fn comparison(speeds: &[f64]) -> (Scenario, Comparison) {
         .collect();
     let models: Vec<&dyn Model> = fakes.iter().map(|fake| fake as &dyn Model).collect();
     let scenario = case::load_str("made-up", CASE).unwrap();
-    let mut comparison = compare(&models, &scenario, speeds, &mut Observer::default()).unwrap();
+    let mut comparison =
+        compare(&models, None, &scenario, speeds, &mut Observer::default()).unwrap();
     // A made-up model is known by its name: what is expected of the real one is not this one's.
     for record in &mut comparison.results {
         record.expected_error = (record.model == "chain").then_some(ModelErrorEstimate {

@@ -28,7 +28,13 @@ pub fn rows(
     let mut watch = Observer {
         progress: Some(&mut report),
     };
-    let found = compare::compare(&models, scenario, &[scenario.impact_velocity], &mut watch)?;
+    let found = compare::compare(
+        &models,
+        None,
+        scenario,
+        &[scenario.impact_velocity],
+        &mut watch,
+    )?;
     Ok(shown(&found))
 }
 

@@ -1,5 +1,6 @@
 //! `percuss sweep`: a case with some of its numbers varied.
 
+mod axisymmetric;
 mod plot;
 
 use std::{
@@ -37,6 +38,10 @@ sweep can be interrupted at any time; with --resume the same command computes
 the missing rows. Run i depends only on the sweep file, the case and i, so the
 rows are independent of the number of threads and shards.
 
+With --axisymmetric N the model `axi` then runs on N of them, spread over the
+sweep: axisymmetric.csv has its main result, the discretisation uncertainty and
+the result of the sweep's model.
+
 With --shard 2/8 the second of eight parts is computed. Each part needs its own
 folder; `percuss sweep merge` joins them.";
 
@@ -45,6 +50,7 @@ Examples:
   percuss sweep cases/paper-table1/sweep.toml --out rows
   percuss sweep cases/paper-table1/sweep.toml --out rows --resume
   percuss sweep my-sweep.toml --out rows-2 --shard 2/8 --threads 4
+  percuss sweep my-sweep.toml --out rows --resume --axisymmetric 20
   percuss sweep status rows
   percuss sweep merge rows --out rows.parquet
   percuss sweep plot rows
@@ -71,6 +77,9 @@ pub struct Sweep {
     /// Compute only one of several parts, such as 2/8
     #[arg(long, value_name = "I/N", value_parser = shard, default_value = "1/1")]
     shard: (u64, u64),
+    /// Add axisymmetric answers of this number of runs, spread over all
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    axisymmetric: Option<u64>,
     /// Number of threads [default: number of cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -176,6 +185,12 @@ impl Sweep {
                 shots: total,
             });
         }
+        let answers = match self.axisymmetric {
+            Some(count) if part == 1 => {
+                pool.install(|| axisymmetric::compute(&sweep, out, count, &stop, self.quiet))?
+            }
+            _ => String::new(),
+        };
         if self.quiet {
             return Ok(());
         }
@@ -204,7 +219,7 @@ impl Sweep {
         for (outcome, count) in &state.outcomes {
             text += &format!("  {count:>9} {outcome}\n");
         }
-        output::print(&text)
+        output::print(&(text + &answers))
     }
 }
 

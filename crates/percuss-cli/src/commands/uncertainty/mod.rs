@@ -3,6 +3,7 @@
 mod table;
 
 use std::{
+    ops::ControlFlow,
     path::PathBuf,
     sync::{
         Mutex, PoisonError,
@@ -18,7 +19,8 @@ use percuss::{
     summary::ResultNumber,
     sweep::BatchKernel,
     uncertainty::{
-        self, MAX_SAMPLES, MIN_SAMPLES, Observer, Settings, Study, Uncertainty as Analysis,
+        self, FEWEST_POINTS, MAX_SAMPLES, MIN_SAMPLES, MOST_POINTS, Observer, Settings, Study,
+        Uncertainty as Analysis,
     },
 };
 
@@ -53,6 +55,11 @@ With --velocity the analysis is repeated at each of several impact velocities,
 with at most 256 runs each: percentiles and probability of perforation versus
 velocity.
 
+With --axisymmetric N the model `axi` runs on N of the samples, spread over the
+percentiles of the main result. A straight line from the result of the model to
+that of `axi` corrects mean, standard deviation and percentiles over all
+samples (control variate), with standard errors.
+
 Runs without a result are counted and left out of the statistics. The spread is
 due to the inputs only; the model error adds to it.
 
@@ -66,6 +73,7 @@ Examples:
   percuss uncertainty cases/paper-table1-uncertainty/scenario.toml
   percuss uncertainty my-case/scenario.toml --samples 4096 --out spread
   percuss uncertainty my-case/scenario.toml --velocity 150..400 --no-indices
+  percuss uncertainty my-case/scenario.toml --axisymmetric 8
   percuss uncertainty my-case/scenario.toml --quantity peak_force_kn --json
 
 Exit codes: 0 ok, 2 bad input or no run has a result, 4 a file could not be
@@ -100,6 +108,10 @@ pub struct Uncertainty {
     /// Leave out the Sobol' indices, which take most of the runs
     #[arg(long)]
     no_indices: bool,
+    /// Correct mean and spread by the axisymmetric model on this number of the samples, 4 to 256
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u64).range(FEWEST_POINTS as u64..=MOST_POINTS as u64))]
+    axisymmetric: Option<u64>,
     /// Number of threads [default: number of cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -227,8 +239,26 @@ impl Uncertainty {
             ..
         } = task;
         let kernel = BatchKernel::new(*model);
-        let found =
+        let mut found =
             pool.install(|| uncertainty::analyse(study, *model, &kernel, settings, &watch))?;
+        if let Some(points) = self.axisymmetric {
+            let words = format!("{points} axisymmetric answers");
+            let mut report = |fraction: f64| {
+                let mut on_progress = on_progress.lock().unwrap_or_else(PoisonError::into_inner);
+                match stop.load(Ordering::Relaxed) {
+                    true => ControlFlow::Break(()),
+                    false => on_progress(fraction, &words),
+                }
+            };
+            let corrected =
+                pool.install(|| uncertainty::correct(study, &found, points as usize, &mut report))?;
+            match corrected {
+                Ok(spread) => found.axisymmetric = Some(spread),
+                Err(reason) => found
+                    .warnings
+                    .push(format!("mean and spread are not corrected: {reason}")),
+            }
+        }
         self.check_quantities(&found)?;
         if found.quantities.is_empty() && found.perforation.is_none() {
             return Err(Failure::NoResult(found.failures.reasons));

@@ -7,7 +7,10 @@ use percuss::{
     },
     units::significant,
 };
-use percuss_report::table::{Table, number};
+use percuss_report::{
+    result_rows::with_uncertainty,
+    table::{Table, number},
+};
 
 use crate::{
     table::blocks,
@@ -17,6 +20,7 @@ use crate::{
 /// All tables and warnings.
 pub fn text(scenario: &Scenario, found: &Uncertainty) -> String {
     let mut text = head(scenario, found) + &inputs(found) + &outcome(found) + &spread(found);
+    text += &axisymmetric(found);
     for quantity in &found.quantities {
         text += &influence(found, quantity);
     }
@@ -131,6 +135,54 @@ fn spread(found: &Uncertainty) -> String {
                 )
             });
     blocks(&table.table())
+}
+
+/// Mean and spread corrected by axisymmetric runs.
+fn axisymmetric(found: &Uncertainty) -> String {
+    let Some(spread) = &found.axisymmetric else {
+        return String::new();
+    };
+    let (what, unit) = (spread.what().label, spread.what().unit.symbol);
+    let with_error = |value: f64, error: f64| with_uncertainty(value, error, unit);
+    let plain = |value: f64| format!("{} {unit}", significant(value, 4));
+    let mut rows = vec![
+        ("mean", with_error(spread.mean, spread.standard_error)),
+        (
+            "standard deviation",
+            with_error(spread.standard_deviation, spread.standard_deviation_error),
+        ),
+        ("5th percentile", plain(spread.p05)),
+        ("median", plain(spread.p50)),
+        ("95th percentile", plain(spread.p95)),
+    ];
+    if let Some(uncertainty) = spread.discretisation_uncertainty {
+        rows.push((
+            "discretisation uncertainty",
+            format!("± {} {unit}", significant(uncertainty, 2)),
+        ));
+    }
+    rows.push((
+        "correlation",
+        format!(
+            "{} with `{}`",
+            significant(spread.correlation, 3),
+            found.model
+        ),
+    ));
+    let points = match spread.left_out {
+        0 => format!("{} runs of `axi`", spread.points.len()),
+        out => format!(
+            "{} runs of `axi`, {out} left out without this number",
+            spread.points.len()
+        ),
+    };
+    let title = format!("axisymmetric {what}, corrected by {points}; ± is a standard error");
+    let row = |(name, value): &(&str, String)| format!("{name:<28}{value}\n");
+    format!(
+        "{}\n{}\n",
+        bold(title),
+        rows.iter().map(row).collect::<String>()
+    )
 }
 
 fn percentile(statistics: &Statistics, percent: f64) -> String {
