@@ -232,3 +232,83 @@ fn wrong_sweep_files_are_refused_with_their_place() {
         said
     });
 }
+
+/// The answers of a few runs are a file of their own, which `--resume` completes.
+#[test]
+fn axisymmetric_answers_are_added_to_a_few_runs() {
+    const FEW: &str = "
+base = 'scenario.toml'
+model = 'chain'
+design = 'grid'
+[[parameter]]
+key = 'projectile.impact_velocity'
+linear = { from = '150 m/s', to = '400 m/s', count = 10 }
+";
+    let folder = folder_with(&[("scenario.toml", CASE), ("few.toml", FEW)]);
+    let rows = || -> Vec<Vec<String>> {
+        let text = fs::read_to_string(folder.path().join("rows/axisymmetric.csv")).unwrap();
+        let cells = |line: &str| line.split(',').map(str::to_owned).collect();
+        text.lines().map(cells).collect()
+    };
+    let said = sweep(
+        &folder,
+        &["few.toml", "--out", "rows", "--axisymmetric", "1"],
+    );
+    assert!(
+        said.code == 0
+            && said
+                .stderr
+                .starts_with("note: 1 axisymmetric answer, about "),
+        "{}",
+        said.stderr
+    );
+    let text = said.stdout;
+    assert!(
+        flat(&text).contains("axisymmetric answers of 1 run"),
+        "{text}"
+    );
+    let first = rows();
+    assert_eq!(first.len(), 2);
+    ok(
+        &folder,
+        &[
+            "few.toml",
+            "--out",
+            "rows",
+            "--resume",
+            "--axisymmetric",
+            "2",
+            "--quiet",
+        ],
+    );
+    let both = rows();
+    assert_eq!(both.len(), 3);
+    assert!(both.contains(&first[1]), "{both:?}");
+    let column = |name: &str| both[0].iter().position(|column| column == name).unwrap();
+    for row in &both[1..] {
+        let number = |name: &str| row[column(name)].parse::<f64>().unwrap();
+        assert!(
+            number("value") > 0.0 && number("uncertainty") > 0.0 && number("model_value") > 0.0
+        );
+        assert_eq!(row[column("quantity")], "depth_of_penetration_mm");
+    }
+    fs::write(folder.path().join("rows/axisymmetric.csv"), "a,b\n1,2\n").unwrap();
+    let said = sweep(
+        &folder,
+        &[
+            "few.toml",
+            "--out",
+            "rows",
+            "--resume",
+            "--axisymmetric",
+            "2",
+        ],
+    );
+    assert_eq!(said.code, 4);
+    assert!(
+        said.stderr
+            .contains("its columns are not those of this sweep"),
+        "{}",
+        said.stderr
+    );
+}

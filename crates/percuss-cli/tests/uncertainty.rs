@@ -288,3 +288,52 @@ fn ctrl_c_ends_it_and_leaves_no_result() {
     );
     assert!(!folder.path().join("found/uncertainty.json").exists());
 }
+
+/// Mean and spread by axisymmetric runs: numbers of JSON, table and figure agree; a rod without the model has a warning with the reason.
+#[test]
+fn axisymmetric_runs_correct_mean_and_spread() {
+    let folder = folder();
+    let arguments = [
+        "case.toml",
+        "--samples",
+        "16",
+        "--no-indices",
+        "--axisymmetric",
+        "4",
+    ];
+    let said = run(
+        &folder,
+        &[&arguments[..], &["--json", "--out", "out"]].concat(),
+    );
+    let object = json(&said.stdout);
+    let spread = &object["axisymmetric"];
+    assert_eq!(spread["quantity"], "depth_of_penetration_mm");
+    assert_eq!(spread["points"].as_array().unwrap().len(), 4);
+    let number = |name: &str| spread[name].as_f64().unwrap();
+    assert!((0.15..0.3).contains(&number("mean")) && number("correlation") > 0.5);
+    assert!(number("standard_error") > 0.0 && number("p05") < number("p95"));
+    assert!(
+        names_in(&folder.path().join("out"))
+            .iter()
+            .any(|name| name.starts_with("axisymmetric-depth"))
+    );
+    let text = ok(&folder, &arguments);
+    let words = "axisymmetric depth of penetration, corrected by 4 runs of `axi`";
+    assert!(flat(&text).contains(words), "{text}");
+    let refused = ok(
+        &folder,
+        &[
+            "blunt.toml",
+            "--model",
+            "recht_ipson",
+            "--samples",
+            "16",
+            "--no-indices",
+            "--axisymmetric",
+            "4",
+            "--json",
+        ],
+    );
+    let warnings = json(&refused)["warnings"].to_string();
+    assert!(warnings.contains("are not corrected: "), "{warnings}");
+}

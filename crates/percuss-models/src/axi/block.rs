@@ -170,8 +170,8 @@ impl Block {
     /// gradient of the nodes is that before times its inverse. In a turning body that balances what its centripetal forces add.
     ///
     /// What the nodes do not resolve is forgotten as the material deforms, not as steps pass: kept for ever, it would grow in jets. The
-    /// field of a particle that is alone in its cell, which no neighbours stand for, only decays: a fluid particle whose inertia cannot
-    /// shrink as it does would draw energy from being carried.
+    /// strain of a particle that is alone in its cell, which no neighbours stand for, decays as well: a fluid particle whose inertia
+    /// does not shrink with it would draw energy from being carried.
     #[inline(always)]
     fn carry(&mut self, time_step: f64, lone: &Lanes) {
         let ([rr, rz, zr, zz], rest) = (self.rate, self.unresolved);
@@ -182,12 +182,8 @@ impl Block {
             let kept = 1.0 / (1.0 + FORGETTING * time_step * squared.sqrt());
             let shear = rz[l] + zr[l];
             let strain = (rr[l] * rr[l] + zz[l] * zz[l] + 0.5 * shear * shear).sqrt();
-            let alone = lone[l] > 0.0;
-            let (product, scale) = if alone {
-                (0.0, 1.0 / (1.0 + time_step * strain))
-            } else {
-                (product, scale)
-            };
+            let left = 1.0 / (1.0 + FORGETTING * time_step * lone[l] * strain);
+            let scale = left * scale;
             [
                 (rr[l] + product) * scale + kept * rest[0][l],
                 rz[l] * scale + kept * rest[1][l],

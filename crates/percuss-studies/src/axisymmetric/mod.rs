@@ -31,10 +31,9 @@ use serde::Serialize;
 use crate::{
     Error, Refusal, Scenario,
     model::{self, Control, Model},
-    outcome::{Band, BandQuantity, Outcome, RunResult},
+    outcome::{BandQuantity, Outcome, RunResult},
     richardson::OnMesh,
     scenario::TargetBody,
-    summary::ResultRecord,
 };
 
 pub use cost::{BUDGET, seconds};
@@ -167,9 +166,9 @@ pub struct AxisymmetricAnswer {
     pub projectile_final_length_mm: Option<f64>,
     /// Results of the meshes, from coarse to fine.
     pub meshes: Vec<MeshResult>,
-    /// Record of the run on the finest mesh, with the main number in the limit and its range; not in JSON.
+    /// Result of the finest mesh; not in JSON.
     #[serde(skip)]
-    pub record: Option<Box<ResultRecord>>,
+    pub finest: Option<Box<RunResult>>,
 }
 
 /// Axisymmetric answer that a study wants of its cases.
@@ -179,32 +178,6 @@ pub struct Request {
     pub meshes: ReferenceMeshes,
     /// Most processor time of an answer [s], before which the finest mesh, or the answer, is left out.
     pub budget: Option<f64>,
-}
-
-impl Request {
-    /// Record of the model `axi` on a case, by the answer; or why there is none. `progress` as in [`answer`].
-    ///
-    /// # Errors
-    /// [`Error::Cancelled`].
-    pub fn record(
-        &self,
-        scenario: &Scenario,
-        progress: &mut (dyn FnMut(f64) -> ControlFlow<()> + Send),
-    ) -> Result<ResultRecord, Error> {
-        let refused = |refusal: Refusal| {
-            let error = Error::not_applicable(MODEL, refusal.to_string());
-            ResultRecord::without_result(scenario, MODEL, &error)
-        };
-        let plan = match plan(scenario, self.meshes, self.budget) {
-            Ok(plan) => plan,
-            Err(refusal) => return Ok(refused(refusal)),
-        };
-        let answer = answer(scenario, &plan, progress)?;
-        Ok(match answer.record {
-            Some(record) => *record,
-            None => refused(Refusal::new(answer.reason.unwrap_or_default())),
-        })
-    }
 }
 
 /// Result of one mesh.
@@ -277,7 +250,7 @@ pub fn answer(
         progress(sum / whole)
     };
     // The finest mesh takes longest and starts first.
-    let mut runs: Vec<Result<(MeshResult, ResultRecord), Error>> = (0..costs.len())
+    let mut runs: Vec<Result<(MeshResult, RunResult), Error>> = (0..costs.len())
         .into_par_iter()
         .with_max_len(1)
         .rev()
@@ -287,13 +260,13 @@ pub fn answer(
         })
         .collect();
     runs.reverse();
-    let (mut meshes, mut record) = (Vec::new(), None);
+    let (mut meshes, mut last) = (Vec::new(), None);
     let mut notes = Vec::from_iter(plan.note.clone());
     for (run, cells) in runs.into_iter().zip(&plan.cells) {
         match run {
-            Ok((mesh, of_mesh)) => {
+            Ok((mesh, result)) => {
                 meshes.push(mesh);
-                record = Some(of_mesh);
+                last = Some(result);
             }
             Err(stop @ Error::Cancelled { .. }) => return Err(stop),
             Err(error) => notes.push(format!("the run on {cells} cells failed: {error}")),
@@ -303,7 +276,7 @@ pub fn answer(
         scenario,
         plan.reference,
         meshes,
-        record,
+        last,
         &notes,
     ))
 }
@@ -313,7 +286,7 @@ fn on_mesh(
     scenario: &Scenario,
     cells: u32,
     watch: &mut dyn FnMut(model::Progress) -> ControlFlow<()>,
-) -> Result<(MeshResult, ResultRecord), Error> {
+) -> Result<(MeshResult, RunResult), Error> {
     let mut scenario = scenario.clone();
     scenario.options.axi.cells_per_radius = Some(cells);
     let mut control = Control {
@@ -321,8 +294,7 @@ fn on_mesh(
         ..Control::default()
     };
     let result = model::run(axi, &scenario, &mut control)?;
-    let record = ResultRecord::new(&scenario, &result);
-    Ok((MeshResult::new(cells, &result), record))
+    Ok((MeshResult::new(cells, &result), result))
 }
 
 impl AxisymmetricAnswer {
@@ -341,7 +313,7 @@ impl AxisymmetricAnswer {
             residual_velocity_m_s: None,
             projectile_final_length_mm: None,
             meshes: Vec::new(),
-            record: None,
+            finest: None,
         }
     }
 
@@ -350,7 +322,7 @@ impl AxisymmetricAnswer {
         scenario: &Scenario,
         reference: ReferenceMeshes,
         meshes: Vec<MeshResult>,
-        record: Option<ResultRecord>,
+        last: Option<RunResult>,
         notes: &[String],
     ) -> Self {
         let note = (!notes.is_empty()).then(|| notes.join("; "));
@@ -378,15 +350,6 @@ impl AxisymmetricAnswer {
         .filter(|_| whole);
         let value = limit.map_or(finest.value(quantity), |limit| Some(limit.value));
         let uncertainty = limit.map(|limit| limit.uncertainty);
-        let record = record.map(|record| {
-            let band = value.zip(uncertainty).map(|(value, uncertainty)| Band {
-                quantity,
-                low: value - uncertainty,
-                high: value + uncertainty,
-                basis: "discretisation uncertainty",
-            });
-            Box::new(record.with_main_number(quantity, value, band))
-        });
         let of = |number: BandQuantity| match number == quantity {
             true => value,
             false => finest.value(number),
@@ -404,7 +367,7 @@ impl AxisymmetricAnswer {
             residual_velocity_m_s: of(BandQuantity::ResidualVelocity),
             projectile_final_length_mm: of(BandQuantity::ProjectileFinalLength),
             meshes,
-            record,
+            finest: last.map(Box::new),
         }
     }
 }

@@ -9,11 +9,15 @@ use rayon::prelude::*;
 
 use crate::{
     Error, Scenario,
-    axisymmetric::Request,
+    axisymmetric::{self, Request},
     model::{self, Control, Model},
+    outcome::Band,
     regime::Regime,
     summary::ResultRecord,
 };
+
+/// Name of the axisymmetric model.
+const AXI: &str = "axi";
 
 /// How far a comparison has come.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,7 +78,7 @@ pub(super) fn all_of<'a>(
 ) -> Result<Vec<Entry<'a>>, Error> {
     let mut all = Vec::new();
     if let Some(request) = axisymmetric {
-        all.push(Entry::Axisymmetric(model::model("axi")?, request));
+        all.push(Entry::Axisymmetric(model::model(AXI)?, request));
     }
     all.extend(models.iter().map(|model| Entry::Model(*model)));
     Ok(all)
@@ -124,7 +128,7 @@ fn run_one(
     let record = match entry {
         Entry::Axisymmetric(_, request) => {
             let mut report = |fraction: f64| update(fraction.clamp(0.0, 1.0));
-            request.record(scenario, &mut report)?
+            axisymmetric_record(request, scenario, regime, &mut report)?
         }
         Entry::Model(model) => {
             let mut report = |now: model::Progress| update(now.fraction.clamp(0.0, 1.0));
@@ -142,6 +146,37 @@ fn run_one(
     };
     check(update(FINISHED))?;
     Ok(record)
+}
+
+/// Record of the model `axi` by the axisymmetric answer: its main number in the limit of the meshes, with the discretisation
+/// uncertainty as its range; or why there is none.
+fn axisymmetric_record(
+    request: &Request,
+    scenario: &Scenario,
+    regime: &Regime,
+    report: &mut (dyn FnMut(f64) -> ControlFlow<()> + Send),
+) -> Result<ResultRecord, Error> {
+    let without = |reason: String| {
+        let error = Error::not_applicable(AXI, reason);
+        Ok(ResultRecord::without_result(scenario, AXI, &error))
+    };
+    let plan = match axisymmetric::plan(scenario, request.meshes, request.budget) {
+        Ok(plan) => plan,
+        Err(refusal) => return without(refusal.to_string()),
+    };
+    let answer = axisymmetric::answer(scenario, &plan, report)?;
+    let Some((quantity, finest)) = answer.quantity.zip(answer.finest) else {
+        return without(answer.reason.unwrap_or_default());
+    };
+    let band = answer.value.zip(answer.uncertainty);
+    let band = band.map(|(value, uncertainty)| Band {
+        quantity,
+        low: value - uncertainty,
+        high: value + uncertainty,
+        basis: "discretisation uncertainty",
+    });
+    let record = ResultRecord::in_regime(scenario, regime, &finest);
+    Ok(record.with_main_number(quantity, answer.value, band))
 }
 
 /// Part of a run that says that it has ended: what runs say of themselves stays within 1.
