@@ -304,7 +304,7 @@ linear = { from = '150 m/s', to = '400 m/s', count = 10 }
             "2",
         ],
     );
-    assert_eq!(said.code, 4);
+    assert_eq!(said.code, 2);
     assert!(
         said.stderr
             .contains("its columns are not those of this sweep"),

@@ -76,8 +76,12 @@ fn in_table(
 /// Estimated model error of a depth, if similar cases are in the benchmark.
 pub fn expected_error(record: &ResultRecord) -> Option<Row> {
     let expected = record.expected_error.as_ref()?;
+    let outside = match expected.outside {
+        true => "; the case lies outside the benchmark, where it may be larger",
+        false => "",
+    };
     let words = format!(
-        "{} against the axisymmetric reference, from the {} most similar benchmark cases",
+        "{} against the axisymmetric reference, from the {} most similar benchmark cases{outside}",
         expected.describe(),
         expected.cases
     );

@@ -3,7 +3,7 @@
 use percuss::{
     Error, Scenario,
     model::{self, Control},
-    model_error::{Candidate, ErrorRecord, candidates},
+    model_error::{Candidate, ErrorRecord, candidates, ratios},
     regime::Regime,
 };
 use rayon::prelude::*;
@@ -26,12 +26,17 @@ pub fn compare(
         .map(|(case, reference)| {
             let scenario = case.scenario()?;
             let regime = Regime::of(&scenario).projectile;
+            let Some([strength_ratio, density_ratio]) = ratios(&scenario) else {
+                return Ok(Vec::new());
+            };
             let depths = candidates.iter().filter_map(|candidate| {
                 let depth = depth(candidate, &scenario)?;
                 Some(ErrorRecord {
                     candidate: candidate.name.to_owned(),
                     projectile: case.projectile.clone(),
                     target: case.target.clone(),
+                    strength_ratio,
+                    density_ratio,
                     length_to_diameter: case.length_to_diameter,
                     impact_velocity_m_s: case.speed,
                     regime,

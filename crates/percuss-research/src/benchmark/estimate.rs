@@ -2,17 +2,15 @@
 
 use serde::Serialize;
 
-use super::{BenchmarkCase, Reference};
-use percuss::richardson::{CREDIBLE_ORDERS, OnMesh, Trend, extrapolate, trend};
+use super::{BenchmarkCase, DIAMETER, Reference};
+use percuss::{
+    axisymmetric::{self, depth_resolution},
+    outcome::BandQuantity,
+    richardson::OnMesh,
+};
 
-/// Order of the dominant error of a rod that hardly deforms: contact on a grid keeps bodies part of a cell apart, which makes a projectile
-/// wider by as much. A rigid flat rod (L/D 3, 17600 kg/m³, 300 m/s, perfectly plastic target of 300 MPa) goes 7.22, 7.98 and 8.23 mm deep on
-/// 4, 8 and 12 cells per radius, 8.73 mm extrapolated, and 8.58 mm by \[forrestal1988\] with a flat nose.
-const FORMAL_ORDER: f64 = 1.0;
-/// Largest change by an extrapolation, as a fraction of the depth on the finest mesh.
-const LARGEST_EXTRAPOLATION: f64 = 0.25;
-/// Largest spread of three meshes without an extrapolation, as a fraction of the depth on the finest mesh.
-const AGREEMENT: f64 = 0.1;
+/// Largest uncertainty of a reference that counts, as a fraction of the depth.
+const LARGEST_UNCERTAINTY: f64 = 0.15;
 
 /// Depth of a case by the reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,17 +26,10 @@ pub struct Estimate {
 pub enum Refusal {
     /// Fewer than three meshes.
     TooFewMeshes,
-    /// Three meshes without an extrapolation do not agree.
+    /// The meshes leave a larger uncertainty than counts.
     NotConverged {
-        /// Trend of the sequence.
-        trend: Trend,
-        /// Largest difference as a fraction of the depth on the finest mesh.
-        spread: f64,
-    },
-    /// The extrapolation changes the depth by more than its limit.
-    TooSteep {
-        /// Change as a fraction of the depth on the finest mesh.
-        change: f64,
+        /// Uncertainty as a fraction of the depth.
+        uncertainty: f64,
     },
     /// A shorter rod of the same materials and velocity goes deeper, beyond both uncertainties.
     ShorterRodDeeper {
@@ -54,21 +45,10 @@ impl Refusal {
     pub fn describe(&self) -> String {
         match *self {
             Self::TooFewMeshes => "fewer than three meshes".to_owned(),
-            Self::NotConverged { trend, spread } => {
-                let trend = match trend {
-                    Trend::Oscillating => "the depth oscillates".to_owned(),
-                    Trend::Monotone { order } => format!("observed order {order:.1}"),
-                    Trend::Diverging | Trend::Exact => "the differences do not shrink".to_owned(),
-                };
-                format!(
-                    "{trend} over three meshes, which differ by {:.0} %",
-                    100.0 * spread
-                )
-            }
-            Self::TooSteep { change } => format!(
-                "the extrapolation changes the depth by {:+.0} %, more than {:.0} %",
-                100.0 * change,
-                100.0 * LARGEST_EXTRAPOLATION
+            Self::NotConverged { uncertainty } => format!(
+                "the meshes leave an uncertainty of {:.0} %, more than {:.0} %",
+                100.0 * uncertainty,
+                100.0 * LARGEST_UNCERTAINTY
             ),
             Self::ShorterRodDeeper {
                 length_to_diameter,
@@ -184,50 +164,26 @@ fn meshes(references: &[Reference], case: &BenchmarkCase) -> Vec<OnMesh> {
     meshes
 }
 
-/// Depth [mm] by the three finest meshes, in order from coarse to fine; or why they give none.
-///
-/// - **Monotone**, with an observed order of [`CREDIBLE_ORDERS`]: extrapolated at that order, but at most at the formal order 1
-///   of contact, and refused where that changes the depth by more than 25 %. The uncertainty is the whole change.
-/// - **Without such an order**: not extrapolated. The finest mesh counts, with the largest difference as its uncertainty, where
-///   that is at most 10 %.
+/// Depth [mm] by the three finest meshes, in order from coarse to fine, by the rule of the axisymmetric answer
+/// ([`axisymmetric::limit`]); or why they give none.
 ///
 /// # Errors
-/// The [`Refusal`].
+/// The [`Refusal`]: fewer than three meshes, or an uncertainty above 15 %.
 pub fn depth_of(meshes: &[OnMesh]) -> Result<Estimate, Refusal> {
-    let [.., coarse, medium, fine] = *meshes else {
+    let [.., _, _, finest] = *meshes else {
         return Err(Refusal::TooFewMeshes);
     };
-    let trend = trend([coarse, medium, fine]);
-    if let Trend::Monotone { order } = trend
-        && CREDIBLE_ORDERS.contains(&order)
-    {
-        let depth_mm = extrapolate(medium, fine, order.min(FORMAL_ORDER));
-        let change = depth_mm / fine.value - 1.0;
-        if change.abs() > LARGEST_EXTRAPOLATION {
-            return Err(Refusal::TooSteep { change });
-        }
-        return Ok(Estimate {
-            depth_mm,
-            uncertainty_mm: change.abs() * fine.value,
-        });
+    let resolution =
+        BandQuantity::DepthOfPenetration.in_unit(depth_resolution(DIAMETER, finest.cells));
+    let limit = axisymmetric::limit(meshes, 0.0, resolution).ok_or(Refusal::TooFewMeshes)?;
+    let uncertainty = limit.uncertainty / limit.value;
+    if uncertainty.is_nan() || uncertainty > LARGEST_UNCERTAINTY {
+        return Err(Refusal::NotConverged { uncertainty });
     }
-    let estimate = finest([coarse, medium, fine]);
-    let spread = estimate.uncertainty_mm / estimate.depth_mm;
-    if spread <= AGREEMENT {
-        return Ok(estimate);
-    }
-    Err(Refusal::NotConverged { trend, spread })
-}
-
-/// Depth on the finest of three meshes, with their largest difference as its uncertainty.
-fn finest(meshes: [OnMesh; 3]) -> Estimate {
-    let values = meshes.map(|mesh| mesh.value);
-    let largest = values.into_iter().fold(f64::MIN, f64::max);
-    let smallest = values.into_iter().fold(f64::MAX, f64::min);
-    Estimate {
-        depth_mm: values[2],
-        uncertainty_mm: largest - smallest,
-    }
+    Ok(Estimate {
+        depth_mm: limit.value,
+        uncertainty_mm: limit.uncertainty,
+    })
 }
 
 #[cfg(test)]

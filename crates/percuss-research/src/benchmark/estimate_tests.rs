@@ -18,6 +18,7 @@ fn power(cells: &[u32], order: f64, constant: f64) -> Vec<OnMesh> {
     on(&cells.iter().map(|&cells| value(cells)).collect::<Vec<_>>())
 }
 
+/// The rule is that of the axisymmetric answer, which has tests of its own; here it is what counts as a reference.
 #[test]
 fn an_error_of_first_order_is_removed() {
     for cells in [&[4, 6, 8][..], &[4, 8, 12], &[2, 4, 8, 16]] {
@@ -31,54 +32,19 @@ fn an_error_of_first_order_is_removed() {
 }
 
 #[test]
-fn a_slower_order_is_followed_and_a_faster_one_is_not_trusted() {
-    let slow = depth_of(&power(&[4, 8, 12], 0.6, 2.0)).unwrap();
-    assert!((slow.depth_mm - 8.5).abs() < 1e-9, "{slow:?}");
-    let meshes = power(&[4, 8, 16], 2.0, 20.0);
-    let fast = depth_of(&meshes).unwrap();
-    // At the formal order 1 the step from 8 to 16 cells is taken once more.
-    let step = meshes[2].value - meshes[1].value;
-    assert!((fast.depth_mm - (meshes[2].value + step)).abs() < 1e-12);
-    assert!((fast.uncertainty_mm - step).abs() < 1e-12);
-    assert!((fast.depth_mm - 8.5).abs() < fast.uncertainty_mm);
-}
-
-#[test]
-fn three_meshes_without_an_order_count_where_they_agree() {
+fn an_uncertainty_above_15_percent_is_refused() {
     let of = |meshes: &[(u32, f64)]| depth_of(&on(meshes));
-    // Oscillating, diverging, too slow and too fast, each within 10 % and beyond.
-    for (good, bad) in [
-        ([0.95, 1.04, 1.0], [0.9, 1.05, 1.0]),
-        ([0.94, 0.96, 1.0], [0.86, 0.92, 1.0]),
-        ([0.96, 0.98, 1.0], [0.86, 0.928, 1.0]),
-        ([0.95, 0.998, 1.0], [0.85, 0.995, 1.0]),
-    ] {
-        let on = |values: [f64; 3]| of(&[(4, values[0]), (8, values[1]), (16, values[2])]);
-        let spread = |values: [f64; 3]| {
-            values.iter().fold(f64::MIN, |a, b| a.max(*b))
-                - values.iter().fold(f64::MAX, |a, b| a.min(*b))
-        };
-        let estimate = on(good).unwrap();
-        assert_eq!(estimate.depth_mm, 1.0);
-        assert_eq!(estimate.uncertainty_mm, spread(good));
-        let Err(Refusal::NotConverged { spread: found, .. }) = on(bad) else {
-            panic!("{bad:?}: {:?}", on(bad));
-        };
-        assert_eq!(found, spread(bad));
-    }
+    let oscillating = |amplitude: f64| of(&[(4, 8.0 - amplitude), (8, 8.0 + amplitude), (16, 8.0)]);
+    assert!(oscillating(0.5).is_ok());
+    let Err(Refusal::NotConverged { uncertainty }) = oscillating(0.61) else {
+        panic!("{:?}", oscillating(0.61));
+    };
+    assert!((uncertainty - 1.22 / 8.0).abs() < 1e-12);
+    // A shallow crater is known to a twentieth of a cell: 0.0156 mm on 8 cells of a radius of 2.5 mm.
+    assert!(of(&[(4, 0.11), (6, 0.11), (8, 0.11)]).is_ok());
+    assert!(of(&[(4, 0.1), (6, 0.1), (8, 0.1)]).is_err());
     for few in [&[][..], &[(8, 2.0)], &[(4, 2.0), (8, 2.0)]] {
         assert_eq!(of(few), Err(Refusal::TooFewMeshes));
-    }
-}
-
-#[test]
-fn a_steep_extrapolation_is_refused() {
-    assert!(depth_of(&power(&[4, 8, 12], 1.0, 20.0)).is_ok());
-    for constant in [24.0, -102.0] {
-        let Err(Refusal::TooSteep { change }) = depth_of(&power(&[4, 8, 12], 1.0, constant)) else {
-            panic!("{constant} not refused");
-        };
-        assert!(change.abs() > 0.25, "{change}");
     }
 }
 
@@ -119,49 +85,6 @@ fn a_long_rod_that_stops_short_of_a_shorter_one_is_refused() {
             ..
         })
     ));
-}
-
-/// The two coarsest meshes of these entries, extrapolated at order 1, are contradicted by finer runs: 0.199 and 0.0911 mm by 0.388 and
-/// 0.128 on 12 cells, 0.0207 mm by 0.117 on 8. No such extrapolation is a reference.
-#[test]
-fn two_meshes_that_finer_runs_contradict_are_no_reference() {
-    let checked = check_references(&cases(), &reference::built_in());
-    assert!(checked.len() == cases().len());
-    for (projectile, target, slenderness, speed, contradicted) in [
-        (
-            "copper-woodward",
-            "aluminium-2024-t351-woodward",
-            3.0,
-            300.0,
-            0.1994,
-        ),
-        (
-            "4340-johnson-cook",
-            "weldox-460-e-borvik",
-            3.0,
-            150.0,
-            0.0911,
-        ),
-        ("6061-t6-lesuer", "4340-johnson-cook", 10.0, 600.0, 0.0207),
-    ] {
-        let entry = checked.iter().find(|entry| {
-            (entry.case.projectile.as_str(), entry.case.target.as_str()) == (projectile, target)
-                && entry.case.length_to_diameter == slenderness
-                && entry.case.speed == speed
-        });
-        let entry = entry.unwrap();
-        let coarse = &entry.meshes[..2];
-        let two = extrapolate(coarse[0], coarse[1], 1.0);
-        assert!((two / contradicted - 1.0).abs() < 4e-3, "{two}");
-        assert_eq!(depth_of(coarse), Err(Refusal::TooFewMeshes));
-        if let Ok(estimate) = entry.estimate {
-            let finest = entry.meshes.last().unwrap().value;
-            assert!(
-                (estimate.depth_mm / finest - 1.0).abs() <= 0.25,
-                "{estimate:?}"
-            );
-        }
-    }
 }
 
 /// Every entry that counts rests on three meshes.

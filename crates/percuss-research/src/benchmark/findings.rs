@@ -8,7 +8,7 @@ use percuss::{
     regime::ProjectileRegime,
 };
 
-use super::{Errors, is_sharp, statistics::CLOSE};
+use super::{Errors, PAIRS, is_sharp, statistics::CLOSE};
 
 /// Whether a model solves equations of motion along the axis, unlike formulae and rigid rods.
 fn is_one_dimensional(candidate: &Candidate) -> bool {
@@ -38,9 +38,14 @@ pub fn findings(verdicts: &[ErrorRecord]) -> Vec<String> {
             closure.name,
             words(&errors)
         ));
-        sentences.push(where_close(verdicts, closure.name));
+        sentences.extend(where_close(verdicts, closure.name));
     }
-    if errors_of(verdicts, NOT_BLIND, all).is_some() {
+    let is_blind = !verdicts
+        .iter()
+        .any(|verdict| PAIRS.contains(&(verdict.projectile.as_str(), verdict.target.as_str())));
+    if is_blind {
+        sentences.push("No model was developed on these cases: the errors are blind.".to_owned());
+    } else if errors_of(verdicts, NOT_BLIND, all).is_some() {
         sentences.push(format!(
             "No constant of any model was fitted to the reference. The functional forms of `{NOT_BLIND}` were selected with these cases, \
              so its errors are not blind."
@@ -51,7 +56,7 @@ pub fn findings(verdicts: &[ErrorRecord]) -> Vec<String> {
             "Target resistance model of the seed paper, `{PAPER}` with constraint factor and border shear: {}.",
             words(&errors)
         ));
-        sentences.push(where_close(verdicts, PAPER));
+        sentences.extend(where_close(verdicts, PAPER));
     }
     if let Some((formula, errors)) = best(verdicts, |c| !is_one_dimensional(c), cases, all) {
         sentences.push(format!(
@@ -133,8 +138,8 @@ fn words(errors: &Errors) -> String {
     )
 }
 
-/// Lengths and velocities at which the median absolute error of a candidate is at most [`CLOSE`].
-fn where_close(verdicts: &[ErrorRecord], candidate: &str) -> String {
+/// Lengths and velocities at which the median absolute error of a candidate is at most [`CLOSE`]; `None` without cases of the grid.
+fn where_close(verdicts: &[ErrorRecord], candidate: &str) -> Option<String> {
     let (mut close, mut all) = (0, 0);
     let mut places = Vec::new();
     for &length in LENGTHS {
@@ -158,7 +163,9 @@ fn where_close(verdicts: &[ErrorRecord], candidate: &str) -> String {
         true => String::new(),
         false => format!(": {}", places.join("; ")),
     };
-    format!(
-        "Its median absolute error is at most 25 % in {close} of {all} combinations of velocity and length{places}."
-    )
+    (all > 0).then(|| {
+        format!(
+            "Its median absolute error is at most 25 % in {close} of {all} combinations of velocity and length{places}."
+        )
+    })
 }

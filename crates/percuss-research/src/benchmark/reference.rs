@@ -18,8 +18,11 @@ use super::{
     resume::{self, Job, Report},
 };
 
-/// Stored reference depths.
-const BUILT_IN: &str = include_str!("../../data/reference.csv");
+/// Stored reference depths of the grid and of the spread design.
+const BUILT_IN: [&str; 2] = [
+    include_str!("../../data/reference.csv"),
+    include_str!("../../data/reference-spread.csv"),
+];
 
 /// Reference result for one case on one mesh.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -64,12 +67,13 @@ impl Reference {
     }
 }
 
-/// Stored reference depths.
+/// Stored reference depths of both designs.
 ///
 /// # Panics
 /// Never: a test reads them.
 pub fn built_in() -> Vec<Reference> {
-    read(BUILT_IN.as_bytes()).expect("built-in reference depths are valid")
+    let read = |text: &str| read(text.as_bytes()).expect("built-in reference depths are valid");
+    BUILT_IN.iter().copied().flat_map(read).collect()
 }
 
 /// Reads reference depths from CSV.

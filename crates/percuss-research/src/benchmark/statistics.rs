@@ -10,7 +10,7 @@ use percuss::{
 };
 use serde::Serialize;
 
-use super::PAIRS;
+use super::{PAIRS, SPREAD_PAIRS};
 
 /// Largest relative uncertainty of a sharp reference, well below the errors that are computed with it.
 pub const SHARP: f64 = 0.1;
@@ -122,6 +122,7 @@ impl Grouping {
                 .collect(),
             Self::Pair => PAIRS
                 .iter()
+                .chain(SPREAD_PAIRS)
                 .map(|(projectile, target)| pair_name(projectile, target))
                 .collect(),
             Self::Reference => [true, false].map(sharp_name).to_vec(),
@@ -146,12 +147,24 @@ pub fn is_sharp(verdict: &ErrorRecord) -> bool {
     verdict.reference_uncertainty_mm <= SHARP * verdict.reference_depth_mm
 }
 
+/// Name of the group of a velocity: the nearest of the grid.
 fn speed_name(speed: f64) -> String {
-    format!("{speed} m/s")
+    format!("{} m/s", nearest(VELOCITIES, speed))
 }
 
+/// Name of the group of an L/D: the nearest of the grid.
 fn length_name(length: f64) -> String {
-    format!("L/D {length}")
+    format!("L/D {}", nearest(LENGTHS, length))
+}
+
+/// The value of a list that is nearest in ratio.
+fn nearest(values: &[f64], to: f64) -> f64 {
+    let distance = |value: &f64| (value / to).ln().abs();
+    let nearest = values
+        .iter()
+        .copied()
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    nearest.unwrap_or(to)
 }
 
 /// A pair of materials in words.

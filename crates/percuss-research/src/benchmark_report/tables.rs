@@ -1,7 +1,7 @@
 //! Tables of the benchmark report.
 
 use percuss::{
-    model_error::{ErrorRecord, candidates},
+    model_error::{self, Coverage, ErrorRecord, candidates},
     units::significant,
 };
 use percuss_report::table::{Rows, Table, number};
@@ -170,6 +170,25 @@ pub(super) fn refused(references: &[CheckedReference]) -> Table {
         .words("reason of the refusal", |entry| match &entry.estimate {
             Err(refusal) => refusal.describe(),
             Ok(_) => String::new(),
+        })
+        .table()
+}
+
+/// Coverage of the estimated model errors where pairs of materials are left out in turn.
+pub fn coverage() -> Table {
+    let rows: Vec<(&str, Coverage)> = candidates()
+        .iter()
+        .filter_map(|candidate| Some((candidate.name, model_error::coverage(candidate.name)?)))
+        .collect();
+    Table::of(&rows)
+        .words("model", |(name, _)| *name)
+        .numbers("pairs", "", |(_, found)| found.pairs.to_string())
+        .numbers("cases", "", |(_, found)| found.cases.to_string())
+        .numbers("coverage", "%", |(_, found)| {
+            format!("{:.0}", 100.0 * found.coverage)
+        })
+        .numbers("median factor", "", |(_, found)| {
+            format!("{:.2}", found.factor)
         })
         .table()
 }

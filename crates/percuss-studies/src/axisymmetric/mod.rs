@@ -394,12 +394,17 @@ fn untouched(scenario: &Scenario, quantity: BandQuantity) -> f64 {
 /// Part of a cell to which a surface is read: depths below a cell scatter by about as much from mesh to mesh.
 const SURFACE: f64 = 0.05;
 
+/// Smallest difference of a depth or a length that a mesh shows, for a projectile's diameter and cells along its radius [m].
+pub fn depth_resolution(diameter: f64, cells_per_radius: f64) -> f64 {
+    SURFACE * 0.5 * diameter / cells_per_radius
+}
+
 /// Smallest difference of a number that a mesh shows, in the unit of its name.
 fn resolution(scenario: &Scenario, quantity: BandQuantity, cells_per_radius: u32) -> f64 {
-    let cell = 0.5 * scenario.projectile.diameter / f64::from(cells_per_radius);
+    let depth = depth_resolution(scenario.projectile.diameter, f64::from(cells_per_radius));
     match quantity {
         BandQuantity::DepthOfPenetration | BandQuantity::ProjectileFinalLength => {
-            quantity.in_unit(SURFACE * cell)
+            quantity.in_unit(depth)
         }
         BandQuantity::ResidualVelocity | BandQuantity::BallisticLimit => 0.0,
     }

@@ -13,6 +13,10 @@ pub struct ErrorRecord {
     pub projectile: String,
     /// Id of the target's material.
     pub target: String,
+    /// Flow stress of the projectile over that of the target, at a plastic strain of 0.1.
+    pub strength_ratio: f64,
+    /// Density of the projectile over that of the target.
+    pub density_ratio: f64,
     /// Length of the projectile over its diameter.
     pub length_to_diameter: f64,
     /// Impact velocity [m/s].

@@ -4,59 +4,66 @@ use std::{collections::HashMap, sync::LazyLock};
 
 use serde::Serialize;
 
-use super::{Candidate, ErrorRecord, design};
+use super::{
+    Candidate, ErrorRecord,
+    conformal::{Coverage, Experience},
+    design,
+    features::Features,
+};
 use crate::{
     Scenario,
     case::{Nose, RearFaceCondition, TargetResistanceModel},
     chain,
     model::Model,
-    regime::{ProjectileRegime, Regime, TargetKind},
+    regime::{Regime, TargetKind},
     scenario::TargetBody,
     statistics::{quantile, sorted},
 };
 
-/// The stored results of the benchmark.
-const BUILT_IN: &str = include_str!("../../data/model-error/errors.csv");
+/// The stored results of the benchmark, for the grid and for the spread design.
+const BUILT_IN: [&str; 2] = [
+    include_str!("../../data/model-error/errors.csv"),
+    include_str!("../../data/model-error/errors-spread.csv"),
+];
 
 static RECORDS: LazyLock<Vec<ErrorRecord>> = LazyLock::new(|| {
-    let mut reader = csv::Reader::from_reader(BUILT_IN.as_bytes());
-    reader
-        .deserialize()
-        .collect::<Result<_, _>>()
-        .expect("the built-in results are valid")
+    let read = |text: &str| -> Vec<ErrorRecord> {
+        let rows = csv::Reader::from_reader(text.as_bytes()).into_deserialize();
+        rows.collect::<Result<_, _>>()
+            .expect("the built-in results are valid")
+    };
+    BUILT_IN.iter().copied().flat_map(read).collect()
 });
 
-/// The stored results by candidate and regime, for expectations that cost next to nothing.
-static INDEX: LazyLock<HashMap<(&str, ProjectileRegime), Vec<&ErrorRecord>>> =
-    LazyLock::new(|| {
-        let mut index: HashMap<_, Vec<&ErrorRecord>> = HashMap::new();
-        for record in records() {
-            let key = (record.candidate.as_str(), record.regime);
-            index.entry(key).or_default().push(record);
-        }
-        index
-    });
-
-/// Cases that an expectation rests on, at most.
-const NEAREST: usize = 12;
-/// Fewer cases of a regime say nothing.
-const FEWEST: usize = 5;
+/// The stored results by candidate, calibrated, for estimates that cost next to nothing.
+static INDEX: LazyLock<HashMap<&str, Experience>> = LazyLock::new(|| {
+    let mut index: HashMap<&str, Vec<&ErrorRecord>> = HashMap::new();
+    for record in records() {
+        index.entry(&record.candidate).or_default().push(record);
+    }
+    let calibrated = index.into_iter();
+    calibrated
+        .filter_map(|(name, records)| Some((name, Experience::of(&records)?)))
+        .collect()
+});
 
 /// Error to expect of a depth against the axisymmetric reference; plain numbers, 0.1 for 10 % too deep.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModelErrorEstimate {
-    /// Median of the errors.
+    /// Median of the errors of the most similar cases.
     pub median: f64,
-    /// A tenth of the errors lie below.
+    /// Lower end of the 80 % interval.
     pub low: f64,
-    /// A tenth of the errors lie above.
+    /// Upper end of the 80 % interval.
     pub high: f64,
     /// How many cases that rests on.
     pub cases: usize,
+    /// Whether the case is farther from all of them than they are from each other: its error may be larger.
+    pub outside: bool,
 }
 
 impl ModelErrorEstimate {
-    /// Median and 10th and 90th percentile of errors, of which there is one at least.
+    /// Median and 10th and 90th percentile of errors, of which there is one at least: an interval without a calibration.
     pub(crate) fn of(errors: impl IntoIterator<Item = f64>) -> Self {
         let errors = sorted(errors);
         Self {
@@ -64,6 +71,7 @@ impl ModelErrorEstimate {
             low: quantile(&errors, 0.1),
             high: quantile(&errors, 0.9),
             cases: errors.len(),
+            outside: false,
         }
     }
 
@@ -83,6 +91,12 @@ pub fn records() -> &'static [ErrorRecord] {
     &RECORDS
 }
 
+/// Coverage and width of the estimates of a candidate where its pairs of materials are left out in turn.
+pub fn coverage(candidate: &str) -> Option<Coverage> {
+    let own = records().iter().filter(|r| r.candidate == candidate);
+    Coverage::of(&own.collect::<Vec<_>>())
+}
+
 /// Error to expect of a model's depth on a case; `None` where the design has too few cases like it: other noses, thin targets,
 /// velocities or lengths beyond the design, options that are not in the benchmark.
 pub fn estimate_error(
@@ -99,18 +113,14 @@ pub fn estimate_error(
         return None;
     }
     let length = scenario.projectile.length / scenario.projectile.diameter;
-    let inside = |value: f64, of: &[f64]| {
-        let (first, last) = (of.first().copied(), of.last().copied());
-        first
-            .zip(last)
-            .is_some_and(|(first, last)| (first..=last).contains(&value))
-    };
-    if !inside(scenario.impact_velocity, design::VELOCITIES) || !inside(length, design::LENGTHS) {
+    if !design::VELOCITY_RANGE.contains(&scenario.impact_velocity)
+        || !design::LENGTH_RANGE.contains(&length)
+    {
         return None;
     }
     let candidate = Candidate::of(model, scenario)?;
-    let records = INDEX.get(&(candidate.name, regime.projectile))?;
-    among(records, scenario.impact_velocity, length)
+    let experience = INDEX.get(candidate.name)?;
+    Some(experience.estimate(&Features::of(scenario)?))
 }
 
 /// Whether a target acts like the semi-infinite ones of the design, as long as the crater does not reach the rear face.
@@ -135,64 +145,5 @@ fn is_deep(model: &dyn Model, scenario: &Scenario, target: TargetKind) -> bool {
             thickness.is_some_and(|h| h >= fewest * scenario.projectile.diameter)
         }
         _ => false,
-    }
-}
-
-/// The error to expect from records of one candidate and regime.
-fn among(
-    records: &[&ErrorRecord],
-    velocity: f64,
-    length_to_diameter: f64,
-) -> Option<ModelErrorEstimate> {
-    let distance = |record: &ErrorRecord| {
-        let velocities = (record.impact_velocity_m_s / velocity).ln();
-        let lengths = (record.length_to_diameter / length_to_diameter).ln();
-        velocities.hypot(lengths)
-    };
-    let mut near: Vec<(f64, f64)> = records
-        .iter()
-        .map(|record| (distance(record), record.error()))
-        .collect();
-    if near.len() < FEWEST {
-        return None;
-    }
-    near.sort_by(|a, b| a.0.total_cmp(&b.0));
-    near.truncate(NEAREST);
-    Some(ModelErrorEstimate::of(near.iter().map(|(_, error)| *error)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn record(velocity: f64, error: f64) -> ErrorRecord {
-        ErrorRecord {
-            candidate: "made up".to_owned(),
-            projectile: "a".to_owned(),
-            target: "b".to_owned(),
-            length_to_diameter: 3.0,
-            impact_velocity_m_s: velocity,
-            regime: ProjectileRegime::Deforming,
-            depth_of_penetration_mm: 1.0 + error,
-            reference_depth_mm: 1.0,
-            reference_uncertainty_mm: 0.0,
-        }
-    }
-
-    #[test]
-    fn the_most_similar_cases_decide() {
-        let slow = (0..12).map(|i| record(150.0, -0.5 + 0.01 * f64::from(i)));
-        let fast = (0..12).map(|i| record(1500.0, 0.5 + 0.01 * f64::from(i)));
-        let all: Vec<ErrorRecord> = slow.chain(fast).collect();
-        let all: Vec<&ErrorRecord> = all.iter().collect();
-        let expected = among(&all, 200.0, 3.0).unwrap();
-        assert_eq!(expected.cases, 12);
-        assert!((expected.median + 0.445).abs() < 1e-12, "{expected:?}");
-        assert_eq!(
-            expected.describe(),
-            "\u{2212}44 % (\u{2212}49 … \u{2212}40 %)"
-        );
-        assert!(among(&all, 1200.0, 3.0).unwrap().median > 0.5);
-        assert_eq!(among(&all[..FEWEST - 1], 200.0, 3.0), None);
     }
 }

@@ -143,6 +143,7 @@ fn comparison(speeds: &[f64]) -> (Scenario, Comparison) {
             low: -0.86,
             high: 0.14,
             cases: 12,
+            outside: false,
         });
     }
     (scenario, comparison)
