@@ -65,6 +65,8 @@ pub struct LineRun {
 /// All runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DimensionStudy {
+    /// Length before the impact [mm].
+    pub length_mm: f64,
     /// By `axi`, the stoutest rod first.
     pub rods: Vec<RodRun>,
     /// In one dimension.
@@ -89,6 +91,14 @@ fn mean_strain(result: &RunResult) -> f64 {
 fn plastic_work(result: &RunResult) -> f64 {
     let energy = &result.numerics().energy;
     energy.plastic_projectile / energy.initial
+}
+
+/// Length of the rods before the impact [mm].
+///
+/// # Errors
+/// [`Error::Input`].
+pub(super) fn length_mm() -> Result<f64, Error> {
+    Ok(1e3 * outside::scenario(CASE, VELOCITY)?.projectile.length)
 }
 
 /// Computes a rod by `axi`, so many times as slender as the compared one.

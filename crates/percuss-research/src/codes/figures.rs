@@ -55,7 +55,7 @@ fn differences(values: &[ComparedValue]) -> Figure {
         "percuss and other codes",
         Axis::new("Difference of percuss (%)"),
     )
-    .caption("finest mesh of each code; ranges: stated tolerances");
+    .caption("finest mesh of each code, in the order of the tables; ranges: stated tolerances");
     for value in finest(values) {
         let row = &value.outside;
         let (low, high) = (

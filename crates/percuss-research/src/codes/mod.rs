@@ -138,7 +138,11 @@ pub fn compare_codes(mut progress: OnProgress<'_>) -> Result<CodeComparison, Err
     }
     Ok(CodeComparison {
         values,
-        dimension: DimensionStudy { rods, lines },
+        dimension: DimensionStudy {
+            length_mm: dimension::length_mm()?,
+            rods,
+            lines,
+        },
     })
 }
 
@@ -216,9 +220,10 @@ impl CodeComparison {
     }
 }
 
-/// A difference [%] with its sign.
+/// A difference [%] with its sign; zero has none of its own.
 fn percent(value: f64) -> String {
-    format!("{value:+.1} %").replace('-', "\u{2212}")
+    let rounded = (10.0 * value).round() / 10.0 + 0.0;
+    format!("{rounded:+.1} %").replace('-', "\u{2212}")
 }
 
 fn columns() -> Vec<Column<ComparedValue>> {
