@@ -138,4 +138,4 @@ def run(job: Job, folder: Path) -> list[Row]:
         raise RuntimeError(f"expected two histories of Z, found {names}")
     lengths = [abs(float(row[places[0]]) - float(row[places[1]])) for row in (line.split(",") for line in lines[1:])]
     end = lengths[4 * len(lengths) // 5 :]
-    return [Row(job.case, job.velocity, CODE, COMMIT, f"quadrilaterals, {job.mesh:g} mm", "final-length", sum(end) / len(end), "mm")]
+    return [Row(job.case, job.velocity, CODE, COMMIT, f"one-point quadrilaterals, {job.mesh:g} mm", "final-length", sum(end) / len(end), "mm")]

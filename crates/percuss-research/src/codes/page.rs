@@ -222,7 +222,7 @@ const INTRODUCTION: &str = "\
 Three open codes were run on cases of percuss, with the same laws and constants. `percuss reproduce codes --out docs/reference/codes` computes the
 cases again and writes this page.
 
-**An outside code is a witness, not a judge.** Each has errors of its own; where two codes disagree, an exact problem decides. Agreement here is
+**Agreement with another code is no proof.** Each has errors of its own; where two codes disagree, an exact problem decides. Agreement here is
 verification: it shows that equations are solved, not that they hold for a metal.
 ";
 
@@ -275,7 +275,7 @@ The exact problem is an elastic rod without lateral contraction on a rigid wall.
 const DIMENSION: &str = "
 ## Taylor rods in one dimension
 
-`chain` and `fdm` end 3 % shorter than every two-dimensional code: 16.84 mm instead of 17.37 to 17.42 mm. The measured length is 16.81 mm. A rod in one
+`chain` and `fdm` end 3 % shorter than all two-dimensional codes: 16.84 mm instead of 17.3 to 17.5 mm. The measured length is 16.81 mm. A rod in one
 dimension has no diameter, so `axi` was run on rods of the same length and other diameters:
 ";
 
