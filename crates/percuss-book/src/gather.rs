@@ -5,8 +5,9 @@ use std::{fs, io, path::Path};
 use crate::formulae::with_mathml;
 
 /// What readers of the guide are sent to, besides `docs/`.
-const BESIDE: [&str; 8] = [
+const BESIDE: [&str; 9] = [
     "benches/peers",
+    "validation",
     "cases",
     "crates/percuss-studies/data",
     "examples",

@@ -25,6 +25,7 @@ fn pages() -> Vec<(String, String)> {
         "crates/percuss-studies/data",
         "examples",
         "benches/peers",
+        "validation",
     ] {
         add_pages(&root.join(folder), &mut pages);
     }

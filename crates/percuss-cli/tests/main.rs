@@ -29,4 +29,5 @@ mod sweep_faults;
 mod sweep_plot;
 mod uncertainty;
 mod validate;
+mod validation;
 mod vocabulary;

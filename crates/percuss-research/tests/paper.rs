@@ -1,36 +1,19 @@
 //! The page in `docs/reference/paper/` is what `percuss reproduce paper` writes today.
 
-use std::{fs, ops::ControlFlow, path::Path};
+use std::ops::ControlFlow;
 
 use percuss_research::paper::{Assessment, reproduce};
 
-/// Words are compared as words, numbers as numbers: the last digits may differ between C libraries.
-fn assert_same(old: &str, new: &str) {
-    let words = |text: &str| -> Vec<String> {
-        text.split(|c: char| c.is_whitespace() || "|(;,:".contains(c))
-            .filter(|word| !word.is_empty())
-            .map(ToOwned::to_owned)
-            .collect()
-    };
-    let (old, new) = (words(old), words(new));
-    for (a, b) in old.iter().zip(&new) {
-        let same = match (a.parse::<f64>(), b.parse::<f64>()) {
-            (Ok(x), Ok(y)) => (x - y).abs() <= 0.02 * x.abs().max(y.abs()) + 2e-4,
-            _ => a == b,
-        };
-        assert!(
-            same,
-            "docs/reference/paper/paper.md has `{a}` where `{b}` comes out: run `percuss reproduce paper --out docs/reference/paper`"
-        );
-    }
-    assert_eq!(old.len(), new.len());
-}
+use crate::pages::assert_page;
 
 #[test]
 fn the_page_in_the_docs_is_up_to_date() {
     let reproduction = reproduce(&mut |_| ControlFlow::Continue(())).unwrap();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference/paper/paper.md");
-    assert_same(&fs::read_to_string(path).unwrap(), &reproduction.page());
+    assert_page(
+        "docs/reference/paper/paper.md",
+        &reproduction.page(),
+        "percuss reproduce paper --out docs/reference/paper",
+    );
 
     let verdict = |place: &str, start: &str| {
         let found = reproduction

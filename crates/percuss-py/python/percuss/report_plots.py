@@ -69,6 +69,16 @@ def assessments(found: Reproduction, ax: Axes | None) -> Axes:
     return ax
 
 
+def codes(found: Reproduction, ax: Axes | None) -> Axes:
+    ax = new_axes(ax)
+    names = [f"{run.code}, {run.case}, {run.quantity}" for run in found.runs]
+    ax.plot([run.found_percent for run in found.runs], range(len(names)), "s")
+    ax.set_yticks(range(len(names)), names, fontsize="x-small")
+    ax.invert_yaxis()
+    ax.set(xlabel="Difference of percuss (%)", title="percuss and other codes", xscale="symlog")
+    return ax
+
+
 def damping(found: Reproduction, ax: Axes | None) -> Axes:
     ax = new_axes(ax)
     # The mesh of all velocities.

@@ -16,24 +16,27 @@ if TYPE_CHECKING:
 class Reproduction(Result):
     """Reproduction of a published work: the values of ``percuss reproduce --json``.
 
-    One row per statement of the paper, or per run of the damping study.
+    One row per statement of the paper, per run of the damping study, or per number of another code.
 
     Attributes
     ----------
     work : str
-        ``paper`` or ``damping``.
+        ``paper``, ``damping`` or ``codes``.
     items : list of Record
         Of the paper, its statements: ``place``, ``statement``, ``assessment`` (``reproduced``, ``reading_dependent``, ``contradicted`` or
         ``cannot_be_known``) and the ``finding`` with its numbers.
     tables : list of Record
         Of the paper, the numbers behind them: ``title``, ``columns``, ``rows``.
     findings : list of str
-        Of the damping study, its findings.
+        Of the damping study and of the comparison with other codes, the findings.
     runs : list of Record
         Of the damping study, every run: way of ``damping``, ``impact_velocity_m_s``, ``projectile_elements``, ``depth_of_penetration_mm``, its relative
-        ``change``, and the fractions of damped and eroded energy.
+        ``change``, and the fractions of damped and eroded energy. Of the comparison with other codes, every stored number of a ``code``: its ``case``,
+        ``quantity``, ``value`` and ``unit``, the value of ``percuss`` by ``model`` and ``mesh``, and the difference ``found_percent``.
     reference : list of Record
         Of the damping study, the depths by the axisymmetric reference.
+    dimension : Record
+        Of the comparison with other codes, Taylor ``rods`` of several diameters in two dimensions and ``lines`` in one.
     """
 
     percuss_version: str
@@ -43,12 +46,15 @@ class Reproduction(Result):
         return list(self._data["items" if self.work == "paper" else "runs"])
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws the number of statements per assessment; of the damping study, depth versus impact velocity by way of damping."""
-        return report_plots.assessments(self, ax) if self.work == "paper" else report_plots.damping(self, ax)
+        """Draws the number of statements per assessment; of the damping study, depth versus impact velocity by way of damping; of the comparison
+        with other codes, the differences."""
+        draw = {"paper": report_plots.assessments, "damping": report_plots.damping, "codes": report_plots.codes}
+        return draw[self.work](self, ax)
 
     def _repr_html_(self) -> str:
-        if self.work == "damping":
-            return table_html([""], [[words] for words in self.findings], "damping in the case of the seed paper")
+        titles = {"damping": "damping in the case of the seed paper", "codes": "comparison with other codes"}
+        if self.work in titles:
+            return table_html([""], [[words] for words in self.findings], titles[self.work])
         names = ["place", "statement", "assessment", "finding"]
         rows = [[item[name].replace("_", " ") if name == "assessment" else item[name] for name in names] for item in self.items]
         return table_html(names, rows, "the seed paper, item by item")
@@ -61,7 +67,7 @@ def reproduce(work: str, *, out: Path | None = None, progress: Progress | bool |
     ----------
     work : str
         ``paper``, the seed paper: copper rods on thick 2024-T351 by a 1-D discrete element model; or ``damping``, the effect of
-        damping on the depth of penetration in its case.
+        damping on the depth of penetration in its case; or ``codes``, the comparison with stored results of other codes.
     out : path, optional
         Folder for the page, its figures and tables, as ``percuss reproduce --out`` writes them; made if it does not exist.
     progress : callable or bool, optional

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use percuss_research::{
+    codes::{self, CodeComparison, ComparedValue, DimensionStudy},
     damping::{self, DampingRun, DampingStudy},
     paper::{self, Assessment, Item, Reproduction, Table},
 };
@@ -29,13 +30,17 @@ explains its disagreement at high velocity. The output is the depth in its case
 versus velocity and mesh, with viscous damping of every spring, with artificial
 viscosity, and by the axisymmetric reference.
 
-With --out DIR the page (paper.md), its figures (SVG and PNG) and its tables
-(CSV) are written to DIR, which is made if it does not exist.";
+`codes` computes the cases that other codes were run on, compares the numbers
+with their stored results, and runs Taylor rods in one and in two dimensions.
+
+With --out DIR the page (paper.md, codes.md), its figures (SVG and PNG) and its
+tables (CSV) are written to DIR, which is made if it does not exist.";
 
 const AFTER_HELP: &str = "\
 Examples:
   percuss reproduce paper --out paper
   percuss reproduce damping --out damping
+  percuss reproduce codes --out codes
   percuss reproduce paper --json > paper.json
 
 Exit codes: 0 ok, 2 bad input, 3 numerical failure, 4 a file could not be
@@ -48,6 +53,8 @@ pub enum Work {
     Paper,
     /// Effect of damping on the depth of penetration in the case of the seed paper
     Damping,
+    /// Comparison with stored results of NairnMPM, OpenRadioss and pyKO
+    Codes,
 }
 
 /// Reproduce a published work, item by item
@@ -68,6 +75,7 @@ pub struct Reproduce {
 enum ReproductionOutput {
     Paper(Reproduction),
     Damping(DampingStudy),
+    Codes(CodeComparison),
 }
 
 /// Output of `--json`. The names are stable.
@@ -90,6 +98,11 @@ enum FoundRecord<'a> {
         runs: &'a [DampingRun],
         reference: Vec<Depth>,
     },
+    Codes {
+        findings: Vec<String>,
+        runs: &'a [ComparedValue],
+        dimension: &'a DimensionStudy,
+    },
 }
 
 /// Depth by the axisymmetric reference.
@@ -111,6 +124,11 @@ impl ReproductionOutput {
                 runs: &study.runs,
                 reference: study.reference.iter().map(|&at| at.into()).collect(),
             },
+            Self::Codes(comparison) => FoundRecord::Codes {
+                findings: comparison.findings(),
+                runs: &comparison.values,
+                dimension: &comparison.dimension,
+            },
         };
         ReproductionRecord {
             percuss_version: env!("CARGO_PKG_VERSION"),
@@ -122,13 +140,17 @@ impl ReproductionOutput {
         Ok(match self {
             Self::Paper(reproduction) => reproduction.write(folder)?,
             Self::Damping(study) => study.write(folder)?,
+            Self::Codes(comparison) => comparison.write(folder)?,
         })
     }
 
     fn text(&self) -> String {
         match self {
             Self::Paper(reproduction) => items(reproduction),
-            Self::Damping(study) => findings(study),
+            Self::Damping(study) => findings("Damping in the seed paper's case", study.findings()),
+            Self::Codes(comparison) => {
+                findings("Comparison with other codes", comparison.findings())
+            }
         }
     }
 }
@@ -177,6 +199,9 @@ impl Reproduce {
                     on_progress(fraction, "running the damping study")
                 })?)
             }
+            Work::Codes => ReproductionOutput::Codes(codes::compare_codes(&mut |fraction| {
+                on_progress(fraction, "running the cases of other codes")
+            })?),
         };
         let files = match &self.out {
             Some(out) => found.write(out)?,
@@ -186,10 +211,10 @@ impl Reproduce {
     }
 }
 
-fn findings(study: &DampingStudy) -> String {
-    let lines = study.findings().into_iter();
+fn findings(title: &str, lines: Vec<String>) -> String {
+    let lines = lines.into_iter();
     let lines = lines.map(|line| format!("{}\n", wrap(&line, width(), 2)));
-    let title = bold("Damping in the seed paper's case");
+    let title = bold(title);
     format!("{title}\n\n{}", lines.collect::<String>())
 }
 
