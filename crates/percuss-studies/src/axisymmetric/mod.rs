@@ -188,7 +188,8 @@ pub struct MeshResult {
 }
 
 impl MeshResult {
-    fn new(cells_per_radius: u32, result: &RunResult) -> Self {
+    /// The numbers of a run on a mesh.
+    pub fn new(cells_per_radius: u32, result: &RunResult) -> Self {
         let value = |quantity: BandQuantity| Some(quantity.in_unit(result.measurable(quantity)?));
         let perforated = result.outcome == Outcome::Perforated;
         let numerics = result.numerics.as_ref();
@@ -300,8 +301,8 @@ impl AxisymmetricAnswer {
         }
     }
 
-    /// The answer of the results on meshes from coarse to fine.
-    fn of(
+    /// The answer of the results on meshes from coarse to fine; with fewer than two there are only the notes.
+    pub fn of(
         scenario: &Scenario,
         reference: ReferenceMeshes,
         meshes: Vec<MeshResult>,
@@ -311,10 +312,10 @@ impl AxisymmetricAnswer {
         let Some(finest) = meshes.last().filter(|_| meshes.len() >= FEWEST) else {
             return Self::without(reference, note.unwrap_or_default());
         };
-        let quantity = leading(scenario, finest.outcome);
+        let quantity = main_number(scenario, finest.outcome);
         let on_meshes: Vec<OnMesh> = meshes
             .iter()
-            .filter(|mesh| leading(scenario, mesh.outcome) == quantity)
+            .filter(|mesh| main_number(scenario, mesh.outcome) == quantity)
             .filter_map(|mesh| {
                 Some(OnMesh {
                     cells: f64::from(mesh.cells_per_radius),
@@ -352,8 +353,8 @@ impl AxisymmetricAnswer {
     }
 }
 
-/// Main number of a run.
-fn leading(scenario: &Scenario, outcome: Outcome) -> BandQuantity {
+/// Main number of a run with an outcome.
+pub fn main_number(scenario: &Scenario, outcome: Outcome) -> BandQuantity {
     match (&scenario.target, outcome) {
         (TargetBody::RigidWall, _) => BandQuantity::ProjectileFinalLength,
         (_, Outcome::Perforated) => BandQuantity::ResidualVelocity,
