@@ -30,6 +30,7 @@
 mod area_chart;
 mod axial_figures;
 mod axis;
+pub mod axisymmetric_rows;
 mod bar_rows;
 pub mod calibration;
 mod caption;
@@ -89,8 +90,8 @@ pub use compare_files::{comparison_files, write_comparison};
 pub use convergence_figure::{convergence_chart, convergence_figure};
 pub use error::ReportError;
 #[cfg(feature = "png")]
-pub use field::animate;
-pub use field::{FieldQuantity, FieldSeries, FinalField};
+pub use field::{FieldColors, FieldSpan, FieldView, animate, usual_range};
+pub use field::{FieldQuantity, FieldSeries, FinalField, FrameSelection};
 pub use figure::Figure;
 pub use fragment_files::write_fragments;
 pub use heat_map::HeatMap;

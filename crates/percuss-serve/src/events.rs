@@ -1,21 +1,14 @@
 //! Streamed responses: lines of JSON with the progress, the last one with the result. A disconnected client cancels the run.
 
-use std::{
-    convert::Infallible,
-    pin::Pin,
-    task::{Context, Poll},
-};
-
 use axum::{
     body::{Body, Bytes},
     http::StatusCode,
     response::{IntoResponse, Response},
 };
-use http_body::Frame;
 use serde::Serialize;
 use serde_json::{Value, json};
 use tokio::{
-    sync::mpsc::{self, Receiver, Sender},
+    sync::mpsc::{self, Sender},
     task,
 };
 
@@ -80,24 +73,8 @@ pub(crate) async fn respond<T: Serialize>(
     http::respond(
         StatusCode::OK,
         "application/x-ndjson",
-        Body::new(Lines(receiver)),
+        Body::new(http::Chunks(receiver)),
     )
-}
-
-/// Lines as the body of a response.
-struct Lines(Receiver<Bytes>);
-
-impl http_body::Body for Lines {
-    type Data = Bytes;
-    type Error = Infallible;
-
-    fn poll_frame(
-        mut self: Pin<&mut Self>,
-        context: &mut Context<'_>,
-    ) -> Poll<Option<Result<Frame<Bytes>, Infallible>>> {
-        let line = self.0.poll_recv(context);
-        line.map(|line| line.map(|line| Ok(Frame::data(line))))
-    }
 }
 
 /// A value as JSON, for a file.

@@ -4,8 +4,9 @@ use std::{
     ops::ControlFlow,
     sync::{
         Arc,
-        atomic::{AtomicBool, Ordering},
+        atomic::{AtomicBool, AtomicUsize, Ordering},
     },
+    thread,
     time::{Duration, Instant},
 };
 
@@ -16,10 +17,15 @@ use tokio::{
 
 use crate::{RequestLimits, limits::QUEUE_TIME, problem::Problem};
 
+/// Time between two attempts of a background computation to take its place back.
+const ATTEMPT: Duration = Duration::from_millis(5);
+
 /// Pool of workers.
 #[derive(Debug, Clone)]
 pub(crate) struct Workers {
     places: Arc<Semaphore>,
+    /// Number of requests that wait for a place; background computations give theirs up for them.
+    waiting: Arc<AtomicUsize>,
     bounds: RequestLimits,
 }
 
@@ -79,10 +85,54 @@ impl Drop for CancelOnDrop {
     }
 }
 
+/// Counts a request that waits for a place.
+struct Waiting(Arc<AtomicUsize>);
+
+impl Waiting {
+    fn new(waiting: &Arc<AtomicUsize>) -> Self {
+        waiting.fetch_add(1, Ordering::Relaxed);
+        Self(Arc::clone(waiting))
+    }
+}
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+/// Place of a background computation, which gives way to every other request.
+#[derive(Debug)]
+pub(crate) struct BackgroundPlace {
+    workers: Workers,
+    place: Option<OwnedSemaphorePermit>,
+}
+
+impl BackgroundPlace {
+    /// Leaves the place to requests that wait for one, and returns when it is back or when `flow` breaks.
+    pub(crate) fn give_way(&mut self, flow: impl Fn() -> ControlFlow<()>) -> ControlFlow<()> {
+        loop {
+            flow()?;
+            let is_wanted = self.workers.waiting.load(Ordering::Relaxed) > 0;
+            if is_wanted {
+                self.place = None;
+            } else if self.place.is_none() {
+                let places = Arc::clone(&self.workers.places);
+                self.place = places.try_acquire_owned().ok();
+            }
+            if self.place.is_some() {
+                return ControlFlow::Continue(());
+            }
+            thread::sleep(ATTEMPT);
+        }
+    }
+}
+
 impl Workers {
     pub(crate) fn new(bounds: RequestLimits) -> Self {
         Self {
             places: Arc::new(Semaphore::new(bounds.runs)),
+            waiting: Arc::default(),
             bounds,
         }
     }
@@ -93,11 +143,25 @@ impl Workers {
 
     /// Waits for a free worker.
     pub(crate) async fn place(&self) -> Result<OwnedSemaphorePermit, Problem> {
+        let _waiting = Waiting::new(&self.waiting);
+        self.place_within(QUEUE_TIME).await
+    }
+
+    async fn place_within(&self, limit: Duration) -> Result<OwnedSemaphorePermit, Problem> {
         let places = Arc::clone(&self.places).acquire_owned();
-        match time::timeout(QUEUE_TIME, places).await {
+        match time::timeout(limit, places).await {
             Ok(Ok(place)) => Ok(place),
             _ => Err(Problem::busy(self.bounds.runs)),
         }
+    }
+
+    /// Waits for a worker of a background computation, as long as a run may take.
+    pub(crate) async fn background_place(&self) -> Result<BackgroundPlace, Problem> {
+        let place = self.place_within(self.bounds.time()).await?;
+        Ok(BackgroundPlace {
+            workers: self.clone(),
+            place: Some(place),
+        })
     }
 
     /// Computes on a worker thread; the work is cancelled when the caller is dropped.

@@ -28,6 +28,7 @@ mod limits;
 mod options;
 mod pages;
 mod problem;
+mod refinement;
 mod request;
 mod response;
 mod server;

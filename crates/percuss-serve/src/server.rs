@@ -28,7 +28,7 @@ use crate::{
     job::{Stop, Workers},
     limits,
     pages::{self, Validation},
-    request, response, study,
+    refinement, request, response, study,
 };
 
 /// Delay after a failed accept.
@@ -143,6 +143,7 @@ fn routes(shared: Shared, guard: HostGuard) -> Router {
         .route("/validation", get(Validation::get))
         .route("/api/answer", post(response::post))
         .route("/api/file", post(files::post))
+        .route("/api/refinement", post(refinement::post))
         .route("/api/study/{kind}", post(study::post))
         .route("/api/uncertainty-example", post(study::uncertainty_example))
         .route("/api/validation", post(Validation::post))

@@ -90,6 +90,7 @@ const kinds = [
   ["sweep that is not valid", 1, [200, 503], (agent) => send(agent, "POST", "/api/study/sweep", JSON.stringify({ case: paper, sweep: sweep.replaceAll("m/s", "kg") }))],
   ["answer not waited for", 2, [0, 200, 503], () => raw(post("/api/answer", asked(210)), false)],
   ["sweep not waited for", 1, [0, 200, 503], () => raw(post("/api/study/sweep", JSON.stringify({ case: paper, sweep: sweep.replace("= 4 ", "= 4000 ") })), false)],
+  ["refinement not waited for", 1, [0, 200], () => raw(post("/api/refinement", asked(220)), false)],
   ["study not waited for", 1, [0, 200, 503], () => raw(post("/api/study/converge", asked(230)), false)],
 ];
 

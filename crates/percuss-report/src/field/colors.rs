@@ -13,16 +13,25 @@ const PAPER: [u8; 3] = [0xff; 3];
 
 /// Colours of a quantity over a range, in the unit of its label.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Colors {
-    pub(crate) quantity: FieldQuantity,
-    pub(crate) range: (f64, f64),
+pub struct Colors {
+    /// The quantity.
+    pub quantity: FieldQuantity,
+    /// Values of the first and the last colour.
+    pub range: (f64, f64),
     /// Whether a rigid wall stands at depth 0.
-    pub(crate) wall: bool,
+    pub wall: bool,
 }
 
 impl Colors {
+    /// Number of bands.
+    pub const LEVELS: usize = LEVELS;
+    /// Colour of the edges of bodies.
+    pub const EDGE: [u8; 3] = EDGE;
+    /// Colour of a rigid wall.
+    pub const WALL: [u8; 3] = WALL;
+
     /// Colours for values between a smallest and a largest one, with ends that read well.
-    pub(crate) fn new(quantity: FieldQuantity, (least, most): (f64, f64), wall: bool) -> Self {
+    pub fn new(quantity: FieldQuantity, (least, most): (f64, f64), wall: bool) -> Self {
         let range = match quantity {
             FieldQuantity::Pressure => {
                 let most = nice(least.abs().max(most));
@@ -50,8 +59,21 @@ impl Colors {
         }
     }
 
+    /// Colour of a body where its values show nothing: the projectile, then the layers of a target.
+    pub fn body(index: u8) -> [u8; 3] {
+        palette::body(index)
+    }
+
+    /// Part of the range up to which bodies show themselves.
+    pub fn bare(&self) -> f64 {
+        match self.quantity.starts_at_zero() {
+            true => BARE,
+            false => 0.0,
+        }
+    }
+
     /// Colour of a band.
-    pub(crate) fn band(&self, level: usize) -> [u8; 3] {
+    pub fn band(&self, level: usize) -> [u8; 3] {
         let part = (level as f64 + 0.5) / LEVELS as f64;
         match self.quantity {
             FieldQuantity::Pressure => parsed(&palette::diverging(2.0 * part - 1.0)),
@@ -72,7 +94,7 @@ impl Paint for Colors {
     fn color(&self, body: u8, value: f32) -> [u8; 3] {
         let (_, _, unit) = self.quantity.source();
         let part = (f64::from(value) / unit - self.range.0) / (self.range.1 - self.range.0);
-        if self.quantity.starts_at_zero() && part < BARE {
+        if part < self.bare() && self.quantity.starts_at_zero() {
             return palette::body(body);
         }
         self.band(((part * LEVELS as f64) as usize).min(LEVELS - 1))

@@ -14,7 +14,7 @@ use super::{
     animation::{self, Palette},
     colors::Colors,
     picture::Canvas,
-    raster::View,
+    span::{FieldSpan, usual_range},
     vtp::{self, Points},
 };
 use crate::{ReportError, caption::caption, png_file, replace_file::replace_file};
@@ -26,8 +26,6 @@ const ANIMATION_SCALE: f32 = 1.0;
 const PICTURE: &str = "field.png";
 /// Folder of the pictures of an animation.
 const FOLDER: &str = "frames";
-/// Part of the values of a frame that may lie beyond the ends of the colours.
-const BEYOND: f64 = 1e-3;
 
 /// Writes a picture of one quantity of the field that a file holds.
 ///
@@ -40,7 +38,7 @@ pub(super) fn write(
     quantity: FieldQuantity,
 ) -> Result<PathBuf, ReportError> {
     let points = points(file, &folder.join(FIELD), quantity)?;
-    let (canvas, _) = canvas(scenario, quantity, &Span::of(&points));
+    let (canvas, _) = canvas(scenario, quantity, &span(&points));
     let base = canvas.base(PICTURE_SCALE)?;
     let picture = canvas.picture(&points, &base, PICTURE_SCALE)?;
     let picture = png_file::encode(PICTURE, &picture)?;
@@ -60,11 +58,11 @@ pub fn animate(
     progress: &mut (dyn FnMut(f64) + Send),
 ) -> Result<Vec<PathBuf>, ReportError> {
     let files = series.files();
-    let spans: Vec<Span> = files
+    let spans: Vec<FieldSpan> = files
         .par_iter()
-        .map(|(_, file)| Ok(Span::of(&read(file, quantity)?)))
+        .map(|(_, file)| Ok(span(&read(file, quantity)?)))
         .collect::<Result<_, ReportError>>()?;
-    let Some(span) = spans.into_iter().reduce(Span::with) else {
+    let Some(span) = spans.into_iter().reduce(FieldSpan::with) else {
         return Ok(Vec::new());
     };
     let (canvas, palette) = canvas(scenario, quantity, &span);
@@ -94,10 +92,10 @@ pub fn animate(
 }
 
 /// What all pictures of frames that reach a span have in common, and the colours in them.
-fn canvas(scenario: &Scenario, quantity: FieldQuantity, span: &Span) -> (Canvas, Palette) {
+fn canvas(scenario: &Scenario, quantity: FieldQuantity, span: &FieldSpan) -> (Canvas, Palette) {
     let wall = scenario.target == TargetBody::RigidWall;
     let (_, _, unit) = quantity.source();
-    let (least, most) = span.values;
+    let (least, most) = span.values();
     let values = (f64::from(least) / unit, f64::from(most) / unit);
     let colors = Colors::new(quantity, values, wall);
     let palette = Palette::new(&colors.all());
@@ -110,9 +108,19 @@ fn canvas(scenario: &Scenario, quantity: FieldQuantity, span: &Span) -> (Canvas,
         &format!("{}{bodies}", label(quantity)),
         &caption(scenario, Some(scenario.impact_velocity)),
         colors,
-        view(scenario, span),
+        span.view(scenario),
     );
     (canvas, palette)
+}
+
+/// What the points of a frame reach.
+fn span(points: &Points) -> FieldSpan {
+    let places = points
+        .places
+        .iter()
+        .copied()
+        .zip(points.bodies.iter().copied());
+    FieldSpan::new(usual_range(points.values.clone()), places, points.depth)
 }
 
 fn label(quantity: FieldQuantity) -> String {
@@ -152,73 +160,4 @@ fn points(bytes: &[u8], file: &Path, quantity: FieldQuantity) -> Result<Points, 
         path: file.to_owned(),
         reason: "it is damaged or of another program".to_owned(),
     })
-}
-
-/// What frames reach.
-#[derive(Debug, Clone, Copy)]
-struct Span {
-    values: (f32, f32),
-    /// Largest radius and range of depths of the projectile [m].
-    rod: (f32, (f32, f32)),
-    /// Largest depth of material of the target near the axis, and of the crater floor [m].
-    target: f32,
-    depth: f64,
-}
-
-impl Span {
-    fn of(points: &Points) -> Self {
-        let mut values = points.values.clone();
-        values.sort_unstable_by(f32::total_cmp);
-        let beyond = (BEYOND * values.len() as f64) as usize;
-        let at = |index: usize| values.get(index).copied().unwrap_or(0.0);
-        let most = at(values.len().saturating_sub(1 + beyond));
-        let mut span = Self {
-            values: (at(beyond), most),
-            rod: (0.0, (0.0, 0.0)),
-            target: 0.0,
-            depth: points.depth,
-        };
-        for (&[radius, depth], &body) in points.places.iter().zip(&points.bodies) {
-            if body == 0 {
-                let (widest, (back, front)) = span.rod;
-                span.rod = (widest.max(radius), (back.min(depth), front.max(depth)));
-            } else {
-                span.target = span.target.max(depth);
-            }
-        }
-        span
-    }
-
-    fn with(self, other: Self) -> Self {
-        let range = |a: (f32, f32), b: (f32, f32)| (a.0.min(b.0), a.1.max(b.1));
-        Self {
-            values: range(self.values, other.values),
-            rod: (self.rod.0.max(other.rod.0), range(self.rod.1, other.rod.1)),
-            target: self.target.max(other.target),
-            depth: self.depth.max(other.depth),
-        }
-    }
-}
-
-/// What pictures show: the projectile at all times, and of the target what the shot changes.
-fn view(scenario: &Scenario, span: &Span) -> View {
-    let radius = 0.5 * scenario.projectile.diameter;
-    let (widest, (back, front)) = span.rod;
-    let (back, front) = (f64::from(back) - radius, f64::from(front));
-    if scenario.target == TargetBody::RigidWall {
-        return View {
-            radius: f64::from(widest).max(2.0 * radius) + radius,
-            depth: (back, 0.8 * radius),
-        };
-    }
-    let shown = (span.depth + 5.0 * radius).max(6.0 * radius);
-    // Where a plate ends there is something to be seen of what is behind it.
-    let end = match scenario.target_thickness() {
-        Some(_) => f64::from(span.target) + radius,
-        None => f64::from(span.target),
-    };
-    View {
-        radius: (f64::from(widest) + radius).max(6.0 * radius),
-        depth: (back, end.min(shown).max(front + radius)),
-    }
 }

@@ -13,7 +13,10 @@ mod picture;
 mod quantity;
 #[cfg(feature = "png")]
 mod raster;
+mod selection;
 mod series;
+#[cfg(feature = "png")]
+mod span;
 mod vtp;
 
 use std::path::{Path, PathBuf};
@@ -23,9 +26,16 @@ use percuss::{Scenario, frames::Frame};
 use crate::{ReportError, replace_file::replace_file};
 
 #[cfg(feature = "png")]
+pub use colors::Colors as FieldColors;
+#[cfg(feature = "png")]
 pub use drawing::animate;
 pub use quantity::FieldQuantity;
+#[cfg(feature = "png")]
+pub use raster::View as FieldView;
+pub use selection::FrameSelection;
 pub use series::FieldSeries;
+#[cfg(feature = "png")]
+pub use span::{FieldSpan, usual_range};
 
 /// Name of the field at the end.
 const FIELD: &str = "field.vtp";

@@ -1,5 +1,7 @@
 //! Field quantities of pictures.
 
+use percuss::axi::Particle;
+
 /// A field over the material points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FieldQuantity {
@@ -53,7 +55,7 @@ impl FieldQuantity {
     }
 
     /// Name with the unit in parentheses.
-    pub(crate) fn label(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Self::PlasticStrain => "Equivalent plastic strain",
             Self::Temperature => "Temperature (K)",
@@ -62,6 +64,25 @@ impl FieldQuantity {
             Self::Speed => "Speed (m/s)",
             Self::Density => "Density (kg/m³)",
             Self::Damage => "Damage",
+        }
+    }
+
+    /// Its value in a particle, in the unit of the label.
+    pub fn value(self, particle: &Particle) -> f64 {
+        let (_, _, unit) = self.source();
+        self.si_value(particle) / unit
+    }
+
+    /// Its value in a particle, in SI units.
+    pub(crate) fn si_value(self, particle: &Particle) -> f64 {
+        match self {
+            Self::PlasticStrain => particle.plastic_strain,
+            Self::Temperature => particle.temperature,
+            Self::VonMisesStress => particle.equivalent_stress(),
+            Self::Pressure => particle.pressure + particle.viscous_pressure,
+            Self::Speed => particle.velocity[0].hypot(particle.velocity[1]),
+            Self::Density => particle.mass / particle.volume,
+            Self::Damage => particle.damage,
         }
     }
 

@@ -9,11 +9,11 @@ pub(crate) const NOTHING: u8 = u8::MAX;
 
 /// Part of the plane that a picture shows, mirrored in the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct View {
+pub struct View {
     /// Largest radius [m].
-    pub(crate) radius: f64,
+    pub radius: f64,
     /// Smallest and largest depth [m].
-    pub(crate) depth: (f64, f64),
+    pub depth: (f64, f64),
 }
 
 /// A picture: three bytes a pixel, row by row from the top.

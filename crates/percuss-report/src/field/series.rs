@@ -8,7 +8,7 @@ use std::{
 
 use percuss::frames::Frame;
 
-use super::vtp;
+use super::{FrameSelection, vtp};
 use crate::{ReportError, replace_file::replace_file};
 
 /// Name of the collection.
@@ -20,10 +20,8 @@ const FOLDER: &str = "fields";
 #[derive(Debug, Clone, PartialEq)]
 pub struct FieldSeries {
     folder: PathBuf,
-    /// Most frames: a series that is full drops every other one.
-    most: usize,
+    selection: FrameSelection,
     entries: Vec<Entry>,
-    stride: u64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,22 +49,14 @@ impl FieldSeries {
             .lines()
             .filter_map(Entry::read)
             .partition(|entry| entry.time <= time);
-        let mut series = Self {
+        let numbers = entries.iter().map(|entry| entry.number).collect();
+        let series = Self {
             folder: folder.to_owned(),
-            most: most.max(2),
-            stride: 1,
+            selection: FrameSelection::resumed(most, numbers),
             entries,
         };
         for entry in later {
             series.remove(entry);
-        }
-        while series.entries.len() > 2
-            && series
-                .entries
-                .iter()
-                .all(|entry| entry.number.is_multiple_of(2 * series.stride))
-        {
-            series.stride *= 2;
         }
         series.collect()?;
         Ok(series)
@@ -82,12 +72,11 @@ impl FieldSeries {
             for entry in std::mem::take(&mut self.entries) {
                 self.remove(entry);
             }
-            self.stride = 1;
+            self.selection.restart();
         }
-        let repeated = self.entries.last().map(|last| last.number) == Some(frame.number);
-        if repeated || !(frame.last || frame.number.is_multiple_of(self.stride)) {
+        let Some(dropped) = self.selection.add(frame.number, frame.last) else {
             return Ok(());
-        }
+        };
         let entry = Entry {
             number: frame.number,
             time: frame.time,
@@ -95,29 +84,14 @@ impl FieldSeries {
         let folder = self.folder.join(FOLDER);
         replace_file(&folder, &entry.file(), &vtp::encode(frame))?;
         self.entries.push(entry);
-        if self.entries.len() > self.most {
-            self.thin_out(frame.last);
-        }
-        self.collect()
-    }
-
-    /// Drops every other frame of a series that goes on, and at the end only the frame before the last one.
-    fn thin_out(&mut self, last: bool) {
-        let dropped: Vec<Entry> = if last {
-            let before = self.entries.len() - 2;
-            vec![self.entries.remove(before)]
-        } else {
-            self.stride *= 2;
-            let stride = self.stride;
-            let (kept, dropped) = std::mem::take(&mut self.entries)
-                .into_iter()
-                .partition(|entry| entry.number.is_multiple_of(stride));
-            self.entries = kept;
-            dropped
-        };
+        let (dropped, kept): (Vec<Entry>, Vec<Entry>) = std::mem::take(&mut self.entries)
+            .into_iter()
+            .partition(|entry| dropped.contains(&entry.number));
+        self.entries = kept;
         for entry in dropped {
             self.remove(entry);
         }
+        self.collect()
     }
 
     /// Removes the files of the series, with the collection and the folder that they stand in.
@@ -219,7 +193,6 @@ mod tests {
             assert!((most / 2..=most).contains(&series.frames()), "{most}");
             assert!(series.files().iter().all(|(_, file)| file.exists()));
             let mut resumed = FieldSeries::resume(folder.path(), most, 900.5).unwrap();
-            assert_eq!(resumed.stride, series.stride);
             for number in 901..1000 {
                 add(&mut resumed, number, false);
             }

@@ -17,6 +17,8 @@ use percuss::{
 };
 use rayon::prelude::*;
 
+use super::FieldQuantity;
+
 const MARKER: &[u8] = b"<AppendedData encoding=\"raw\">\n_";
 
 /// An array: name, components, and what it takes of a particle.
@@ -24,17 +26,22 @@ type Column = (&'static str, usize, fn(&Particle) -> [f64; 3]);
 
 const COLUMNS: [Column; 9] = [
     ("velocity", 3, |p| [p.velocity[0], -p.velocity[1], 0.0]),
-    ("pressure", 1, |p| {
-        [p.pressure + p.viscous_pressure, 0.0, 0.0]
+    ("pressure", 1, |p| of(FieldQuantity::Pressure, p)),
+    ("von_mises_stress", 1, |p| {
+        of(FieldQuantity::VonMisesStress, p)
     }),
-    ("von_mises_stress", 1, |p| [p.equivalent_stress(), 0.0, 0.0]),
-    ("plastic_strain", 1, |p| [p.plastic_strain, 0.0, 0.0]),
-    ("temperature", 1, |p| [p.temperature, 0.0, 0.0]),
-    ("density", 1, |p| [p.mass / p.volume, 0.0, 0.0]),
-    ("damage", 1, |p| [p.damage, 0.0, 0.0]),
+    ("plastic_strain", 1, |p| of(FieldQuantity::PlasticStrain, p)),
+    ("temperature", 1, |p| of(FieldQuantity::Temperature, p)),
+    ("density", 1, |p| of(FieldQuantity::Density, p)),
+    ("damage", 1, |p| of(FieldQuantity::Damage, p)),
     ("volume", 1, |p| [p.volume, 0.0, 0.0]),
     (SIDES, 2, |p| [p.sides[0], p.sides[1], 0.0]),
 ];
+/// A scalar quantity as the components of an array.
+fn of(quantity: FieldQuantity, particle: &Particle) -> [f64; 3] {
+    [quantity.si_value(particle), 0.0, 0.0]
+}
+
 /// Width and height of a particle's section before the impact.
 const SIDES: &str = "sides";
 const POINTS: &str = "points";

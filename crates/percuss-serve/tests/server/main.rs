@@ -3,6 +3,7 @@
 mod calibrations;
 mod host_guard;
 mod limits;
+mod refinement;
 mod requests;
 mod responses;
 mod studies;

@@ -8,14 +8,14 @@ export class Refused extends Error {
   }
 }
 
-const lost: Problem = {
+export const lost: Problem = {
   message: "the server does not respond",
   help: "check that `percuss serve` is running, then reload the page",
   key: "",
   place: null,
 };
 
-async function send(path: string, body: unknown, signal?: AbortSignal): Promise<Response> {
+export async function send(path: string, body: unknown, signal?: AbortSignal): Promise<Response> {
   let response: Response;
   try {
     response = await fetch(path, {

@@ -9,6 +9,7 @@ import { over, under } from "./paint";
 import { rows } from "./rows";
 import { shape } from "./shape";
 import { span, ticks } from "./ticks";
+import { TimeMark } from "./timemark";
 import type { AreaChart, Chart, LineChart, MapChart } from "./types";
 import { Zoom, type Range, type Side } from "./zoom";
 
@@ -30,6 +31,7 @@ export class ChartView {
   private visible = true;
   // Whether the drawing is that of an earlier chart.
   private late = false;
+  private time = new TimeMark();
   private whole = button("Reset zoom", () => {
     this.zoom.reset();
     this.body.focus();
@@ -51,11 +53,18 @@ export class ChartView {
     new IntersectionObserver((entries) => {
       this.visible = entries.at(-1)?.isIntersecting ?? true;
       if (this.visible && this.late && this.chart) this.show(this.chart);
+      if (this.visible && this.plot && this.chart) this.time.place(this.plot, this.chart);
     }).observe(this.element);
   }
 
   get inView(): boolean {
     return this.visible;
+  }
+
+  // Marks a time [µs] on an axis of time; legends have the values there once it rests.
+  mark(time: number | null, rests: boolean): void {
+    this.time.set(time, rests);
+    if (this.plot && this.chart && this.visible) this.time.place(this.plot, this.chart);
   }
 
   show(chart: Chart): void {
@@ -94,6 +103,7 @@ export class ChartView {
     const width = Math.max(240, this.body.clientWidth || 480);
     const current = () => this.chart as Chart;
     this.plot = new uPlot(options(chart, width, current, this.zoom), data(chart), this.body);
+    (this.plot.hooks.draw ??= []).push((plot) => this.time.place(plot, current()));
     // A line that emphasises another has no name and no place in the legend.
     const names = [...this.plot.root.querySelectorAll<HTMLElement>(".u-legend .u-series")].slice(1);
     if (chart.kind === "lines") chart.series.forEach((series, i) => series.name === "" && names[i]?.setAttribute("hidden", ""));

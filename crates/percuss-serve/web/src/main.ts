@@ -10,6 +10,7 @@ import { Form, type Edit } from "./form";
 import { fromFragment, toFragment } from "./link";
 import { Numbers } from "./parameters";
 import { explained } from "./problem";
+import { Refinement } from "./refinement";
 import { SideBySide } from "./side";
 import { studies } from "./studies";
 import type { Answer, Problem, Start } from "./types";
@@ -28,6 +29,7 @@ const others: ChartView[] = [];
 const form = new Form(start, (edits, moving) => ask(edits, moving));
 const numbers = new Numbers(start.fields);
 const sideBySide = new SideBySide(get("comparison-body"), others);
+const refinement = new Refinement(() => name || "case", (time, rests) => [...views.values()].forEach((view) => view.mark(time, rests)));
 
 let name = start.name;
 // null: the server selects the model.
@@ -42,6 +44,8 @@ let saved = 0;
 // moves a draft will do: the curves in view, with fewer points.
 function ask(edits: Edit[] = [], moving = false): void {
   clearTimeout(rest);
+  // What is refined is no longer the answer, and the processor is wanted.
+  if (edits.length || !refinement.has(text.value)) refinement.stop();
   pending ??= { edits: new Map(), moving };
   pending.moving &&= moving;
   for (const edit of edits) pending.edits.set(edit.key, edit);
@@ -124,6 +128,7 @@ function show(answer: Answer, since: number | null, draft: boolean): void {
   if (draft) return;
   numbers.follow(answer);
   sideBySide.follow({ name, case: answer.case });
+  refinement.follow({ name, case: answer.case }, answer);
   downloads(answer);
   clearTimeout(saved);
   saved = window.setTimeout(() => void save(answer), 400);
@@ -141,7 +146,7 @@ function showCharts(answer: Answer): void {
     }
     return { chart, view };
   });
-  const elements = charts.map(({ view }) => view.element);
+  const elements = [refinement.impact.element, ...charts.map(({ view }) => view.element)];
   const box = get("charts");
   if (elements.length !== box.children.length || elements.some((element, i) => element !== box.children[i])) box.replaceChildren(...elements);
   for (const { chart, view } of charts) view.show(chart);
@@ -238,7 +243,7 @@ function build(): void {
     },
   };
   get("studies").append(...studies(page, numbers, others));
-  onThemeChange(() => [...views.values(), ...others].forEach((view) => view.draw()));
+  onThemeChange(() => [...views.values(), ...others, refinement.impact].forEach((view) => view.draw()));
   addEventListener("hashchange", () => void fromFragment(location.hash).then((state) => state && load(state)));
   document.addEventListener("keydown", (event) => {
     if (event.key === "Escape") document.querySelectorAll<HTMLDetailsElement>("details.menu[open]").forEach((menu) => (menu.open = false));

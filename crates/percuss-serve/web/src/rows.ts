@@ -27,7 +27,7 @@ export function rows(chart: RowChart): HTMLElement {
     dot.style.background = color(row.color);
     track.append(dot);
     const range = row.range ? ` (${significant(row.range[0], 3)} to ${significant(row.range[1], 3)})` : "";
-    body.append(make("div", { class: "row" }, make("span", {}, row.name), track, make("span", { class: "number" }, significant(row.value) + range)));
+    body.append(make("div", { class: "row" }, make("span", {}, row.name), track, make("span", { class: "number" }, row.words ?? significant(row.value) + range)));
   }
   body.append(make("div", { class: "scale" }, make("span", {}, significant(low, 3)), make("span", {}, chart.x.label), make("span", {}, significant(high, 3))));
   return body;

@@ -13,7 +13,7 @@ function element(name: string, attributes: Record<string, string | number>): SVG
 }
 
 // A round number of millimetres, about a fifth of the width.
-function rounded(width: number): number {
+export function rounded(width: number): number {
   const size = 10 ** Math.floor(Math.log10(width / 4));
   return [5, 2, 1].map((factor) => factor * size).find((length) => length <= width / 4) ?? size;
 }

@@ -46,7 +46,7 @@ export function studies(page: Page, numbers: Numbers, views: Views): HTMLElement
     calibration(page, numbers),
     {
       title: "Axisymmetric reference",
-      about: "the model axi: axisymmetric material point method; takes minutes",
+      about: "the model axi on the mesh of the case: a second to minutes",
       path: "/api/study/run",
       body: () => ({ ...asked(), model: "axi" }),
       show: (done) => (done as Answer).rows.map((rows) => make("dl", {}, ...pairs(rows))),

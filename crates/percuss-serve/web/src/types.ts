@@ -53,7 +53,7 @@ export interface MapChart extends ChartHead {
 }
 export interface RowChart extends ChartHead {
   kind: "rows";
-  rows: { name: string; color: string; value: number; range: [number, number] | null }[];
+  rows: { name: string; color: string; value: number; range: [number, number] | null; words?: string }[];
   marks: Mark[];
 }
 export interface HistogramChart extends ChartHead {
@@ -237,6 +237,53 @@ export interface Calibrated extends Study {
     }[];
     left_out: { id: string; reason: string }[];
   };
+}
+
+// Messages of the axisymmetric answer that refines itself.
+export interface FieldQuantity { name: string; label: string; colors: string[]; bare: number }
+export interface Plan {
+  cells: number[];
+  words: string;
+  wall: string | null;
+  edge: string;
+  bodies: string[];
+  quantities: FieldQuantity[];
+  colors: { axisymmetric: string; beside: string };
+}
+export interface FrameHead {
+  cells: number;
+  number: number;
+  first: boolean;
+  dropped: number[];
+  time_us: number;
+  depth_mm: number;
+  cell_mm: number;
+  bodies: { particles: number; mass_kg: number }[];
+  scales: [number, number][];
+  ranges: [number, number][];
+  own_ranges: [number, number][];
+  view: { radius_mm: number; depth_mm: [number, number] };
+}
+export interface Refined {
+  cells: number;
+  quantity: string;
+  unit: string;
+  meshes: [number, number | null][];
+  value: number | null;
+  uncertainty: number | null;
+  headline: [string, string] | null;
+  rows: Row[];
+  reason: string | null;
+  note: string | null;
+}
+export interface RefinementMessage {
+  plan?: Plan;
+  refused?: { reason: string; remedy: string | null };
+  progress?: { cells: number; fraction: number };
+  frame?: FrameHead;
+  answer?: Refined;
+  problem?: Problem;
+  done?: true;
 }
 
 export interface Start {

@@ -14,14 +14,31 @@ test("pictures of the page", async () => {
     ["serve-phone", { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, isMobile: true, hasTouch: true }],
   ];
   for (const [name, options] of pictures) {
-    const page = await open("/", options);
+    // Without motion the last frame of the impact is shown.
+    const page = await open("/", { ...options, reducedMotion: "reduce" });
     await page.locator("#comparison-body table").waitFor();
+    await page.locator('#refined[data-meshes="4"]').waitFor({ timeout: 60_000 });
     const wider = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(wider <= 0, `${name} is ${wider} px wider than the window`);
     await page.screenshot({ path: join(folder, `${name}.png`) });
     if (process.env.WHOLE) await page.screenshot({ path: join(folder, `${name}-whole.png`), fullPage: true });
     await page.context().close();
   }
+});
+
+test("a picture of the impact", async () => {
+  const name = "serve-impact";
+  const folder = process.env.SCREENSHOTS ? resolve(root, process.env.SCREENSHOTS) : scratch;
+  const page = await open("/", { viewport: { width: 1360, height: 1100 }, reducedMotion: "reduce" });
+  await page.locator('#refined[data-meshes="4"]').waitFor({ timeout: 60_000 });
+  await page.getByLabel("Time of the impact").fill("45");
+  const boxes = [];
+  for (const figure of ["#impact", 'figure[data-chart="depth-time"]']) boxes.push(await page.locator(figure).boundingBox());
+  const [x, y] = [boxes[0].x, boxes[0].y];
+  const clip = { x, y, width: boxes[1].x + boxes[1].width - x, height: boxes[0].height };
+  await page.mouse.move(0, 0);
+  await page.screenshot({ path: join(folder, `${name}.png`), clip });
+  await page.context().close();
 });
 
 // A picture of a study of a case, once it says something.

@@ -200,7 +200,8 @@ pub struct MeshResult {
 }
 
 impl MeshResult {
-    fn new(cells_per_radius: u32, result: &RunResult) -> Self {
+    /// The numbers of a run on a mesh.
+    pub fn new(cells_per_radius: u32, result: &RunResult) -> Self {
         let value = |quantity: BandQuantity| Some(quantity.in_unit(result.measurable(quantity)?));
         let perforated = result.outcome == Outcome::Perforated;
         let numerics = result.numerics.as_ref();
@@ -272,13 +273,9 @@ pub fn answer(
             Err(error) => notes.push(format!("the run on {cells} cells failed: {error}")),
         }
     }
-    Ok(AxisymmetricAnswer::of(
-        scenario,
-        plan.reference,
-        meshes,
-        last,
-        &notes,
-    ))
+    let mut found = AxisymmetricAnswer::of(scenario, plan.reference, meshes, &notes);
+    found.finest = last.filter(|_| found.quantity.is_some()).map(Box::new);
+    Ok(found)
 }
 
 fn on_mesh(
@@ -317,22 +314,21 @@ impl AxisymmetricAnswer {
         }
     }
 
-    /// The answer of the results on meshes from coarse to fine.
-    fn of(
+    /// The answer of the results on meshes from coarse to fine; with fewer than two there are only the notes.
+    pub fn of(
         scenario: &Scenario,
         reference: ReferenceMeshes,
         meshes: Vec<MeshResult>,
-        last: Option<RunResult>,
         notes: &[String],
     ) -> Self {
         let note = (!notes.is_empty()).then(|| notes.join("; "));
         let Some(finest) = meshes.last().filter(|_| meshes.len() >= FEWEST) else {
             return Self::without(reference, note.unwrap_or_default());
         };
-        let quantity = leading(scenario, finest.outcome);
+        let quantity = main_number(scenario, finest.outcome);
         let on_meshes: Vec<OnMesh> = meshes
             .iter()
-            .filter(|mesh| leading(scenario, mesh.outcome) == quantity)
+            .filter(|mesh| main_number(scenario, mesh.outcome) == quantity)
             .filter_map(|mesh| {
                 Some(OnMesh {
                     cells: f64::from(mesh.cells_per_radius),
@@ -367,13 +363,13 @@ impl AxisymmetricAnswer {
             residual_velocity_m_s: of(BandQuantity::ResidualVelocity),
             projectile_final_length_mm: of(BandQuantity::ProjectileFinalLength),
             meshes,
-            finest: last.map(Box::new),
+            finest: None,
         }
     }
 }
 
-/// Main number of a run.
-pub(crate) fn leading(scenario: &Scenario, outcome: Outcome) -> BandQuantity {
+/// Main number of a run with an outcome.
+pub fn main_number(scenario: &Scenario, outcome: Outcome) -> BandQuantity {
     match (&scenario.target, outcome) {
         (TargetBody::RigidWall, _) => BandQuantity::ProjectileFinalLength,
         (_, Outcome::Perforated) => BandQuantity::ResidualVelocity,

@@ -139,8 +139,7 @@ fn meshes_that_disagree_on_perforation_have_no_uncertainty() {
     };
     let through = mesh(6, Outcome::Perforated, None, 40.0);
     let stopped = mesh(4, Outcome::AtRest, Some(9.0), 0.0);
-    let of =
-        |meshes| AxisymmetricAnswer::of(&scenario, ReferenceMeshes::Standard, meshes, None, &[]);
+    let of = |meshes| AxisymmetricAnswer::of(&scenario, ReferenceMeshes::Standard, meshes, &[]);
     let mixed = of(vec![
         mesh(3, Outcome::AtRest, Some(8.0), 0.0),
         stopped,

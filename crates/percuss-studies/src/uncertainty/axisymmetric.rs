@@ -87,7 +87,7 @@ pub fn correct(
     points: usize,
     progress: &mut (dyn FnMut(f64) -> ControlFlow<()> + Send),
 ) -> Result<Result<AxisymmetricSpread, String>, Error> {
-    let main = axisymmetric::leading(&study.scenario, found.nominal.outcome);
+    let main = axisymmetric::main_number(&study.scenario, found.nominal.outcome);
     let Some(number) = quantity(main.name()) else {
         return Ok(Err(format!("`axi` gives no {}", main.describe())));
     };

@@ -9,10 +9,12 @@ use percuss::{
     Error, Refusal, Scenario,
     axisymmetric::{self, AxisymmetricAnswer, BUDGET, Plan, ReferenceMeshes},
     model::DEFAULT_MODEL,
-    outcome::BandQuantity,
     summary::ResultRecord,
 };
-use percuss_report::result_rows::{Row, expected_error, number, with_uncertainty};
+use percuss_report::{
+    axisymmetric_rows::{self, listed},
+    result_rows::expected_error,
+};
 
 use super::Run;
 use crate::{
@@ -84,15 +86,6 @@ impl Wanted {
     }
 }
 
-/// `3, 4 and 6`.
-fn listed(cells: &[u32]) -> String {
-    let words: Vec<String> = cells.iter().map(u32::to_string).collect();
-    match words.as_slice() {
-        [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
-        _ => words.concat(),
-    }
-}
-
 /// The answer in the terminal: the headline of the output, with the result of the model beside it. Where there is none, the reason, and
 /// the estimated model error where `record`, which was shown, lacks it.
 pub(super) fn text(
@@ -100,7 +93,7 @@ pub(super) fn text(
     record: &ResultRecord,
     lacks_estimate: bool,
 ) -> String {
-    let Some((quantity, value)) = answer.quantity.zip(answer.value) else {
+    let Some(headline) = axisymmetric_rows::headline(answer) else {
         let reason = answer.reason.as_deref().unwrap_or_default();
         let mut text = format!(
             "\n{}",
@@ -111,20 +104,14 @@ pub(super) fn text(
         }
         return text;
     };
-    let unit = quantity.unit();
-    let shown = match answer.uncertainty {
-        Some(uncertainty) => with_uncertainty(value, uncertainty, unit),
-        None => number(value, unit),
-    };
-    let headline = format!(
-        "Axisymmetric {} {shown} ({})",
-        in_headline(quantity),
-        meshes(answer.meshes.len()),
-    );
     let mut text = format!(
         "\n{}\n{}",
-        bold(headline),
-        result_table::rows(&rows(answer, quantity, value, record))
+        bold(format!(
+            "{} ({})",
+            headline.join(" "),
+            meshes(answer.meshes.len())
+        )),
+        result_table::rows(&axisymmetric_rows::rows(answer, Some(record)))
     );
     if let Some(note) = &answer.note {
         text += &paragraph(note);
@@ -136,84 +123,5 @@ fn meshes(count: usize) -> String {
     match count {
         1 => "1 mesh".to_owned(),
         _ => format!("{count} meshes"),
-    }
-}
-
-/// Name of a main number in the headline.
-fn in_headline(quantity: BandQuantity) -> &'static str {
-    match quantity {
-        BandQuantity::DepthOfPenetration => "depth of penetration",
-        BandQuantity::ProjectileFinalLength => "final projectile length",
-        other => other.describe(),
-    }
-}
-
-fn rows(
-    answer: &AxisymmetricAnswer,
-    quantity: BandQuantity,
-    value: f64,
-    record: &ResultRecord,
-) -> Vec<Row> {
-    let mut rows = Vec::new();
-    let unit = quantity.unit();
-    let mut add = |label: &str, value: String| rows.push((label.to_owned(), value));
-    if let Some(own) = record.value(quantity) {
-        let difference = match value {
-            0.0 => String::new(),
-            _ => format!(", {:+.0} %", 100.0 * (own / value - 1.0)).replace('-', "−"),
-        };
-        let label = format!("one-dimensional ({})", record.model);
-        add(&label, format!("{}{difference}", number(own, unit)));
-    }
-    if let Some(outcome) = answer.outcome {
-        add("outcome", outcome.describe().to_owned());
-    }
-    for (label, other) in [
-        ("residual velocity", BandQuantity::ResidualVelocity),
-        (
-            "final projectile length",
-            BandQuantity::ProjectileFinalLength,
-        ),
-    ] {
-        if let Some(other_value) = finest(answer, other).filter(|_| other != quantity) {
-            add(label, number(other_value, other.unit()));
-        }
-    }
-    let cells: Vec<u32> = answer.meshes.iter().map(|m| m.cells_per_radius).collect();
-    let on_meshes: Vec<String> = answer
-        .meshes
-        .iter()
-        .map(|mesh| {
-            mesh.value(quantity)
-                .map_or("none".to_owned(), |value| number(value, ""))
-        })
-        .collect();
-    add(
-        "meshes",
-        format!(
-            "{} {unit} on {} cells per radius",
-            on_meshes.join(", "),
-            listed(&cells)
-        ),
-    );
-    add("limit", basis(answer));
-    rows
-}
-
-/// A number on the finest mesh.
-fn finest(answer: &AxisymmetricAnswer, quantity: BandQuantity) -> Option<f64> {
-    answer.meshes.last()?.value(quantity)
-}
-
-/// What the value and its uncertainty are.
-fn basis(answer: &AxisymmetricAnswer) -> String {
-    match (answer.uncertainty, answer.order) {
-        (Some(_), Some(order)) => format!(
-            "extrapolated at the observed order {order:.1}; ± is the error of the mesh alone"
-        ),
-        (Some(_), None) => {
-            "finest mesh, not extrapolated; ± is the error of the mesh alone".to_owned()
-        }
-        (None, _) => "finest mesh; the meshes differ in their outcome".to_owned(),
     }
 }
