@@ -4,6 +4,7 @@
 
 use std::{
     fs::{self, File, Permissions},
+    io::ErrorKind,
     os::unix::{
         fs::{MetadataExt, PermissionsExt},
         process::CommandExt,
@@ -320,7 +321,15 @@ fn a_folder_that_cannot_be_written_to_is_a_clear_error_and_can_be_read() {
         if root {
             command.uid(NOBODY).gid(NOBODY);
         }
-        command.output().unwrap()
+        // Another test may have started a process while the copy was open for writing.
+        loop {
+            match command.output() {
+                Err(error) if error.kind() == ErrorKind::ExecutableFileBusy => {
+                    thread::sleep(Duration::from_millis(10));
+                }
+                output => return output.unwrap(),
+            }
+        }
     };
     let before = count_blocks(&rows);
     let output = run(&["sweep.toml", "--out", "rows", "--resume"]);
