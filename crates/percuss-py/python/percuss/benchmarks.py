@@ -84,6 +84,8 @@ def benchmark(
     paper_case: Path | None = None,
     compute: bool = False,
     cells: int | None = None,
+    budget: float | None = None,
+    design: str | None = None,
     out: Path | None = None,
     progress: Progress | bool | None = None,
 ) -> Benchmark:
@@ -102,6 +104,10 @@ def benchmark(
         Whether to compute the cases that these two files lack, which takes hours. Ctrl-C keeps completed cases, and the same call continues.
     cells : int, optional
         Cells along the projectile's radius, for ``compute`` with ``reference``; 8 when not given.
+    budget : float, optional
+        Longest time of a case on one core [s], for ``compute`` with ``reference``.
+    design : str, optional
+        ``"grid"`` when not given, or ``"spread"``: other pairs of materials, L/D 1 to 20, 100 to 2500 m/s.
     out : path, optional
         Folder for the report with its figures, and the numbers, as ``percuss benchmark --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
@@ -124,4 +130,15 @@ def benchmark(
     >>> percuss.benchmark().findings[0]  # doctest: +SKIP
     '71 shots have a reference that passes its convergence check on three meshes: 65 are known within 10 %.'
     """
-    return Benchmark(execute("benchmark", reference=reference, paper_case=paper_case, compute=compute, cells=cells, out=out, progress=progress))
+    found = execute(
+        "benchmark",
+        reference=reference,
+        paper_case=paper_case,
+        compute=compute,
+        cells=cells,
+        budget=budget,
+        design=design,
+        out=out,
+        progress=progress,
+    )
+    return Benchmark(found)

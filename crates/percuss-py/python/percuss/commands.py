@@ -134,6 +134,8 @@ def compare(
     *,
     velocity: Speed | Sequence[float] | None = None,
     model: str | Sequence[str] | None = None,
+    reference: str | None = None,
+    fast: bool = False,
     out: Path | None = None,
     progress: Progress | bool | None = None,
 ) -> Comparison:
@@ -147,7 +149,11 @@ def compare(
         Impact velocities [m/s], or a value of ``--velocity`` such as ``"200..1500:27"`` or ``"experiments"``; that of the case when
         not given.
     model : str or sequence of str, optional
-        Models to compare; all except those that may take minutes when not given.
+        Models to compare; all quick ones, and ``axi`` on several meshes, when not given.
+    reference : str, optional
+        Meshes of ``axi``, ``"standard"`` or ``"fine"``; standard at one velocity within 60 s of processor time when not given.
+    fast : bool
+        Whether to leave ``axi`` out.
     out : path, optional
         Folder for a copy of the case, the numbers and the figure, as ``percuss compare --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
@@ -159,7 +165,9 @@ def compare(
     >>> [choice.model for choice in comparison.recommended[0].models]
     ['chain']
     """
-    found = execute("compare", of=case, velocity=speeds(velocity), model=several(model), out=out, progress=progress)
+    found = execute(
+        "compare", of=case, velocity=speeds(velocity), model=several(model), reference=reference, fast=fast, out=out, progress=progress
+    )
     return Comparison(found)
 
 

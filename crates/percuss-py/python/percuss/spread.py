@@ -38,6 +38,8 @@ class Uncertainty(Result):
         Number of ``runs`` without a result, which are left out, and the first few ``reasons``.
     perforation : Record or None
         ``probability`` of perforation with ``low`` and ``high``, the ends of its 95 % interval.
+    axisymmetric : Record or None
+        Mean and spread corrected by axisymmetric runs: ``mean`` with ``standard_error``, ``standard_deviation``, percentiles, ``points``.
     quantities : list of Record
         Analysis of each result: ``statistics`` with ``percentiles``, ``tornado``, and the Sobol' ``indices``.
     no_indices : str or None
@@ -59,6 +61,7 @@ class Uncertainty(Result):
     nominal: Record
     failures: Record
     perforation: Record | None
+    axisymmetric: Record | None
     quantities: list[Record]
     no_indices: str | None
     bands: list[Record]
@@ -130,6 +133,7 @@ def uncertainty(
     quantity: str | Sequence[str] | None = None,
     velocity: Speed | Sequence[float] | None = None,
     no_indices: bool = False,
+    axisymmetric: int | None = None,
     threads: int | None = None,
     out: Path | None = None,
     progress: Progress | bool | None = None,
@@ -153,6 +157,8 @@ def uncertainty(
         Impact speeds of bands [m/s], or what ``--velocity`` takes, such as ``"150..400:6"``; no bands when not given.
     no_indices : bool
         Whether to leave out the Sobol' indices, which take most of the shots.
+    axisymmetric : int, optional
+        Number of samples that the axisymmetric model runs on to correct mean and spread, 4 to 256.
     threads : int, optional
         Threads; as many as there are cores when not given. The numbers do not depend on it.
     out : path, optional
@@ -191,6 +197,7 @@ def uncertainty(
         quantity=several(quantity),
         velocity=speeds(velocity),
         no_indices=no_indices,
+        axisymmetric=axisymmetric,
         threads=threads,
         out=out,
         progress=progress,
