@@ -18,6 +18,8 @@ async function redrawn(page, chart, before) {
 test("a chart is zoomed by a rectangle, and a double click shows all of it again", async () => {
   const page = await open();
   const chart = page.locator('figure[data-chart="depth-time"]');
+  // The impact, which comes later, moves the charts.
+  await page.locator('#refined[data-meshes="4"]').waitFor({ timeout: 60_000 });
   const whole = await pixels(page, "depth-time");
   const box = await chart.locator(".u-over").boundingBox();
   const at = (x, y) => [box.x + x * box.width, box.y + y * box.height];

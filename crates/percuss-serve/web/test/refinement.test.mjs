@@ -9,7 +9,7 @@ import { answered, complaints, open, paperCase, program, root, serve } from "./s
 const LIMIT = { timeout: 60_000 };
 const impact = (page) => page.locator("#impact");
 const told = (page, name) => impact(page).evaluate((element, key) => Number(element.dataset[key]), name);
-const refined = (page, meshes) => page.waitForFunction((n) => document.querySelector("#refined").dataset.meshes === String(n) && !document.querySelector("#refined.stale"), meshes, LIMIT);
+const refined = (page, meshes) => page.waitForFunction((n) => Number(document.querySelector("#refined").dataset.meshes) >= n && !document.querySelector("#refined.stale"), meshes, LIMIT);
 const slider = (page) => page.getByLabel("Time of the impact");
 const picture = (page) => impact(page).locator("canvas").evaluate((canvas) => canvas.toDataURL());
 const spoken = (text) => text.replaceAll(/\s+/g, " ");
