@@ -8,6 +8,7 @@ mod pressure_dependent;
 mod pressurised;
 mod rigid_motion;
 mod shell_collapse;
+mod unresolved;
 mod wave_speed;
 
 use std::f64::consts::PI;
