@@ -8,7 +8,7 @@ use std::{
 
 use percuss::{
     Scenario,
-    axisymmetric::{self, AxisymmetricAnswer, ReferenceMeshes},
+    axisymmetric::{AxisymmetricAnswer, ReferenceMeshes, Request},
     model::{self, Control, Progress},
     outcome::RunResult as Computed,
     summary::CaseResults,
@@ -109,13 +109,13 @@ fn axisymmetric_answer(
     meshes: ReferenceMeshes,
     progress: Option<&Py<PyAny>>,
 ) -> PyResult<AxisymmetricAnswer> {
-    let plan = match axisymmetric::plan(scenario, meshes, None) {
-        Ok(plan) => plan,
-        Err(refusal) => return Ok(AxisymmetricAnswer::without(meshes, refusal.to_string())),
+    let request = Request {
+        meshes,
+        budget: None,
     };
     run_monitored(py, progress, |state| {
         let mut report = |fraction: f64| state.on_progress(fraction, "axisymmetric runs");
-        Ok(axisymmetric::answer(scenario, &plan, &mut report)?)
+        Ok(request.answer(scenario, &mut report)?)
     })
 }
 

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use crate::{
     Error, Scenario,
-    axisymmetric::{self, Request},
+    axisymmetric::Request,
     model::{self, Control, Model},
     outcome::Band,
     regime::Regime,
@@ -156,17 +156,10 @@ fn axisymmetric_record(
     regime: &Regime,
     report: &mut (dyn FnMut(f64) -> ControlFlow<()> + Send),
 ) -> Result<ResultRecord, Error> {
-    let without = |reason: String| {
-        let error = Error::not_applicable(AXI, reason);
-        Ok(ResultRecord::without_result(scenario, AXI, &error))
-    };
-    let plan = match axisymmetric::plan(scenario, request.meshes, request.budget) {
-        Ok(plan) => plan,
-        Err(refusal) => return without(refusal.to_string()),
-    };
-    let answer = axisymmetric::answer(scenario, &plan, report)?;
+    let answer = request.answer(scenario, report)?;
     let Some((quantity, finest)) = answer.quantity.zip(answer.finest) else {
-        return without(answer.reason.unwrap_or_default());
+        let error = Error::not_applicable(AXI, answer.reason.unwrap_or_default());
+        return Ok(ResultRecord::without_result(scenario, AXI, &error));
     };
     let band = answer.value.zip(answer.uncertainty);
     let band = band.map(|(value, uncertainty)| Band {

@@ -5,7 +5,7 @@ use std::{collections::BTreeSet, ops::ControlFlow};
 use super::{Sweep, SweepRun};
 use crate::{
     Error,
-    axisymmetric::{AxisymmetricAnswer, ReferenceMeshes, answer, plan, seconds},
+    axisymmetric::{AxisymmetricAnswer, ReferenceMeshes, Request, plan, seconds},
     model::{self, Control},
     outcome::BandQuantity,
     summary::ResultRecord,
@@ -65,10 +65,7 @@ impl Sweep {
         let (found, record) = match scenario {
             Err(reason) => (without(reason), None),
             Ok(scenario) => {
-                let found = match plan(&scenario, ReferenceMeshes::default(), None) {
-                    Ok(plan) => answer(&scenario, &plan, progress)?,
-                    Err(refusal) => without(refusal.to_string()),
-                };
+                let found = Request::default().answer(&scenario, progress)?;
                 let own = model::run(self.model, &scenario, &mut Control::default()).ok();
                 (found, own.map(|own| ResultRecord::new(&scenario, &own)))
             }

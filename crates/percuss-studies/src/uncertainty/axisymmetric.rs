@@ -21,7 +21,7 @@ use super::{
 };
 use crate::{
     Error,
-    axisymmetric::{self, AxisymmetricAnswer, ReferenceMeshes},
+    axisymmetric::{AxisymmetricAnswer, ReferenceMeshes, Request, main_number},
     statistics::{mean, quantile, sorted, variance},
     summary::ResultNumber,
     sweep::SweepRun,
@@ -87,7 +87,7 @@ pub fn correct(
     points: usize,
     progress: &mut (dyn FnMut(f64) -> ControlFlow<()> + Send),
 ) -> Result<Result<AxisymmetricSpread, String>, Error> {
-    let main = axisymmetric::main_number(&study.scenario, found.nominal.outcome);
+    let main = main_number(&study.scenario, found.nominal.outcome);
     let Some(number) = quantity(main.name()) else {
         return Ok(Err(format!("`axi` gives no {}", main.describe())));
     };
@@ -170,15 +170,13 @@ fn answer_of(
     draw: &Draw,
     progress: &mut (dyn FnMut(f64) -> ControlFlow<()> + Send),
 ) -> Result<AxisymmetricAnswer, Error> {
-    let meshes = ReferenceMeshes::default();
     let run = SweepRun::new(&study.template, &study.axes, 0, draw.inputs.clone(), &[]);
-    let scenario = match run.scenario {
-        Ok(scenario) => scenario,
-        Err(reason) => return Ok(AxisymmetricAnswer::without(meshes, reason)),
-    };
-    match axisymmetric::plan(&scenario, meshes, None) {
-        Ok(plan) => axisymmetric::answer(&scenario, &plan, progress),
-        Err(refusal) => Ok(AxisymmetricAnswer::without(meshes, refusal.to_string())),
+    match run.scenario {
+        Ok(scenario) => Request::default().answer(&scenario, progress),
+        Err(reason) => Ok(AxisymmetricAnswer::without(
+            ReferenceMeshes::default(),
+            reason,
+        )),
     }
 }
 

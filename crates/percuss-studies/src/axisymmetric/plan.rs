@@ -1,0 +1,132 @@
+//! Meshes of an axisymmetric answer, chosen by their cost.
+
+use std::ops::ControlFlow;
+
+use serde::Serialize;
+
+use super::{AxisymmetricAnswer, MODEL, answer, seconds};
+use crate::{Error, Refusal, Scenario, model};
+
+/// Meshes of an axisymmetric answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ReferenceMeshes {
+    /// 3, 4 and 6 cells along the projectile's radius: about a second for a short rod.
+    #[default]
+    Standard,
+    /// 6, 8 and 12 cells: eight times the cost.
+    Fine,
+}
+
+impl ReferenceMeshes {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Standard, Self::Fine];
+
+    /// Name on the command line and in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Standard => "standard",
+            Self::Fine => "fine",
+        }
+    }
+
+    /// The meshes of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|meshes| meshes.name() == name)
+    }
+
+    /// Cells along the projectile's radius, from coarse to fine.
+    pub fn cells(self) -> [u32; 3] {
+        match self {
+            Self::Standard => [3, 4, 6],
+            Self::Fine => [6, 8, 12],
+        }
+    }
+}
+
+/// Runs of an axisymmetric answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Meshes that are asked for.
+    pub reference: ReferenceMeshes,
+    /// Cells along the projectile's radius of the meshes that are run, from coarse to fine.
+    pub cells: Vec<u32>,
+    /// Reason why that is not all of them.
+    pub note: Option<String>,
+}
+
+/// Plans the runs of a case: all meshes, or without the finest where all would cost more than `budget` [s of processor time].
+///
+/// # Errors
+/// The reason why there is no answer: `axi` does not apply, or the coarser meshes alone cost more than the budget.
+pub fn plan(
+    scenario: &Scenario,
+    reference: ReferenceMeshes,
+    budget: Option<f64>,
+) -> Result<Plan, Refusal> {
+    let axi = model::model(MODEL).map_err(|error| Refusal::new(error.to_string()))?;
+    model::applicability(axi, scenario)?;
+    let all = reference.cells();
+    let cost = |cells: &[u32]| cells.iter().map(|&n| seconds(scenario, n)).sum::<f64>();
+    let whole = cost(&all);
+    let within = |cost: f64| budget.is_none_or(|budget| cost <= budget);
+    let remedy = format!("`--reference {}` computes them", reference.name());
+    if within(whole) {
+        return Ok(Plan {
+            reference,
+            cells: all.to_vec(),
+            note: None,
+        });
+    }
+    let [coarser @ .., finest] = &all;
+    let expected = |seconds: f64| format!("about {} of processor time", in_words(seconds));
+    if within(cost(coarser)) {
+        return Ok(Plan {
+            reference,
+            cells: coarser.to_vec(),
+            note: Some(format!(
+                "the mesh of {finest} cells is left out: all meshes take {}; {remedy}",
+                expected(whole)
+            )),
+        });
+    }
+    Err(Refusal::new(format!("the runs take {}", expected(whole))).with_remedy(remedy))
+}
+
+/// A time as `90 s`, `5 min` or `2 h`.
+fn in_words(seconds: f64) -> String {
+    match seconds {
+        ..120.0 => format!("{seconds:.0} s"),
+        ..7200.0 => format!("{:.0} min", seconds / 60.0),
+        _ => format!("{:.0} h", seconds / 3600.0),
+    }
+}
+
+/// Axisymmetric answer that a study asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Request {
+    /// Meshes.
+    pub meshes: ReferenceMeshes,
+    /// Largest processor time of an answer [s]: above it the finest mesh, or the answer, is left out.
+    pub budget: Option<f64>,
+}
+
+impl Request {
+    /// The answer of a case; where there is none, its reason. `progress` as in [`answer`].
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub fn answer(
+        &self,
+        scenario: &Scenario,
+        progress: &mut (dyn FnMut(f64) -> ControlFlow<()> + Send),
+    ) -> Result<AxisymmetricAnswer, Error> {
+        match plan(scenario, self.meshes, self.budget) {
+            Ok(plan) => answer(scenario, &plan, progress),
+            Err(refusal) => Ok(AxisymmetricAnswer::without(
+                self.meshes,
+                refusal.to_string(),
+            )),
+        }
+    }
+}
