@@ -1,27 +1,20 @@
 //! Streamed responses: lines of JSON with the progress, the last one with the result. A disconnected client cancels the run.
 
 use axum::{
-    body::{Body, Bytes},
-    http::StatusCode,
+    body::Bytes,
     response::{IntoResponse, Response},
 };
 use serde::Serialize;
 use serde_json::{Value, json};
-use tokio::{
-    sync::mpsc::{self, Sender},
-    task,
-};
+use tokio::sync::mpsc::Sender;
 
 use crate::{
-    http,
     job::{Stop, Workers},
     problem::Problem,
+    stream,
 };
 
-/// Largest number of queued lines; further progress is left out.
-const WAITING: usize = 8;
-
-/// Sender of progress to a client.
+/// Sender of progress to a client; what finds the queue full is left out.
 pub(crate) struct EventSender(Sender<Bytes>);
 
 impl EventSender {
@@ -37,7 +30,7 @@ impl EventSender {
     }
 }
 
-fn line_of(value: &impl Serialize) -> Bytes {
+fn line_of(value: &Value) -> Bytes {
     // Every response has text keys and can be serialised.
     let mut line = serde_json::to_vec(value).unwrap_or_default();
     line.push(b'\n');
@@ -53,27 +46,16 @@ pub(crate) async fn respond<T: Serialize>(
         Ok(place) => place,
         Err(problem) => return problem.into_response(),
     };
-    let stop = Stop::after(workers.bounds().time());
-    let (sender, receiver) = mpsc::channel(WAITING);
-    let last = sender.clone();
-    let computed = task::spawn_blocking(move || {
-        let _place = place;
-        let events = EventSender(sender);
-        work(&stop, &events).map(|done| line_of(&json!({ "done": done })))
-    });
-    task::spawn(async move {
-        let line = match computed.await {
-            Ok(Ok(line)) => line,
-            Ok(Err(problem)) => line_of(&json!({ "problem": problem })),
-            Err(_) => line_of(&json!({ "problem": Problem::fault() })),
-        };
-        // A disconnected client needs no response.
-        let _ = last.send(line).await;
-    });
-    http::respond(
-        StatusCode::OK,
+    stream::respond(
+        workers,
         "application/x-ndjson",
-        Body::new(http::Chunks(receiver)),
+        line_of,
+        move |sender, stop| {
+            let _place = place;
+            let done = work(&stop, &EventSender(sender))?;
+            // Every result has text keys and can be serialised.
+            Ok(serde_json::to_value(done).unwrap_or_default())
+        },
     )
 }
 

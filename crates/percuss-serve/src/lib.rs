@@ -32,6 +32,7 @@ mod refinement;
 mod request;
 mod response;
 mod server;
+mod stream;
 mod study;
 
 pub use limits::RequestLimits;

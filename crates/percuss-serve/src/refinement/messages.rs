@@ -6,31 +6,25 @@
 use std::{cell::RefCell, ops::ControlFlow, thread, time::Duration};
 
 use axum::{
-    body::{Body, Bytes},
-    http::StatusCode,
+    body::Bytes,
     response::{IntoResponse, Response},
 };
 use serde::Serialize;
-use serde_json::json;
-use tokio::{
-    sync::mpsc::{self, Sender, error::TrySendError},
-    task,
-};
+use serde_json::Value;
+use tokio::sync::mpsc::{Sender, error::TrySendError};
 
 use crate::{
-    http,
     job::{BackgroundPlace, Stop, Workers},
     problem::Problem,
+    stream,
 };
 
-/// Largest number of queued messages; a computation waits for a client that reads more slowly.
-const WAITING: usize = 8;
 /// Time between two attempts to queue a message.
 const ATTEMPT: Duration = Duration::from_millis(2);
 /// Multiple of bytes at which a body begins.
 const ALIGNMENT: usize = 4;
 
-/// Sender of messages to a client.
+/// Sender of messages to a client; a computation waits for one that reads more slowly.
 pub(super) struct MessageSender {
     sender: Sender<Bytes>,
     stop: Stop,
@@ -102,29 +96,19 @@ pub(super) async fn respond(
         Ok(place) => place,
         Err(problem) => return problem.into_response(),
     };
-    let stop = Stop::after(workers.bounds().time());
-    let (sender, receiver) = mpsc::channel(WAITING);
-    let last = sender.clone();
-    let computed = task::spawn_blocking(move || {
-        work(&MessageSender {
-            sender,
-            stop,
-            place: RefCell::new(place),
-        })
-    });
-    task::spawn(async move {
-        let end = match computed.await {
-            Ok(Ok(())) => json!({ "done": true }),
-            Ok(Err(problem)) => json!({ "problem": problem }),
-            Err(_) => json!({ "problem": Problem::fault() }),
-        };
-        // A disconnected client needs no response.
-        let _ = last.send(message(&end, &[])).await;
-    });
-    http::respond(
-        StatusCode::OK,
+    let end = |value: &Value| message(value, &[]);
+    stream::respond(
+        workers,
         "application/octet-stream",
-        Body::new(http::Chunks(receiver)),
+        end,
+        move |sender, stop| {
+            work(&MessageSender {
+                sender,
+                stop,
+                place: RefCell::new(place),
+            })?;
+            Ok(Value::Bool(true))
+        },
     )
 }
 
