@@ -250,37 +250,25 @@ linear = { from = '150 m/s', to = '400 m/s', count = 10 }
         let cells = |line: &str| line.split(',').map(str::to_owned).collect();
         text.lines().map(cells).collect()
     };
-    let said = sweep(
-        &folder,
-        &["few.toml", "--out", "rows", "--axisymmetric", "1"],
-    );
+    let asked = |count: &'static str| ["few.toml", "--out", "rows", "--axisymmetric", count];
+    let resumed = |count| [&asked(count)[..], &["--resume"]].concat();
+    let said = sweep(&folder, &[&asked("1")[..], &["--shard", "1/2"]].concat());
+    assert_eq!(said.code, 2);
     assert!(
-        said.code == 0
-            && said
-                .stderr
-                .starts_with("note: 1 axisymmetric answer, about "),
+        said.stderr
+            .contains("`--axisymmetric` needs the whole sweep"),
         "{}",
         said.stderr
     );
-    let text = said.stdout;
-    assert!(
-        flat(&text).contains("axisymmetric answers of 1 run"),
-        "{text}"
-    );
+    let said = sweep(&folder, &asked("1"));
+    assert_eq!(said.code, 0);
+    let note = "note: 1 axisymmetric answer, about ";
+    assert!(said.stderr.starts_with(note), "{}", said.stderr);
+    let text = flat(&said.stdout);
+    assert!(text.contains("axisymmetric answers of 1 run"), "{text}");
     let first = rows();
     assert_eq!(first.len(), 2);
-    ok(
-        &folder,
-        &[
-            "few.toml",
-            "--out",
-            "rows",
-            "--resume",
-            "--axisymmetric",
-            "2",
-            "--quiet",
-        ],
-    );
+    ok(&folder, &[&resumed("2")[..], &["--quiet"]].concat());
     let both = rows();
     assert_eq!(both.len(), 3);
     assert!(both.contains(&first[1]), "{both:?}");
@@ -293,17 +281,7 @@ linear = { from = '150 m/s', to = '400 m/s', count = 10 }
         assert_eq!(row[column("quantity")], "depth_of_penetration_mm");
     }
     fs::write(folder.path().join("rows/axisymmetric.csv"), "a,b\n1,2\n").unwrap();
-    let said = sweep(
-        &folder,
-        &[
-            "few.toml",
-            "--out",
-            "rows",
-            "--resume",
-            "--axisymmetric",
-            "2",
-        ],
-    );
+    let said = sweep(&folder, &resumed("2"));
     assert_eq!(said.code, 2);
     assert!(
         said.stderr

@@ -79,15 +79,8 @@ fn columns() -> Vec<Column<Entry>> {
             e.record.outcome.describe().to_owned()
         }),
     ];
-    for (name, quantity) in [
-        ("depth_of_penetration_mm", BandQuantity::DepthOfPenetration),
-        ("residual_velocity_m_s", BandQuantity::ResidualVelocity),
-        ("ballistic_limit_m_s", BandQuantity::BallisticLimit),
-        (
-            "projectile_final_length_mm",
-            BandQuantity::ProjectileFinalLength,
-        ),
-    ] {
+    for &quantity in BandQuantity::ALL {
+        let name = quantity.name();
         columns.push(Column::optional(name, move |e: &Entry| {
             e.record.value(quantity)
         }));

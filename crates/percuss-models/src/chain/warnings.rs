@@ -85,7 +85,7 @@ pub(super) fn warnings_of_cavity(
     } else if depth > 0.0 {
         warnings.push(
             "the depth rests on the target resistance model `expanding-cavity`: no constant of it is fitted, but its form was selected \
-             on the benchmark cases that its model error is estimated from"
+             on the grid of the benchmark, a part of the cases that its model error is estimated from"
                 .to_owned(),
         );
     }

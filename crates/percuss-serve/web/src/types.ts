@@ -84,7 +84,7 @@ export interface Result {
   reason: string | null;
   warnings: string[];
   band: { quantity: string; low: number; high: number; basis: string } | null;
-  expected_error: Record<string, number> | null;
+  expected_error: { median: number; low: number; high: number; cases: number; outside: boolean } | null;
   [quantity: string]: unknown;
 }
 

@@ -147,9 +147,15 @@ impl Sweep {
     }
 
     fn compute(&self, file: &Path, out: &Path) -> Result<(), Failure> {
+        let (part, parts) = self.shard;
+        if self.axisymmetric.is_some() && parts > 1 {
+            return Err(Failure::Usage {
+                message: "`--axisymmetric` needs the whole sweep, not a part of it".to_owned(),
+                help: "leave out --shard, or --axisymmetric".to_owned(),
+            });
+        }
         let sweep = sweep::Sweep::load(file)?;
         let folder = SweepFolder::open(out, &sweep, self.resume)?;
-        let (part, parts) = self.shard;
         let missing = folder.missing(part, parts);
         let count = |blocks: &mut dyn Iterator<Item = u64>| -> u64 {
             blocks.map(|block| folder.manifest().shots_in(block)).sum()
@@ -186,10 +192,10 @@ impl Sweep {
             });
         }
         let answers = match self.axisymmetric {
-            Some(count) if part == 1 => {
+            Some(count) => {
                 pool.install(|| axisymmetric::compute(&sweep, out, count, &stop, self.quiet))?
             }
-            _ => String::new(),
+            None => String::new(),
         };
         if self.quiet {
             return Ok(());

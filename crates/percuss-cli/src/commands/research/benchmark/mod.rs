@@ -84,7 +84,12 @@ pub struct Benchmark {
     #[arg(value_parser = clap::value_parser!(u32).range(2..=64))]
     cells: u32,
     /// Leave out cases that take longer than this on one core [s], for --compute with --reference
-    #[arg(long, value_name = "SECONDS", requires = "compute")]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        requires = "compute",
+        allow_negative_numbers = true
+    )]
     #[arg(value_parser = positive)]
     budget: Option<f64>,
     /// Cases: the grid of the tables and figures, or other pairs of materials spread over L/D 1 to 20 and 100 to 2500 m/s
