@@ -248,7 +248,7 @@ Energy errors are of the code's own sum, relative to the impact energy; a dash w
 const STRAIN_RATE: &str = "
 ## Strain rate of rate-dependent laws
 
-With strain rate, the rod of NairnMPM is 0.5 to 1.3 % longer than that of `axi`; without, 0.0 to 0.3 %. Both use the equivalent plastic strain rate
+With strain rate, the rod of NairnMPM is 0.2 to 1.3 % longer than that of `axi`; without, 0.0 to 0.3 %. Both use the equivalent plastic strain rate
 `√(2/3 D_p:D_p)` of the step.
 
 **The measure is right in both.** In homogeneous compression and in shear at a constant rate, the stress of percuss is the closed form
