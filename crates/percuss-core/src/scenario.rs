@@ -174,6 +174,14 @@ impl Scenario {
             .any(|calibrated| calibrated.sources.iter().any(|key| key == source))
     }
 
+    /// Boundary condition of the target's rear face, where it has one.
+    pub fn rear_face(&self) -> Option<RearFaceCondition> {
+        match &self.target {
+            TargetBody::Layers { back_face, .. } => Some(*back_face),
+            _ => None,
+        }
+    }
+
     /// Thickness of all layers together [m]; `None` for a semi-infinite target, a wall or a constant pressure.
     pub fn target_thickness(&self) -> Option<f64> {
         match &self.target {

@@ -37,6 +37,11 @@ const fn of_formula(model: &'static str, shot: [&'static str; 2]) -> Try {
     }
 }
 
+const PLATE: [&str; 2] = [
+    "material = 'tool-steel-hrc53', length = '20 mm', diameter = '20 mm', impact_velocity = '500 m/s'",
+    "material = 'weldox-460-e', thickness = '12 mm', back_face = 'free'",
+];
+
 const TRIES: [Try; 10] = [
     Try {
         shot: THICK,
@@ -63,13 +68,13 @@ const TRIES: [Try; 10] = [
         options: "",
     },
     Try {
-        shot: ROD,
+        shot: PLATE,
         model: "axi",
         table: "axi",
-        options: "cells_per_radius = 3\nend_time = '4 us'",
+        options: "cells_per_radius = 3\nend_time = '40 us'",
     },
     Try {
-        shot: ROD,
+        shot: PLATE,
         model: "axi",
         table: "axi",
         options: "end_time = '0.2 us'",

@@ -48,6 +48,48 @@ fn step_through(
     Ok(square.sqrt())
 }
 
+/// A blunt or round projectile against a plate of Weldox 460 E by `axi`.
+fn weldox(nose: &str, speed: f64, cells: u32, axi: &str) -> RunResult {
+    let text = format!(
+        r#"
+        projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", nose = "{nose}", impact_velocity = "{speed} m/s" }}
+        target = {{ material = "weldox-460-e", thickness = "12 mm", back_face = "free" }}
+        axi = {{ cells_per_radius = {cells}, {axi} }}
+        "#
+    );
+    run("axi", &case::load_str("weldox", &text).unwrap())
+}
+
+#[test]
+fn a_band_of_its_own_width_makes_the_residual_velocity_independent_of_the_mesh() {
+    let residual = |nose, cells, axi| {
+        let result = weldox(nose, 300.0, cells, axi);
+        assert_eq!(result.outcome, Outcome::Perforated);
+        result.residual_velocity.unwrap()
+    };
+    let blunt = [5, 8, 11].map(|cells| residual("flat", cells, ""));
+    let round = [8, 11].map(|cells| residual("hemisphere", cells, ""));
+    // In bands as wide as the cells, the mesh decides whether the plate is perforated at all.
+    let whole = [
+        (5, "band_width = \"2 mm\""),
+        (11, "band_width = \"0.909 mm\""),
+    ]
+    .map(|(cells, axi)| weldox("flat", 300.0, cells, axi).outcome);
+    assert_eq!(whole, [Outcome::Rebounded, Outcome::Perforated]);
+    println!("blunt {blunt:.1?} m/s, round {round:.1?}");
+    for velocity in blunt {
+        assert!((velocity / blunt[2] - 1.0).abs() < 0.05);
+    }
+    assert!((round[0] / round[1] - 1.0).abs() < 0.2);
+}
+
+#[test]
+fn a_plate_that_dishes_beyond_its_thickness_and_holds_is_not_perforated() {
+    let result = weldox("flat", 200.0, 5, "");
+    assert!(result.largest_depth.unwrap() > 12e-3);
+    assert_eq!(result.outcome, Outcome::Rebounded);
+}
+
 #[test]
 fn a_cone_goes_through_as_its_equation_of_motion_says() {
     let outline = |x: f64| (x / 3.0, 1.0 / 3.0);

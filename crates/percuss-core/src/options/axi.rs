@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     check::{Check, Limits, limits},
-    problem::Target,
+    problem::{RearFaceCondition, Target},
     units::{Length, Pressure, Time},
 };
 
@@ -47,6 +47,8 @@ pub struct AxiOptions {
     pub heat_fraction: Option<f64>,
     /// Whether damage accumulates with plastic strain, by the constants of the material's record.
     pub damage: Option<bool>,
+    /// Width of the band in which localized strain makes damage grow [m].
+    pub band_width: Option<Length>,
     /// Equivalent plastic strain at which material loses its strength in shear and tension; never when not given.
     pub failure_strain: Option<f64>,
     /// Equivalent plastic strain at which material is taken out; never when not given.
@@ -126,12 +128,12 @@ defaults! { AxiOptions, axi_in_schema {
     adiabatic_heating: bool = true;
     /// Fraction of plastic work that becomes heat.
     heat_fraction: f64 = 0.9;
-    /// Whether damage accumulates with plastic strain.
-    damage: bool = false;
-    /// Whether material that fails is taken out.
-    erode_failed: bool = false;
+    /// Width of the band in which localized strain makes damage grow.
+    band_width: Length = Length::new(0.25e-3);
     /// Time steps after which a run is ended.
     max_steps: u64 = MAX_STEPS;
+    depending damage: "`true` where the rear face of the target is free, otherwise `false`";
+    depending erode_failed: "`true` where the rear face of the target is free and damage accumulates, otherwise `false`";
     depending spall: "`false`, and `true` where `spall_strength` is given";
 } }
 
@@ -141,9 +143,21 @@ impl AxiOptions {
         self.spall.unwrap_or(self.spall_strength.is_some())
     }
 
+    /// Whether damage accumulates.
+    pub fn damages(&self, rear_face: Option<RearFaceCondition>) -> bool {
+        self.damage
+            .unwrap_or(rear_face == Some(RearFaceCondition::Free))
+    }
+
+    /// Whether material that fails is taken out.
+    pub fn erodes_failed(&self, rear_face: Option<RearFaceCondition>) -> bool {
+        let from_plate = rear_face == Some(RearFaceCondition::Free) && self.damages(rear_face);
+        self.erode_failed.unwrap_or(from_plate)
+    }
+
     /// Whether anything makes material fail.
-    pub fn can_fail(&self) -> bool {
-        self.damage == Some(true) || self.failure_strain.is_some() || self.spalls()
+    pub fn can_fail(&self, rear_face: Option<RearFaceCondition>) -> bool {
+        self.damages(rear_face) || self.failure_strain.is_some() || self.spalls()
     }
 
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
@@ -174,6 +188,7 @@ impl AxiOptions {
         for (key, length) in [
             ("target_radius", self.target_radius),
             ("target_depth", self.target_depth),
+            ("band_width", self.band_width),
         ] {
             if let Some(length) = length {
                 check.quantity(key, length, limits::LENGTH);
@@ -193,11 +208,11 @@ impl AxiOptions {
         if self.max_steps == Some(0) {
             check.fail("max_steps", "0 steps is out of range", "allowed: 1 or more");
         }
-        self.check_effect(check, target.is_solid());
+        self.check_effect(check, target);
     }
 
     /// Reports keys that would have no effect.
-    fn check_effect(&self, check: &mut Check<'_>, target_is_solid: bool) {
+    fn check_effect(&self, check: &mut Check<'_>, target: &Target) {
         let of_target = [
             ("target_radius", self.target_radius.is_some()),
             ("target_depth", self.target_depth.is_some()),
@@ -207,7 +222,7 @@ impl AxiOptions {
         ];
         for (key, _) in of_target
             .iter()
-            .filter(|(_, given)| *given && !target_is_solid)
+            .filter(|(_, given)| *given && !target.is_solid())
         {
             check.fail(
                 key,
@@ -236,8 +251,14 @@ impl AxiOptions {
                 of_two,
             ),
             (
+                "band_width",
+                self.band_width.is_some() && !self.damages(target.back_face),
+                "where damage does not accumulate",
+                "remove the key, or add `damage = true`",
+            ),
+            (
                 "erode_failed",
-                self.erode_failed == Some(true) && !self.can_fail(),
+                self.erode_failed == Some(true) && !self.can_fail(target.back_face),
                 "where nothing fails",
                 "remove the key, or give `damage`, `failure_strain` or `spall`",
             ),

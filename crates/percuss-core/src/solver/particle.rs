@@ -34,6 +34,8 @@ pub struct Particle {
     pub energy: f64,
     /// Damage: 0 sound, 1 failed, without strength in shear and tension.
     pub damage: f64,
+    /// Part of its plastic strain that is localized in its row of cells: 0 where strain is even, 1 where it is in this row alone.
+    pub localization: f64,
     /// Width and height of its section before the impact [m].
     pub sides: [f64; 2],
 }

@@ -3,6 +3,7 @@
 use super::{
     field::{Field, Strip},
     law::Law,
+    localization::localize,
     mesh::Mesh,
 };
 use crate::solver::Particle;
@@ -121,6 +122,9 @@ impl Body {
             (depth, radius)
         };
         self.particles.sort_by_cached_key(cell);
+        if self.law.damage.is_some() {
+            localize(&mut self.particles, cell);
+        }
         let mut chunks = vec![Chunk::default()];
         let groups = self.particles.chunk_by(|a, b| cell(a) == cell(b));
         for group in groups {

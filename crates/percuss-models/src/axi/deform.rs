@@ -138,7 +138,7 @@ impl Law {
         if self.can_fail() {
             for (l, place) in members.iter() {
                 let particle = &mut particles[place];
-                failure[l] = self.fail(particle, increments[l], time_step);
+                failure[l] = self.fail(particle, increments[l], cell[l], time_step);
                 for (entry, value) in block.deviator.iter_mut().zip(particle.deviator) {
                     entry[l] = value;
                 }

@@ -1,6 +1,6 @@
 //! End of a run, and its outcome.
 
-use super::solver::Grid;
+use super::{opening::is_open, solver::Grid};
 use crate::{
     outcome::{Outcome, Termination},
     scenario::Scenario,
@@ -19,6 +19,8 @@ const FREE_FRACTION: f64 = 1e-3;
 pub(super) struct Window {
     /// Whether the crater floor passed the original rear face.
     pub(super) perforated: bool,
+    /// Whether nothing at the axis hung on the rest of the target any more when that was looked at.
+    open: bool,
     start: f64,
     dissipation: f64,
     depth: f64,
@@ -56,7 +58,10 @@ impl Window {
         self.speed = speed;
         // A plate that dishes carries the crater floor past its original rear face and may throw the projectile back.
         if self.perforated && speed > 0.0 {
-            return (slowing <= FREE_FRACTION).then_some(Termination::LeftTarget);
+            self.open = self.open || has_opened(grid, 0.5 * rod.diameter);
+            if self.open {
+                return (slowing <= FREE_FRACTION).then_some(Termination::LeftTarget);
+            }
         }
         // What still rings changes neither depth nor length.
         let over = monitor.at_rest.is_some() && !deepening && flow <= QUIET_FRACTION;
@@ -83,7 +88,7 @@ impl Window {
             return Outcome::ProjectileEroded;
         }
         let ratio = projectile.momentum / (projectile.mass * impact_velocity);
-        if self.perforated && ratio > REST_FRACTION {
+        if self.open && ratio > REST_FRACTION {
             return Outcome::Perforated;
         }
         if matches!(termination, Termination::EndTime | Termination::StepLimit)
@@ -97,4 +102,12 @@ impl Window {
             Outcome::AtRest
         }
     }
+}
+
+/// Whether every layer of the target is open.
+fn has_opened(grid: &Grid, projectile_radius: f64) -> bool {
+    let layers = &grid.bodies[1..];
+    layers
+        .iter()
+        .all(|layer| is_open(layer, &grid.mesh, projectile_radius))
 }

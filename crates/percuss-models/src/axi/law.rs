@@ -33,6 +33,8 @@ pub(super) struct Law {
     pub(super) spall_strength: Option<f64>,
     /// How plastic strain uses a particle up.
     pub(super) damage: Option<PreparedDamage>,
+    /// Width of the band that localized strain is in [m].
+    pub(super) band_width: f64,
     /// Equivalent plastic strain at which a particle fails.
     pub(super) failure_strain: Option<f64>,
     /// Whether a particle that fails leaves the body.
@@ -70,11 +72,19 @@ impl Law {
     }
 
     /// Failure in shear and in tension: what a particle that fails gives up counts as failure work [J].
-    pub(super) fn fail(&self, particle: &mut Particle, increment: f64, time_step: f64) -> f64 {
+    pub(super) fn fail(
+        &self,
+        particle: &mut Particle,
+        increment: f64,
+        cell: f64,
+        time_step: f64,
+    ) -> f64 {
         if particle.has_failed() {
             return 0.0;
         }
         if let Some(law) = self.damage.filter(|_| increment > 0.0) {
+            let increment =
+                increment * (1.0 + particle.localization * (cell / self.band_width - 1.0));
             let strain_rate = if self.rate_effects {
                 increment / time_step
             } else {

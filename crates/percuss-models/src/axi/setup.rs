@@ -119,6 +119,7 @@ fn expected_depth(scenario: &Scenario, layers: &[Plate]) -> f64 {
 
 fn law(material: &Material, scenario: &Scenario) -> Law {
     let options = &scenario.options.axi;
+    let rear_face = scenario.rear_face();
     let heated = options.adiabatic_heating();
     let fraction = if heated { options.heat_fraction() } else { 0.0 };
     let state = match options.equation_of_state() {
@@ -145,10 +146,11 @@ fn law(material: &Material, scenario: &Scenario) -> Law {
         damage: material
             .damage
             .as_ref()
-            .filter(|_| options.damage == Some(true))
+            .filter(|_| options.damages(rear_face))
             .map(|damage| damage.prepare(material)),
+        band_width: options.band_width().si(),
         failure_strain: options.failure_strain,
-        erode_failed: options.erode_failed == Some(true),
+        erode_failed: options.erodes_failed(rear_face),
         erosion_strain: options.erosion_strain,
         axisymmetric: true,
     }

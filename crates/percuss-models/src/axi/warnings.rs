@@ -4,10 +4,7 @@ use super::{
     run::{Axisymmetric, materials},
     setup::extent,
 };
-use crate::{
-    Scenario, material::Material, outcome::RunResult, problem::RearFaceCondition,
-    scenario::TargetBody,
-};
+use crate::{Scenario, material::Material, outcome::RunResult, problem::RearFaceCondition};
 
 /// Part of the energy lost between particles and grid that deserves a word.
 const TRANSFER: f64 = 0.1;
@@ -20,14 +17,7 @@ fn holds_a_plate(scenario: &Scenario) -> bool {
     let thin = scenario
         .target_thickness()
         .is_some_and(|thickness| thickness < PLATE * scenario.projectile.diameter);
-    let held = matches!(
-        scenario.target,
-        TargetBody::Layers {
-            back_face: RearFaceCondition::Fixed,
-            ..
-        }
-    );
-    thin && held
+    thin && scenario.rear_face() == Some(RearFaceCondition::Fixed)
 }
 
 /// Ids of the case's materials of a kind, each once.
@@ -78,6 +68,19 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
         );
     }
     let options = &run.scenario.options.axi;
+    let free = run.scenario.rear_face() == Some(RearFaceCondition::Free);
+    let mut cannot_fail: Vec<&str> = materials(run.scenario)
+        .skip(1)
+        .filter(|(material, _)| material.damage.is_none())
+        .map(|(_, id)| id)
+        .collect();
+    cannot_fail.dedup();
+    if free && options.damage.is_none() && !options.can_fail(None) && !cannot_fail.is_empty() {
+        warnings.push(format!(
+            "perforation by stretching and thinning alone, which takes more energy than failure: no `damage` in the record of {}. Give it, or `axi.failure_strain`",
+            cannot_fail.join(", ")
+        ));
+    }
     for (asked, what, lacks) in [
         (
             options.damage == Some(true),

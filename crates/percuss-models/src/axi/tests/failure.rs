@@ -75,6 +75,32 @@ fn a_particle_fails_at_the_strain_of_its_stress_triaxiality() {
     }
 }
 
+#[test]
+fn localized_strain_uses_a_particle_up_as_in_a_band_of_its_own_width() {
+    let cell = 1.0;
+    let law = Law {
+        band_width: 0.25 * cell,
+        ..steel()
+    };
+    let exact = D1 + D2;
+    for (localization, times) in [(0.0, 1.0), (0.5, 2.5), (1.0, 4.0)] {
+        let mut particle = Particle {
+            mass: law.density,
+            volume: 1.0,
+            localization,
+            ..Particle::default()
+        };
+        let mut strain = 0.0;
+        while !particle.has_failed() {
+            particle.deviator = [-FLOW_STRESS / 3.0, 2.0 / 3.0 * FLOW_STRESS, 0.0];
+            law.fail(&mut particle, 1e-4, cell, 1e-6);
+            strain += 1e-4;
+        }
+        println!("localized {localization}: fails at {strain:.4}");
+        assert!((strain * times - exact).abs() < 1e-4 * times);
+    }
+}
+
 /// A bar whose halves fly apart at 200 and 100 m/s, until it is in two.
 fn torn(erode_failed: bool) -> Grid {
     const LENGTH: f64 = 20e-3;

@@ -3,6 +3,7 @@
 mod contact;
 mod failure;
 mod load;
+mod opening;
 mod outgoing;
 mod pressure_dependent;
 mod pressurised;
@@ -84,6 +85,7 @@ impl Solid {
             spall_strength: None,
             damage: None,
             failure_strain: None,
+            band_width: 0.25e-3,
             erode_failed: false,
             erosion_strain: None,
             axisymmetric: true,
