@@ -178,6 +178,7 @@ def limit(
     tolerance: Speed | None = None,
     points: int | None = None,
     model: str | Sequence[str] | None = None,
+    reference: str | None = None,
     shots: Path | None = None,
     span: Speed | None = None,
     out: Path | None = None,
@@ -197,6 +198,8 @@ def limit(
         Residual velocities to compute above the limit; 12 when not given.
     model : str or sequence of str, optional
         Models to search with; all except those that may take minutes when not given.
+    reference : str, optional
+        ``"standard"`` or ``"fine"``: meshes on which ``axi`` is searched with too; ``axisymmetric`` then has the limit of fine meshes.
     shots : path, optional
         CSV file of tests with the columns ``impact_velocity_m_s`` and ``perforated``.
     span : float or str, optional
@@ -221,6 +224,7 @@ def limit(
         tolerance=with_unit(tolerance),
         points=points,
         model=several(model),
+        reference=reference,
         shots=shots,
         span=with_unit(span),
         out=out,

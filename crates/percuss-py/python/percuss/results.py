@@ -165,6 +165,8 @@ class Limits(Result):
         Recommended ``model`` and the reason (``because``); may be empty. ``note`` has remarks.
     range : Record or None
         ``lowest_m_s`` and ``highest_m_s`` of the ``models`` that predict a limit.
+    axisymmetric : Record or None
+        ``ballistic_limit_m_s`` by ``axi`` in the limit of fine meshes, its ``uncertainty_m_s`` and the ``meshes``, where asked for.
     experiments : list of Record
         Measured values.
     results : list of Record

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::{
     ModelLimit, Observer, Progress, Search,
     run_results::{self, LimitRun},
-    search::{INTERVALS, Passage, Sample, search},
+    search::{Passage, Sample, search},
 };
 use crate::{
     Error, Scenario,
@@ -22,6 +22,17 @@ use crate::{
 /// Part of the limit by which the curve of residual velocities goes beyond it.
 const BEYOND: f64 = 1.5;
 
+/// Intervals of the range at whose ends runs are tried before the bracket is narrowed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scan(u32);
+
+impl Scan {
+    /// Of a range in which little is known.
+    pub(super) const WHOLE: Self = Self(16);
+    /// Of a range in which the limit is expected.
+    pub(super) const COARSE: Self = Self(4);
+}
+
 /// Searches by every model; the entries stand in the order of the models.
 pub(super) fn run(
     models: &[&dyn Model],
@@ -29,36 +40,51 @@ pub(super) fn run(
     search: &Search,
     observer: &mut Observer<'_>,
 ) -> Result<Vec<ModelLimit>, Error> {
-    let planned = planned_runs(search);
-    let board = Mutex::new(Board {
-        planned,
-        models: vec![(0, 0.0); models.len()],
-        stopped: false,
+    let board = Mutex::new(Board::new(
+        models.len(),
+        planned_runs(search, Scan::WHOLE),
         observer,
-    });
+    ));
+    let job = |index: usize| Job {
+        model: models[index],
+        index,
+        scenario,
+        search,
+        scan: Scan::WHOLE,
+        board: &board,
+    };
     (0..models.len())
         .into_par_iter()
-        .map(|index| {
-            let job = Job {
-                model: models[index],
-                index,
-                scenario,
-                search,
-                board: &board,
-            };
-            let entry = job.entry()?;
-            job.tell(|(runs, part)| (runs, part.max(planned as f64)))?;
-            Ok(entry)
-        })
+        .map(|index| job(index).finish())
         .collect()
 }
 
+/// Searches by one model.
+pub(super) fn run_one(
+    model: &dyn Model,
+    scenario: &Scenario,
+    search: &Search,
+    scan: Scan,
+    observer: &mut Observer<'_>,
+) -> Result<ModelLimit, Error> {
+    let board = Mutex::new(Board::new(1, planned_runs(search, scan), observer));
+    let job = Job {
+        model,
+        index: 0,
+        scenario,
+        search,
+        scan,
+        board: &board,
+    };
+    job.finish()
+}
+
 /// Runs that a model takes that finds its limit.
-fn planned_runs(search: &Search) -> usize {
+fn planned_runs(search: &Search, scan: Scan) -> usize {
     let range = search.range;
-    let interval = (range.to - range.from) / f64::from(INTERVALS);
+    let interval = (range.to - range.from) / f64::from(scan.0);
     let halvings = (interval / search.tolerance.at(0.5 * range.to)).log2();
-    INTERVALS as usize + 1 + halvings.ceil().max(0.0) as usize + search.points
+    scan.0 as usize + 1 + halvings.ceil().max(0.0) as usize + search.points
 }
 
 /// One model's search.
@@ -67,10 +93,19 @@ struct Job<'a, 'b, 'c> {
     index: usize,
     scenario: &'a Scenario,
     search: &'a Search,
+    scan: Scan,
     board: &'a Mutex<Board<'b, 'c>>,
 }
 
 impl Job<'_, '_, '_> {
+    /// The entry, after which all planned runs count as done.
+    fn finish(&self) -> Result<ModelLimit, Error> {
+        let entry = self.entry()?;
+        let planned = planned_runs(self.search, self.scan);
+        self.tell(|(runs, part)| (runs, part.max(planned as f64)))?;
+        Ok(entry)
+    }
+
     fn entry(&self) -> Result<ModelLimit, Error> {
         if let Some((outcome, reason)) = run_results::unsuited(self.model, self.scenario) {
             return Ok(run_results::without_limit(
@@ -83,9 +118,12 @@ impl Job<'_, '_, '_> {
             let runs = self.curve_above(input.ballistic_limit_m_s)?;
             return Ok(run_results::input_entry(self.model.name(), input, &runs));
         }
-        let mut samples = search(self.search.range, self.search.tolerance, &|velocity| {
-            self.shoot(velocity)
-        })?;
+        let mut samples = search(
+            self.search.range,
+            self.search.tolerance,
+            self.scan.0,
+            &|velocity| self.shoot(velocity),
+        )?;
         let runs = match run_results::limit_of(&samples) {
             Some(limit) => self.curve_above(limit)?,
             None => Vec::new(),
@@ -103,8 +141,8 @@ impl Job<'_, '_, '_> {
             self.model
                 .input_limit(&self.scenario.at_impact_velocity(velocity))
         };
-        let part = |i: u32| f64::from(i) / f64::from(INTERVALS);
-        let first = (1..=INTERVALS).find_map(|i| at(self.search.range.at(part(i))))?;
+        let part = |i: u32| f64::from(i) / f64::from(self.scan.0);
+        let first = (1..=self.scan.0).find_map(|i| at(self.search.range.at(part(i))))?;
         Some(at(first.ballistic_limit_m_s).unwrap_or(first))
     }
 
@@ -194,7 +232,16 @@ struct Board<'a, 'b> {
     observer: &'a mut Observer<'b>,
 }
 
-impl Board<'_, '_> {
+impl<'a, 'b> Board<'a, 'b> {
+    fn new(models: usize, planned: usize, observer: &'a mut Observer<'b>) -> Self {
+        Self {
+            planned,
+            models: vec![(0, 0.0); models],
+            stopped: false,
+            observer,
+        }
+    }
+
     fn report(&mut self) -> ControlFlow<()> {
         if self.stopped {
             return ControlFlow::Break(());

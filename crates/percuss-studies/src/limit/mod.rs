@@ -14,6 +14,7 @@
 //! # Ok::<(), percuss::Error>(())
 //! ```
 
+mod axisymmetric;
 mod expected;
 mod fit;
 mod jobs;
@@ -32,12 +33,14 @@ use serde::Serialize;
 use crate::{
     Error, Scenario,
     analytic::InputLimit,
+    axisymmetric::ReferenceMeshes,
     compare::{Choice, ExperimentRecord},
     model::Model,
     outcome::BandQuantity,
 };
 
 pub use crate::compare::{Observer, Progress};
+pub use axisymmetric::{AxisymmetricLimit, LimitOnMesh};
 pub use expected::ExpectedLimitError;
 pub use fit::{LambertJonasFit, fit_lambert_jonas};
 pub use rear_face::{RearFace, with_free_rear_face};
@@ -86,6 +89,8 @@ pub struct Search {
     pub tolerance: Tolerance,
     /// Residual velocities to compute above the limit; none for 0.
     pub points: usize,
+    /// Meshes on which the axisymmetric model is searched with, beside the models.
+    pub reference: Option<ReferenceMeshes>,
 }
 
 impl Default for Search {
@@ -97,6 +102,7 @@ impl Default for Search {
             },
             tolerance: Tolerance::Absolute(0.1),
             points: 12,
+            reference: None,
         }
     }
 }
@@ -202,6 +208,8 @@ pub struct Limits {
     pub note: Option<String>,
     /// Range of the limits that models predict; null where none does.
     pub range: Option<LimitRange>,
+    /// Limit by the axisymmetric model in the limit of fine meshes; null where it was not asked for.
+    pub axisymmetric: Option<AxisymmetricLimit>,
     /// What was measured.
     pub experiments: Vec<ExperimentRecord>,
     /// One entry per model, in their order.
@@ -219,6 +227,9 @@ pub struct LimitRange {
     pub models: usize,
 }
 
+/// Part of the time of a study with axisymmetric runs that the other models take.
+const ONE_DIMENSIONAL: f64 = 0.02;
+
 /// Searches for the ballistic limit of a case by these models, on all cores.
 ///
 /// The rear face of a plate is free unless the case gives another one; behind a fixed one perforation is impossible. A model that
@@ -234,12 +245,33 @@ pub fn limits(
 ) -> Result<Limits, Error> {
     let free = with_free_rear_face(scenario);
     let scenario = free.as_ref().unwrap_or(scenario);
-    let mut results = jobs::run(models, scenario, search, observer)?;
+    // Runs of one-dimensional models and formulae take no time beside those of the axisymmetric model.
+    let share = match search.reference {
+        Some(_) => ONE_DIMENSIONAL,
+        None => 1.0,
+    };
+    let mut report = axisymmetric::part_of(observer, 0, [0.0, share]);
+    let mut first = Observer {
+        progress: Some(&mut report),
+    };
+    let mut results = jobs::run(models, scenario, search, &mut first)?;
+    drop(report);
     for (model, entry) in models.iter().zip(&mut results) {
         let limit = entry.ballistic_limit_m_s;
         let expected = limit.map(|limit| expected::expected_error(*model, scenario, limit));
         entry.expected_error = expected.flatten();
     }
+    let axisymmetric = search
+        .reference
+        .map(|meshes| {
+            let runs = results.iter().map(|entry| entry.runs).sum();
+            let mut report = axisymmetric::part_of(observer, runs, [share, 1.0]);
+            let mut rest = Observer {
+                progress: Some(&mut report),
+            };
+            axisymmetric::on_meshes(scenario, meshes, search, &mut rest)
+        })
+        .transpose()?;
     let (recommended, note) = recommended::recommended(models, scenario, &results);
     Ok(Limits {
         case: scenario.name.clone(),
@@ -249,6 +281,7 @@ pub fn limits(
         recommended,
         note,
         range: LimitRange::of(&results),
+        axisymmetric,
         experiments: ExperimentRecord::all(scenario),
         results,
     })

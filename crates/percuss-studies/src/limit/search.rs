@@ -5,8 +5,6 @@ use rayon::prelude::*;
 use super::{Range, Tolerance};
 use crate::Error;
 
-/// Intervals of the range at whose ends runs are tried before the bracket is narrowed.
-pub(super) const INTERVALS: u32 = 16;
 /// Bound on the runs that narrow a bracket: twice what the precision of a velocity can ask for.
 const MOST_RUNS: usize = 100;
 
@@ -42,11 +40,12 @@ pub(super) type Samples<T> = Vec<Sample<T>>;
 pub(super) fn search<T: Send>(
     range: Range,
     tolerance: Tolerance,
+    intervals: u32,
     shoot: &(dyn Fn(f64) -> Result<Sample<T>, Error> + Sync),
 ) -> Result<Samples<T>, Error> {
-    let mut samples: Samples<T> = (0..=INTERVALS)
+    let mut samples: Samples<T> = (0..=intervals)
         .into_par_iter()
-        .map(|i| shoot(range.at(f64::from(i) / f64::from(INTERVALS))))
+        .map(|i| shoot(range.at(f64::from(i) / f64::from(intervals))))
         .collect::<Result<_, _>>()?;
     for _ in 0..MOST_RUNS {
         let Some(velocity) = next_velocity(&samples, tolerance) else {
@@ -94,7 +93,7 @@ mod tests {
             from: 0.0,
             to: 1600.0,
         };
-        search(range, Tolerance::Absolute(0.5), &|velocity| {
+        search(range, Tolerance::Absolute(0.5), 16, &|velocity| {
             Ok(Sample {
                 velocity,
                 passage: passage(velocity),
@@ -141,7 +140,7 @@ mod tests {
                 run: None::<()>,
             })
         };
-        let samples = search(range, Tolerance::Relative(0.01), &shoot).unwrap();
+        let samples = search(range, Tolerance::Relative(0.01), 16, &shoot).unwrap();
         let (low, high) = velocities(&samples).unwrap();
         assert!(high - low <= 4.04 && high - low > 1.0);
     }

@@ -180,3 +180,64 @@ fn the_first_choice_at_its_own_limit_is_recommended() {
     let note = sheet.note.unwrap();
     assert!(note.contains("no model is the first choice"), "{note}");
 }
+
+/// The second and third mesh are searched about the limit of the one before, and progress counts on.
+#[test]
+fn the_axisymmetric_limit_has_three_meshes_and_an_uncertainty() {
+    let disc = scenario(
+        r#"
+        projectile = { material = "tool-steel-hrc53", length = "10 mm", diameter = "20 mm", impact_velocity = "300 m/s" }
+        target = { material = "weldox-460-e", thickness = "5 mm" }
+        axi = { target_radius = "30 mm" }
+        "#,
+    );
+    let search = Search {
+        tolerance: Tolerance::Relative(0.03),
+        reference: Some(ReferenceMeshes::Standard),
+        ..search(100.0, 900.0, 0)
+    };
+    let mut last = Progress {
+        finished: 0,
+        total: 0,
+        fraction: 0.0,
+    };
+    let mut rises = true;
+    let mut report = |now: Progress| {
+        rises &= now.fraction >= last.fraction - 1e-12 && now.finished >= last.finished;
+        last = now;
+        std::ops::ControlFlow::Continue(())
+    };
+    let mut observer = Observer {
+        progress: Some(&mut report),
+    };
+    let found = limits(&[&Plugging], &disc, &search, &mut observer).unwrap();
+    let limit = found.axisymmetric.unwrap();
+    println!("{limit:?}");
+    assert!(rises && (last.fraction - 1.0).abs() < 1e-9);
+    let cells: Vec<u32> = limit.meshes.iter().map(|m| m.cells_per_radius).collect();
+    assert_eq!(cells, [3, 4, 6]);
+    assert!(limit.meshes[0].runs > limit.meshes[2].runs);
+    let runs: usize = limit.meshes.iter().map(|mesh| mesh.runs).sum();
+    assert_eq!(last.finished, runs + found.results[0].runs);
+    for mesh in &limit.meshes {
+        let bracket = mesh.bracket.unwrap();
+        let width = bracket.perforated_m_s - bracket.stopped_m_s;
+        assert!(width <= 0.03 * bracket.perforated_m_s && width > 0.0);
+    }
+    let (value, uncertainty) = (
+        limit.ballistic_limit_m_s.unwrap(),
+        limit.uncertainty_m_s.unwrap(),
+    );
+    assert!((150.0..850.0).contains(&value) && uncertainty > 0.01 * value);
+    // Without a plate there is a reason.
+    let thick = scenario(
+        r#"
+        projectile = { material = "copper", length = "10 mm", diameter = "5 mm", impact_velocity = "300 m/s" }
+        target = { material = "aluminium-2024-t351", thickness = "semi-infinite" }
+        "#,
+    );
+    let none = limits(&[&Plugging], &thick, &search, &mut Observer::default()).unwrap();
+    let none = none.axisymmetric.unwrap();
+    assert_eq!(none.ballistic_limit_m_s, None);
+    assert!(none.reason.unwrap().contains("no rear face"), "a reason");
+}

@@ -8,7 +8,9 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
-    Scenario, case,
+    Scenario,
+    axisymmetric::ReferenceMeshes,
+    case,
     limit::{self, LimitOutcome, Limits, Observer, Range, Search, Tolerance},
     model::MODELS,
     v50::{self, Test, V50},
@@ -35,6 +37,11 @@ Jonas, v_r = a (v^p - v_bl^p)^(1/p), is fitted to them. The output gives the
 reason where a model does not apply or has no limit in the range. A model that
 may take minutes, such as `axi`, runs only when --model names it.
 
+With --reference standard the axisymmetric model `axi` is searched with on 3, 4
+and 6 cells per radius, with --reference fine on 6, 8 and 12. Its limit is
+extrapolated to fine meshes and printed first, with its discretisation
+uncertainty.
+
 The rear face of a plate is free unless the case gives `target.back_face`;
 behind a fixed one perforation is impossible. The recommended model is marked
 with ★, and the errors of the models on published limits of the same kind are
@@ -58,6 +65,7 @@ Examples:
   percuss limit my-case/scenario.toml
   percuss limit my-case/scenario.toml --velocity 100..400 --tolerance \"0.2 %\"
   percuss limit my-case/scenario.toml --model plugging --out results
+  percuss limit my-case/scenario.toml --velocity 100..400 --reference fine
   percuss limit --shots tests.csv
 
 Exit codes: 0 ok, 2 bad input or no model applies, 4 a file could not be read or
@@ -87,6 +95,10 @@ pub struct Limit {
     #[arg(long, value_name = "COUNT", default_value = "12")]
     #[arg(value_parser = values::points, allow_hyphen_values = true)]
     points: u16,
+    /// Search with `axi` on these meshes too, and give the limit of fine meshes with its uncertainty
+    #[arg(long, value_name = "MESHES", requires = "case")]
+    #[arg(value_parser = PossibleValuesParser::new(ReferenceMeshes::ALL.map(ReferenceMeshes::name)))]
+    reference: Option<String>,
     /// CSV file of tests with partial or complete penetration
     #[arg(long, value_name = "FILE.csv")]
     shots: Option<PathBuf>,
@@ -198,6 +210,7 @@ impl Limit {
             range: self.velocity,
             tolerance: self.tolerance,
             points: usize::from(self.points),
+            reference: self.reference.as_deref().and_then(ReferenceMeshes::named),
         };
         let mut report = |now: limit::Progress| {
             let words = format!("{} runs", now.finished);
@@ -265,8 +278,9 @@ fn stem(path: &Path) -> String {
 /// Whether every model is inapplicable or failed; partial or complete penetration in the whole range is a result.
 fn no_model_applies(limits: &Limits) -> bool {
     let silent = [LimitOutcome::NotApplicable, LimitOutcome::Failed];
-    limits
-        .results
-        .iter()
-        .all(|limit| silent.contains(&limit.outcome))
+    let meshes = limits.axisymmetric.iter().flat_map(|limit| &limit.meshes);
+    let results = limits.results.iter().map(|limit| limit.outcome);
+    results
+        .chain(meshes.map(|mesh| mesh.outcome))
+        .all(|outcome| silent.contains(&outcome))
 }

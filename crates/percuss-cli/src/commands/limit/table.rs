@@ -6,7 +6,10 @@ use percuss::{
     units::significant,
     v50::{Estimate, Method, Pattern, V50},
 };
-use percuss_report::table::{Table, number};
+use percuss_report::{
+    result_rows::with_uncertainty,
+    table::{Table, number},
+};
 
 use super::{reliance, values};
 use crate::{
@@ -32,7 +35,7 @@ pub fn head(scenario: &Scenario, limits: &Limits, tolerance: Tolerance) -> Strin
 /// Table of limits, warnings, and models without a limit.
 pub fn text(limits: &Limits) -> String {
     let found: Vec<&ModelLimit> = limits.results.iter().filter(|l| is_found(l)).collect();
-    let mut text = String::new();
+    let mut text = axisymmetric(limits);
     if found.is_empty() {
         text += "no model finds a limit in this range\n\n";
     } else {
@@ -55,6 +58,56 @@ pub fn text(limits: &Limits) -> String {
             text += &format!("  {}\n", wrap(&reason, width() - 2, 4));
         }
         text.push('\n');
+    }
+    text
+}
+
+/// Limit by the axisymmetric model, and what its meshes gave.
+fn axisymmetric(limits: &Limits) -> String {
+    let Some(limit) = &limits.axisymmetric else {
+        return String::new();
+    };
+    let mut text = match limit.ballistic_limit_m_s {
+        Some(value) => {
+            let uncertainty = limit.uncertainty_m_s.unwrap_or(0.0);
+            let shown = with_uncertainty(value, uncertainty, "m/s");
+            let beside = limits.measured().map_or_else(String::new, |(measured, _)| {
+                format!(
+                    ", {:+.1} % from the measured {} m/s",
+                    100.0 * (value / measured - 1.0),
+                    significant(measured, 4)
+                )
+            });
+            format!(
+                "{}{beside}\n",
+                bold(format!("Axisymmetric ballistic limit {shown}"))
+            )
+        }
+        None => paragraph(&format!(
+            "no axisymmetric ballistic limit: {}",
+            limit.reason.as_deref().unwrap_or("no reason given")
+        )),
+    };
+    let table = Table::of(&limit.meshes)
+        .numbers("cells per\nradius", "", |mesh| {
+            mesh.cells_per_radius.to_string()
+        })
+        .numbers("ballistic\nlimit", "m/s", |mesh| {
+            number(mesh.ballistic_limit_m_s, 4)
+        })
+        .numbers("highest\npartial", "m/s", |mesh| {
+            number(mesh.bracket.map(|bracket| bracket.stopped_m_s), 4)
+        })
+        .numbers("lowest\ncomplete", "m/s", |mesh| {
+            number(mesh.bracket.map(|bracket| bracket.perforated_m_s), 4)
+        })
+        .numbers("runs", "", |mesh| mesh.runs.to_string());
+    text += &blocks(&table.table());
+    for warning in &limit.warnings {
+        text += &format!(
+            "{}\n",
+            terminal::warning(&format!("axi on the finest mesh: {warning}"))
+        );
     }
     text
 }
@@ -169,7 +222,19 @@ pub fn lines(limits: &Limits) -> String {
             value(limit.input_limit.map(|input| input.ballistic_limit_m_s)),
         )
     };
-    limits.results.iter().map(line).collect()
+    let axisymmetric = limits.axisymmetric.iter().map(|limit| {
+        format!(
+            "axisymmetric.ballistic_limit_m_s={} axisymmetric.uncertainty_m_s={}\n",
+            value(limit.ballistic_limit_m_s),
+            value(limit.uncertainty_m_s)
+        )
+    });
+    limits
+        .results
+        .iter()
+        .map(line)
+        .chain(axisymmetric)
+        .collect()
 }
 
 /// V50 of tests by every method.

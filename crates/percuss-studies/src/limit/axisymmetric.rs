@@ -1,0 +1,196 @@
+//! Ballistic limit by the axisymmetric model on successively finer meshes.
+
+use std::ops::ControlFlow;
+
+use serde::Serialize;
+
+use super::{
+    Bracket, LimitOutcome, ModelLimit, Observer, Progress, Range, Search,
+    jobs::{self, Scan},
+};
+use crate::{
+    Error, Scenario,
+    axisymmetric::{ReferenceMeshes, limit, seconds},
+    model::{self, Model},
+    richardson::OnMesh,
+};
+
+/// Part of the limit of the mesh before, to either side, that a finer mesh is searched in first.
+const NEIGHBOURHOOD: f64 = 0.1;
+
+/// Ballistic limit by `axi` in the limit of fine meshes. The names are stable.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AxisymmetricLimit {
+    /// Meshes that were asked for.
+    pub reference: ReferenceMeshes,
+    /// Why there is no limit, if there is none.
+    pub reason: Option<String>,
+    /// Ballistic limit [m/s].
+    pub ballistic_limit_m_s: Option<f64>,
+    /// Half width of its discretisation uncertainty [m/s]. The error of models and data of the materials is not part of it.
+    pub uncertainty_m_s: Option<f64>,
+    /// Observed order of convergence, where the limit is extrapolated.
+    pub order: Option<f64>,
+    /// What the meshes gave, from coarse to fine.
+    pub meshes: Vec<LimitOnMesh>,
+    /// Limitations of the numbers.
+    pub warnings: Vec<String>,
+}
+
+/// Ballistic limit on one mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LimitOnMesh {
+    /// Cells along the projectile's radius.
+    pub cells_per_radius: u32,
+    /// What the search came to.
+    pub outcome: LimitOutcome,
+    /// Middle of the bracket [m/s].
+    pub ballistic_limit_m_s: Option<f64>,
+    /// The bracket.
+    pub bracket: Option<Bracket>,
+    /// Runs that were computed.
+    pub runs: usize,
+}
+
+/// Searches on each mesh: the coarsest across the whole range, the others about the limit of the one before.
+pub(super) fn on_meshes(
+    scenario: &Scenario,
+    reference: ReferenceMeshes,
+    search: &Search,
+    observer: &mut Observer<'_>,
+) -> Result<AxisymmetricLimit, Error> {
+    let axi = model::model("axi")?;
+    let cells = reference.cells();
+    let costs = cells.map(|cells| seconds(scenario, cells));
+    let whole: f64 = costs.iter().sum();
+    let mut found: Vec<(u32, ModelLimit)> = Vec::new();
+    let mut before = 0.0;
+    for (cells, cost) in cells.into_iter().zip(costs) {
+        let mut scenario = scenario.clone();
+        scenario.options.axi.cells_per_radius = Some(cells);
+        let runs = found.iter().map(|(_, entry)| entry.runs).sum();
+        let last = found
+            .last()
+            .and_then(|(_, entry)| entry.ballistic_limit_m_s);
+        let share = [before, before + cost].map(|seconds| seconds / whole);
+        let entry = on_mesh(axi, &scenario, search, last, observer, (runs, share))?;
+        before += cost;
+        found.push((cells, entry));
+    }
+    Ok(of_meshes(reference, &found))
+}
+
+/// Reports the progress of a part of a study, after some runs, as the share of the whole that it is.
+pub(super) fn part_of<'a>(
+    observer: &'a mut Observer<'_>,
+    runs: usize,
+    [from, to]: [f64; 2],
+) -> impl FnMut(Progress) -> ControlFlow<()> + Send + 'a {
+    move |now| match &mut observer.progress {
+        Some(progress) => progress(Progress {
+            finished: runs + now.finished,
+            fraction: from + (to - from) * now.fraction,
+            ..now
+        }),
+        None => ControlFlow::Continue(()),
+    }
+}
+
+/// The search on a mesh, about the limit of another one if that is known. Before it `runs` were computed, and it is the `share` from one
+/// part of the whole to another.
+fn on_mesh(
+    axi: &dyn Model,
+    scenario: &Scenario,
+    search: &Search,
+    last: Option<f64>,
+    observer: &mut Observer<'_>,
+    (runs, [from, to]): (usize, [f64; 2]),
+) -> Result<ModelLimit, Error> {
+    let mut run = |range: Range, scan: Scan, runs: usize, share: [f64; 2]| {
+        let search = Search {
+            range,
+            points: 0,
+            ..*search
+        };
+        let mut report = part_of(observer, runs, share);
+        let mut observer = Observer {
+            progress: Some(&mut report),
+        };
+        jobs::run_one(axi, scenario, &search, scan, &mut observer)
+    };
+    let Some(last) = last else {
+        return run(search.range, Scan::WHOLE, runs, [from, to]);
+    };
+    let near = Range {
+        from: search.range.from.max(last * (1.0 - NEIGHBOURHOOD)),
+        to: search.range.to.min(last * (1.0 + NEIGHBOURHOOD)),
+    };
+    // Where the neighbourhood has no limit, the whole range takes most of the time.
+    let middle = 0.7 * from + 0.3 * to;
+    let entry = run(near, Scan::COARSE, runs, [from, middle])?;
+    if entry.outcome == LimitOutcome::Found {
+        let done = Progress {
+            finished: entry.runs,
+            total: entry.runs,
+            fraction: 1.0,
+        };
+        return match part_of(observer, runs, [from, to])(done) {
+            ControlFlow::Continue(()) => Ok(entry),
+            ControlFlow::Break(()) => Err(Error::Cancelled {
+                step: 0,
+                time_us: 0.0,
+            }),
+        };
+    }
+    let spent = entry.runs;
+    let mut entry = run(search.range, Scan::WHOLE, runs + spent, [middle, to])?;
+    entry.runs += spent;
+    Ok(entry)
+}
+
+/// The limit of the meshes that have one.
+fn of_meshes(reference: ReferenceMeshes, found: &[(u32, ModelLimit)]) -> AxisymmetricLimit {
+    let values: Vec<OnMesh> = found
+        .iter()
+        .filter_map(|(cells, entry)| {
+            Some(OnMesh {
+                cells: f64::from(*cells),
+                value: entry.ballistic_limit_m_s?,
+            })
+        })
+        .collect();
+    let widths = found.iter().filter_map(|(_, entry)| entry.bracket);
+    let width = widths.map(|bracket| bracket.perforated_m_s - bracket.stopped_m_s);
+    let resolution = 0.5 * width.fold(0.0, f64::max);
+    let whole = found.len() == values.len();
+    let limit = limit(&values, 0.0, resolution).filter(|_| whole);
+    let reason = || {
+        let lacking = found.iter().find(|(_, e)| e.ballistic_limit_m_s.is_none());
+        let (cells, entry) = lacking?;
+        Some(format!(
+            "{} on {cells} cells: {}",
+            entry.outcome.describe(),
+            entry.reason.as_deref().unwrap_or_default()
+        ))
+    };
+    AxisymmetricLimit {
+        reference,
+        reason: if limit.is_some() { None } else { reason() },
+        ballistic_limit_m_s: limit.map(|limit| limit.value),
+        uncertainty_m_s: limit.map(|limit| limit.uncertainty),
+        order: limit.and_then(|limit| limit.order),
+        meshes: found
+            .iter()
+            .map(|(cells, entry)| LimitOnMesh {
+                cells_per_radius: *cells,
+                outcome: entry.outcome,
+                ballistic_limit_m_s: entry.ballistic_limit_m_s,
+                bracket: entry.bracket,
+                runs: entry.runs,
+            })
+            .collect(),
+        warnings: found
+            .last()
+            .map_or_else(Vec::new, |(_, entry)| entry.warnings.clone()),
+    }
+}
