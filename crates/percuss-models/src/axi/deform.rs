@@ -1,13 +1,13 @@
 //! Constitutive update of a block of particles from its velocity gradients.
 
 use super::{
-    block::{Block, Members},
+    block::Block,
     law::{Law, Pressure},
 };
 use crate::{
-    lanes::{Lanes, each_of, lanes, one},
-    material::Trial,
-    solver::{Particle, equivalent},
+    lanes::{LANES, Lanes, each_of, lanes, one},
+    material::{Hardening, Trial, YieldPoint, first_return},
+    solver::equivalent,
 };
 
 /// Rate, per unit of strain, at which the pressures of a group come together.
@@ -38,12 +38,10 @@ impl Work {
 }
 
 impl Law {
-    /// Brings particles, whose velocity gradients are new in their block, to the end of a step, and stores the block in them.
+    /// Brings particles, whose velocity gradients are new, to the end of a step.
     #[inline(always)]
     pub(super) fn deform(
         &self,
-        particles: &mut [Particle],
-        members: &Members,
         block: &mut Block,
         rates: &Rates,
         time_step: f64,
@@ -75,28 +73,34 @@ impl Law {
         });
         let size = lanes(|l| equivalent(&one(&trial, l)));
         let mean_volume = lanes(|l| 0.5 * (volume_before[l] + volume[l]));
-        let mut plastic: Lanes = Lanes::all(0.0);
-        let mut increments: Lanes = Lanes::all(0.0);
-        for (l, place) in members.iter() {
-            let particle = &mut particles[place];
-            if particle.has_failed() {
-                for entry in &mut trial {
-                    entry[l] = 0.0;
-                }
-            } else if !particle.yield_point.holds(size[l]) {
-                let before = particle.yield_point.stress();
-                let increment = self.flow(particle, size[l], time_step);
-                // Without flow the stress stays as it is; one of 0 has no direction to return along.
-                if increment > 0.0 {
-                    let after = size[l] - 3.0 * self.shear_modulus * increment;
-                    let scale = 1.0 - 3.0 * self.shear_modulus * increment / size[l];
-                    for entry in &mut trial {
-                        entry[l] *= scale;
-                    }
-                    plastic[l] = 0.5 * (before.min(after) + after) * increment * mean_volume[l];
-                    increments[l] = increment;
-                }
+        let mut flows = [false; LANES];
+        for l in 0..LANES {
+            let has_failed = block.damage[l] >= 1.0;
+            for entry in &mut trial {
+                entry[l] = if has_failed { 0.0 } else { entry[l] };
             }
+            let is_elastic = size[l] <= block.elastic_to[l];
+            flows[l] = (block.mass[l] > 0.0) & !has_failed & !is_elastic;
+        }
+        let mut plastic = Lanes::all(0.0);
+        let mut increments = Lanes::all(0.0);
+        if flows.contains(&true) {
+            let before = lanes(|l| block.yield_point[l].stress());
+            increments = self.flows(block, &size, flows, time_step);
+            let modulus = 3.0 * self.shear_modulus;
+            let [rr, zz, rz] = trial;
+            // Without flow the stress stays as it is; one of 0 has no direction to return along.
+            [trial[0], trial[1], trial[2], plastic] = each_of(|l| {
+                let increment = increments[l];
+                let after = size[l] - modulus * increment;
+                let scale = 1.0 - modulus * increment / size[l];
+                let work = 0.5 * (before[l].min(after) + after) * increment * mean_volume[l];
+                if increment > 0.0 {
+                    [rr[l] * scale, zz[l] * scale, rz[l] * scale, work]
+                } else {
+                    [rr[l], zz[l], rz[l], 0.0]
+                }
+            });
         }
         block.deviator = trial;
         block.volume = volume;
@@ -125,24 +129,30 @@ impl Law {
         });
         let volume_work = self.compress(block, &change, &lanes(|l| shear_work[l] + viscous[l]));
         let (temperature, mass) = (block.temperature, block.mass);
-        block.temperature =
-            lanes(|l| temperature[l] + self.heating * (plastic[l] + viscous[l]) * (1.0 / mass[l]));
+        block.temperature = lanes(|l| {
+            let heated =
+                temperature[l] + self.heating * (plastic[l] + viscous[l]) * (1.0 / mass[l]);
+            // A particle that has left stays what it was.
+            if mass[l] > 0.0 {
+                heated
+            } else {
+                temperature[l]
+            }
+        });
         let total = lanes(|l| shear_work[l] + volume_work[l] + viscous[l]);
-        block.store(particles, members);
         if self.strength.depends_on_pressure() {
-            for (_, place) in members.iter() {
-                particles[place].yield_point.forget();
+            for l in 0..LANES {
+                let mut point = block.yield_point[l];
+                point.forget();
+                block.set_yield_point(l, point);
             }
         }
-        let mut failure: Lanes = Lanes::all(0.0);
+        let mut failure = Lanes::all(0.0);
         if self.can_fail() {
-            for (l, place) in members.iter() {
-                let particle = &mut particles[place];
-                failure[l] = self.fail(particle, increments[l], time_step);
-                for (entry, value) in block.deviator.iter_mut().zip(particle.deviator) {
-                    entry[l] = value;
-                }
-                block.pressure[l] = particle.pressure;
+            for l in (0..LANES).filter(|&l| mass[l] > 0.0) {
+                let mut particle = block.particle(l);
+                failure[l] = self.fail(&mut particle, increments[l], time_step);
+                block.set_particle(l, &particle);
             }
         }
         let (deviator, pressure) = (block.deviator, block.pressure);
@@ -161,20 +171,73 @@ impl Law {
         }
     }
 
-    /// Returns a trial stress of a particle to the yield surface, radially; gives the increment of plastic strain.
+    /// Returns trial stresses to the yield surface, radially, in lanes that flow; gives the increments of plastic strain, 0 in others.
+    #[inline(always)]
+    fn flows(
+        &self,
+        block: &mut Block,
+        size: &Lanes,
+        mut flows: [bool; LANES],
+        time_step: f64,
+    ) -> Lanes {
+        let mut increments = Lanes::all(0.0);
+        if let Some(law) = self.strength.hardening() {
+            increments = self.first_flows(block, law, size, &mut flows);
+        }
+        for l in 0..LANES {
+            if flows[l] {
+                increments[l] = self.flow(block, l, size[l], time_step);
+            }
+        }
+        increments
+    }
+
+    /// The same for a power of the plastic strain where one step of Newton's method is enough; what is left flows no more.
+    #[inline(always)]
+    fn first_flows(
+        &self,
+        block: &mut Block,
+        law: Hardening,
+        size: &Lanes,
+        flows: &mut [bool; LANES],
+    ) -> Lanes {
+        let modulus = 3.0 * self.shear_modulus;
+        let stress = lanes(|l| block.yield_point[l].stress());
+        let slope = lanes(|l| block.yield_point[l].strain_slope());
+        let strain = block.plastic_strain;
+        let [increment, slope, is_last] = each_of(|l| {
+            let first = first_return(law, [stress[l], slope[l]], strain[l], size[l], modulus);
+            let most = size[l] / modulus;
+            let is_last = if first.is_last { 1.0 } else { 0.0 };
+            [first.increment.min(most), first.strain_slope, is_last]
+        });
+        let mut increments = Lanes::all(0.0);
+        for l in 0..LANES {
+            if flows[l] & (is_last[l] > 0.0) {
+                flows[l] = false;
+                increments[l] = increment[l];
+                let stress = size[l] - modulus * increment[l];
+                block.set_yield_point(l, YieldPoint::known(stress, slope[l]));
+            }
+        }
+        block.plastic_strain = lanes(|l| strain[l] + increments[l]);
+        increments
+    }
+
+    /// Returns the trial stress of a particle to the yield surface; gives the increment of plastic strain.
     #[inline]
-    fn flow(&self, particle: &mut Particle, size: f64, time_step: f64) -> f64 {
-        let state = particle.flow_state();
+    fn flow(&self, block: &mut Block, lane: usize, size: f64, time_step: f64) -> f64 {
+        let state = block.flow_state(lane);
         let trial = Trial {
             stress: size,
             modulus: 3.0 * self.shear_modulus,
             pressure_fall: 0.0,
             elapsed: self.rate_effects.then_some(time_step),
         };
-        let increment = particle
-            .yield_point
-            .plastic_increment(&*self.strength, &state, &trial);
-        particle.plastic_strain += increment;
+        let mut point = block.yield_point[lane];
+        let increment = point.plastic_increment(&*self.strength, &state, &trial);
+        block.set_yield_point(lane, point);
+        block.plastic_strain[lane] += increment;
         increment
     }
 
@@ -295,14 +358,14 @@ impl Rates {
         });
     }
 
-    /// Those of a block whose gradients and hoop rates are new.
+    /// Those of a velocity gradient of the nodes and of hoop rates.
     ///
     /// Particles move by the velocities at the start of the step, which the gradient C belongs to: on the mean configuration,
     /// `C (1 + C Δt/2)⁻¹`, it gives their change of shape to second order, and that of a turning body, which straight ways make larger,
     /// too.
     #[inline(always)]
-    pub(super) fn of(block: &Block, hoop_rate: Lanes, time_step: f64) -> Self {
-        let [rr, rz, zr, zz] = block.rate;
+    pub(super) fn of(gradient: &[Lanes; 4], hoop_rate: Lanes, time_step: f64) -> Self {
+        let [rr, rz, zr, zz] = *gradient;
         let half = 0.5 * time_step;
         let [shape_rr, shape_zz, shape_rz, expansion, spin] = each_of(|l| {
             let product = half * (rr[l] * zz[l] - rz[l] * zr[l]);

@@ -111,12 +111,12 @@ impl Law {
         per_volume * particle.volume
     }
 
-    /// Whether a particle is to leave its body.
+    /// Whether a particle of a block is to leave its body.
     #[inline(always)]
-    pub(super) fn erodes(&self, particle: &Particle) -> bool {
-        (self.erode_failed && particle.has_failed())
+    pub(super) fn erodes(&self, block: &Block, lane: usize) -> bool {
+        (self.erode_failed && block.damage[lane] >= 1.0)
             || self
                 .erosion_strain
-                .is_some_and(|most| particle.plastic_strain >= most)
+                .is_some_and(|most| block.plastic_strain[lane] >= most)
     }
 }

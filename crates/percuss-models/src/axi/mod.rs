@@ -9,6 +9,7 @@ mod boundary;
 mod contact;
 mod crater;
 mod deform;
+mod deposit;
 mod end;
 mod field;
 mod floor;

@@ -3,14 +3,18 @@
 use rayon::prelude::*;
 
 use super::{
-    advance::{advance, deposit},
+    advance::advance,
     body::{Body, Chunk, Limits, Pass, Sums, Task},
     boundary::{BoundaryConditions, Load},
     contact::{Contact, exchange_contact_impulses, pushed},
+    deposit::deposit,
     field::{FORCE, Field, MASS, MOMENTUM, Node},
     mesh::Mesh,
 };
-use crate::{Error, solver::archive::Archive};
+use crate::{
+    Error,
+    solver::{Particle, archive::Archive},
+};
 
 /// Part of a cell that particles may go until they are put in order again.
 const ORDER: f64 = 0.5;
@@ -100,8 +104,12 @@ impl Grid {
         archive.item(&mut self.accumulated)?;
         archive.item(&mut self.deferred)?;
         for (body, supports) in self.bodies.iter_mut().zip(&mut self.supports) {
-            archive.item(&mut body.particles)?;
+            let mut particles: Vec<Particle> = body.particles().collect();
+            archive.item(&mut particles)?;
             archive.item(&mut body.chunks)?;
+            if archive.is_read() {
+                body.set_particles(&particles);
+            }
             archive.item(&mut body.field)?;
             archive.item(&mut supports.displacement)?;
         }

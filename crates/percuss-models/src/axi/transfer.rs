@@ -1,14 +1,16 @@
 //! From particles to nodes and back, with the affine velocity field of each particle.
 
 use super::{
+    block::Block,
     field::{Field, Node, Strip},
     kernel::Stencil,
+    mesh::Places,
 };
-use crate::solver::Particle;
+use crate::lanes::{LANES, Lanes, each_of, lanes};
 
 /// What a particle adds to the nodes around it.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Deposit {
+struct Deposit {
     radial: Stencil,
     axial: Stencil,
     /// What is to be weighted at the first node, and how it changes from column to column and from row to row.
@@ -17,72 +19,88 @@ pub(super) struct Deposit {
     along_z: Node,
 }
 
-impl Deposit {
-    /// Mass, momentum and forces of a particle.
-    ///
-    /// The gradient of a kernel is its weight times `(4/h²)(x_node − x_particle)`, which the transfer back uses too: so the power of
-    /// the nodal forces is that of the stress in the particle. The pressure is the mean one of the particle's group.
-    #[inline(always)]
-    pub(super) fn of(
-        particle: &Particle,
-        pressure: f64,
-        ([radial, axial], [stretch_r, stretch_z]): ([f64; 2], [f64; 2]),
-        cell: f64,
-        axisymmetric: bool,
-    ) -> Self {
-        let radial = Stencil::at(radial);
-        let axial = Stencil::at(axial);
-        let mass = particle.mass;
-        let [v_r, v_z] = particle.velocity;
-        let stress = particle.deviator;
-        // Distances below are counted in cells, each as large as those at the particle.
-        let pull = -4.0 / cell * particle.volume;
-        let (pull_r, pull_z) = (pull / stretch_r, pull / stretch_z);
-        let hoop = if axisymmetric {
-            -particle.volume * (particle.hoop_deviator() - pressure) / particle.position[0]
+/// Adds mass, momentum and forces of the particles of a block to the nodes.
+///
+/// The gradient of a kernel is its weight times `(4/h²)(x_node − x_particle)`, which the transfer back uses too: so the power of
+/// the nodal forces is that of the stress in the particle. The pressures are the mean ones of the particles' groups.
+#[inline(always)]
+pub(super) fn deposit_block(
+    block: &Block,
+    pressure: &Lanes,
+    places: &Places,
+    cell: f64,
+    axisymmetric: bool,
+    strip: &mut Strip,
+) {
+    let [radial, axial] = places.index;
+    let [stretch_r, stretch_z] = places.stretch;
+    let Block {
+        position: [radius, _],
+        velocity: [v_r, v_z],
+        gradient: [rr, rz, zr, zz],
+        deviator: [stress_rr, stress_zz, stress_rz],
+        mass,
+        volume,
+        ..
+    } = *block;
+    let momentum = [lanes(|l| mass[l] * v_r[l]), lanes(|l| mass[l] * v_z[l])];
+    let hoop = lanes(|l| {
+        if axisymmetric {
+            -volume[l] * ((-stress_rr[l] - stress_zz[l]) - pressure[l]) / radius[l]
         } else {
             0.0
-        };
-        let (spread_r, spread_z) = (mass * cell * stretch_r, mass * cell * stretch_z);
-        let [rr, rz, zr, zz] = particle.gradient;
-        let volume = particle.volume;
-        let middle = [mass, mass * v_r, mass * v_z, volume, hoop, 0.0, 0.0, 0.0];
-        let along_r = [
-            0.0,
-            spread_r * rr,
-            spread_r * zr,
-            0.0,
-            pull_r * (stress[0] - pressure),
-            pull_r * stress[2],
-            0.0,
-            0.0,
-        ];
-        let along_z = [
-            0.0,
-            spread_z * rz,
-            spread_z * zz,
-            0.0,
-            pull_z * stress[2],
-            pull_z * (stress[1] - pressure),
-            0.0,
-            0.0,
-        ];
-        let mut corner = middle;
-        for k in 0..8 {
-            corner[k] = corner[k] + radial.offset * along_r[k] + axial.offset * along_z[k];
         }
-        Self {
-            corner: Node(corner),
-            along_r: Node(along_r),
-            along_z: Node(along_z),
-            radial,
-            axial,
+    });
+    // Distances are counted in cells, each as large as those at the particle.
+    let [r_rr, r_zr, r_pull, r_shear, z_rz, z_zz, z_shear, z_pull] = each_of(|l| {
+        let pull = -4.0 / cell * volume[l];
+        let (pull_r, pull_z) = (pull / stretch_r[l], pull / stretch_z[l]);
+        let (spread_r, spread_z) = (mass[l] * cell * stretch_r[l], mass[l] * cell * stretch_z[l]);
+        [
+            spread_r * rr[l],
+            spread_r * zr[l],
+            pull_r * (stress_rr[l] - pressure[l]),
+            pull_r * stress_rz[l],
+            spread_z * rz[l],
+            spread_z * zz[l],
+            pull_z * stress_rz[l],
+            pull_z * (stress_zz[l] - pressure[l]),
+        ]
+    });
+    // All of a block by way of memory: so a node's numbers stay side by side.
+    let mut deposits = [Deposit::default(); LANES];
+    for (l, deposit) in deposits.iter_mut().enumerate() {
+        deposit.radial = Stencil::at(radial[l]);
+        deposit.axial = Stencil::at(axial[l]);
+        deposit.corner.0 = [
+            mass[l],
+            momentum[0][l],
+            momentum[1][l],
+            volume[l],
+            hoop[l],
+            0.0,
+            0.0,
+            0.0,
+        ];
+        deposit.along_r.0 = [0.0, r_rr[l], r_zr[l], 0.0, r_pull[l], r_shear[l], 0.0, 0.0];
+        deposit.along_z.0 = [0.0, z_rz[l], z_zz[l], 0.0, z_shear[l], z_pull[l], 0.0, 0.0];
+        let (to_r, to_z) = (deposit.radial.offset, deposit.axial.offset);
+        for k in 0..8 {
+            deposit.corner[k] =
+                deposit.corner[k] + to_r * deposit.along_r[k] + to_z * deposit.along_z[k];
         }
     }
+    for (l, deposit) in deposits.iter().enumerate() {
+        if mass[l] > 0.0 {
+            deposit.add_to(strip);
+        }
+    }
+}
 
+impl Deposit {
     /// Adds it to the nodes.
     #[inline(always)]
-    pub(super) fn add_to(&self, strip: &mut Strip) {
+    fn add_to(&self, strip: &mut Strip) {
         let first = (self.axial.first - strip.first_row) as usize * strip.columns
             + (self.radial.first + 1) as usize;
         let mut start = self.corner.0;
