@@ -51,21 +51,21 @@ impl pulp::NullaryFnOnce for Advance<'_, '_> {
             scratch.note(number, block, &moving.rates);
             scratch.moving.push(moving);
         }
-        let Scratch {
-            moving,
-            weights,
-            means,
-        } = scratch;
-        share_means(weights, means, group_ends);
+        let Scratch { moving, shares, .. } = scratch;
+        share_means(shares, group_ends);
         let mut sums = Sums::default();
         for (number, (block, moving)) in blocks.iter_mut().zip(moving).enumerate() {
             let Moving { rates, places } = moving;
             let mut work = Work::NONE;
             if pass.time_step > 0.0 {
-                let [expansion, pressure, shear] = &*means;
-                rates.expansion = of_block(expansion, number);
-                let (mean, shear) = (of_block(pressure, number), of_block(shear, number));
-                rates.relax(block, &mean, &shear, law, pass.time_step);
+                let [expansion, pressure, shear] = means(
+                    shares,
+                    number,
+                    block,
+                    [rates.expansion, block.pressure, NONE],
+                );
+                rates.expansion = expansion;
+                rates.relax(block, &pressure, &shear, law, pass.time_step);
                 let lengths = cell_lengths(pass.mesh.cell, places);
                 work = law.deform(block, rates, pass.time_step, &lengths);
             }
@@ -79,11 +79,14 @@ impl pulp::NullaryFnOnce for Advance<'_, '_> {
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
     moving: Vec<Moving>,
-    /// Weights of the means: volumes, or 0 where a particle has failed or left.
-    pub(super) weights: Vec<f64>,
-    /// Own rates of volume, pressures and rates of shear; then their means.
-    pub(super) means: [Vec<f64>; 3],
+    /// What means of groups are made of, then the means: volumes, or 0 where a particle has failed or left, and times these the rates
+    /// of volume, pressures and rates of shear.
+    shares: Vec<[f64; 4]>,
+    /// The same for the pressures that nodes get.
+    pub(super) pressures: Vec<[f64; 2]>,
 }
+
+const NONE: Lanes = Lanes::all(0.0);
 
 impl Scratch {
     /// Makes room for a number of blocks.
@@ -91,44 +94,68 @@ impl Scratch {
     fn start(&mut self, blocks: usize) {
         self.moving.clear();
         self.moving.reserve(blocks);
-        self.weights.resize(blocks * LANES, 0.0);
-        for values in &mut self.means {
-            values.resize(blocks * LANES, 0.0);
-        }
+        self.shares.resize(blocks * LANES, [0.0; 4]);
     }
 
     /// Notes what means are to be made of.
     #[inline(always)]
     fn note(&mut self, number: usize, block: &Block, rates: &Rates) {
-        let sound = block.sound();
-        let present = |l: usize, value: f64| if block.mass[l] > 0.0 { value } else { 0.0 };
-        set_block(
-            &mut self.weights,
+        let shear = lanes(|l| rates.shear(l));
+        note(
+            &mut self.shares,
             number,
-            &lanes(|l| sound[l] * block.volume[l]),
+            block,
+            [&rates.expansion, &block.pressure, &shear],
         );
-        let [expansion, pressure, shear] = &mut self.means;
-        set_block(
-            expansion,
-            number,
-            &lanes(|l| present(l, rates.expansion[l])),
-        );
-        set_block(pressure, number, &lanes(|l| present(l, block.pressure[l])));
-        set_block(shear, number, &lanes(|l| present(l, rates.shear(l))));
     }
 }
 
-/// Values of a block.
+/// Notes weights and weighted values of a block.
 #[inline(always)]
-pub(super) fn of_block(values: &[f64], number: usize) -> Lanes {
-    let own = &values[number * LANES..][..LANES];
-    lanes(|l| own[l])
+pub(super) fn note<const N: usize, const M: usize>(
+    shares: &mut [[f64; N]],
+    number: usize,
+    block: &Block,
+    values: [&Lanes; M],
+) {
+    let weight = block.weights();
+    let mut weighted = [NONE; M];
+    for (weighted, values) in weighted.iter_mut().zip(values) {
+        // What has left may be no number any more.
+        let present = |l: usize| if block.mass[l] > 0.0 { values[l] } else { 0.0 };
+        *weighted = lanes(|l| weight[l] * present(l));
+    }
+    let shares = &mut shares[number * LANES..][..LANES];
+    for (l, share) in shares.iter_mut().enumerate() {
+        share[0] = weight[l];
+        for (entry, values) in share[1..].iter_mut().zip(&weighted) {
+            *entry = values[l];
+        }
+    }
 }
 
-/// Replaces the values of a block.
+/// Means of the groups for the particles of a block that share them, and the own values of the others.
 #[inline(always)]
-pub(super) fn set_block(values: &mut [f64], number: usize, own: &Lanes) {
-    values[number * LANES..][..LANES].copy_from_slice(&**own);
+pub(super) fn means<const N: usize, const M: usize>(
+    shares: &[[f64; N]],
+    number: usize,
+    block: &Block,
+    own: [Lanes; M],
+) -> [Lanes; M] {
+    let shares = &shares[number * LANES..][..LANES];
+    let weight = block.weights();
+    let mut means = own;
+    for (k, means) in means.iter_mut().enumerate() {
+        *means = lanes(|l| {
+            let is_shared = (weight[l] > 0.0) & (block.lone[l] == 0.0) & (shares[l][0] > 0.0);
+            if is_shared {
+                shares[l][k + 1]
+            } else {
+                own[k][l]
+            }
+        });
+    }
+    means
 }
 
 /// How particles move that are yet to be deformed.
@@ -153,34 +180,24 @@ fn moved(block: &mut Block, law: &Law, field: &Field, pass: &Pass) -> Moving {
     Moving { rates, places }
 }
 
-/// Gives means over each group, weighted, to those of its members that have a weight.
+/// Replaces what means are made of by the means, in groups of more than one particle.
 #[inline(always)]
-pub(super) fn share_means<const N: usize>(
-    weights: &[f64],
-    values: &mut [Vec<f64>; N],
-    group_ends: &[usize],
-) {
+pub(super) fn share_means<const N: usize>(shares: &mut [[f64; N]], group_ends: &[usize]) {
     let mut from = 0;
     for &to in group_ends {
         if to - from > 1 {
-            let own = &weights[from..to];
-            let mut weight = 0.0;
-            for one in own {
-                weight += one;
-            }
-            for values in values.iter_mut() {
-                let values = &mut values[from..to];
-                let mut sum = 0.0;
-                for (weight, value) in own.iter().zip(&*values) {
-                    sum += weight * value;
-                }
-                if weight > 0.0 {
-                    let mean = sum / weight;
-                    for (weight, value) in own.iter().zip(values) {
-                        *value = if *weight > 0.0 { mean } else { *value };
-                    }
+            let own = &mut shares[from..to];
+            let mut sums = [0.0; N];
+            for share in &*own {
+                for (sum, entry) in sums.iter_mut().zip(share) {
+                    *sum += entry;
                 }
             }
+            let weight = sums[0];
+            for sum in &mut sums[1..] {
+                *sum /= weight;
+            }
+            own.fill(sums);
         }
         from = to;
     }
@@ -216,14 +233,11 @@ fn add_up(
     }
     let was = |l: usize, value: f64| if mass[l] > 0.0 { value } else { 0.0 };
     let stayed = |l: usize, value: f64| if stays[l] { was(l, value) } else { 0.0 };
-    let [total, plastic, viscous, failure, at_start] = [
-        &work.total,
-        &work.plastic,
-        &work.viscous,
-        &work.failure,
-        &work.power_at_start,
-    ]
-    .map(|values| lanes(|l| was(l, values[l])));
+    let total = lanes(|l| was(l, work.total[l]));
+    let plastic = lanes(|l| was(l, work.plastic[l]));
+    let viscous = lanes(|l| was(l, work.viscous[l]));
+    let failure = lanes(|l| was(l, work.failure[l]));
+    let at_start = lanes(|l| was(l, work.power_at_start[l]));
     let at_end = lanes(|l| stayed(l, work.power_at_end[l]));
     let momentum = lanes(|l| stayed(l, mass[l] * v_z[l]));
     let moving = lanes(|l| stayed(l, kinetic[l]));

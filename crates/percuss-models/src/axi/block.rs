@@ -2,6 +2,7 @@
 
 use super::{
     field::Field,
+    kernel::Stencils,
     law::Law,
     mesh::Places,
     transfer::{Motion, gather},
@@ -109,18 +110,24 @@ impl Block {
         }
     }
 
+    /// Pressures with the artificial viscosity [Pa].
+    #[inline(always)]
+    pub(super) fn whole_pressure(&self) -> Lanes {
+        lanes(|l| self.pressure[l] + self.viscous_pressure[l])
+    }
+
     /// Takes a particle out of the body. Its lane goes on at the origin, where it harms nobody.
     pub(super) fn take_out(&mut self, lane: usize) {
         self.mass[lane] = 0.0;
         set_one(&mut self.position, lane, [0.0; 2]);
     }
 
-    /// 1 where a particle is in the body and sound, 0 elsewhere.
+    /// Weights in the means of groups: volumes of particles that are in the body and sound, 0 of others. A failed one bears no tension.
     #[inline(always)]
-    pub(super) fn sound(&self) -> Lanes {
+    pub(super) fn weights(&self) -> Lanes {
         lanes(|l| {
             if (self.mass[l] > 0.0) & (self.damage[l] < 1.0) {
-                1.0
+                self.volume[l]
             } else {
                 0.0
             }
@@ -133,12 +140,13 @@ impl Block {
     /// step, the more the shorter the steps are; with the velocity alone kept \[fei2021\], the affine field still does.
     #[inline(always)]
     pub(super) fn gather(&mut self, places: &Places, cell: f64, field: &Field) -> Drawn {
-        let [radius, depth] = places.index;
+        let [radial, axial] = &places.index;
+        let (radial, axial) = (Stencils::at(radial), Stencils::at(axial));
         // One particle after the other into memory: so the work on each becomes vector instructions too.
         let mut motions = [Motion::default(); LANES];
         for lane in 0..LANES {
             if self.mass[lane] > 0.0 {
-                motions[lane] = gather([radius[lane], depth[lane]], field);
+                motions[lane] = gather([radial.of(lane), axial.of(lane)], field);
             }
         }
         let [stretch_r, stretch_z] = places.stretch;

@@ -22,6 +22,7 @@ pub(super) struct Body {
     pub(super) field: Field,
     /// Cells and places of the particles, while they are put in order.
     keys: Vec<(u64, usize)>,
+    spare: Vec<Block>,
 }
 
 /// Particles that one task takes, in whole groups.
@@ -125,6 +126,7 @@ impl Body {
             }],
             field: Field::default(),
             keys: Vec::new(),
+            spare: Vec::new(),
         };
         body.set_particles(particles);
         body
@@ -191,11 +193,13 @@ impl Body {
         }
         chunks.retain(|chunk| chunk.len() > 0);
         self.chunks = chunks;
-        let before = std::mem::take(&mut self.blocks);
+        std::mem::swap(&mut self.blocks, &mut self.spare);
+        let before = std::mem::take(&mut self.spare);
         self.fill(
             keys.iter()
                 .map(|&(_, place)| before[place / LANES].particle(place % LANES)),
         );
+        self.spare = before;
         self.keys = keys;
     }
 

@@ -16,6 +16,7 @@ mod floor;
 mod kernel;
 mod law;
 mod mesh;
+mod nodes;
 mod results;
 mod run;
 mod setup;

@@ -3,7 +3,7 @@
 use super::{
     block::Block,
     field::{Field, Node, Strip},
-    kernel::Stencil,
+    kernel::{Stencil, Stencils},
     mesh::Places,
 };
 use crate::lanes::{LANES, Lanes, each_of, lanes};
@@ -11,8 +11,6 @@ use crate::lanes::{LANES, Lanes, each_of, lanes};
 /// What a particle adds to the nodes around it.
 #[derive(Debug, Clone, Copy, Default)]
 struct Deposit {
-    radial: Stencil,
-    axial: Stencil,
     /// What is to be weighted at the first node, and how it changes from column to column and from row to row.
     corner: Node,
     along_r: Node,
@@ -43,7 +41,7 @@ pub(super) fn deposit_block(
         volume,
         ..
     } = *block;
-    let momentum = [lanes(|l| mass[l] * v_r[l]), lanes(|l| mass[l] * v_z[l])];
+    let (radial, axial) = (Stencils::at(&radial), Stencils::at(&axial));
     let hoop = lanes(|l| {
         if axisymmetric {
             -volume[l] * ((-stress_rr[l] - stress_zz[l]) - pressure[l]) / radius[l]
@@ -67,32 +65,26 @@ pub(super) fn deposit_block(
             pull_z * (stress_zz[l] - pressure[l]),
         ]
     });
+    let [c_r, c_z, c_radial, c_axial] = each_of(|l| {
+        let (to_r, to_z) = (radial.offset[l], axial.offset[l]);
+        [
+            mass[l] * v_r[l] + to_r * r_rr[l] + to_z * z_rz[l],
+            mass[l] * v_z[l] + to_r * r_zr[l] + to_z * z_zz[l],
+            hoop[l] + to_r * r_pull[l] + to_z * z_shear[l],
+            0.0 + to_r * r_shear[l] + to_z * z_pull[l],
+        ]
+    });
     // All of a block by way of memory: so a node's numbers stay side by side.
     let mut deposits = [Deposit::default(); LANES];
     for (l, deposit) in deposits.iter_mut().enumerate() {
-        deposit.radial = Stencil::at(radial[l]);
-        deposit.axial = Stencil::at(axial[l]);
-        deposit.corner.0 = [
-            mass[l],
-            momentum[0][l],
-            momentum[1][l],
-            volume[l],
-            hoop[l],
-            0.0,
-            0.0,
-            0.0,
-        ];
+        let (m, v) = (mass[l], volume[l]);
+        deposit.corner.0 = [m, c_r[l], c_z[l], v, c_radial[l], c_axial[l], 0.0, 0.0];
         deposit.along_r.0 = [0.0, r_rr[l], r_zr[l], 0.0, r_pull[l], r_shear[l], 0.0, 0.0];
         deposit.along_z.0 = [0.0, z_rz[l], z_zz[l], 0.0, z_shear[l], z_pull[l], 0.0, 0.0];
-        let (to_r, to_z) = (deposit.radial.offset, deposit.axial.offset);
-        for k in 0..8 {
-            deposit.corner[k] =
-                deposit.corner[k] + to_r * deposit.along_r[k] + to_z * deposit.along_z[k];
-        }
     }
     for (l, deposit) in deposits.iter().enumerate() {
         if mass[l] > 0.0 {
-            deposit.add_to(strip);
+            deposit.add_to([radial.of(l), axial.of(l)], strip);
         }
     }
 }
@@ -100,16 +92,16 @@ pub(super) fn deposit_block(
 impl Deposit {
     /// Adds it to the nodes.
     #[inline(always)]
-    fn add_to(&self, strip: &mut Strip) {
-        let first = (self.axial.first - strip.first_row) as usize * strip.columns
-            + (self.radial.first + 1) as usize;
+    fn add_to(&self, [radial, axial]: [Stencil; 2], strip: &mut Strip) {
+        let first =
+            (axial.first - strip.first_row) as usize * strip.columns + (radial.first + 1) as usize;
         let mut start = self.corner.0;
         for row in 0..3 {
             let at = first + row * strip.columns;
             let nodes: &mut [Node] = &mut strip.nodes[at..at + 3];
             let mut value = start;
             for (column, node) in nodes.iter_mut().enumerate() {
-                let weight = self.radial.weights[column] * self.axial.weights[row];
+                let weight = radial.weights[column] * axial.weights[row];
                 for (entry, value) in node.iter_mut().zip(&value) {
                     *entry += weight * value;
                 }
@@ -133,11 +125,9 @@ pub(super) struct Motion {
     pub(super) along_z: [f64; 4],
 }
 
-/// Motion of the nodes at a place given by its indices.
+/// Motion of the nodes at a place given by its stencils.
 #[inline(always)]
-pub(super) fn gather([radial, axial]: [f64; 2], field: &Field) -> Motion {
-    let radial = Stencil::at(radial);
-    let axial = Stencil::at(axial);
+pub(super) fn gather([radial, axial]: [Stencil; 2], field: &Field) -> Motion {
     let first =
         (axial.first - field.first_row) as usize * field.columns + (radial.first + 1) as usize;
     let mut motion = Motion::default();
@@ -146,19 +136,15 @@ pub(super) fn gather([radial, axial]: [f64; 2], field: &Field) -> Motion {
         let nodes = &field.velocity[at..at + 3];
         let (mut sum, mut arms) = ([0.0; 4], [0.0; 4]);
         for (column, node) in nodes.iter().enumerate() {
-            let weight = radial.weights[column];
-            let arm = weight * (radial.offset + column as f64);
             for k in 0..4 {
-                sum[k] += weight * node[k];
-                arms[k] += arm * node[k];
+                sum[k] += radial.weights[column] * node[k];
+                arms[k] += radial.arms[column] * node[k];
             }
         }
-        let weight = axial.weights[row];
-        let arm = weight * (axial.offset + row as f64);
         for k in 0..4 {
-            motion.velocity[k] += weight * sum[k];
-            motion.along_r[k] += weight * arms[k];
-            motion.along_z[k] += arm * sum[k];
+            motion.velocity[k] += axial.weights[row] * sum[k];
+            motion.along_r[k] += axial.weights[row] * arms[k];
+            motion.along_z[k] += axial.arms[row] * sum[k];
         }
     }
     motion
