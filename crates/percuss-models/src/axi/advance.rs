@@ -13,7 +13,7 @@ use super::{
     law::Law,
     mesh::{Places, cell_lengths},
 };
-use crate::lanes::{LANES, Lanes, lanes};
+use crate::lanes::{LANES, Lanes, lanes, settled};
 
 /// Moves and deforms the particles of a chunk; a time step of 0 leaves them as they are.
 ///
@@ -100,7 +100,7 @@ impl Scratch {
     /// Notes what means are to be made of.
     #[inline(always)]
     fn note(&mut self, number: usize, block: &Block, rates: &Rates) {
-        let shear = lanes(|l| rates.shear(l));
+        let shear = rates.shear();
         note(
             &mut self.shares,
             number,
@@ -118,13 +118,15 @@ pub(super) fn note<const N: usize, const M: usize>(
     block: &Block,
     values: [&Lanes; M],
 ) {
-    let weight = block.weights();
+    let weight = settled(block.weights());
+    let mass = block.mass;
     let mut weighted = [NONE; M];
     for (weighted, values) in weighted.iter_mut().zip(values) {
+        let values = *values;
         // What has left may be no number any more.
-        let present = |l: usize| if block.mass[l] > 0.0 { values[l] } else { 0.0 };
-        *weighted = lanes(|l| weight[l] * present(l));
+        *weighted = lanes(|l| weight[l] * if mass[l] > 0.0 { values[l] } else { 0.0 });
     }
+    let weighted = settled(weighted);
     let shares = &mut shares[number * LANES..][..LANES];
     for (l, share) in shares.iter_mut().enumerate() {
         share[0] = weight[l];
@@ -143,16 +145,14 @@ pub(super) fn means<const N: usize, const M: usize>(
     own: [Lanes; M],
 ) -> [Lanes; M] {
     let shares = &shares[number * LANES..][..LANES];
-    let weight = block.weights();
+    let (weight, lone) = (block.weights(), block.lone);
+    let total = settled(lanes(|l| shares[l][0]));
     let mut means = own;
     for (k, means) in means.iter_mut().enumerate() {
+        let (mean, own) = (settled(lanes(|l| shares[l][k + 1])), *means);
         *means = lanes(|l| {
-            let is_shared = (weight[l] > 0.0) & (block.lone[l] == 0.0) & (shares[l][0] > 0.0);
-            if is_shared {
-                shares[l][k + 1]
-            } else {
-                own[k][l]
-            }
+            let is_shared = (weight[l] > 0.0) & (lone[l] == 0.0) & (total[l] > 0.0);
+            if is_shared { mean[l] } else { own[l] }
         });
     }
     means
@@ -219,38 +219,52 @@ fn add_up(
     let Block {
         mass,
         pressure,
+        damage,
+        plastic_strain,
         velocity: [v_r, v_z],
         ..
     } = *block;
-    let limits = &pass.limits;
-    let mut stays = [false; LANES];
-    for l in 0..LANES {
+    let (limits, [most_damage, most_strain]) = (pass.limits, law.erosion());
+    let stays = settled(lanes(|l| {
         // A comparison with what is no number fails, so this finds those too.
         let is_finite = (kinetic[l] + pressure[l] + depth[l] + radius[l]).abs() < f64::INFINITY;
         let is_inside =
             (radius[l] <= limits.radius) & (depth[l] >= limits.back) & (depth[l] <= limits.front);
-        stays[l] = is_finite & is_inside & !law.erodes(block, l);
-    }
-    let was = |l: usize, value: f64| if mass[l] > 0.0 { value } else { 0.0 };
-    let stayed = |l: usize, value: f64| if stays[l] { was(l, value) } else { 0.0 };
-    let total = lanes(|l| was(l, work.total[l]));
-    let plastic = lanes(|l| was(l, work.plastic[l]));
-    let viscous = lanes(|l| was(l, work.viscous[l]));
-    let failure = lanes(|l| was(l, work.failure[l]));
-    let at_start = lanes(|l| was(l, work.power_at_start[l]));
-    let at_end = lanes(|l| stayed(l, work.power_at_end[l]));
-    let momentum = lanes(|l| stayed(l, mass[l] * v_z[l]));
-    let moving = lanes(|l| stayed(l, kinetic[l]));
-    let present = lanes(|l| stayed(l, mass[l]));
-    let speed = lanes(|l| stayed(l, v_r[l] * v_r[l] + v_z[l] * v_z[l]));
-    let wave = lanes(|l| stayed(l, wave_squared[l]));
+        let erodes = (damage[l] >= most_damage) | (plastic_strain[l] >= most_strain);
+        let stays = is_finite & is_inside & !erodes;
+        if stays { 1.0 } else { 0.0 }
+    }));
+    let was = |values: Lanes| lanes(|l| if mass[l] > 0.0 { values[l] } else { 0.0 });
+    let stayed = |values: Lanes| {
+        lanes(|l| {
+            let stayed = (mass[l] > 0.0) & (stays[l] > 0.0);
+            if stayed { values[l] } else { 0.0 }
+        })
+    };
+    let done = [
+        was(work.total),
+        was(work.plastic),
+        was(work.viscous),
+        was(work.failure),
+        was(work.power_at_start),
+    ];
+    let kept = [
+        stayed(work.power_at_end),
+        stayed(mass),
+        stayed(lanes(|l| mass[l] * v_z[l])),
+        stayed(kinetic),
+        stayed(lanes(|l| v_r[l] * v_r[l] + v_z[l] * v_z[l])),
+        stayed(wave_squared),
+    ];
+    let [total, plastic, viscous, failure, at_start] = settled(done);
+    let [at_end, present, momentum, moving, speed, wave] = settled(kept);
     for l in 0..LANES {
         sums.work.total += total[l];
         sums.work.plastic += plastic[l];
         sums.work.viscous += viscous[l];
         sums.work.failure += failure[l];
         sums.work.power_at_start += at_start[l];
-        if (mass[l] > 0.0) & !stays[l] {
+        if (mass[l] > 0.0) & (stays[l] == 0.0) {
             take_out(block, l, kinetic[l], law, sums);
         }
         sums.work.power_at_end += at_end[l];

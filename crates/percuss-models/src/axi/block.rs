@@ -8,7 +8,7 @@ use super::{
     transfer::{Motion, gather},
 };
 use crate::{
-    lanes::{LANES, Lanes, each_of, lanes, one},
+    lanes::{LANES, Lanes, each_of, lanes, one, settled},
     material::{FlowState, YieldPoint},
     solver::Particle,
 };
@@ -113,7 +113,8 @@ impl Block {
     /// Pressures with the artificial viscosity [Pa].
     #[inline(always)]
     pub(super) fn whole_pressure(&self) -> Lanes {
-        lanes(|l| self.pressure[l] + self.viscous_pressure[l])
+        let (pressure, viscous) = (self.pressure, self.viscous_pressure);
+        lanes(|l| pressure[l] + viscous[l])
     }
 
     /// Takes a particle out of the body. Its lane goes on at the origin, where it harms nobody.
@@ -125,12 +126,10 @@ impl Block {
     /// Weights in the means of groups: volumes of particles that are in the body and sound, 0 of others. A failed one bears no tension.
     #[inline(always)]
     pub(super) fn weights(&self) -> Lanes {
+        let (mass, damage, volume) = (self.mass, self.damage, self.volume);
         lanes(|l| {
-            if (self.mass[l] > 0.0) & (self.damage[l] < 1.0) {
-                self.volume[l]
-            } else {
-                0.0
-            }
+            let is_sound = (mass[l] > 0.0) & (damage[l] < 1.0);
+            if is_sound { volume[l] } else { 0.0 }
         })
     }
 
@@ -141,7 +140,7 @@ impl Block {
     #[inline(always)]
     pub(super) fn gather(&mut self, places: &Places, cell: f64, field: &Field) -> Drawn {
         let [radial, axial] = &places.index;
-        let (radial, axial) = (Stencils::at(radial), Stencils::at(axial));
+        let (radial, axial) = (settled(Stencils::at(radial)), settled(Stencils::at(axial)));
         // One particle after the other into memory: so the work on each becomes vector instructions too.
         let mut motions = [Motion::default(); LANES];
         for lane in 0..LANES {

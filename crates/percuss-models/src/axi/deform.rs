@@ -5,7 +5,7 @@ use super::{
     law::{Law, Pressure},
 };
 use crate::{
-    lanes::{LANES, Lanes, each_of, lanes, one},
+    lanes::{LANES, Lanes, each_of, lanes, one, settled},
     material::{Hardening, Trial, YieldPoint, first_return},
     solver::equivalent,
 };
@@ -64,42 +64,49 @@ impl Law {
             volume_before[l] * ((1.0 + half) / (1.0 - half))
         });
         let stiffness = 2.0 * self.shear_modulus * time_step;
-        let mut trial = each_of(|l| {
+        let trial = each_of(|l| {
             let mut trial = turned(one(&before, l), spin[l] * time_step);
             for (entry, rate) in trial.iter_mut().zip(rate(l)) {
                 *entry += stiffness * rate;
             }
             trial
         });
-        let size = lanes(|l| equivalent(&one(&trial, l)));
+        let size = settled(lanes(|l| equivalent(&one(&trial, l))));
+        let mut trial = settled(trial);
         let mean_volume = lanes(|l| 0.5 * (volume_before[l] + volume[l]));
-        let mut flows = [false; LANES];
-        for l in 0..LANES {
-            let has_failed = block.damage[l] >= 1.0;
-            for entry in &mut trial {
-                entry[l] = if has_failed { 0.0 } else { entry[l] };
-            }
-            let is_elastic = size[l] <= block.elastic_to[l];
-            flows[l] = (block.mass[l] > 0.0) & !has_failed & !is_elastic;
+        let (damage, elastic_to, present) = (block.damage, block.elastic_to, block.mass);
+        let flows = settled(lanes(|l| {
+            let is_elastic = (size[l] <= elastic_to[l]) | (damage[l] >= 1.0);
+            let flows = (present[l] > 0.0) & !is_elastic;
+            if flows { 1.0 } else { 0.0 }
+        }));
+        for entry in &mut trial {
+            let stress = *entry;
+            *entry = lanes(|l| if damage[l] >= 1.0 { 0.0 } else { stress[l] });
         }
         let mut plastic = Lanes::all(0.0);
         let mut increments = Lanes::all(0.0);
-        if flows.contains(&true) {
-            let before = lanes(|l| block.yield_point[l].stress());
-            increments = self.flows(block, &size, flows, time_step);
+        if flows.contains(&1.0) {
+            let before = settled(lanes(|l| block.yield_point[l].stress()));
+            increments = settled(self.flows(block, &size, flows.map(|flow| flow > 0.0), time_step));
             let modulus = 3.0 * self.shear_modulus;
-            let [rr, zz, rz] = trial;
             // Without flow the stress stays as it is; one of 0 has no direction to return along.
-            [trial[0], trial[1], trial[2], plastic] = each_of(|l| {
-                let increment = increments[l];
-                let after = size[l] - modulus * increment;
-                let scale = 1.0 - modulus * increment / size[l];
-                let work = 0.5 * (before[l].min(after) + after) * increment * mean_volume[l];
-                if increment > 0.0 {
-                    [rr[l] * scale, zz[l] * scale, rz[l] * scale, work]
-                } else {
-                    [rr[l], zz[l], rz[l], 0.0]
-                }
+            let after = lanes(|l| size[l] - modulus * increments[l]);
+            for entry in &mut trial {
+                let stress = *entry;
+                *entry = lanes(|l| {
+                    let scaled = stress[l] * (1.0 - modulus * increments[l] / size[l]);
+                    if increments[l] > 0.0 {
+                        scaled
+                    } else {
+                        stress[l]
+                    }
+                });
+            }
+            plastic = lanes(|l| {
+                let mean = 0.5 * (before[l].min(after[l]) + after[l]);
+                let work = mean * increments[l] * mean_volume[l];
+                if increments[l] > 0.0 { work } else { 0.0 }
             });
         }
         block.deviator = trial;
@@ -202,15 +209,15 @@ impl Law {
         flows: &mut [bool; LANES],
     ) -> Lanes {
         let modulus = 3.0 * self.shear_modulus;
-        let stress = lanes(|l| block.yield_point[l].stress());
-        let slope = lanes(|l| block.yield_point[l].strain_slope());
+        let stress = settled(lanes(|l| block.yield_point[l].stress()));
+        let slope = settled(lanes(|l| block.yield_point[l].strain_slope()));
         let strain = block.plastic_strain;
-        let [increment, slope, is_last] = each_of(|l| {
+        let [increment, slope, is_last] = settled(each_of(|l| {
             let first = first_return(law, [stress[l], slope[l]], strain[l], size[l], modulus);
             let most = size[l] / modulus;
             let is_last = if first.is_last { 1.0 } else { 0.0 };
             [first.increment.min(most), first.strain_slope, is_last]
-        });
+        }));
         let mut increments = Lanes::all(0.0);
         for l in 0..LANES {
             if flows[l] & (is_last[l] > 0.0) {
@@ -326,11 +333,11 @@ impl Rates {
         spin: Lanes::all(0.0),
     };
 
-    /// Equivalent rate of shear in a lane.
+    /// Equivalent rates of shear.
     #[inline(always)]
-    pub(super) fn shear(&self, l: usize) -> f64 {
-        let [rr, zz, rz] = one(&self.shape, l);
-        (rr * rr + zz * zz + rr * zz + rz * rz).sqrt()
+    pub(super) fn shear(&self) -> Lanes {
+        let [rr, zz, rz] = self.shape;
+        lanes(|l| (rr[l] * rr[l] + zz[l] * zz[l] + rr[l] * zz[l] + rz[l] * rz[l]).sqrt())
     }
 
     /// Lets the pressures of sound particles come together with the mean of their group, at a part of its mean rate of shear.
@@ -344,12 +351,11 @@ impl Rates {
         time_step: f64,
     ) {
         let per_modulus = 1.0 / law.bulk_modulus;
+        let (damage, pressure) = (block.damage, block.pressure);
+        let (mean, shear) = (*mean, *shear);
         [self.excess, self.relaxation] = each_of(|l| {
-            let excess = if block.damage[l] < 1.0 {
-                block.pressure[l] - mean[l]
-            } else {
-                0.0
-            };
+            let excess = pressure[l] - mean[l];
+            let excess = if damage[l] < 1.0 { excess } else { 0.0 };
             let rate = RELAXING * shear[l];
             [
                 excess,

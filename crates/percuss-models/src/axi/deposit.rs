@@ -7,7 +7,7 @@ use super::{
     mesh::Mesh,
     transfer::deposit_block,
 };
-use crate::lanes::LANES;
+use crate::lanes::{LANES, Lanes, lanes, larger, settled, smaller};
 
 /// Adds the particles of a chunk to its nodes.
 pub(super) fn deposit(task: &mut Task<'_>, mesh: &Mesh) {
@@ -38,14 +38,19 @@ impl pulp::NullaryFnOnce for ToNodes<'_, '_> {
         let (mut least, mut most, mut widest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
         for (number, block) in blocks.iter().enumerate() {
             note(shares, number, block, [&block.whole_pressure()]);
-            let present = |l: usize, value: f64, other: f64| {
-                if block.mass[l] > 0.0 { value } else { other }
+            let ([radius, depth], mass) = (block.position, block.mass);
+            let or = |values: &Lanes, other: f64| {
+                let values = *values;
+                settled(lanes(|l| if mass[l] > 0.0 { values[l] } else { other }))
             };
-            let [radius, depth] = &block.position;
-            for l in 0..LANES {
-                least = least.min(present(l, depth[l], f64::INFINITY));
-                most = most.max(present(l, depth[l], f64::NEG_INFINITY));
-                widest = widest.max(present(l, radius[l], 0.0));
+            for depth in *or(&depth, f64::INFINITY) {
+                least = smaller(least, depth);
+            }
+            for depth in *or(&depth, f64::NEG_INFINITY) {
+                most = larger(most, depth);
+            }
+            for radius in *or(&radius, 0.0) {
+                widest = larger(widest, radius);
             }
         }
         if least > most {

@@ -111,12 +111,16 @@ impl Law {
         per_volume * particle.volume
     }
 
-    /// Whether a particle of a block is to leave its body.
+    /// Damage and equivalent plastic strain at which a particle is to leave its body.
     #[inline(always)]
-    pub(super) fn erodes(&self, block: &Block, lane: usize) -> bool {
-        (self.erode_failed && block.damage[lane] >= 1.0)
-            || self
-                .erosion_strain
-                .is_some_and(|most| block.plastic_strain[lane] >= most)
+    pub(super) fn erosion(&self) -> [f64; 2] {
+        [
+            if self.erode_failed {
+                1.0
+            } else {
+                f64::INFINITY
+            },
+            self.erosion_strain.unwrap_or(f64::INFINITY),
+        ]
     }
 }

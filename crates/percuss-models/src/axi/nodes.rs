@@ -7,7 +7,7 @@ use super::{
     field::{FORCE, Field, MASS, MOMENTUM, Node},
     mesh::Mesh,
 };
-use crate::lanes::{LANES, Lanes, lanes};
+use crate::lanes::{LANES, Lanes, lanes, settled};
 
 /// Sums over a row of nodes.
 #[derive(Debug, Clone, Copy, Default)]
@@ -197,32 +197,17 @@ fn move_free(
     sums: &mut RowSums,
 ) {
     let (nodes, impulses) = (&nodes[..LANES], &impulses[..LANES]);
-    let of = |k: usize| lanes(|l| nodes[l][k]);
-    let mass = of(MASS);
+    let mass = settled(lanes(|l| nodes[l][MASS]));
+    let r = Along::of(&mass, nodes, impulses, 0, time_step);
+    let z = Along::of(&mass, nodes, impulses, 1, time_step);
     // Nodes without mass have a part in nothing.
-    let has = |l: usize, value: f64| if mass[l] > 0.0 { value } else { 0.0 };
-    let is_pushed = impulses.iter().any(|taken| *taken != [0.0; 2]);
-    let along = |k: usize| {
-        let (momentum, force) = (of(MOMENTUM + k), of(FORCE + k));
-        let taken = lanes(|l| impulses[l][k]);
-        let came = lanes(|l| has(l, momentum[l] / mass[l]));
-        let kicked = lanes(|l| momentum[l] + time_step * force[l]);
-        let mut after = lanes(|l| has(l, kicked[l] / mass[l]));
-        if is_pushed {
-            after = lanes(|l| has(l, after[l] - taken[l] / mass[l]));
-        }
-        Along {
-            power: lanes(|l| has(l, force[l] * (came[l] + after[l]))),
-            contact: lanes(|l| has(l, 0.5 * taken[l] * (came[l] + after[l]))),
-            impulse: lanes(|l| has(l, kicked[l] - taken[l] - mass[l] * after[l])),
-            came,
-            after,
-        }
+    let energy = |r: Lanes, z: Lanes| {
+        settled(lanes(|l| {
+            let energy = 0.5 * mass[l] * (r[l] * r[l] + z[l] * z[l]);
+            if mass[l] > 0.0 { energy } else { 0.0 }
+        }))
     };
-    let (r, z) = (along(0), along(1));
-    let energy =
-        |r: &Lanes, z: &Lanes| lanes(|l| has(l, 0.5 * mass[l] * (r[l] * r[l] + z[l] * z[l])));
-    let (before, held) = (energy(&r.came, &z.came), energy(&r.after, &z.after));
+    let (before, held) = (energy(r.came, z.came), energy(r.after, z.after));
     for (l, velocity) in velocity.iter_mut().enumerate() {
         *velocity = [r.after[l], z.after[l], r.came[l], z.came[l]];
         sums.kinetic[0] += before[l];
@@ -245,4 +230,29 @@ struct Along {
     power: Lanes,
     contact: Lanes,
     impulse: Lanes,
+}
+
+impl Along {
+    #[inline(always)]
+    fn of(mass: &Lanes, nodes: &[Node], impulses: &[[f64; 2]], k: usize, time_step: f64) -> Self {
+        let mass = *mass;
+        let momentum = settled(lanes(|l| nodes[l][MOMENTUM + k]));
+        let force = settled(lanes(|l| nodes[l][FORCE + k]));
+        let taken = settled(lanes(|l| impulses[l][k]));
+        let present = |values: Lanes| lanes(|l| if mass[l] > 0.0 { values[l] } else { 0.0 });
+        let came = present(lanes(|l| momentum[l] / mass[l]));
+        let kicked = lanes(|l| momentum[l] + time_step * force[l]);
+        let mut after = lanes(|l| kicked[l] / mass[l]);
+        if taken != Lanes::all(0.0) {
+            after = lanes(|l| after[l] - taken[l] / mass[l]);
+        }
+        let after = present(after);
+        settled(Self {
+            power: present(lanes(|l| force[l] * (came[l] + after[l]))),
+            contact: present(lanes(|l| 0.5 * taken[l] * (came[l] + after[l]))),
+            impulse: present(lanes(|l| kicked[l] - taken[l] - mass[l] * after[l])),
+            came,
+            after,
+        })
+    }
 }

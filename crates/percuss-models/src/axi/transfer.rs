@@ -6,7 +6,7 @@ use super::{
     kernel::{Stencil, Stencils},
     mesh::Places,
 };
-use crate::lanes::{LANES, Lanes, each_of, lanes};
+use crate::lanes::{LANES, Lanes, each_of, lanes, settled};
 
 /// What a particle adds to the nodes around it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -41,16 +41,19 @@ pub(super) fn deposit_block(
         volume,
         ..
     } = *block;
-    let (radial, axial) = (Stencils::at(&radial), Stencils::at(&axial));
-    let hoop = lanes(|l| {
+    let (radial, axial) = (
+        settled(Stencils::at(&radial)),
+        settled(Stencils::at(&axial)),
+    );
+    let hoop = settled(lanes(|l| {
         if axisymmetric {
             -volume[l] * ((-stress_rr[l] - stress_zz[l]) - pressure[l]) / radius[l]
         } else {
             0.0
         }
-    });
+    }));
     // Distances are counted in cells, each as large as those at the particle.
-    let [r_rr, r_zr, r_pull, r_shear, z_rz, z_zz, z_shear, z_pull] = each_of(|l| {
+    let [r_rr, r_zr, r_pull, r_shear, z_rz, z_zz, z_shear, z_pull] = settled(each_of(|l| {
         let pull = -4.0 / cell * volume[l];
         let (pull_r, pull_z) = (pull / stretch_r[l], pull / stretch_z[l]);
         let (spread_r, spread_z) = (mass[l] * cell * stretch_r[l], mass[l] * cell * stretch_z[l]);
@@ -64,8 +67,8 @@ pub(super) fn deposit_block(
             pull_z * stress_rz[l],
             pull_z * (stress_zz[l] - pressure[l]),
         ]
-    });
-    let [c_r, c_z, c_radial, c_axial] = each_of(|l| {
+    }));
+    let [c_r, c_z, c_radial, c_axial] = settled(each_of(|l| {
         let (to_r, to_z) = (radial.offset[l], axial.offset[l]);
         [
             mass[l] * v_r[l] + to_r * r_rr[l] + to_z * z_rz[l],
@@ -73,7 +76,7 @@ pub(super) fn deposit_block(
             hoop[l] + to_r * r_pull[l] + to_z * z_shear[l],
             0.0 + to_r * r_shear[l] + to_z * z_pull[l],
         ]
-    });
+    }));
     // All of a block by way of memory: so a node's numbers stay side by side.
     let mut deposits = [Deposit::default(); LANES];
     for (l, deposit) in deposits.iter_mut().enumerate() {
