@@ -8,10 +8,11 @@
 use super::{
     block::Block,
     body::{Chunk, Pass, Sums, Task},
-    deform::{Rates, Work},
+    deform::Work,
     field::Field,
     law::Law,
     mesh::{Places, cell_lengths},
+    rates::Rates,
 };
 use crate::lanes::{LANES, Lanes, lanes, settled};
 

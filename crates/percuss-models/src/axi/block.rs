@@ -143,9 +143,9 @@ impl Block {
         let (radial, axial) = (settled(Stencils::at(radial)), settled(Stencils::at(axial)));
         // One particle after the other into memory: so the work on each becomes vector instructions too.
         let mut motions = [Motion::default(); LANES];
-        for lane in 0..LANES {
+        for (lane, motion) in motions.iter_mut().enumerate() {
             if self.mass[lane] > 0.0 {
-                motions[lane] = gather([radial.of(lane), axial.of(lane)], field);
+                *motion = gather([radial.of(lane), axial.of(lane)], field);
             }
         }
         let [stretch_r, stretch_z] = places.stretch;

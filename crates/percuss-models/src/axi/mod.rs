@@ -17,6 +17,7 @@ mod kernel;
 mod law;
 mod mesh;
 mod nodes;
+mod rates;
 mod results;
 mod run;
 mod setup;

@@ -18,9 +18,9 @@ use super::{
     body::{Body, Limits},
     boundary::BoundaryConditions,
     contact::Contact,
-    deform::Rates,
     law::{Law, Pressure},
     mesh::Mesh,
+    rates::Rates,
     solver::{Accumulators, DeferredWork, Grid},
 };
 use crate::{

@@ -4,9 +4,9 @@ use super::{Solid, body, solver};
 use crate::{
     axi::{
         block::Block,
-        deform::Rates,
         law::Law,
         mesh::{Axis, Mesh},
+        rates::Rates,
     },
     lanes::Lanes,
     solver::Particle,
