@@ -250,6 +250,12 @@ pub fn one<const N: usize>(all: &[Lanes; N], lane: usize) -> [f64; N] {
     values
 }
 
+/// Numbers by way of memory: a loop that computed them stays vector instructions although lanes are read one by one afterwards.
+#[inline(always)]
+pub fn settled<T>(numbers: T) -> T {
+    std::hint::black_box(numbers)
+}
+
 /// The larger of two numbers of which neither is undefined.
 #[inline(always)]
 pub fn larger(a: f64, b: f64) -> f64 {

@@ -122,7 +122,17 @@ impl YieldPoint {
 
     /// Whether an equivalent stress [Pa] is known to be elastic.
     pub fn holds(&self, stress: f64) -> bool {
-        self.is_slow && stress <= self.flow.stress
+        stress <= self.elastic_to()
+    }
+
+    /// Equivalent stress up to which a stress is known to be elastic [Pa]; none is where the slow flow stress is unknown.
+    #[inline(always)]
+    pub fn elastic_to(&self) -> f64 {
+        if self.is_slow {
+            self.flow.stress
+        } else {
+            f64::NEG_INFINITY
+        }
     }
 
     /// Solves `q − M Δ = Y(ε_p + Δ, Δ/Δt, T)` for the plastic strain Δ, where `q` is the trial stress and `M` its fall per

@@ -1,5 +1,7 @@
 //! Fields of a run at even intervals of time, for a caller that draws or writes them.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
 use super::Particle;
@@ -31,16 +33,16 @@ pub enum Fields<'a> {
         /// Side of a cell of the grid [m].
         cell: f64,
         /// Particles of each body: the projectile, then the layers of the target.
-        bodies: Vec<&'a [Particle]>,
+        bodies: Vec<Cow<'a, [Particle]>>,
     },
     /// In elements along the axis, from the projectile's tail to the rear face of the target.
     Elements(Vec<ElementState>),
 }
 
-impl<'a> Fields<'a> {
+impl Fields<'_> {
     /// Particles that have not left, each with the index of its body; none of a model that has elements.
-    pub fn particles(&self) -> impl Iterator<Item = (usize, &'a Particle)> {
-        let bodies: &[&'a [Particle]] = match self {
+    pub fn particles(&self) -> impl Iterator<Item = (usize, &Particle)> {
+        let bodies: &[Cow<'_, [Particle]>] = match self {
             Self::Particles { bodies, .. } => bodies,
             Self::Elements(_) => &[],
         };

@@ -1,4 +1,4 @@
-//! Step of the particles of a chunk: nodes to particles, constitutive update, particles to nodes.
+//! Step of the particles of a chunk: nodes to particles and constitutive update.
 //!
 //! The rate of volume and the pressure are means over the particles of a group, which have been in one cell: with a rate of volume of its
 //! own in each of four particles of a cell, plastic flow, which keeps the volume, would have too few ways to go \[hughes1980\]. Both means
@@ -6,22 +6,15 @@
 //! differ by, so that would drift as groups change: it decays as the material deforms.
 
 use super::{
-    block::{Block, Members},
-    body::{Pass, Sums, Task},
-    deform::{Rates, Work},
+    block::Block,
+    body::{Chunk, Pass, Sums, Task},
+    deform::Work,
     field::Field,
-    kernel::nearest,
     law::Law,
-    mesh::{Mesh, Places, cell_lengths},
-    transfer::Deposit,
+    mesh::{Places, cell_lengths},
+    rates::Rates,
 };
-use crate::{
-    lanes::{LANES, Lanes},
-    solver::Particle,
-};
-
-/// Particles after which a run of groups is worth a pass of its own, still close to the processor.
-const RUN: usize = 32;
+use crate::lanes::{LANES, Lanes, lanes, settled};
 
 /// Moves and deforms the particles of a chunk; a time step of 0 leaves them as they are.
 ///
@@ -43,172 +36,169 @@ impl pulp::NullaryFnOnce for Advance<'_, '_> {
     fn call(self) -> Sums {
         let Self { task, pass } = self;
         let Task {
-            particles,
+            blocks,
             chunk,
             law,
             field,
         } = task;
+        let Chunk {
+            group_ends,
+            scratch,
+            ..
+        } = &mut **chunk;
+        scratch.start(blocks.len());
+        for (number, block) in blocks.iter_mut().enumerate() {
+            let moving = moved(block, law, field, pass);
+            scratch.note(number, block, &moving.rates);
+            scratch.moving.push(moving);
+        }
+        let Scratch { moving, shares, .. } = scratch;
+        share_means(shares, group_ends);
         let mut sums = Sums::default();
-        let mut scratch = Scratch::default();
-        let (mut start, mut first) = (0, 0);
-        for (group, &end) in chunk.group_ends.iter().enumerate() {
-            if end - start >= RUN || group + 1 == chunk.group_ends.len() {
-                let run = &mut particles[start..end];
-                let ends = &chunk.group_ends[first..=group];
-                advance_run(
-                    run,
-                    (start, ends),
-                    law,
-                    field,
-                    pass,
-                    &mut scratch,
-                    &mut sums,
+        for (number, (block, moving)) in blocks.iter_mut().zip(moving).enumerate() {
+            let Moving { rates, places } = moving;
+            let mut work = Work::NONE;
+            if pass.time_step > 0.0 {
+                let [expansion, pressure, shear] = means(
+                    shares,
+                    number,
+                    block,
+                    [rates.expansion, block.pressure, NONE],
                 );
-                (start, first) = (end, group + 1);
+                rates.expansion = expansion;
+                rates.relax(block, &pressure, &shear, law, pass.time_step);
+                let lengths = cell_lengths(pass.mesh.cell, places);
+                work = law.deform(block, rates, pass.time_step, &lengths);
             }
+            add_up(block, places, &work, law, pass, &mut sums);
         }
         sums
     }
 }
 
-/// What passes from one part of the work on a run to the next, by particle.
+/// What passes from one part of the work on a chunk to the next.
 #[derive(Debug, Default)]
-struct Scratch {
+pub(super) struct Scratch {
     moving: Vec<Moving>,
-    /// Whether a particle is alone in its group: 1 if it is.
-    lone: Vec<f64>,
-    /// Weights of the means: volumes, or 0 where a particle has failed.
-    volumes: Vec<f64>,
-    /// Own rates of volume, pressures and rates of shear; then their means.
-    expansions: Vec<f64>,
-    pressures: Vec<f64>,
-    shears: Vec<f64>,
+    /// What means of groups are made of, then the means: volumes, or 0 where a particle has failed or left, and times these the rates
+    /// of volume, pressures and rates of shear.
+    shares: Vec<[f64; 4]>,
+    /// The same for the pressures that nodes get.
+    pub(super) pressures: Vec<[f64; 2]>,
 }
 
+const NONE: Lanes = Lanes::all(0.0);
+
 impl Scratch {
-    /// Makes room for a run and finds who is alone.
-    fn start(&mut self, particles: usize, (start, group_ends): (usize, &[usize])) {
+    /// Makes room for a number of blocks.
+    #[inline(always)]
+    fn start(&mut self, blocks: usize) {
         self.moving.clear();
-        for values in [
-            &mut self.lone,
-            &mut self.volumes,
-            &mut self.expansions,
-            &mut self.pressures,
-            &mut self.shears,
-        ] {
-            values.clear();
-            values.resize(particles, 0.0);
-        }
-        let mut from = 0;
-        for end in group_ends {
-            let to = end - start;
-            if to - from == 1 {
-                self.lone[from] = 1.0;
-            }
-            from = to;
+        self.moving.reserve(blocks);
+        self.shares.resize(blocks * LANES, [0.0; 4]);
+    }
+
+    /// Notes what means are to be made of.
+    #[inline(always)]
+    fn note(&mut self, number: usize, block: &Block, rates: &Rates) {
+        let shear = rates.shear();
+        note(
+            &mut self.shares,
+            number,
+            block,
+            [&rates.expansion, &block.pressure, &shear],
+        );
+    }
+}
+
+/// Notes weights and weighted values of a block.
+#[inline(always)]
+pub(super) fn note<const N: usize, const M: usize>(
+    shares: &mut [[f64; N]],
+    number: usize,
+    block: &Block,
+    values: [&Lanes; M],
+) {
+    let weight = settled(block.weights());
+    let mass = block.mass;
+    let mut weighted = [NONE; M];
+    for (weighted, values) in weighted.iter_mut().zip(values) {
+        let values = *values;
+        // What has left may be no number any more.
+        *weighted = lanes(|l| weight[l] * if mass[l] > 0.0 { values[l] } else { 0.0 });
+    }
+    let weighted = settled(weighted);
+    let shares = &mut shares[number * LANES..][..LANES];
+    for (l, share) in shares.iter_mut().enumerate() {
+        share[0] = weight[l];
+        for (entry, values) in share[1..].iter_mut().zip(&weighted) {
+            *entry = values[l];
         }
     }
 }
 
-/// Particles that have moved and are yet to be deformed.
+/// Means of the groups for the particles of a block that share them, and the own values of the others.
+#[inline(always)]
+pub(super) fn means<const N: usize, const M: usize>(
+    shares: &[[f64; N]],
+    number: usize,
+    block: &Block,
+    own: [Lanes; M],
+) -> [Lanes; M] {
+    let shares = &shares[number * LANES..][..LANES];
+    let (weight, lone) = (block.weights(), block.lone);
+    let total = settled(lanes(|l| shares[l][0]));
+    let mut means = own;
+    for (k, means) in means.iter_mut().enumerate() {
+        let (mean, own) = (settled(lanes(|l| shares[l][k + 1])), *means);
+        *means = lanes(|l| {
+            let is_shared = (weight[l] > 0.0) & (lone[l] == 0.0) & (total[l] > 0.0);
+            if is_shared { mean[l] } else { own[l] }
+        });
+    }
+    means
+}
+
+/// How particles move that are yet to be deformed.
 #[derive(Debug, Clone, Copy)]
 struct Moving {
-    members: Members,
-    block: Block,
     rates: Rates,
     places: Places,
 }
 
+/// Moves a block with the nodes.
 #[inline(always)]
-fn advance_run(
-    particles: &mut [Particle],
-    (start, group_ends): (usize, &[usize]),
-    law: &Law,
-    field: &Field,
-    pass: &Pass,
-    scratch: &mut Scratch,
-    sums: &mut Sums,
-) {
-    scratch.start(particles.len(), (start, group_ends));
-    let Scratch {
-        moving,
-        lone,
-        volumes,
-        expansions,
-        pressures,
-        shears,
-    } = scratch;
-    let cell = pass.mesh.cell;
-    let mut from = 0;
-    while let Some(members) = Members::next(particles, &mut from) {
-        let mut block = Block::of(particles, &members);
-        let mut places = pass.mesh.places(&block.position);
-        let mut rates = Rates::NONE;
-        if pass.time_step > 0.0 {
-            block.gather(&places, cell, field);
-            let hoop_rate = block.hoop_rate(law);
-            block.travel(pass.time_step, &members.lanes(lone));
-            rates = Rates::of(&block, hoop_rate, pass.time_step);
-            for (l, place) in members.iter() {
-                // A failed particle bears no tension: it is no part of the mean of sound ones.
-                let sound = if block.damage[l] < 1.0 { 1.0 } else { 0.0 };
-                volumes[place] = sound * block.volume[l];
-                expansions[place] = rates.expansion[l];
-                pressures[place] = block.pressure[l];
-                shears[place] = rates.shear(l);
-            }
-            places = pass.mesh.places(&block.position);
-        }
-        moving.push(Moving {
-            members,
-            block,
-            rates,
-            places,
-        });
+fn moved(block: &mut Block, law: &Law, field: &Field, pass: &Pass) -> Moving {
+    let mut places = pass.mesh.places(&block.position);
+    let mut rates = Rates::NONE;
+    if pass.time_step > 0.0 {
+        let drawn = block.gather(&places, pass.mesh.cell, field);
+        let hoop_rate = block.hoop_rate(&drawn, law);
+        block.travel(&drawn, pass.time_step);
+        rates = Rates::of(&drawn.rate, hoop_rate, pass.time_step);
+        places = pass.mesh.places(&block.position);
     }
-    for values in [&mut *expansions, pressures, shears] {
-        share_means(volumes, values, (start, group_ends));
-    }
-    for one in moving {
-        let mut work = Work::NONE;
-        if pass.time_step > 0.0 {
-            let (mean, shear) = (one.members.lanes(pressures), one.members.lanes(shears));
-            one.rates.expansion = one.members.lanes(expansions);
-            one.rates
-                .relax(&one.block, &mean, &shear, law, pass.time_step);
-            let lengths = cell_lengths(cell, &one.places);
-            let Moving {
-                members,
-                block,
-                rates,
-                ..
-            } = one;
-            work = law.deform(particles, members, block, rates, pass.time_step, &lengths);
-        }
-        add_up(particles, one, &work, law, pass, sums);
-    }
+    Moving { rates, places }
 }
 
-/// Gives the mean over each group, weighted, to those of its members that have a weight.
+/// Replaces what means are made of by the means, in groups of more than one particle.
 #[inline(always)]
-fn share_means(weights: &[f64], values: &mut [f64], (start, group_ends): (usize, &[usize])) {
+pub(super) fn share_means<const N: usize>(shares: &mut [[f64; N]], group_ends: &[usize]) {
     let mut from = 0;
-    for end in group_ends {
-        let to = end - start;
+    for &to in group_ends {
         if to - from > 1 {
-            let (mut weight, mut sum) = (0.0, 0.0);
-            for place in from..to {
-                weight += weights[place];
-                sum += weights[place] * values[place];
-            }
-            if weight > 0.0 {
-                let mean = sum / weight;
-                for place in from..to {
-                    if weights[place] > 0.0 {
-                        values[place] = mean;
-                    }
+            let own = &mut shares[from..to];
+            let mut sums = [0.0; N];
+            for share in &*own {
+                for (sum, entry) in sums.iter_mut().zip(share) {
+                    *sum += entry;
                 }
             }
+            let weight = sums[0];
+            for sum in &mut sums[1..] {
+                *sum /= weight;
+            }
+            own.fill(sums);
         }
         from = to;
     }
@@ -217,123 +207,88 @@ fn share_means(weights: &[f64], values: &mut [f64], (start, group_ends): (usize,
 /// Takes out the particles of a block that have left the body, and adds the others up.
 #[inline(always)]
 fn add_up(
-    particles: &mut [Particle],
-    moving: &Moving,
+    block: &mut Block,
+    places: &Places,
     work: &Work,
     law: &Law,
     pass: &Pass,
     sums: &mut Sums,
 ) {
-    let Moving {
-        members,
-        block,
-        places,
-        ..
-    } = moving;
     let kinetic = block.kinetic_energy(places, pass.mesh.cell);
     let wave_squared = law.wave_speed_squared(block);
-    for (l, place) in members.iter() {
-        sums.work.total += work.total[l];
-        sums.work.plastic += work.plastic[l];
-        sums.work.viscous += work.viscous[l];
-        sums.work.failure += work.failure[l];
-        sums.work.power_at_start += work.power_at_start[l];
-        let particle = &mut particles[place];
-        let [radius, depth] = particle.position;
+    let [radius, depth] = block.position;
+    let Block {
+        mass,
+        pressure,
+        damage,
+        plastic_strain,
+        velocity: [v_r, v_z],
+        ..
+    } = *block;
+    let (limits, [most_damage, most_strain]) = (pass.limits, law.erosion());
+    let stays = settled(lanes(|l| {
         // A comparison with what is no number fails, so this finds those too.
-        if !(kinetic[l] + particle.pressure + depth + radius).is_finite() {
-            sums.broken = true;
-            particle.mass = 0.0;
-            continue;
+        let is_finite = (kinetic[l] + pressure[l] + depth[l] + radius[l]).abs() < f64::INFINITY;
+        let is_inside =
+            (radius[l] <= limits.radius) & (depth[l] >= limits.back) & (depth[l] <= limits.front);
+        let erodes = (damage[l] >= most_damage) | (plastic_strain[l] >= most_strain);
+        let stays = is_finite & is_inside & !erodes;
+        if stays { 1.0 } else { 0.0 }
+    }));
+    let was = |values: Lanes| lanes(|l| if mass[l] > 0.0 { values[l] } else { 0.0 });
+    let stayed = |values: Lanes| {
+        lanes(|l| {
+            let stayed = (mass[l] > 0.0) & (stays[l] > 0.0);
+            if stayed { values[l] } else { 0.0 }
+        })
+    };
+    let done = [
+        was(work.total),
+        was(work.plastic),
+        was(work.viscous),
+        was(work.failure),
+        was(work.power_at_start),
+    ];
+    let kept = [
+        stayed(work.power_at_end),
+        stayed(mass),
+        stayed(lanes(|l| mass[l] * v_z[l])),
+        stayed(kinetic),
+        stayed(lanes(|l| v_r[l] * v_r[l] + v_z[l] * v_z[l])),
+        stayed(wave_squared),
+    ];
+    let [total, plastic, viscous, failure, at_start] = settled(done);
+    let [at_end, present, momentum, moving, speed, wave] = settled(kept);
+    for l in 0..LANES {
+        sums.work.total += total[l];
+        sums.work.plastic += plastic[l];
+        sums.work.viscous += viscous[l];
+        sums.work.failure += failure[l];
+        sums.work.power_at_start += at_start[l];
+        if (mass[l] > 0.0) & (stays[l] == 0.0) {
+            take_out(block, l, kinetic[l], law, sums);
         }
-        let limits = &pass.limits;
-        let is_beyond = radius > limits.radius || depth < limits.back || depth > limits.front;
-        if is_beyond || law.erodes(particle) {
-            sums.lost.0 += 1;
-            sums.lost.1 += particle.mass * particle.velocity[1];
-            sums.lost.2 += kinetic[l];
-            sums.work.failure += law.elastic_energy(particle);
-            particle.mass = 0.0;
-            continue;
-        }
-        sums.work.power_at_end += work.power_at_end[l];
-        let [v_r, v_z] = particle.velocity;
-        sums.mass += particle.mass;
-        sums.momentum += particle.mass * v_z;
-        sums.kinetic += kinetic[l];
-        sums.speed_squared = sums.speed_squared.max(v_r * v_r + v_z * v_z);
-        sums.wave_squared = sums.wave_squared.max(wave_squared[l]);
+        sums.work.power_at_end += at_end[l];
+        sums.mass += present[l];
+        sums.momentum += momentum[l];
+        sums.kinetic += moving[l];
+        sums.speed_squared = sums.speed_squared.max(speed[l]);
+        sums.wave_squared = sums.wave_squared.max(wave[l]);
     }
 }
 
-/// Adds the particles of a chunk to its nodes.
-pub(super) fn deposit(task: &mut Task<'_>, mesh: &Mesh) {
-    pulp::Arch::new().dispatch(ToNodes { task, mesh });
-}
-
-struct ToNodes<'a, 'b> {
-    task: &'a mut Task<'b>,
-    mesh: &'a Mesh,
-}
-
-impl pulp::NullaryFnOnce for ToNodes<'_, '_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Self { task, mesh } = self;
-        let Task {
-            particles,
-            chunk,
-            law,
-            ..
-        } = task;
-        let mut weights = vec![0.0; particles.len()];
-        let mut pressures = vec![0.0; particles.len()];
-        let (mut least, mut most, mut widest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
-        for (place, particle) in particles.iter().enumerate() {
-            pressures[place] = particle.pressure + particle.viscous_pressure;
-            if particle.mass > 0.0 {
-                let [radius, depth] = particle.position;
-                (least, most) = (least.min(depth), most.max(depth));
-                widest = widest.max(radius);
-                let sound = if particle.has_failed() { 0.0 } else { 1.0 };
-                weights[place] = sound * particle.volume;
-            }
-        }
-        let strip = &mut chunk.strip;
-        if least > most {
-            strip.open(0, 0, 0);
-            return;
-        }
-        share_means(&weights, &mut pressures, (0, &chunk.group_ends));
-        let [columns, first] = mesh.indices([widest, least]).map(|index| nearest(index).1);
-        let [_, last] = mesh.indices([widest, most]).map(|index| nearest(index).1);
-        strip.open(first - 1, (last - first) as usize + 3, columns as usize + 3);
-        // All of a block by way of memory: so a node's numbers stay side by side.
-        let mut deposits = [Deposit::default(); LANES];
-        let mut from = 0;
-        while let Some(members) = Members::next(particles, &mut from) {
-            let mut position = [Lanes::all(0.0); 2];
-            for (l, place) in members.iter() {
-                position[0][l] = particles[place].position[0];
-                position[1][l] = particles[place].position[1];
-            }
-            let Places { index, stretch } = mesh.places(&position);
-            for (l, place) in members.iter() {
-                let index = [index[0][l], index[1][l]];
-                let stretch = [stretch[0][l], stretch[1][l]];
-                deposits[l] = Deposit::of(
-                    &particles[place],
-                    pressures[place],
-                    (index, stretch),
-                    mesh.cell,
-                    law.axisymmetric,
-                );
-            }
-            for deposit in &deposits[..members.count()] {
-                deposit.add_to(strip);
-            }
-        }
+/// Takes a particle out of its body: it has eroded, or left where particles are followed, or ceased to be one.
+#[cold]
+fn take_out(block: &mut Block, lane: usize, kinetic: f64, law: &Law, sums: &mut Sums) {
+    let particle = block.particle(lane);
+    block.take_out(lane);
+    let [radius, depth] = particle.position;
+    if !(kinetic + particle.pressure + depth + radius).is_finite() {
+        sums.broken = true;
+        return;
     }
+    sums.lost.0 += 1;
+    sums.lost.1 += particle.mass * particle.velocity[1];
+    sums.lost.2 += kinetic;
+    sums.work.failure += law.elastic_energy(&particle);
 }

@@ -68,8 +68,7 @@ fn along_axis(part: usize, body: &Body, mesh: &Mesh) -> Vec<ElementState> {
     let rows = (last - first).max(0) as usize;
     let mut sums = vec![[0.0_f64; 7]; rows];
     for particle in body
-        .particles
-        .iter()
+        .particles()
         .filter(|p| p.mass > 0.0 && p.position[0] < mesh.cell)
     {
         let row = mesh.indices(particle.position)[1].floor() as isize - first;

@@ -2,130 +2,138 @@
 
 use super::{
     field::Field,
+    kernel::Stencils,
     law::Law,
     mesh::Places,
     transfer::{Motion, gather},
 };
 use crate::{
-    lanes::{LANES, Lanes, each_of, lanes, one},
+    lanes::{LANES, Lanes, each_of, lanes, one, settled},
+    material::{FlowState, YieldPoint},
     solver::Particle,
 };
 
 /// Rate, per unit of strain, at which the part of an affine field that the nodes do not resolve decays.
 const FORGETTING: f64 = 2.0;
 
-/// What a step reads and changes of its particles, named as there.
-#[derive(Debug, Clone, Copy)]
+/// Particles of a body, named as there. Those without mass have left the body or fill up the last block of a chunk.
+#[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
 pub(super) struct Block {
     pub(super) position: [Lanes; 2],
     pub(super) velocity: [Lanes; 2],
-    /// Velocity of the nodes at the particle, which carries it.
-    pub(super) drift: [Lanes; 2],
-    /// Affine velocity field of the particle, and velocity gradient of the nodes in this step.
     pub(super) gradient: [Lanes; 4],
-    pub(super) rate: [Lanes; 4],
-    /// What the nodes did not resolve of the affine field before the step.
-    unresolved: [Lanes; 4],
     pub(super) deviator: [Lanes; 3],
     pub(super) pressure: Lanes,
     pub(super) viscous_pressure: Lanes,
     pub(super) mass: Lanes,
     pub(super) volume: Lanes,
+    pub(super) plastic_strain: Lanes,
+    /// Equivalent stress up to which a particle is known to be elastic [Pa]: what its yield point says.
+    pub(super) elastic_to: Lanes,
     pub(super) temperature: Lanes,
     pub(super) energy: Lanes,
     pub(super) damage: Lanes,
+    pub(super) localization: Lanes,
+    pub(super) sides: [Lanes; 2],
+    /// Whether a particle is alone in its group: 1 if it is.
+    pub(super) lone: Lanes,
+    pub(super) yield_point: [YieldPoint; LANES],
 }
 
-/// The particles of a block: their places among those of a chunk.
+/// Motion of the nodes at the particles of a block in a step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Members {
-    places: [usize; LANES],
-    count: usize,
-}
-
-impl Members {
-    /// The next particles from a place on that are still in the body, and where to go on; `None` when there are no more.
-    #[inline(always)]
-    pub(super) fn next(particles: &[Particle], from: &mut usize) -> Option<Self> {
-        let mut members = Self {
-            places: [0; LANES],
-            count: 0,
-        };
-        while members.count < LANES && *from < particles.len() {
-            members.places[members.count] = *from;
-            members.count += usize::from(particles[*from].mass > 0.0);
-            *from += 1;
-        }
-        let last = members.count.checked_sub(1)?;
-        // Lanes that are left over do the last particle's work again; nobody asks for it.
-        let place = members.places[last];
-        members.places[last..].fill(place);
-        Some(members)
-    }
-
-    /// Lanes in use.
-    #[inline(always)]
-    pub(super) fn count(&self) -> usize {
-        self.count
-    }
-
-    /// Values of the members.
-    #[inline(always)]
-    pub(super) fn lanes(&self, values: &[f64]) -> Lanes {
-        lanes(|l| values[self.places[l]])
-    }
-
-    /// Lanes in use and the places of their particles.
-    #[inline(always)]
-    pub(super) fn iter(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
-        self.places.into_iter().take(self.count).enumerate()
-    }
+pub(super) struct Drawn {
+    /// Velocity of the nodes at a particle, which carries it.
+    pub(super) drift: [Lanes; 2],
+    /// Velocity gradient of the nodes.
+    pub(super) rate: [Lanes; 4],
+    /// What the nodes did not resolve of the affine field before the step.
+    unresolved: [Lanes; 4],
 }
 
 impl Block {
-    /// Particles as they are.
-    #[inline(always)]
-    pub(super) fn of(particles: &[Particle], members: &Members) -> Self {
-        let places = &members.places;
-        let each = |value: fn(&Particle) -> f64| lanes(|l| value(&particles[places[l]]));
-        Self {
-            position: [each(|p| p.position[0]), each(|p| p.position[1])],
-            velocity: [each(|p| p.velocity[0]), each(|p| p.velocity[1])],
-            drift: [Lanes::all(0.0); 2],
-            rate: [Lanes::all(0.0); 4],
-            unresolved: [Lanes::all(0.0); 4],
-            gradient: each_of(|l| particles[places[l]].gradient),
-            deviator: [
-                each(|p| p.deviator[0]),
-                each(|p| p.deviator[1]),
-                each(|p| p.deviator[2]),
-            ],
-            pressure: each(|p| p.pressure),
-            viscous_pressure: each(|p| p.viscous_pressure),
-            mass: each(|p| p.mass),
-            volume: each(|p| p.volume),
-            temperature: each(|p| p.temperature),
-            energy: each(|p| p.energy),
-            damage: each(|p| p.damage),
+    /// A particle.
+    #[inline]
+    pub(super) fn particle(&self, lane: usize) -> Particle {
+        Particle {
+            position: one(&self.position, lane),
+            velocity: one(&self.velocity, lane),
+            gradient: one(&self.gradient, lane),
+            deviator: one(&self.deviator, lane),
+            pressure: self.pressure[lane],
+            viscous_pressure: self.viscous_pressure[lane],
+            mass: self.mass[lane],
+            volume: self.volume[lane],
+            plastic_strain: self.plastic_strain[lane],
+            yield_point: self.yield_point[lane],
+            temperature: self.temperature[lane],
+            energy: self.energy[lane],
+            damage: self.damage[lane],
+            localization: self.localization[lane],
+            sides: one(&self.sides, lane),
         }
     }
 
-    /// Writes back what a step changes, damage left out.
+    /// Replaces a particle.
+    #[inline]
+    pub(super) fn set_particle(&mut self, lane: usize, particle: &Particle) {
+        set_one(&mut self.position, lane, particle.position);
+        set_one(&mut self.velocity, lane, particle.velocity);
+        set_one(&mut self.gradient, lane, particle.gradient);
+        set_one(&mut self.deviator, lane, particle.deviator);
+        self.pressure[lane] = particle.pressure;
+        self.viscous_pressure[lane] = particle.viscous_pressure;
+        self.mass[lane] = particle.mass;
+        self.volume[lane] = particle.volume;
+        self.plastic_strain[lane] = particle.plastic_strain;
+        self.set_yield_point(lane, particle.yield_point);
+        self.temperature[lane] = particle.temperature;
+        self.energy[lane] = particle.energy;
+        self.damage[lane] = particle.damage;
+        self.localization[lane] = particle.localization;
+        set_one(&mut self.sides, lane, particle.sides);
+    }
+
+    /// Replaces the yield point of a particle.
     #[inline(always)]
-    pub(super) fn store(&self, particles: &mut [Particle], members: &Members) {
-        for (lane, place) in members.iter() {
-            let particle = &mut particles[place];
-            particle.position = one(&self.position, lane);
-            particle.velocity = one(&self.velocity, lane);
-            particle.gradient = one(&self.gradient, lane);
-            particle.deviator = one(&self.deviator, lane);
-            particle.pressure = self.pressure[lane];
-            particle.viscous_pressure = self.viscous_pressure[lane];
-            particle.volume = self.volume[lane];
-            particle.temperature = self.temperature[lane];
-            particle.energy = self.energy[lane];
+    pub(super) fn set_yield_point(&mut self, lane: usize, point: YieldPoint) {
+        self.yield_point[lane] = point;
+        self.elastic_to[lane] = point.elastic_to();
+    }
+
+    /// What the strength of a particle depends on before it flows.
+    #[inline(always)]
+    pub(super) fn flow_state(&self, lane: usize) -> FlowState {
+        FlowState {
+            plastic_strain: self.plastic_strain[lane],
+            strain_rate: 0.0,
+            temperature: self.temperature[lane],
+            pressure: self.pressure[lane],
         }
+    }
+
+    /// Pressures with the artificial viscosity [Pa].
+    #[inline(always)]
+    pub(super) fn whole_pressure(&self) -> Lanes {
+        let (pressure, viscous) = (self.pressure, self.viscous_pressure);
+        lanes(|l| pressure[l] + viscous[l])
+    }
+
+    /// Takes a particle out of the body. Its lane goes on at the origin, where it harms nobody.
+    pub(super) fn take_out(&mut self, lane: usize) {
+        self.mass[lane] = 0.0;
+        set_one(&mut self.position, lane, [0.0; 2]);
+    }
+
+    /// Weights in the means of groups: volumes of particles that are in the body and sound, 0 of others. A failed one bears no tension.
+    #[inline(always)]
+    pub(super) fn weights(&self) -> Lanes {
+        let (mass, damage, volume) = (self.mass, self.damage, self.volume);
+        lanes(|l| {
+            let is_sound = (mass[l] > 0.0) & (damage[l] < 1.0);
+            if is_sound { volume[l] } else { 0.0 }
+        })
     }
 
     /// Takes the motion of the nodes: what the step changed there is added to the velocity of a particle and to its affine field.
@@ -133,28 +141,31 @@ impl Block {
     /// So a particle keeps what the nodes do not resolve of its motion. Means over the nodes alone \[jiang2015\] would lose that in every
     /// step, the more the shorter the steps are; with the velocity alone kept \[fei2021\], the affine field still does.
     #[inline(always)]
-    pub(super) fn gather(&mut self, places: &Places, cell: f64, field: &Field) {
-        let [radius, depth] = places.index;
+    pub(super) fn gather(&mut self, places: &Places, cell: f64, field: &Field) -> Drawn {
+        let [radial, axial] = &places.index;
+        let (radial, axial) = (settled(Stencils::at(radial)), settled(Stencils::at(axial)));
         // One particle after the other into memory: so the work on each becomes vector instructions too.
         let mut motions = [Motion::default(); LANES];
-        for lane in 0..LANES {
-            motions[lane] = gather([radius[lane], depth[lane]], field);
+        for (lane, motion) in motions.iter_mut().enumerate() {
+            if self.mass[lane] > 0.0 {
+                *motion = gather([radial.of(lane), axial.of(lane)], field);
+            }
         }
         let [stretch_r, stretch_z] = places.stretch;
         let scale = 4.0 / cell;
-        self.drift = each_of(|l| [motions[l].velocity[0], motions[l].velocity[1]]);
+        let drift = each_of(|l| [motions[l].velocity[0], motions[l].velocity[1]]);
         let before = self.velocity;
         self.velocity = each_of(|l| {
             let [r, z, r_before, z_before] = motions[l].velocity;
             [r + (before[0][l] - r_before), z + (before[1][l] - z_before)]
         });
-        self.rate = each_of(|l| {
+        let rate = each_of(|l| {
             let (along_r, along_z) = (scale / stretch_r[l], scale / stretch_z[l]);
             let ([rr, zr, ..], [rz, zz, ..]) = (motions[l].along_r, motions[l].along_z);
             [along_r * rr, along_z * rz, along_r * zr, along_z * zz]
         });
         let before = self.gradient;
-        self.unresolved = each_of(|l| {
+        let unresolved = each_of(|l| {
             let (along_r, along_z) = (scale / stretch_r[l], scale / stretch_z[l]);
             let ([_, _, rr, zr], [_, _, rz, zz]) = (motions[l].along_r, motions[l].along_z);
             [
@@ -164,6 +175,11 @@ impl Block {
                 before[3][l] - along_z * zz,
             ]
         });
+        Drawn {
+            drift,
+            rate,
+            unresolved,
+        }
     }
 
     /// Carries the affine fields along: neighbours that a step has moved apart by `1 + C Δt` have the same velocities as before, so the
@@ -173,8 +189,9 @@ impl Block {
     /// strain of a particle that is alone in its cell, which no neighbours stand for, decays as well: a fluid particle whose inertia
     /// does not shrink with it would draw energy from being carried.
     #[inline(always)]
-    fn carry(&mut self, time_step: f64, lone: &Lanes) {
-        let ([rr, rz, zr, zz], rest) = (self.rate, self.unresolved);
+    fn carry(&mut self, drawn: &Drawn, time_step: f64) {
+        let lone = self.lone;
+        let ([rr, rz, zr, zz], rest) = (drawn.rate, drawn.unresolved);
         self.gradient = each_of(|l| {
             let product = time_step * (rr[l] * zz[l] - rz[l] * zr[l]);
             let scale = 1.0 / (1.0 + time_step * (rr[l] + zz[l] + product));
@@ -195,10 +212,10 @@ impl Block {
 
     /// Moves the particles, reflected in the axis.
     #[inline(always)]
-    pub(super) fn travel(&mut self, time_step: f64, lone: &Lanes) {
-        self.carry(time_step, lone);
+    pub(super) fn travel(&mut self, drawn: &Drawn, time_step: f64) {
+        self.carry(drawn, time_step);
         let [radius, depth] = self.position;
-        let [radial, axial] = self.drift;
+        let [radial, axial] = drawn.drift;
         let place = lanes(|l| radius[l] + time_step * radial[l]);
         self.position = [
             lanes(|l| place[l].abs()),
@@ -216,8 +233,8 @@ impl Block {
 
     /// Hoop rate before the particles move [1/s].
     #[inline(always)]
-    pub(super) fn hoop_rate(&self, law: &Law) -> Lanes {
-        let (radius, velocity) = (self.position[0], self.drift[0]);
+    pub(super) fn hoop_rate(&self, drawn: &Drawn, law: &Law) -> Lanes {
+        let (radius, velocity) = (self.position[0], drawn.drift[0]);
         if law.axisymmetric {
             lanes(|l| velocity[l] / radius[l])
         } else {
@@ -236,5 +253,13 @@ impl Block {
             let affine = 0.25 * cell * cell * (along_r + along_z);
             0.5 * mass[l] * (v_r[l] * v_r[l] + v_z[l] * v_z[l] + affine)
         })
+    }
+}
+
+/// Replaces the numbers of one lane.
+#[inline(always)]
+fn set_one<const N: usize>(all: &mut [Lanes; N], lane: usize, values: [f64; N]) {
+    for (entry, value) in all.iter_mut().zip(values) {
+        entry[lane] = value;
     }
 }

@@ -1,12 +1,14 @@
 //! A body: its law, its particles in chunks, and its nodes.
 
 use super::{
+    advance::Scratch,
+    block::Block,
     field::{Field, Strip},
     law::Law,
     localization::localize,
     mesh::Mesh,
 };
-use crate::solver::Particle;
+use crate::{lanes::LANES, solver::Particle};
 
 /// Least number of particles that one task takes. It does not depend on the number of threads, so sums come out the same on any.
 const CHUNK: usize = 1024;
@@ -15,10 +17,13 @@ const CHUNK: usize = 1024;
 #[derive(Debug)]
 pub(super) struct Body {
     pub(super) law: Law,
-    /// In groups, each of which was in one cell when the particles were last put in order.
-    pub(super) particles: Vec<Particle>,
+    /// Particles in groups, each of which was in one cell when they were last put in order. A chunk begins with a block of its own.
+    pub(super) blocks: Vec<Block>,
     pub(super) chunks: Vec<Chunk>,
     pub(super) field: Field,
+    /// Cells and places of the particles, while they are put in order.
+    keys: Vec<(u64, usize)>,
+    spare: Vec<Block>,
 }
 
 /// Particles that one task takes, in whole groups.
@@ -27,12 +32,19 @@ pub(super) struct Chunk {
     /// Ends of the groups, counted from the first particle of the chunk.
     pub(super) group_ends: Vec<usize>,
     pub(super) strip: Strip,
+    #[serde(skip)]
+    pub(super) scratch: Scratch,
 }
 
 impl Chunk {
     /// Particles in it.
     pub(super) fn len(&self) -> usize {
         self.group_ends.last().copied().unwrap_or(0)
+    }
+
+    /// Blocks that they fill.
+    fn blocks(&self) -> usize {
+        self.len().div_ceil(LANES)
     }
 }
 
@@ -105,49 +117,105 @@ impl Sums {
 
 impl Body {
     /// A body whose particles are yet to be put in order.
-    pub(super) fn new(law: Law, particles: Vec<Particle>) -> Self {
-        Self {
+    pub(super) fn new(law: Law, particles: &[Particle]) -> Self {
+        let mut body = Self {
             law,
-            particles,
-            chunks: Vec::new(),
+            blocks: Vec::new(),
+            chunks: vec![Chunk {
+                group_ends: vec![particles.len()],
+                ..Chunk::default()
+            }],
             field: Field::default(),
+            keys: Vec::new(),
+            spare: Vec::new(),
+        };
+        body.set_particles(particles);
+        body
+    }
+
+    /// The particles in their order, with those that have left since it was made.
+    pub(super) fn particles(&self) -> impl Iterator<Item = Particle> {
+        let mut rest = &*self.blocks;
+        self.chunks.iter().flat_map(move |chunk| {
+            let (blocks, others) = rest.split_at(chunk.blocks());
+            rest = others;
+            (0..chunk.len()).map(|place| blocks[place / LANES].particle(place % LANES))
+        })
+    }
+
+    /// Replaces the particles by as many others in the same order.
+    pub(super) fn set_particles(&mut self, particles: &[Particle]) {
+        self.fill(particles.iter().copied());
+    }
+
+    fn fill(&mut self, mut particles: impl Iterator<Item = Particle>) {
+        self.blocks.clear();
+        for chunk in &self.chunks {
+            let first = self.blocks.len();
+            let blocks = first + chunk.blocks();
+            self.blocks.resize(blocks, Block::default());
+            let mut from = 0;
+            for &end in &chunk.group_ends {
+                for (place, particle) in (from..end).zip(&mut particles) {
+                    let block = &mut self.blocks[first + place / LANES];
+                    block.set_particle(place % LANES, &particle);
+                    block.lone[place % LANES] = if end - from == 1 { 1.0 } else { 0.0 };
+                }
+                from = end;
+            }
         }
     }
 
     /// Puts particles in the order of their cells, row by row, drops those that have left, and groups those of each cell.
     pub(super) fn put_in_order(&mut self, mesh: &Mesh) {
-        self.particles.retain(|particle| particle.mass > 0.0);
-        let cell = |particle: &Particle| {
-            let [radius, depth] = mesh.indices(particle.position).map(|x| x.floor() as i64);
-            (depth, radius)
-        };
-        self.particles.sort_by_cached_key(cell);
-        if self.law.damage.is_some() {
-            localize(&mut self.particles, cell);
+        let mut keys = std::mem::take(&mut self.keys);
+        keys.clear();
+        for (number, block) in self.blocks.iter().enumerate() {
+            let [columns, rows] = mesh.places(&block.position).index;
+            let present = (0..LANES).filter(|&l| block.mass[l] > 0.0);
+            keys.extend(present.map(|l| (cell_key(rows[l], columns[l]), number * LANES + l)));
         }
-        let mut chunks = vec![Chunk::default()];
-        let groups = self.particles.chunk_by(|a, b| cell(a) == cell(b));
-        for group in groups {
+        keys.sort_unstable();
+        // What the old chunks have in memory is used again.
+        let mut old = std::mem::take(&mut self.chunks);
+        let mut begin = || {
+            let mut chunk = old.pop().unwrap_or_default();
+            chunk.group_ends.clear();
+            chunk
+        };
+        let mut chunks = vec![begin()];
+        for group in keys.chunk_by(|a, b| a.0 == b.0) {
             if let Some(chunk) = chunks.last_mut() {
                 chunk.group_ends.push(chunk.len() + group.len());
                 if chunk.len() >= CHUNK {
-                    chunks.push(Chunk::default());
+                    chunks.push(begin());
                 }
             }
         }
         chunks.retain(|chunk| chunk.len() > 0);
         self.chunks = chunks;
+        std::mem::swap(&mut self.blocks, &mut self.spare);
+        let mut before = std::mem::take(&mut self.spare);
+        if self.law.damage.is_some() {
+            localize(&mut before, &keys);
+        }
+        self.fill(
+            keys.iter()
+                .map(|&(_, place)| before[place / LANES].particle(place % LANES)),
+        );
+        self.spare = before;
+        self.keys = keys;
     }
 
     /// Chunks with their particles.
     pub(super) fn tasks(&mut self) -> impl Iterator<Item = Task<'_>> {
         let (law, field) = (&self.law, &self.field);
-        let mut rest = &mut *self.particles;
+        let mut rest = &mut *self.blocks;
         self.chunks.iter_mut().map(move |chunk| {
-            let (particles, others) = std::mem::take(&mut rest).split_at_mut(chunk.len());
+            let (blocks, others) = std::mem::take(&mut rest).split_at_mut(chunk.blocks());
             rest = others;
             Task {
-                particles,
+                blocks,
                 chunk,
                 law,
                 field,
@@ -156,10 +224,20 @@ impl Body {
     }
 }
 
+/// A number for each cell, larger for cells of later rows, and of later columns in a row.
+fn cell_key(row: f64, column: f64) -> u64 {
+    let [row, column] = [row, column].map(|index| {
+        let whole = index as i32;
+        let floor = whole - i32::from(f64::from(whole) > index);
+        u64::from(floor.cast_unsigned() ^ (1 << 31))
+    });
+    (row << 32) | column
+}
+
 /// A chunk, its particles, and what they need of their body.
 #[derive(Debug)]
 pub(super) struct Task<'a> {
-    pub(super) particles: &'a mut [Particle],
+    pub(super) blocks: &'a mut [Block],
     pub(super) chunk: &'a mut Chunk,
     pub(super) law: &'a Law,
     pub(super) field: &'a Field,

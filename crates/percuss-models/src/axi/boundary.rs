@@ -74,6 +74,23 @@ impl BoundaryConditions {
         }
     }
 
+    /// The first columns of a row of so many that neither supports nor mirror images reach.
+    pub(super) fn free_columns(&self, row: isize, columns: usize) -> usize {
+        let is_reflected = self
+            .mirror()
+            .is_some_and(|plane| (-1..=1).contains(&row.saturating_sub(plane)));
+        let is_supported = match self.back {
+            (_, BoundaryCondition::Free) => false,
+            (back, BoundaryCondition::Smooth) => row >= back,
+            (back, BoundaryCondition::NonReflecting { .. }) => share(row - back).is_some(),
+        };
+        match self.edge {
+            _ if is_reflected || is_supported => 0,
+            (_, BoundaryCondition::Free) => columns,
+            (edge, _) => columns.min(edge.saturating_sub(1)),
+        }
+    }
+
     /// A node and what contact takes from it, with what lies mirrored in planes without motion across them added; `None` behind
     /// such a plane. A wall holds only what presses.
     pub(super) fn folded(

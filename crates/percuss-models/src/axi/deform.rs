@@ -1,17 +1,15 @@
 //! Constitutive update of a block of particles from its velocity gradients.
 
 use super::{
-    block::{Block, Members},
+    block::Block,
     law::{Law, Pressure},
+    rates::Rates,
 };
 use crate::{
-    lanes::{Lanes, each_of, lanes, one},
-    material::Trial,
-    solver::{Particle, equivalent},
+    lanes::{LANES, Lanes, each_of, lanes, one, settled},
+    material::{Hardening, Trial, YieldPoint, first_return},
+    solver::equivalent,
 };
-
-/// Rate, per unit of strain, at which the pressures of a group come together.
-const RELAXING: f64 = 4.0;
 
 /// What a step did in every particle of a block [J].
 #[derive(Debug, Clone, Copy)]
@@ -38,12 +36,10 @@ impl Work {
 }
 
 impl Law {
-    /// Brings particles, whose velocity gradients are new in their block, to the end of a step, and stores the block in them.
+    /// Brings particles, whose velocity gradients are new, to the end of a step.
     #[inline(always)]
     pub(super) fn deform(
         &self,
-        particles: &mut [Particle],
-        members: &Members,
         block: &mut Block,
         rates: &Rates,
         time_step: f64,
@@ -66,37 +62,50 @@ impl Law {
             volume_before[l] * ((1.0 + half) / (1.0 - half))
         });
         let stiffness = 2.0 * self.shear_modulus * time_step;
-        let mut trial = each_of(|l| {
+        let trial = each_of(|l| {
             let mut trial = turned(one(&before, l), spin[l] * time_step);
             for (entry, rate) in trial.iter_mut().zip(rate(l)) {
                 *entry += stiffness * rate;
             }
             trial
         });
-        let size = lanes(|l| equivalent(&one(&trial, l)));
+        let size = settled(lanes(|l| equivalent(&one(&trial, l))));
+        let mut trial = settled(trial);
         let mean_volume = lanes(|l| 0.5 * (volume_before[l] + volume[l]));
-        let mut plastic: Lanes = Lanes::all(0.0);
-        let mut increments: Lanes = Lanes::all(0.0);
-        for (l, place) in members.iter() {
-            let particle = &mut particles[place];
-            if particle.has_failed() {
-                for entry in &mut trial {
-                    entry[l] = 0.0;
-                }
-            } else if !particle.yield_point.holds(size[l]) {
-                let before = particle.yield_point.stress();
-                let increment = self.flow(particle, size[l], time_step);
-                // Without flow the stress stays as it is; one of 0 has no direction to return along.
-                if increment > 0.0 {
-                    let after = size[l] - 3.0 * self.shear_modulus * increment;
-                    let scale = 1.0 - 3.0 * self.shear_modulus * increment / size[l];
-                    for entry in &mut trial {
-                        entry[l] *= scale;
+        let (damage, elastic_to, present) = (block.damage, block.elastic_to, block.mass);
+        let flows = settled(lanes(|l| {
+            let is_elastic = (size[l] <= elastic_to[l]) | (damage[l] >= 1.0);
+            let flows = (present[l] > 0.0) & !is_elastic;
+            if flows { 1.0 } else { 0.0 }
+        }));
+        for entry in &mut trial {
+            let stress = *entry;
+            *entry = lanes(|l| if damage[l] >= 1.0 { 0.0 } else { stress[l] });
+        }
+        let mut plastic = Lanes::all(0.0);
+        let mut increments = Lanes::all(0.0);
+        if flows.contains(&1.0) {
+            let before = settled(lanes(|l| block.yield_point[l].stress()));
+            increments = settled(self.flows(block, &size, flows.map(|flow| flow > 0.0), time_step));
+            let modulus = 3.0 * self.shear_modulus;
+            // Without flow the stress stays as it is; one of 0 has no direction to return along.
+            let after = lanes(|l| size[l] - modulus * increments[l]);
+            for entry in &mut trial {
+                let stress = *entry;
+                *entry = lanes(|l| {
+                    let scaled = stress[l] * (1.0 - modulus * increments[l] / size[l]);
+                    if increments[l] > 0.0 {
+                        scaled
+                    } else {
+                        stress[l]
                     }
-                    plastic[l] = 0.5 * (before.min(after) + after) * increment * mean_volume[l];
-                    increments[l] = increment;
-                }
+                });
             }
+            plastic = lanes(|l| {
+                let mean = 0.5 * (before[l].min(after[l]) + after[l]);
+                let work = mean * increments[l] * mean_volume[l];
+                if increments[l] > 0.0 { work } else { 0.0 }
+            });
         }
         block.deviator = trial;
         block.volume = volume;
@@ -125,24 +134,30 @@ impl Law {
         });
         let volume_work = self.compress(block, &change, &lanes(|l| shear_work[l] + viscous[l]));
         let (temperature, mass) = (block.temperature, block.mass);
-        block.temperature =
-            lanes(|l| temperature[l] + self.heating * (plastic[l] + viscous[l]) * (1.0 / mass[l]));
+        block.temperature = lanes(|l| {
+            let heated =
+                temperature[l] + self.heating * (plastic[l] + viscous[l]) * (1.0 / mass[l]);
+            // A particle that has left stays what it was.
+            if mass[l] > 0.0 {
+                heated
+            } else {
+                temperature[l]
+            }
+        });
         let total = lanes(|l| shear_work[l] + volume_work[l] + viscous[l]);
-        block.store(particles, members);
         if self.strength.depends_on_pressure() {
-            for (_, place) in members.iter() {
-                particles[place].yield_point.forget();
+            for l in 0..LANES {
+                let mut point = block.yield_point[l];
+                point.forget();
+                block.set_yield_point(l, point);
             }
         }
-        let mut failure: Lanes = Lanes::all(0.0);
+        let mut failure = Lanes::all(0.0);
         if self.can_fail() {
-            for (l, place) in members.iter() {
-                let particle = &mut particles[place];
-                failure[l] = self.fail(particle, increments[l], cell[l], time_step);
-                for (entry, value) in block.deviator.iter_mut().zip(particle.deviator) {
-                    entry[l] = value;
-                }
-                block.pressure[l] = particle.pressure;
+            for l in (0..LANES).filter(|&l| mass[l] > 0.0) {
+                let mut particle = block.particle(l);
+                failure[l] = self.fail(&mut particle, increments[l], cell[l], time_step);
+                block.set_particle(l, &particle);
             }
         }
         let (deviator, pressure) = (block.deviator, block.pressure);
@@ -161,20 +176,73 @@ impl Law {
         }
     }
 
-    /// Returns a trial stress of a particle to the yield surface, radially; gives the increment of plastic strain.
+    /// Returns trial stresses to the yield surface, radially, in lanes that flow; gives the increments of plastic strain, 0 in others.
+    #[inline(always)]
+    fn flows(
+        &self,
+        block: &mut Block,
+        size: &Lanes,
+        mut flows: [bool; LANES],
+        time_step: f64,
+    ) -> Lanes {
+        let mut increments = Lanes::all(0.0);
+        if let Some(law) = self.strength.hardening() {
+            increments = self.first_flows(block, law, size, &mut flows);
+        }
+        for l in 0..LANES {
+            if flows[l] {
+                increments[l] = self.flow(block, l, size[l], time_step);
+            }
+        }
+        increments
+    }
+
+    /// The same for a power of the plastic strain where one step of Newton's method is enough; what is left flows no more.
+    #[inline(always)]
+    fn first_flows(
+        &self,
+        block: &mut Block,
+        law: Hardening,
+        size: &Lanes,
+        flows: &mut [bool; LANES],
+    ) -> Lanes {
+        let modulus = 3.0 * self.shear_modulus;
+        let stress = settled(lanes(|l| block.yield_point[l].stress()));
+        let slope = settled(lanes(|l| block.yield_point[l].strain_slope()));
+        let strain = block.plastic_strain;
+        let [increment, slope, is_last] = settled(each_of(|l| {
+            let first = first_return(law, [stress[l], slope[l]], strain[l], size[l], modulus);
+            let most = size[l] / modulus;
+            let is_last = if first.is_last { 1.0 } else { 0.0 };
+            [first.increment.min(most), first.strain_slope, is_last]
+        }));
+        let mut increments = Lanes::all(0.0);
+        for l in 0..LANES {
+            if flows[l] & (is_last[l] > 0.0) {
+                flows[l] = false;
+                increments[l] = increment[l];
+                let stress = size[l] - modulus * increment[l];
+                block.set_yield_point(l, YieldPoint::known(stress, slope[l]));
+            }
+        }
+        block.plastic_strain = lanes(|l| strain[l] + increments[l]);
+        increments
+    }
+
+    /// Returns the trial stress of a particle to the yield surface; gives the increment of plastic strain.
     #[inline]
-    fn flow(&self, particle: &mut Particle, size: f64, time_step: f64) -> f64 {
-        let state = particle.flow_state();
+    fn flow(&self, block: &mut Block, lane: usize, size: f64, time_step: f64) -> f64 {
+        let state = block.flow_state(lane);
         let trial = Trial {
             stress: size,
             modulus: 3.0 * self.shear_modulus,
             pressure_fall: 0.0,
             elapsed: self.rate_effects.then_some(time_step),
         };
-        let increment = particle
-            .yield_point
-            .plastic_increment(&*self.strength, &state, &trial);
-        particle.plastic_strain += increment;
+        let mut point = block.yield_point[lane];
+        let increment = point.plastic_increment(&*self.strength, &state, &trial);
+        block.set_yield_point(lane, point);
+        block.plastic_strain[lane] += increment;
         increment
     }
 
@@ -237,100 +305,6 @@ impl Law {
         block.pressure = pressure;
         block.energy = energy;
         done
-    }
-}
-
-/// Rates of strain of a block [1/s], on the configuration half a step on.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Rates {
-    /// Deviatoric strain rates rr, zz, rz.
-    pub(super) shape: [Lanes; 3],
-    /// Rate of volume.
-    pub(super) expansion: Lanes,
-    /// Part of the pressure beyond the mean of the group [Pa], and rate of volume by which it decays.
-    pub(super) excess: Lanes,
-    pub(super) relaxation: Lanes,
-    pub(super) spin: Lanes,
-}
-
-impl Rates {
-    /// Those of a step that takes no time.
-    pub(super) const NONE: Self = Self {
-        shape: [Lanes::all(0.0); 3],
-        expansion: Lanes::all(0.0),
-        relaxation: Lanes::all(0.0),
-        excess: Lanes::all(0.0),
-        spin: Lanes::all(0.0),
-    };
-
-    /// Equivalent rate of shear in a lane.
-    #[inline(always)]
-    pub(super) fn shear(&self, l: usize) -> f64 {
-        let [rr, zz, rz] = one(&self.shape, l);
-        (rr * rr + zz * zz + rr * zz + rz * rz).sqrt()
-    }
-
-    /// Lets the pressures of sound particles come together with the mean of their group, at a part of its mean rate of shear.
-    #[inline(always)]
-    pub(super) fn relax(
-        &mut self,
-        block: &Block,
-        mean: &Lanes,
-        shear: &Lanes,
-        law: &Law,
-        time_step: f64,
-    ) {
-        let per_modulus = 1.0 / law.bulk_modulus;
-        [self.excess, self.relaxation] = each_of(|l| {
-            let excess = if block.damage[l] < 1.0 {
-                block.pressure[l] - mean[l]
-            } else {
-                0.0
-            };
-            let rate = RELAXING * shear[l];
-            [
-                excess,
-                excess * per_modulus * rate / (1.0 + rate * time_step),
-            ]
-        });
-    }
-
-    /// Those of a block whose gradients and hoop rates are new.
-    ///
-    /// Particles move by the velocities at the start of the step, which the gradient C belongs to: on the mean configuration,
-    /// `C (1 + C Δt/2)⁻¹`, it gives their change of shape to second order, and that of a turning body, which straight ways make larger,
-    /// too.
-    #[inline(always)]
-    pub(super) fn of(block: &Block, hoop_rate: Lanes, time_step: f64) -> Self {
-        let [rr, rz, zr, zz] = block.rate;
-        let half = 0.5 * time_step;
-        let [shape_rr, shape_zz, shape_rz, expansion, spin] = each_of(|l| {
-            let product = half * (rr[l] * zz[l] - rz[l] * zr[l]);
-            let scale = 1.0 / (1.0 + half * (rr[l] + zz[l] + product));
-            let (rr, rz, zr, zz) = (
-                (rr[l] + product) * scale,
-                rz[l] * scale,
-                zr[l] * scale,
-                (zz[l] + product) * scale,
-            );
-            let hoop = hoop_rate[l] / (1.0 + half * hoop_rate[l]);
-            let expansion = rr + zz + hoop;
-            let third = expansion / 3.0;
-            [
-                rr - third,
-                zz - third,
-                0.5 * (rz + zr),
-                expansion,
-                0.5 * (rz - zr),
-            ]
-        });
-        Self {
-            shape: [shape_rr, shape_zz, shape_rz],
-            expansion,
-            relaxation: Lanes::all(0.0),
-            excess: Lanes::all(0.0),
-            spin,
-        }
     }
 }
 

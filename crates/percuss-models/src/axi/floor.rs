@@ -3,7 +3,7 @@
 //! How much of a cell is filled says where a surface is within a tenth of a cell. That is much of a crater that is not as deep as a cell; a
 //! point that moves with the material has no such error. In deep craters the material on the floor flows aside, and the filling is better.
 
-use super::{body::Body, crater, field::MASS, mesh::Mesh, transfer::gather};
+use super::{body::Body, crater, field::MASS, kernel::Stencil, mesh::Mesh, transfer::gather};
 use crate::problem::Nose;
 
 /// Radii of the points under a flat end, over that of the projectile: close to the axis, where the floor is flat.
@@ -43,7 +43,8 @@ impl Floor {
                 .node(row.round() as isize, column.round() as usize + 1);
             // A point whose material is gone stays where it was.
             if nearest[MASS] > 0.0 {
-                let [radial, axial, ..] = gather([column, row], &struck.field).velocity;
+                let [radial, axial, ..] =
+                    gather([column, row].map(Stencil::at), &struck.field).velocity;
                 *point = [(point[0] + time * radial).abs(), point[1] + time * axial];
             }
         }

@@ -1,5 +1,7 @@
 //! Quadratic B-splines: how a particle and the nodes around it see each other.
 
+use crate::lanes::{LANES, Lanes, each_of, lanes, one};
+
 /// The nodes that a particle reaches along one direction, with their weights.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Stencil {
@@ -9,6 +11,8 @@ pub(super) struct Stencil {
     pub(super) weights: [f64; 3],
     /// From the particle to the first node, in cells.
     pub(super) offset: f64,
+    /// Weights times the distances from the particle to the three, in cells.
+    pub(super) arms: [f64; 3],
 }
 
 impl Stencil {
@@ -18,10 +22,51 @@ impl Stencil {
         let (middle, index) = nearest(place);
         let from_first = place - (middle - 1.0);
         let (a, b, c) = (1.5 - from_first, from_first - 1.0, from_first - 0.5);
+        let weights = [0.5 * a * a, 0.75 - b * b, 0.5 * c * c];
+        let offset = -from_first;
+        let arm = |node: usize| weights[node] * (offset + node as f64);
         Self {
             first: index - 1,
-            weights: [0.5 * a * a, 0.75 - b * b, 0.5 * c * c],
-            offset: -from_first,
+            weights,
+            offset,
+            arms: [arm(0), arm(1), arm(2)],
+        }
+    }
+}
+
+/// Stencils of the particles of a block.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stencils {
+    first: [isize; LANES],
+    weights: [Lanes; 3],
+    pub(super) offset: Lanes,
+    arms: [Lanes; 3],
+}
+
+impl Stencils {
+    /// Stencils of particles at places counted in cells.
+    #[inline(always)]
+    pub(super) fn at(place: &Lanes) -> Self {
+        let mut first = [0; LANES];
+        for (first, place) in first.iter_mut().zip(&**place) {
+            *first = Stencil::at(*place).first;
+        }
+        Self {
+            first,
+            weights: each_of(|l| Stencil::at(place[l]).weights),
+            offset: lanes(|l| Stencil::at(place[l]).offset),
+            arms: each_of(|l| Stencil::at(place[l]).arms),
+        }
+    }
+
+    /// That of one particle.
+    #[inline(always)]
+    pub(super) fn of(&self, lane: usize) -> Stencil {
+        Stencil {
+            first: self.first[lane],
+            weights: one(&self.weights, lane),
+            offset: self.offset[lane],
+            arms: one(&self.arms, lane),
         }
     }
 }

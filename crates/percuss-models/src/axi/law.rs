@@ -121,12 +121,16 @@ impl Law {
         per_volume * particle.volume
     }
 
-    /// Whether a particle is to leave its body.
+    /// Damage and equivalent plastic strain at which a particle is to leave its body.
     #[inline(always)]
-    pub(super) fn erodes(&self, particle: &Particle) -> bool {
-        (self.erode_failed && particle.has_failed())
-            || self
-                .erosion_strain
-                .is_some_and(|most| particle.plastic_strain >= most)
+    pub(super) fn erosion(&self) -> [f64; 2] {
+        [
+            if self.erode_failed {
+                1.0
+            } else {
+                f64::INFINITY
+            },
+            self.erosion_strain.unwrap_or(f64::INFINITY),
+        ]
     }
 }

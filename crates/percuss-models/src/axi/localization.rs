@@ -4,7 +4,8 @@
 //! takes is in proportion to the cell. A crack band \[bazant1983\] has a width of its own: what is localized in one row of cells h wide has
 //! h/w times its strain in a band w wide, and strain that is even has its own. The mean over the adjacent cells says which part is which.
 
-use crate::solver::Particle;
+use super::block::Block;
+use crate::lanes::LANES;
 
 /// Row and column of a cell.
 pub(super) type Cell = (i64, i64);
@@ -12,27 +13,34 @@ pub(super) type Cell = (i64, i64);
 /// Part of a strain that is in one row of cells only, which the mean over three rows has.
 const ROW: f64 = 1.0 / 3.0;
 
-/// Sets the localized part of the plastic strain of particles that are in the order of their cells.
-pub(super) fn localize(particles: &mut [Particle], cell: impl Fn(&Particle) -> Cell) {
-    let same = |a: &Particle, b: &Particle| cell(a) == cell(b);
-    let strains: Vec<(Cell, f64)> = particles
-        .chunk_by(same)
-        .filter_map(|group| Some((cell(&group[0]), mean(group)?)))
+/// Sets the localized part of the plastic strain of particles, given the cells and places of the particles in the order of the cells.
+pub(super) fn localize(blocks: &mut [Block], order: &[(u64, usize)]) {
+    let groups = || order.chunk_by(|a, b| a.0 == b.0);
+    let strains: Vec<(Cell, f64)> = groups()
+        .filter_map(|group| Some((cell(group[0].0), mean(blocks, group)?)))
         .collect();
-    for group in particles.chunk_by_mut(same) {
-        let localization = localized_part(&strains, cell(&group[0]));
-        for particle in group {
-            particle.localization = localization;
+    for group in groups() {
+        let part = localized_part(&strains, cell(group[0].0));
+        for (_, place) in group {
+            blocks[place / LANES].localization[place % LANES] = part;
         }
     }
 }
 
+/// Row and column that a key stands for, from the same origin for all.
+fn cell(key: u64) -> Cell {
+    ((key >> 32) as i64, (key & u64::from(u32::MAX)) as i64)
+}
+
 /// Mean plastic strain of the sound particles of a cell, if it has any.
-fn mean(group: &[Particle]) -> Option<f64> {
+fn mean(blocks: &[Block], group: &[(u64, usize)]) -> Option<f64> {
     let (mut volume, mut sum) = (0.0, 0.0);
-    for particle in group.iter().filter(|particle| !particle.has_failed()) {
-        volume += particle.volume;
-        sum += particle.volume * particle.plastic_strain;
+    for (_, place) in group {
+        let (block, lane) = (&blocks[place / LANES], place % LANES);
+        if block.damage[lane] < 1.0 {
+            volume += block.volume[lane];
+            sum += block.volume[lane] * block.plastic_strain[lane];
+        }
     }
     (volume > 0.0).then(|| sum / volume)
 }
@@ -61,28 +69,43 @@ fn localized_part(strains: &[(Cell, f64)], (row, column): Cell) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::Particle;
 
     const SIDE: i64 = 9;
 
+    /// Localized parts of particles of unit volume in cells that are given with their strain and damage, in the order of the cells.
+    fn localized(cells: &[(Cell, [f64; 2])]) -> Vec<f64> {
+        let mut blocks = vec![Block::default(); cells.len().div_ceil(LANES)];
+        let mut order = Vec::new();
+        for (place, &((row, column), [plastic_strain, damage])) in cells.iter().enumerate() {
+            let particle = Particle {
+                volume: 1.0,
+                mass: 1.0,
+                plastic_strain,
+                damage,
+                ..Particle::default()
+            };
+            blocks[place / LANES].set_particle(place % LANES, &particle);
+            order.push((((row as u64) << 32) | column as u64, place));
+        }
+        localize(&mut blocks, &order);
+        (0..cells.len())
+            .map(|place| blocks[place / LANES].localization[place % LANES])
+            .collect()
+    }
+
     /// Localized parts in a square of cells with two particles each, by row and column.
     fn parts(strain: impl Fn(Cell) -> f64) -> impl Fn(Cell) -> f64 {
-        let mut particles = Vec::new();
+        let mut cells = Vec::new();
         for row in 0..SIDE {
             for column in 0..SIDE {
                 for part in [0.9, 1.1] {
-                    particles.push(Particle {
-                        position: [column as f64, row as f64],
-                        volume: 1.0,
-                        plastic_strain: part * strain((row, column)),
-                        ..Particle::default()
-                    });
+                    cells.push(((row, column), [part * strain((row, column)), 0.0]));
                 }
             }
         }
-        localize(&mut particles, |p| {
-            (p.position[1] as i64, p.position[0] as i64)
-        });
-        move |(row, column)| particles[(2 * (SIDE * row + column)) as usize].localization
+        let found = localized(&cells);
+        move |(row, column)| found[(2 * (SIDE * row + column)) as usize]
     }
 
     #[test]
@@ -127,17 +150,12 @@ mod tests {
 
     #[test]
     fn failed_particles_are_no_neighbours() {
-        let mut particles: Vec<Particle> = (0..3)
-            .map(|row| Particle {
-                position: [0.0, f64::from(row)],
-                volume: 1.0,
-                plastic_strain: [0.2, 0.4, 9.0][row as usize],
-                damage: if row == 2 { 1.0 } else { 0.0 },
-                ..Particle::default()
-            })
-            .collect();
-        localize(&mut particles, |p| (p.position[1] as i64, 0));
-        assert!((particles[1].localization - 0.375).abs() < 1e-12);
-        assert_eq!(particles[2].localization, 0.0);
+        let found = localized(&[
+            ((0, 0), [0.2, 0.0]),
+            ((1, 0), [0.4, 0.0]),
+            ((2, 0), [9.0, 1.0]),
+        ]);
+        assert!((found[1] - 0.375).abs() < 1e-12);
+        assert_eq!(found[2], 0.0);
     }
 }

@@ -43,8 +43,10 @@ pub(super) fn is_open(target: &Body, mesh: &Mesh, projectile_radius: f64) -> boo
 /// Cells that sound material fills.
 fn filled_cells(target: &Body, mesh: &Mesh) -> HashSet<Cell> {
     let mut parts: HashMap<Cell, f64> = HashMap::new();
-    let particles = target.particles.iter();
-    for particle in particles.filter(|p| p.mass > 0.0 && !p.has_failed()) {
+    for particle in target
+        .particles()
+        .filter(|p| p.mass > 0.0 && !p.has_failed())
+    {
         let [column, row] = mesh.indices(particle.position);
         let cell = mesh.cell * mesh.cell * mesh.radial.stretch(column) * mesh.axial.stretch(row);
         let section = particle.volume / (2.0 * PI * particle.position[0]);

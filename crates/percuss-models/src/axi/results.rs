@@ -55,8 +55,8 @@ pub(super) fn extremes(solver: &Grid) -> Extremes {
             .enumerate()
             .filter(|(index, _)| (*index > 0) == target);
         bodies
-            .flat_map(|(_, body)| &body.particles)
-            .map(value)
+            .flat_map(|(_, body)| body.particles())
+            .map(|particle| value(&particle))
             .fold(0.0, f64::max)
     };
     let particles = |target: bool| {
@@ -66,8 +66,7 @@ pub(super) fn extremes(solver: &Grid) -> Extremes {
             .enumerate()
             .filter(|(index, _)| (*index > 0) == target);
         let lost = solver.accumulated.lost[usize::from(target)];
-        let present =
-            |body: &super::body::Body| body.particles.iter().filter(|p| p.mass > 0.0).count();
+        let present = |body: &super::body::Body| body.particles().filter(|p| p.mass > 0.0).count();
         lost + bodies.map(|(_, body)| present(body)).sum::<usize>()
     };
     Extremes {
@@ -91,7 +90,7 @@ fn details(run: &Axisymmetric<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
         unit: "mm",
         value: solver.mesh.cell * 1e3,
     }];
-    let present = solver.bodies.iter().flat_map(|body| &body.particles);
+    let present = solver.bodies.iter().flat_map(|body| body.particles());
     details.push(Detail {
         name: "particles",
         unit: "",

@@ -249,7 +249,7 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
         let bodies = self.grid.bodies.iter();
         Fields::Particles {
             cell: self.grid.mesh.cell,
-            bodies: bodies.map(|body| &*body.particles).collect(),
+            bodies: bodies.map(|body| body.particles().collect()).collect(),
         }
     }
 

@@ -298,7 +298,7 @@ pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
     let rod = &scenario.projectile;
     let rod_law = law(&rod.material, scenario);
     let particles = projectile(rod, &rod_law, filled, scenario.impact_velocity);
-    let mut bodies = vec![Body::new(rod_law, particles)];
+    let mut bodies = vec![Body::new(rod_law, &particles)];
     let mut supports = vec![BoundaryConditions {
         wall: scenario.target == TargetBody::RigidWall,
         ..BoundaryConditions::NONE
@@ -334,7 +334,7 @@ pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
                 temperature,
                 whole,
             );
-            bodies.push(Body::new(law, particles));
+            bodies.push(Body::new(law, &particles));
             let last = supports.len() == extent.layers.len();
             let held = if extent.cut {
                 RearFaceCondition::NonReflecting

@@ -3,14 +3,19 @@
 use rayon::prelude::*;
 
 use super::{
-    advance::{advance, deposit},
-    body::{Body, Chunk, Limits, Pass, Sums, Task},
-    boundary::{BoundaryConditions, Load},
-    contact::{Contact, exchange_contact_impulses, pushed},
-    field::{FORCE, Field, MASS, MOMENTUM, Node},
+    advance::advance,
+    body::{Body, Limits, Pass, Sums, Task},
+    boundary::BoundaryConditions,
+    contact::{Contact, exchange_contact_impulses},
+    deposit::deposit,
+    field::Field,
     mesh::Mesh,
+    nodes::{RowSums, add_up, move_row},
 };
-use crate::{Error, solver::archive::Archive};
+use crate::{
+    Error,
+    solver::{Particle, archive::Archive},
+};
 
 /// Part of a cell that particles may go until they are put in order again.
 const ORDER: f64 = 0.5;
@@ -71,23 +76,6 @@ pub(super) struct DeferredWork {
     pub(super) contact_force: f64,
 }
 
-/// Sums over a row of nodes.
-#[derive(Debug, Clone, Copy, Default)]
-struct RowSums {
-    /// Kinetic energy as it came from the particles, after a closed wall, and after forces and supports [J].
-    kinetic: [f64; 3],
-    /// Power of the nodal forces on the velocities that came from the particles and on those after the step, together [W].
-    power: f64,
-    /// Energy lost in contact with other bodies: its impulses times the mean velocities of the whole step [J].
-    contact: f64,
-    /// Work on the supports: their impulses times the mean velocities of the whole step [J].
-    boundary: f64,
-    /// Momentum given to wall and supports [N s].
-    impulse: f64,
-    /// Part of it that the wall took.
-    wall: f64,
-}
-
 impl Grid {
     /// Everything that a step changes: the strips say how far the particles of a body have spread, and the field moves them in the next
     /// step.
@@ -100,8 +88,12 @@ impl Grid {
         archive.item(&mut self.accumulated)?;
         archive.item(&mut self.deferred)?;
         for (body, supports) in self.bodies.iter_mut().zip(&mut self.supports) {
-            archive.item(&mut body.particles)?;
+            let mut particles: Vec<Particle> = body.particles().collect();
+            archive.item(&mut particles)?;
             archive.item(&mut body.chunks)?;
+            if archive.is_read() {
+                body.set_particles(&particles);
+            }
             archive.item(&mut body.field)?;
             archive.item(&mut supports.displacement)?;
         }
@@ -322,98 +314,4 @@ fn chunks_at_once(chunks: usize) -> usize {
         1 => chunks.max(1),
         _ => 1,
     }
-}
-
-/// Adds up a row of nodes over the strips of all chunks, in their order, and folds the image in the axis onto its original.
-fn add_up(chunks: &[Chunk], row: isize, nodes: &mut [Node]) {
-    nodes.fill(Node::default());
-    for source in chunks.iter().filter_map(|chunk| chunk.strip.row(row)) {
-        for (node, added) in nodes.iter_mut().zip(source) {
-            for (entry, value) in node.iter_mut().zip(added.0) {
-                *entry += value;
-            }
-        }
-    }
-    if nodes.len() > 2 {
-        let image = nodes[0];
-        for (k, value) in image.into_iter().enumerate() {
-            let sign = if k == MOMENTUM || k == FORCE {
-                -1.0
-            } else {
-                1.0
-            };
-            nodes[2][k] += sign * value;
-        }
-        nodes[0] = Node::default();
-        for k in [MOMENTUM, FORCE] {
-            nodes[1][k] = 0.0;
-        }
-    }
-}
-
-/// Moves a row of nodes by a step: their velocities after forces and supports, and what that adds to the accumulated.
-fn move_row(
-    field: &Field,
-    supports: &BoundaryConditions,
-    row: isize,
-    velocity: &mut [[f64; 4]],
-    mesh: &Mesh,
-    time_step: f64,
-) -> RowSums {
-    let mut sums = RowSums::default();
-    let energy = |mass: f64, v: [f64; 2]| 0.5 * mass * (v[0] * v[0] + v[1] * v[1]);
-    for (column, velocity) in velocity.iter_mut().enumerate().skip(1) {
-        let raw = field.node(row, column);
-        *velocity = [0.0; 4];
-        if raw[MASS] > 0.0 {
-            let came = [raw[MOMENTUM] / raw[MASS], raw[MOMENTUM + 1] / raw[MASS]];
-            sums.kinetic[0] += energy(raw[MASS], came);
-            [velocity[2], velocity[3]] = came;
-        }
-        let pushed_raw =
-            raw[MOMENTUM + 1] + time_step * raw[FORCE + 1] - field.taken(row, column)[1];
-        let Some(Load { node, taken }) = supports.folded(field, row, column, time_step) else {
-            // Behind a plane without motion across it stands the mirror image of what is in front of it.
-            let (place, signs) = supports.original(row, column);
-            let original = supports.folded(field, place.0, place.1, time_step);
-            if let Some(load) = original.filter(|load| load.node[MASS] > 0.0) {
-                let pushed = pushed(&load.node, load.taken, time_step);
-                let [radial, axial] = supports.held(&load.node, pushed, place, mesh, time_step);
-                [velocity[0], velocity[1]] = [signs[0] * radial, signs[1] * axial];
-            }
-            let impulse = pushed_raw - raw[MASS] * velocity[1];
-            sums.impulse += impulse;
-            sums.wall += impulse;
-            continue;
-        };
-        let mass = node[MASS];
-        if mass <= 0.0 {
-            continue;
-        }
-        let before = [node[MOMENTUM] / mass, node[MOMENTUM + 1] / mass];
-        let pushed = pushed(&node, taken, time_step);
-        let held = supports.held(&node, pushed, (row, column), mesh, time_step);
-        sums.kinetic[1] += energy(mass, before);
-        sums.kinetic[2] += energy(mass, held);
-        for k in 0..2 {
-            let twice_mean = before[k] + held[k];
-            sums.power += node[FORCE + k] * twice_mean;
-            sums.contact += 0.5 * taken[k] * twice_mean;
-            sums.boundary += 0.5 * mass * (pushed[k] - held[k]) * twice_mean;
-        }
-        sums.impulse += pushed_raw - raw[MASS] * held[1];
-        sums.wall += pushed_raw - raw[MASS] * pushed[1];
-        [velocity[0], velocity[1]] = held;
-    }
-    if velocity.len() > 2 {
-        let [r, z, r_before, z_before] = velocity[2];
-        velocity[0] = [-r, z, -r_before, z_before];
-    }
-    if !supports.wall {
-        // What a smooth rear face takes is the support's, not a contact's.
-        sums.boundary += sums.kinetic[0] - sums.kinetic[1];
-        sums.kinetic[1] = sums.kinetic[0];
-        sums.wall = 0.0;
-    }
-    sums
 }

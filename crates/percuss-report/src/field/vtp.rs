@@ -408,7 +408,7 @@ mod tests {
             depth: 2e-3,
             fields: Fields::Particles {
                 cell: 1e-4,
-                bodies: bodies.iter().map(|body| &body[..]).collect(),
+                bodies: bodies.iter().map(|body| body[..].into()).collect(),
             },
         };
         let file = encode(&frame);

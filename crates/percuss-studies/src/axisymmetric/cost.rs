@@ -5,8 +5,8 @@ use crate::{Scenario, axi};
 /// Processor time that an axisymmetric answer may take unasked [s].
 pub const BUDGET: f64 = 60.0;
 
-/// Particles times steps per second of processor time: 5.5 to 8.3 million on one core of 2024.
-const RATE: f64 = 7e6;
+/// Particles times steps per second of processor time: 7 to 14 million on one core of 2024.
+const RATE: f64 = 10e6;
 /// Steps of a run per cell along the radius: at least, and per diameter of the projectile's length.
 const STEPS: (f64, f64) = (30.0, 60.0);
 

@@ -21,13 +21,13 @@ fn steel() -> Law {
 
 /// Momentum of a body [kg m/s].
 fn momentum(body: &Body) -> [f64; 2] {
-    let of = |k: usize| body.particles.iter().map(|p| p.mass * p.velocity[k]).sum();
+    let of = |k: usize| body.particles().map(|p| p.mass * p.velocity[k]).sum();
     [of(0), of(1)]
 }
 
 /// Mean velocity of a body [m/s].
 fn mean(body: &Body) -> [f64; 2] {
-    let mass: f64 = body.particles.iter().map(|p| p.mass).sum();
+    let mass: f64 = body.particles().map(|p| p.mass).sum();
     momentum(body).map(|momentum| momentum / mass)
 }
 

@@ -130,7 +130,7 @@ fn a_torn_bar_flies_off_in_halves_and_its_energy_balance_closes() {
     for erode in [false, true] {
         let solver = torn(erode);
         let (energy, lost) = (solver.energy(), solver.accumulated.lost[0]);
-        let particles = &solver.bodies[0].particles;
+        let particles: Vec<Particle> = solver.bodies[0].particles().collect();
         let failed = particles
             .iter()
             .filter(|p| p.mass > 0.0 && p.has_failed())

@@ -1,6 +1,6 @@
 //! Slow loading of a body by a pressure on one of its faces.
 
-use super::{Body, Grid};
+use super::{Body, Grid, change};
 use crate::{
     axi::{
         field::{FORCE, MOMENTUM},
@@ -15,8 +15,9 @@ pub(super) type Part<'a> = &'a dyn Fn([f64; 2]) -> (f64, [f64; 2]);
 /// Adds a pressure on a face to the nodes, as Gauss's theorem has it: its power is that of `p φ` as a tension and of `−p ∇φ` as a
 /// force per volume. No node without mass gets a force.
 fn press(body: &mut Body, cell: f64, pressure: f64, part: Part<'_>) {
+    let particles: Vec<Particle> = body.particles().collect();
     let field = &mut body.field;
-    for particle in &body.particles {
+    for particle in &particles {
         let [radius, depth] = particle.position;
         let (share, slope) = part(particle.position);
         let (radial, axial) = (Stencil::at(radius / cell), Stencil::at(depth / cell));
@@ -62,7 +63,7 @@ pub(super) fn load(
     loading: &Loading,
     part: Part<'_>,
 ) -> Vec<(Particle, Particle)> {
-    let before = solver.bodies[0].particles.clone();
+    let before: Vec<Particle> = solver.bodies[0].particles().collect();
     while solver.time < 1.5 * loading.rise {
         assert!(solver.take_over());
         let ramp = (solver.time / loading.rise).min(1.0);
@@ -75,14 +76,14 @@ pub(super) fn load(
             node[MOMENTUM] *= kept;
             node[MOMENTUM + 1] *= kept;
         }
-        for particle in &mut solver.bodies[0].particles {
+        change(&mut solver.bodies[0], |particle| {
             particle.velocity = particle.velocity.map(|speed| kept * speed);
             particle.gradient = particle.gradient.map(|rate| kept * rate);
-        }
+        });
         solver.move_nodes();
     }
-    let after = &solver.bodies[0].particles;
+    let after: Vec<Particle> = solver.bodies[0].particles().collect();
     let same = |(b, a): (&Particle, &Particle)| b.mass.to_bits() == a.mass.to_bits();
-    assert!(before.iter().zip(after).all(same), "the order has changed");
-    before.into_iter().zip(after.iter().copied()).collect()
+    assert!(before.iter().zip(&after).all(same), "the order has changed");
+    before.into_iter().zip(after).collect()
 }

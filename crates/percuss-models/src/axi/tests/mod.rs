@@ -15,13 +15,13 @@ mod wave_speed;
 use std::f64::consts::PI;
 
 use super::{
-    block::{Block, Members},
+    block::Block,
     body::{Body, Limits},
     boundary::BoundaryConditions,
     contact::Contact,
-    deform::Rates,
     law::{Law, Pressure},
     mesh::Mesh,
+    rates::Rates,
     solver::{Accumulators, DeferredWork, Grid},
 };
 use crate::{
@@ -121,20 +121,25 @@ fn body(law: Law, sections: impl IntoIterator<Item = ([f64; 2], f64)>, motion: M
         particle.yield_point = law.slow_yield_point(&particle);
         particle
     };
-    let particles = sections.into_iter().map(particle).collect();
-    Body::new(law, particles)
+    let particles: Vec<Particle> = sections.into_iter().map(particle).collect();
+    Body::new(law, &particles)
+}
+
+/// Changes all particles of a body.
+fn change(body: &mut Body, mut change: impl FnMut(&mut Particle)) {
+    let mut particles: Vec<Particle> = body.particles().collect();
+    particles.iter_mut().for_each(&mut change);
+    body.set_particles(&particles);
 }
 
 /// Brings one particle, whose velocity gradient is new, to the end of a step of 1 s in cells of 1 m; gives work, plastic work and what
 /// failed [J].
 fn deform(law: &Law, particle: &mut Particle, hoop_rate: f64) -> [f64; 3] {
-    let particles = std::slice::from_mut(particle);
-    let members = Members::next(particles, &mut 0).unwrap();
-    let mut block = Block::of(particles, &members);
-    block.rate = block.gradient;
-    let rates = Rates::of(&block, Lanes::all(hoop_rate), 1.0);
-    let cells = Lanes::all(1.0);
-    let work = law.deform(particles, &members, &mut block, &rates, 1.0, &cells);
+    let mut block = Block::default();
+    block.set_particle(0, particle);
+    let rates = Rates::of(&block.gradient, Lanes::all(hoop_rate), 1.0);
+    let work = law.deform(&mut block, &rates, 1.0, &Lanes::all(1.0));
+    *particle = block.particle(0);
     [work.total, work.plastic, work.failure].map(|lane| lane[0])
 }
 

@@ -8,9 +8,11 @@ fn plate(failed: impl Fn(&Particle) -> bool) -> Body {
     let law = Solid::elastic(7850.0, 200e9, 0.3).law();
     let sections = rectangle((0.0, 10.0), (0.0, 4.0), 0.5);
     let mut body = body(law, sections, &|_| ([0.0; 2], [0.0; 4]));
-    for particle in &mut body.particles {
+    let mut particles: Vec<Particle> = body.particles().collect();
+    for particle in &mut particles {
         particle.damage = f64::from(u8::from(failed(particle)));
     }
+    body.set_particles(&particles);
     body
 }
 

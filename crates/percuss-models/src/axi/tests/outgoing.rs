@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Body, Grid, Particle, Solid, body, rectangle, supported};
+use super::{Body, Grid, Particle, Solid, body, change, rectangle, supported};
 use crate::axi::boundary::{BoundaryCondition, BoundaryConditions};
 
 const SPEED: f64 = 1.0;
@@ -43,20 +43,21 @@ fn hump(place: f64, (from, to): (f64, f64)) -> (f64, f64) {
 /// that way: `σ = −ρ c v`.
 fn make_outgoing(body: &mut Body, direction: usize) {
     let (modulus, [speed, _]) = waves();
-    for particle in &mut body.particles {
+    let bulk_modulus = body.law.bulk_modulus;
+    change(body, |particle| {
         let strain = -particle.velocity[direction] / speed;
         let stress = modulus * strain;
-        particle.pressure = -body.law.bulk_modulus * strain;
+        particle.pressure = -bulk_modulus * strain;
         let across = -0.5 * (stress + particle.pressure);
         particle.deviator = [across, across, 0.0];
         particle.deviator[direction] = stress + particle.pressure;
         particle.mass *= 1.0 - strain;
-    }
+    });
 }
 
 /// Root of the mean square of the velocities of particles that are inside.
 fn strength(solver: &Grid, inside: impl Fn(&Particle) -> bool) -> f64 {
-    let particles = solver.bodies[0].particles.iter().filter(|p| inside(p));
+    let particles = solver.bodies[0].particles().filter(|p| inside(p));
     let (sum, mass) = particles.fold((0.0, 0.0), |(sum, mass), p| {
         let [radial, axial] = p.velocity;
         (

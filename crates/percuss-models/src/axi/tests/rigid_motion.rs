@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Grid, Solid, body, deform, rectangle, solver, spherical_shell, uniform};
+use super::{Grid, Solid, body, change, deform, rectangle, solver, spherical_shell, uniform};
 use crate::axi::{Particle, law::Law};
 
 fn steel() -> Solid {
@@ -20,17 +20,19 @@ fn a_flying_sphere_keeps_its_velocity_shape_and_energy() {
     );
     let mut solver = solver(vec![sphere], cell);
     // Particles change their order: the temperature, on which nothing depends, tells them apart.
-    for (number, particle) in solver.bodies[0].particles.iter_mut().enumerate() {
-        particle.temperature = number as f64;
-    }
-    let start: Vec<Particle> = solver.bodies[0].particles.clone();
+    let mut number = 0.0;
+    change(&mut solver.bodies[0], |particle| {
+        particle.temperature = number;
+        number += 1.0;
+    });
+    let start: Vec<Particle> = solver.bodies[0].particles().collect();
     while solver.time * 300.0 < 5.5 * cell {
         assert!(solver.advance());
     }
     assert!(solver.energy().residual().abs() < 1e-12);
     assert!(solver.momentum().residual().abs() < 1e-12);
     let way = solver.time * 300.0;
-    for particle in &solver.bodies[0].particles {
+    for particle in solver.bodies[0].particles() {
         let before = start[particle.temperature as usize];
         assert!((particle.velocity[1] - 300.0).abs() < 1e-9);
         assert!((particle.position[0] - before.position[0]).abs() < 1e-12);
@@ -48,8 +50,8 @@ fn momenta(solver: &Grid) -> [f64; 3] {
         [v_r, v_z, spin].map(|entry| p.mass * entry)
     };
     let mut sums = [0.0; 3];
-    for particle in &solver.bodies[0].particles {
-        for (sum, entry) in sums.iter_mut().zip(of_particle(particle)) {
+    for particle in solver.bodies[0].particles() {
+        for (sum, entry) in sums.iter_mut().zip(of_particle(&particle)) {
             *sum += entry;
         }
     }
@@ -58,7 +60,7 @@ fn momenta(solver: &Grid) -> [f64; 3] {
 
 /// Polar moment of inertia about the centre of mass [kg m].
 fn inertia(solver: &Grid) -> f64 {
-    let particles = &solver.bodies[0].particles;
+    let particles: Vec<Particle> = solver.bodies[0].particles().collect();
     let mass: f64 = particles.iter().map(|p| p.mass).sum();
     let mean = [0, 1].map(|k| {
         particles

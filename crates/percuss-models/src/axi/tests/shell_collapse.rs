@@ -68,7 +68,7 @@ fn stops_at(speed: f64, cells: f64) -> f64 {
     let mut solver = solver(vec![shell], cell);
     // Without change of volume the cubes of all radii fall by the same.
     let cubes = |solver: &Grid| -> f64 {
-        let particles = solver.bodies[0].particles.iter();
+        let particles = solver.bodies[0].particles();
         let distance = |[r, z]: [f64; 2]| r.hypot(z);
         particles
             .map(|p| p.mass * distance(p.position).powi(3))

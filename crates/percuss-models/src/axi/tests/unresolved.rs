@@ -3,10 +3,10 @@
 use super::{Solid, body, solver};
 use crate::{
     axi::{
-        block::{Block, Members},
-        deform::Rates,
+        block::Block,
         law::Law,
         mesh::{Axis, Mesh},
+        rates::Rates,
     },
     lanes::Lanes,
     solver::Particle,
@@ -45,12 +45,12 @@ fn a_lone_drop_draws_no_energy_from_its_motion() {
         };
         grid.start();
         let initial = grid.accumulated.initial_energy;
-        let volume = grid.bodies[0].particles[0].volume;
+        let volume = grid.bodies[0].blocks[0].volume[0];
         let mut most = 0.0_f64;
         while grid.time * rate.abs() < 6.0 {
             assert!(grid.advance());
             most = most.max(grid.sums[0].kinetic / initial);
-            let now = grid.bodies[0].particles[0].volume / volume;
+            let now = grid.bodies[0].blocks[0].volume[0] / volume;
             assert!((0.9..1.1).contains(&now), "{rate}: volume {now}");
         }
         println!(
@@ -88,8 +88,10 @@ fn pressures_of_a_group_come_together_at_the_rate_of_shear() {
     let before = (volume(&particles), elastic(&particles));
     let mut heat = 0.0;
     for _ in 0..STEPS {
-        let members = Members::next(&particles, &mut 0).unwrap();
-        let mut block = Block::of(&particles, &members);
+        let mut block = Block::default();
+        for (lane, particle) in particles.iter().enumerate() {
+            block.set_particle(lane, particle);
+        }
         let weighted: f64 = particles.iter().map(|p| p.volume * p.pressure).sum();
         let mean = weighted / volume(&particles);
         let mut rates = Rates::NONE;
@@ -101,14 +103,10 @@ fn pressures_of_a_group_come_together_at_the_rate_of_shear() {
             time_step,
         );
         let cells = Lanes::all(1.0);
-        let work = law.deform(
-            &mut particles,
-            &members,
-            &mut block,
-            &rates,
-            time_step,
-            &cells,
-        );
+        let work = law.deform(&mut block, &rates, time_step, &cells);
+        for (lane, particle) in particles.iter_mut().enumerate() {
+            *particle = block.particle(lane);
+        }
         heat += work.viscous[0] + work.viscous[1];
     }
     let strain = f64::from(STEPS) * time_step * shear;

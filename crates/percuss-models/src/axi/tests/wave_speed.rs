@@ -34,7 +34,7 @@ fn measured_speed(radius: f64, cell: f64, supports: BoundaryConditions, courant:
     let mut solver = supported(vec![bar], vec![supports], cell);
     solver.courant = courant;
     let amplitude = |solver: &Grid| -> f64 {
-        let particles = solver.bodies[0].particles.iter();
+        let particles = solver.bodies[0].particles();
         particles
             .map(|p| p.mass * p.velocity[1] * (number * p.position[1]).cos())
             .sum()
@@ -116,7 +116,7 @@ fn held_error(cells: f64, supports: BoundaryConditions) -> f64 {
     let slab = body(copper().law(), sections, &motion);
     let mut solver = supported(vec![slab], vec![supports], cell);
     let amplitude = |solver: &Grid| -> f64 {
-        let particles = solver.bodies[0].particles.iter();
+        let particles = solver.bodies[0].particles();
         particles
             .map(|p| -p.mass * p.velocity[1] * (number * p.position[1]).sin())
             .sum()
@@ -193,7 +193,7 @@ fn edge_error(cells: f64) -> f64 {
     };
     let mut solver = supported(vec![body(law, sections, &motion)], vec![supports], cell);
     let amplitude = |solver: &Grid| -> f64 {
-        let particles = solver.bodies[0].particles.iter();
+        let particles = solver.bodies[0].particles();
         particles
             .map(|p| p.mass * p.velocity[0] * (number * (edge - p.position[0])).sin())
             .sum()
