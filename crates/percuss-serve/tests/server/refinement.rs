@@ -204,7 +204,7 @@ fn a_case_without_an_answer_has_the_reason() {
     assert_eq!(heads(&messages, "refused"), [expected]);
     // One that would take minutes.
     let long = PAPER
-        .replace("12.74 mm", "400 mm")
+        .replace("12.74 mm", "800 mm")
         .replace("25 mm", "semi-infinite")
         .replace("back_face = \"fixed\"\n", "");
     let messages = refined(&served, &json!({ "name": "shot", "case": long }));
