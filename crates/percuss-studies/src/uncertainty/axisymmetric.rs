@@ -342,6 +342,7 @@ mod tests {
             spreads.push(found.standard_deviation);
             errors.push(found.standard_deviation_error);
         }
+        println!("mean within two standard errors in {inside} of 400 studies");
         assert!((352..=392).contains(&inside), "{inside}");
         let exact = (1.5_f64.powi(2) + 0.25).sqrt();
         assert!(
