@@ -102,7 +102,9 @@ fn axisymmetric(limits: &Limits) -> String {
             number(mesh.bracket.map(|bracket| bracket.perforated_m_s), 4)
         })
         .numbers("runs", "", |mesh| mesh.runs.to_string());
-    text += &blocks(&table.table());
+    if limit.meshes.iter().any(|mesh| mesh.bracket.is_some()) {
+        text += &blocks(&table.table());
+    }
     for warning in &limit.warnings {
         text += &format!(
             "{}\n",
