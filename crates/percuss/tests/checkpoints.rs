@@ -6,7 +6,7 @@ use percuss::{
     Error, Scenario, case,
     frames::{Fields, Frame},
     model::{self, Checkpoints, Control},
-    outcome::RunResult,
+    outcome::{Outcome, RunResult},
 };
 
 /// A model with a case for each kind of state that its checkpoints hold.
@@ -19,6 +19,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("published scheme", "chain", PUBLISHED),
     ("rod", "fdm", COLUMN_WITHOUT_EROSION),
     ("planar impact with spall", "fdm", SPALL),
+    ("plug that damage cuts out", "axi", CUT),
 ];
 
 const COLUMN: &str = r#"
@@ -29,6 +30,11 @@ const COLUMN: &str = r#"
 const COLUMN_WITHOUT_EROSION: &str = r#"
     projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
     target = { material = "aluminium-2024-t351", thickness = "50 mm" }
+"#;
+const CUT: &str = r#"
+    projectile = { material = "tool-steel-hrc53", length = "10 mm", diameter = "20 mm", impact_velocity = "500 m/s" }
+    target = { material = "weldox-460-e", thickness = "5 mm", back_face = "free" }
+    axi = { cells_per_radius = 4, target_radius = "30 mm" }
 "#;
 const PLUG: &str = include_str!("../../../cases/weldox-460e-12mm-blunt/scenario.toml");
 const FAILURE: &str = include_str!("../../../cases/spall-two-plates/scenario.toml");
@@ -146,6 +152,8 @@ fn the_cases_reach_the_states_that_they_are_for() {
     let spall = |detail: &&percuss::outcome::Detail| detail.name == "spall planes";
     let spalled = result(7).details.iter().find(spall).unwrap().value;
     assert!(spalled > 0.0);
+    let cut = result(8);
+    assert!(cut.outcome == Outcome::Perforated && cut.numerics().eroded_elements.1 > 0);
 }
 
 #[test]
@@ -198,13 +206,22 @@ fn every_solver_gives_its_fields_from_the_start_to_the_end() {
         let scenario = scenario(text);
         let mut times = Vec::new();
         let mut look = |frame: &Frame<'_>| {
-            let Fields::Elements(elements) = &frame.fields else {
-                panic!("{what}");
+            let (has_projectile, is_sound) = match &frame.fields {
+                Fields::Elements(elements) => (
+                    elements.iter().any(|element| element.part == 0),
+                    elements.iter().all(|element| element.length > 0.0),
+                ),
+                Fields::Particles { bodies, .. } => (
+                    !bodies[0].is_empty(),
+                    bodies
+                        .iter()
+                        .flat_map(|body| body.iter())
+                        .all(|p| p.mass == 0.0 || p.volume > 0.0),
+                ),
+                _ => panic!("{what}"),
             };
-            let has_projectile = elements.iter().any(|element| element.part == 0);
             assert!(has_projectile || frame.step > 0, "{what}");
             // Springs of the published scheme may invert.
-            let is_sound = elements.iter().all(|element| element.length > 0.0);
             assert!(is_sound || *what == "published scheme", "{what}");
             if !frame.last {
                 times.push(frame.time);

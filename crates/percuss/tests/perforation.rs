@@ -85,9 +85,12 @@ fn a_band_of_its_own_width_makes_the_residual_velocity_independent_of_the_mesh()
 
 #[test]
 fn a_plate_that_dishes_beyond_its_thickness_and_holds_is_not_perforated() {
-    let result = weldox("flat", 200.0, 5, "");
-    assert!(result.largest_depth.unwrap() > 12e-3);
-    assert_eq!(result.outcome, Outcome::Rebounded);
+    // At 196.5 m/s on 6 cells, particles of the stretched rim stand more than a cell apart for a while.
+    for (speed, cells) in [(200.0, 5), (196.5, 6)] {
+        let result = weldox("flat", speed, cells, "");
+        assert!(result.largest_depth.unwrap() > 12e-3);
+        assert_eq!(result.outcome, Outcome::Rebounded);
+    }
 }
 
 #[test]

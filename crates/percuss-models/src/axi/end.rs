@@ -19,7 +19,7 @@ const FREE_FRACTION: f64 = 1e-3;
 pub(super) struct Window {
     /// Whether the crater floor passed the original rear face.
     pub(super) perforated: bool,
-    /// Whether nothing at the axis hung on the rest of the target any more when that was looked at.
+    /// Whether the target was open at the end of the last window in which that was looked at.
     open: bool,
     start: f64,
     dissipation: f64,
@@ -58,7 +58,7 @@ impl Window {
         self.speed = speed;
         // A plate that dishes carries the crater floor past its original rear face and may throw the projectile back.
         if self.perforated && speed > 0.0 {
-            self.open = self.open || has_opened(grid, 0.5 * rod.diameter);
+            self.open = has_opened(grid, 0.5 * rod.diameter);
             if self.open {
                 return (slowing <= FREE_FRACTION).then_some(Termination::LeftTarget);
             }

@@ -1,59 +1,47 @@
-//! Openings: whether material at the axis still hangs on the rest of a target.
+//! Openings: whether material at the axis is still connected to the rest of a target.
 
-use std::{
-    collections::{HashMap, HashSet},
-    f64::consts::PI,
-};
+use std::collections::HashSet;
 
-use super::{body::Body, localization::Cell, mesh::Mesh};
+use super::{body::Body, kernel::nearest, mesh::Mesh};
 
-/// Part of a cell that sound material fills where it holds on to its neighbours.
-const FILLED: f64 = 0.5;
 /// Radius beyond which material is the rest of a target, in radii of the projectile: a plug and petals are within it.
 const REST: f64 = 2.0;
+/// Nodes to either side that a particle reaches from the one nearest to it.
+const REACH: isize = 1;
 
-/// Whether a target is open: no sound material at the axis, or none that adjacent cells of sound material join to the rest.
+/// Whether a target is open: no sound material at the axis, or none that is connected to the rest. Particles that reach a common node move
+/// together: they are connected.
 pub(super) fn is_open(target: &Body, mesh: &Mesh, projectile_radius: f64) -> bool {
-    let filled = filled_cells(target, mesh);
-    let rest = mesh.radial.index(REST * projectile_radius) as i64;
-    let mut ahead: Vec<Cell> = filled
+    let rest = mesh.radial.index(REST * projectile_radius) as isize;
+    // Nodes that are nearest to a sound particle, by row and column.
+    let mut places: HashSet<(isize, isize)> = target
+        .particles()
+        .filter(|particle| particle.mass > 0.0 && !particle.has_failed())
+        .map(|particle| {
+            let [column, row] = mesh.indices(particle.position);
+            (nearest(row).1, nearest(column).1)
+        })
+        .filter(|(_, column)| *column <= rest)
+        .collect();
+    let mut ahead: Vec<(isize, isize)> = places
         .iter()
         .copied()
-        .filter(|(_, column)| *column == 0)
+        .filter(|(_, column)| *column <= REACH)
         .collect();
-    let mut seen: HashSet<Cell> = ahead.iter().copied().collect();
+    for place in &ahead {
+        places.remove(place);
+    }
     while let Some((row, column)) = ahead.pop() {
         if column >= rest {
             return false;
         }
-        for next in [
-            (row, column - 1),
-            (row, column + 1),
-            (row - 1, column),
-            (row + 1, column),
-        ] {
-            if filled.contains(&next) && seen.insert(next) {
-                ahead.push(next);
+        for row in row - 2 * REACH..=row + 2 * REACH {
+            for column in column - 2 * REACH..=column + 2 * REACH {
+                if places.remove(&(row, column)) {
+                    ahead.push((row, column));
+                }
             }
         }
     }
     true
-}
-
-/// Cells that sound material fills.
-fn filled_cells(target: &Body, mesh: &Mesh) -> HashSet<Cell> {
-    let mut parts: HashMap<Cell, f64> = HashMap::new();
-    for particle in target
-        .particles()
-        .filter(|p| p.mass > 0.0 && !p.has_failed())
-    {
-        let [column, row] = mesh.indices(particle.position);
-        let cell = mesh.cell * mesh.cell * mesh.radial.stretch(column) * mesh.axial.stretch(row);
-        let section = particle.volume / (2.0 * PI * particle.position[0]);
-        *parts
-            .entry((row.floor() as i64, column.floor() as i64))
-            .or_default() += section / cell;
-    }
-    parts.retain(|_, part| *part > FILLED);
-    parts.into_keys().collect()
 }

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::{
     Bracket, LimitOutcome, ModelLimit, Observer, Progress, Range, Search,
     jobs::{self, Scan},
+    run_results,
 };
 use crate::{
     Error, Scenario,
@@ -60,6 +61,12 @@ pub(super) fn on_meshes(
     observer: &mut Observer<'_>,
 ) -> Result<AxisymmetricLimit, Error> {
     let axi = model::model("axi")?;
+    if let Some((_, reason)) = run_results::unsuited(axi, scenario) {
+        return Ok(AxisymmetricLimit {
+            reason: Some(reason),
+            ..of_meshes(reference, &[])
+        });
+    }
     let cells = reference.cells();
     let costs = cells.map(|cells| seconds(scenario, cells));
     let whole: f64 = costs.iter().sum();
