@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 use crate::common::plates::{CONE, METAL, OGIVE, detail, refusal, run, scenario};
 use percuss::{
-    Scenario, case,
+    Scenario,
+    case::{self, RearFaceCondition},
     material::cylindrical_cavity_pressure,
     outcome::{Outcome, RunResult},
     scenario::TargetBody,
@@ -81,6 +82,25 @@ fn a_band_of_its_own_width_makes_the_residual_velocity_independent_of_the_mesh()
         assert!((velocity / blunt[2] - 1.0).abs() < 0.05);
     }
     assert!((round[0] / round[1] - 1.0).abs() < 0.2);
+}
+
+#[test]
+fn a_plate_without_damage_in_its_record_has_a_warning() {
+    let warned = |damage: &str| {
+        let plate = format!("{METAL}{damage}");
+        let mut scenario = scenario(CONE, 400.0, 10.0, &plate, "axi.cells_per_radius = 2");
+        let TargetBody::Layers { back_face, .. } = &mut scenario.target else {
+            panic!("no plate");
+        };
+        *back_face = RearFaceCondition::Free;
+        let result = run("axi", &scenario);
+        result
+            .warnings
+            .iter()
+            .any(|w| w.contains("stretching and thinning alone"))
+    };
+    assert!(warned(""));
+    assert!(!warned(", damage = { d1 = 0.1, d2 = 0.8, d3 = -1.5 }"));
 }
 
 #[test]

@@ -77,7 +77,7 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
     cannot_fail.dedup();
     if free && options.damage.is_none() && !options.can_fail(None) && !cannot_fail.is_empty() {
         warnings.push(format!(
-            "perforation by stretching and thinning alone, which takes more energy than failure: no `damage` in the record of {}. Give it, or `axi.failure_strain`",
+            "the target can be perforated by stretching and thinning alone, which takes more energy than failure: {} has no `damage` in its record. Give it, or `axi.failure_strain`",
             cannot_fail.join(", ")
         ));
     }
