@@ -14,6 +14,17 @@ pub struct Limits {
     pub max: f64,
 }
 
+/// Rounding of a conversion of units, relative: `10 um` is a little less than 1e-5 m.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+impl Limits {
+    /// Whether a value is allowed; a limit in another unit is, NaN is not.
+    pub fn allow(&self, value: f64) -> bool {
+        let slack = ROUNDING * value.abs();
+        value + slack >= self.min && value - slack <= self.max
+    }
+}
+
 /// A diagnostic of a check, before it is tied to a place in a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
@@ -107,8 +118,7 @@ impl<'a> Check<'a> {
 
     /// Reports a quantity outside its limits.
     pub fn quantity<D: Dimension>(&mut self, key: &str, value: Quantity<D>, limits: Limits) {
-        // Written so that NaN is reported too.
-        if !(limits.min..=limits.max).contains(&value.si()) {
+        if !limits.allow(value.si()) {
             self.fail(
                 key,
                 format!("{value} is out of range"),
@@ -124,7 +134,7 @@ impl<'a> Check<'a> {
 
     /// Reports a plain number outside its limits.
     pub fn number(&mut self, key: &str, value: f64, limits: Limits) {
-        if !(limits.min..=limits.max).contains(&value) {
+        if !limits.allow(value) {
             self.fail(
                 key,
                 format!("{} is out of range", significant(value, 6)),
@@ -287,4 +297,28 @@ pub mod limits {
     pub const RESIDUAL_FACTOR: Limits = limits(0.01, 1.0);
     /// Exponent p of a residual velocity.
     pub const RESIDUAL_EXPONENT: Limits = limits(1.0, 20.0);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::limits;
+    use crate::units::{Length, Velocity};
+
+    #[test]
+    fn limits_are_allowed_in_every_unit() {
+        for text in ["10 um", "0.01 mm", "10 m", "10000 mm", "1e7 um"] {
+            let length: Length = text.parse().unwrap();
+            assert!(limits::DIAMETER.allow(length.si()), "{text}");
+        }
+        for text in ["9.9999 um", "10.0001 m"] {
+            let length: Length = text.parse().unwrap();
+            assert!(!limits::DIAMETER.allow(length.si()), "{text}");
+        }
+        let speed: Velocity = "0 m/s".parse().unwrap();
+        let free = super::Limits { min: 0.0, max: 1.0 };
+        assert!(free.allow(speed.si()) && !free.allow(-1e-300));
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(!free.allow(value), "{value}");
+        }
+    }
 }

@@ -7,6 +7,7 @@ pub mod document;
 pub mod error;
 pub mod fragments;
 pub mod history;
+pub mod input_file;
 pub mod lanes;
 pub mod ledger;
 pub mod material;

@@ -69,13 +69,19 @@ fn powers_that_are_known_exactly() {
 fn every_instruction_set_gives_the_same_bits() {
     struct All;
     impl NullaryFnOnce for All {
-        type Output = Vec<u64>;
+        type Output = Vec<[u64; 4]>;
         #[inline(always)]
-        fn call(self) -> Vec<u64> {
-            let mut bits = vec![0; 4000];
+        fn call(self) -> Vec<[u64; 4]> {
+            let mut bits = vec![[0; 4]; 4000];
             for (i, bits) in bits.iter_mut().enumerate() {
                 let (x, n) = (1e-5 * (i * i) as f64, 2.5e-4 * i as f64);
-                *bits = power_here(x, n).to_bits();
+                let all = [
+                    power_here(x, n),
+                    ln(x),
+                    exponential(4.0 * n - x),
+                    log_ratio(x, n),
+                ];
+                *bits = all.map(f64::to_bits);
             }
             bits
         }
@@ -94,7 +100,7 @@ fn every_instruction_set_gives_the_same_bits() {
     }
     for (i, expected) in expected.into_iter().enumerate() {
         let (x, n) = (1e-5 * (i * i) as f64, 2.5e-4 * i as f64);
-        assert_eq!(power(x, n).to_bits(), expected);
+        assert_eq!(power(x, n).to_bits(), expected[0]);
     }
 }
 
@@ -117,19 +123,116 @@ fn a_power_never_falls_as_its_base_grows_by_more_than_its_digits() {
 }
 
 #[test]
-fn strains_and_their_inverse_are_right_to_the_last_places() {
-    for u in spread(20_000) {
+fn logarithms_are_right_to_the_last_place_over_the_full_range() {
+    let mut worst = 0.0_f64;
+    for u in spread(200_000) {
+        // All positive numbers, subnormal ones included, and once more those near 1.
+        for x in [
+            2.0_f64.powf(2098.0 * u - 1074.0),
+            0.5 + u,
+            1.0 + 1e-3 * (u - 0.5),
+        ] {
+            let off = places(ln(x), x.ln());
+            worst = worst.max(off);
+            assert!(off <= 1.0, "{x:e} is off by {off}");
+            if x >= f64::MIN_POSITIVE {
+                assert_eq!(ln_of_normal(x), ln(x));
+            }
+        }
+    }
+    assert!(worst > 0.0, "it is that of libm");
+    for k in -1074..=1023 {
+        let power_of_two = 2.0_f64.powf(f64::from(k));
+        assert!(places(ln(power_of_two), power_of_two.ln()) <= 1.0, "2^{k}");
+    }
+    assert_eq!(ln(1.0).to_bits(), 0.0_f64.to_bits());
+    for least in [f64::from_bits(1), f64::MIN_POSITIVE, f64::MAX] {
+        assert!(places(ln(least), least.ln()) <= 1.0);
+    }
+}
+
+#[test]
+fn logarithms_at_the_limits_of_the_range() {
+    assert_eq!(ln(0.0), f64::NEG_INFINITY);
+    assert_eq!(ln(-0.0), f64::NEG_INFINITY);
+    assert_eq!(ln(f64::INFINITY), f64::INFINITY);
+    for x in [-1.0, -f64::MIN_POSITIVE, f64::NEG_INFINITY, f64::NAN] {
+        assert!(ln(x).is_nan(), "{x}");
+    }
+}
+
+#[test]
+fn exponentials_are_right_to_the_last_place_over_the_full_range() {
+    let mut worst = 0.0_f64;
+    for u in spread(200_000) {
+        for x in [1417.0 * u - 708.0, 2.0 * u - 1.0, 1e-3 * (u - 0.5)] {
+            let off = places(exponential(x), x.exp());
+            worst = worst.max(off);
+            assert!(off <= 1.0, "{x:e} is off by {off}");
+        }
+        // The spacing of subnormal numbers grows beside them.
+        let small = -708.0 - 38.0 * u;
+        let off = (exponential(small) - small.exp()).abs();
+        assert!(off <= 1.2e-16 * small.exp() + 5e-324, "{small}");
+    }
+    assert!(worst > 0.0, "it is that of libm");
+    assert_eq!(exponential(0.0), 1.0);
+    assert_eq!(exponential(-0.0), 1.0);
+    assert_eq!(exponential(f64::MIN_POSITIVE), 1.0);
+}
+
+#[test]
+fn exponentials_at_the_limits_of_the_range() {
+    // The largest that does not overflow.
+    let largest = f64::MAX.ln();
+    assert!(places(exponential(largest), largest.exp()) <= 1.0);
+    for x in [709.79, 710.0, 1e4, f64::MAX, f64::INFINITY] {
+        assert_eq!(exponential(x), f64::INFINITY, "{x}");
+    }
+    for x in [-745.2, -746.0, -1e4, f64::MIN, f64::NEG_INFINITY] {
+        assert_eq!(exponential(x).to_bits(), 0.0_f64.to_bits(), "{x}");
+    }
+    assert_eq!(exponential(-745.0), f64::from_bits(1));
+    assert!(exponential(f64::NAN).is_nan());
+}
+
+#[test]
+fn logarithms_of_ratios_are_right_however_close_the_numbers_are() {
+    for u in spread(50_000) {
         let a = 1.0 + 0.19 * (u - 0.5);
         // The difference is exact.
         let log = log_ratio(a, 1.0);
         assert!(places(log, (a - 1.0).ln_1p()) <= 3.0, "{a}");
-        let strain = 0.1 * (u - 0.5);
-        assert!(places(exponential(strain), strain.exp()) <= 1.0, "{strain}");
-    }
-    for large in [1.5_f64, 4.0, 0.2] {
-        assert_eq!(log_ratio(large, 1.0), large.ln());
-        assert_eq!(exponential(large), large.exp());
+        let close = 1.0 + 1e-9 * (u - 0.5);
+        let log = log_ratio(close, 1.0);
+        assert!(places(log, (close - 1.0).ln_1p()) <= 3.0, "{close}");
+        for a in [2.0_f64.powf(2043.0 * u - 1021.0), 0.2 + 4.8 * u] {
+            assert!(places(log_ratio(a, 1.0), a.ln()) <= 3.0, "{a:e}");
+        }
+        let (a, b) = (10.0_f64.powf(300.0 * u - 150.0), 3.7e-3_f64);
+        let exact = a.ln() - b.ln();
+        assert!((log_ratio(a, b) - exact).abs() <= 1e-15 * (a.ln().abs() + b.ln().abs()));
     }
     assert_eq!(log_ratio(3.0, 3.0), 0.0);
-    assert_eq!(exponential(0.0), 1.0);
+    // The ends of the range.
+    let [least, most] = [2.0_f64.powi(-1021), 2.0_f64.powi(1022)];
+    for a in [least, most, 1.9 * least, 0.6 * most] {
+        for b in [f64::MIN_POSITIVE, least, 1.0, most, f64::MAX] {
+            let exact = a.ln() - b.ln();
+            assert!((log_ratio(a, b) - exact).abs() < 1e-12, "{a:e} {b:e}");
+        }
+        assert_eq!(log_ratio(a, a), 0.0);
+    }
+    assert!(log_ratio(-1.0, 2.0).is_nan() && log_ratio(2.0, -1.0).is_nan());
+    assert!(log_ratio(0.0, 2.0).is_nan() && log_ratio(f64::NAN, 2.0).is_nan());
+}
+
+#[test]
+fn an_exponential_undoes_a_logarithm() {
+    for u in spread(50_000) {
+        let x = 10.0_f64.powf(600.0 * u - 300.0);
+        let log = ln(x);
+        let off = (exponential(log) / x - 1.0).abs();
+        assert!(off <= 2.3e-16 * (1.0 + log.abs()), "{x:e}");
+    }
 }

@@ -6,6 +6,7 @@ mod damage;
 mod equation_of_state;
 mod failure;
 mod library;
+mod plastic_return;
 mod references;
 mod sanity;
 mod search;
@@ -29,12 +30,13 @@ pub use damage::{Damage, DamageState, PreparedDamage};
 pub use equation_of_state::EquationOfState;
 pub use failure::*;
 pub use library::{Library, MaterialEntry};
+pub use plastic_return::{first_return, plastic_increments};
 pub use references::{Reference, references};
 pub use state_equation::{StateEquation, impedance_match};
 pub use strength::strength_factor;
 pub use strength::*;
 pub use tensile::tensile_strength;
-pub use yield_point::{Trial, YieldPoint, first_return};
+pub use yield_point::{LaneTrial, Trial, YieldPoint};
 
 /// One parameter set of a material, as a file holds it.
 ///

@@ -10,7 +10,7 @@ use crate::{Error, Scenario, scenario::Given};
 /// First bytes of every checkpoint.
 const MAGIC: &[u8] = b"percuss checkpoint\n";
 /// Raised whenever the content changes its form.
-const FORMAT: u32 = 5;
+const FORMAT: u32 = 6;
 
 /// What a checkpoint says of itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -19,7 +19,8 @@ pub struct Header {
     version: String,
     model: String,
     case: u64,
-    content: u64,
+    /// Of the header, with 0 in this place, and of the content.
+    checksum: u64,
     /// Time step that the run had reached.
     pub step: u64,
     /// Time that the run had reached [s].
@@ -43,18 +44,31 @@ pub(super) fn seal(
     (step, time): (u64, f64),
     content: &[u8],
 ) -> Result<Vec<u8>, Error> {
-    let header = Header {
+    let mut header = Header {
         format: FORMAT,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         model: model.to_owned(),
         case: fingerprint(scenario),
-        content: hash(content),
+        checksum: 0,
         step,
         time,
     };
-    let encoded = postcard::to_stdvec(&header);
-    let header = encoded.map_err(|error| refused(&format!("it cannot be encoded: {error}"), ""))?;
-    Ok([MAGIC, &header, content].concat())
+    header.checksum = checksum(&header, content)?;
+    let encoded = encode(&header)?;
+    Ok([MAGIC, &encoded, content].concat())
+}
+
+fn encode(header: &Header) -> Result<Vec<u8>, Error> {
+    let encoded = postcard::to_stdvec(header);
+    encoded.map_err(|error| refused(&format!("it cannot be encoded: {error}"), ""))
+}
+
+fn checksum(header: &Header, content: &[u8]) -> Result<u64, Error> {
+    let open = Header {
+        checksum: 0,
+        ..header.clone()
+    };
+    Ok(hash(encode(&open)?.iter().chain(content)))
 }
 
 /// Header and archived state of a checkpoint.
@@ -78,6 +92,9 @@ pub(super) fn open<'a>(
         let what = format!("it is of percuss {}, this is {version}", header.version);
         return Err(refused(&what, RESTART));
     }
+    if header.checksum != checksum(&header, content)? {
+        return Err(damaged());
+    }
     if header.model != model {
         let what = format!("it is of model `{}`, not `{model}`", header.model);
         return Err(refused(&what, &format!("give `--model {}`", header.model)));
@@ -87,9 +104,6 @@ pub(super) fn open<'a>(
             "it is of another case: only its title, sources, experiments, and `end_time` and `max_steps` of a model may change",
             "restore the case or start again without `--resume`",
         ));
-    }
-    if header.content != hash(content) {
-        return Err(damaged());
     }
     Ok((header, content))
 }
@@ -130,8 +144,8 @@ fn fingerprint(scenario: &Scenario) -> u64 {
 }
 
 /// FNV-1a, 64 bits: the same on every machine, which the standard library's hashes do not promise.
-fn hash(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+fn hash<'a>(bytes: impl IntoIterator<Item = &'a u8>) -> u64 {
+    bytes.into_iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
     })
 }

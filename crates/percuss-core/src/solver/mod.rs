@@ -10,6 +10,7 @@ pub mod gauge;
 mod input_limit;
 pub mod interface;
 pub mod limits;
+pub mod memory;
 pub mod monitor;
 mod particle;
 
@@ -67,6 +68,11 @@ pub trait Model: Sync {
     /// Why the model does not apply to a case inside its validity domain, if it does not: an option or a number is missing.
     fn not_applicable(&self, _: &Scenario) -> Option<Refusal> {
         None
+    }
+
+    /// Memory that a run of a case takes, estimated without building it [bytes]; 0 for what is always little.
+    fn memory(&self, _: &Scenario) -> f64 {
+        0.0
     }
 
     /// Ballistic limit that a model of residual velocity starts from, where the case has one; `None` for a model that needs none.
@@ -180,7 +186,10 @@ pub fn applicability_in(
         Applicability::Outside(refusal) => Err(refusal),
         Applicability::Inside(warnings) => match model.not_applicable(scenario) {
             Some(refusal) => Err(refusal),
-            None => Ok(warnings),
+            None => match memory::refusal(model.memory(scenario)) {
+                Some(refusal) => Err(refusal),
+                None => Ok(warnings),
+            },
         },
     }
 }

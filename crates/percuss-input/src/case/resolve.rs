@@ -163,7 +163,7 @@ fn resolve_rod(case: &Case, library: &Library, check: &mut Check<'_>) -> Option<
         return None;
     }
     let derived: (&str, String, bool) = if given == "length" {
-        let inside = (limits::MASS.min..=limits::MASS.max).contains(&mass);
+        let inside = limits::MASS.allow(mass);
         ("mass", Quantity::to_string(&Mass::new(mass)), inside)
     } else {
         let inside = (limits::LENGTH.min..=limits::LENGTH.max).contains(&length);

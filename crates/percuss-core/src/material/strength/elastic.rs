@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{FlowState, FlowStress, Hardening, PreparedStrength, StrengthLaw};
+use super::{FlowState, FlowStress, Hardening, LaneLaw, PreparedStrength, StrengthLaw};
 use crate::{check::Check, material::Material};
 
 /// Linear elastic behaviour without a limit.
@@ -22,8 +22,8 @@ impl PreparedStrength for Elastic {
         true
     }
 
-    fn hardening(&self) -> Option<Hardening> {
-        Some(Hardening::none(f64::INFINITY))
+    fn in_lanes(&self) -> Option<LaneLaw> {
+        Some(LaneLaw::Hardening(Hardening::none(f64::INFINITY)))
     }
 }
 

@@ -1,10 +1,12 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{FlowState, FlowStress, PreparedStrength, StrengthLaw};
+use super::{FlowState, FlowStress, LaneLaw, LaneStrength, PreparedStrength, StrengthLaw};
 use crate::{
     check::{Check, limits},
+    lanes::{Real, larger, smaller},
     material::Material,
+    power::{ln_of_normal, power_here},
     units::{Pressure, StrainRate},
 };
 
@@ -49,79 +51,133 @@ fn reference_rate() -> StrainRate {
     StrainRate::new(1.0)
 }
 
-#[derive(Debug)]
-struct Prepared {
-    a: f64,
-    b: f64,
-    n: f64,
-    c: f64,
-    m: f64,
-    reference_rate: f64,
-    rate_form: RateForm,
-    room_temperature: f64,
-    melting_range: f64,
+crate::per_lane! {
+    /// A Johnson–Cook law made ready for one material and one constraint factor, with the logarithm of the strain rate.
+    #[derive(Debug, Clone, Copy, Default)]
+    pub struct JohnsonCookLaw<R: Real = f64> {
+        a: R,
+        b: R,
+        n: R,
+        c: R,
+        m: R,
+        /// One over the reference strain rate [s].
+        per_rate: R,
+        room_temperature: R,
+        /// From there to the melting temperature [K]; infinite without one.
+        melting_range: R,
+    }
+}
+
+crate::per_lane! {
+    /// The same with a power of the strain rate.
+    #[derive(Debug, Clone, Copy, Default)]
+    pub struct ModifiedJohnsonCookLaw<R: Real = f64> {
+        law: JohnsonCookLaw<R>,
+    }
 }
 
 /// Plastic strain below which the slope of `ε_pⁿ` is taken at this strain: the slope of the law is infinite at zero.
 const SMALLEST_STRAIN: f64 = 1e-9;
 
-/// `x^p` of a number that is not negative, for exponents of the order of 1: there it is exact to a few units in the last place,
-/// and cheaper than `powf`.
-fn power(x: f64, exponent: f64) -> f64 {
-    if x == 0.0 {
-        0.0
-    } else if exponent == 1.0 {
-        x
-    } else {
-        (exponent * x.ln()).exp()
+impl JohnsonCookLaw {
+    /// The thermal factor.
+    #[inline(always)]
+    fn softening(&self, temperature: f64) -> f64 {
+        let homologous = (temperature - self.room_temperature) / self.melting_range;
+        1.0 - power_here(smaller(larger(homologous, 0.0), 1.0), self.m)
+    }
+
+    /// Flow stress at a rate factor and its slope with the strain rate.
+    #[inline(always)]
+    fn at(&self, plastic_strain: f64, thermal: f64, [factor, slope]: [f64; 2]) -> FlowStress {
+        let strain = larger(plastic_strain, SMALLEST_STRAIN);
+        let hardened = self.b * power_here(strain, self.n);
+        let stress = self.a + hardened;
+        FlowStress {
+            stress: stress * factor * thermal,
+            strain_slope: self.n * hardened / strain * factor * thermal,
+            rate_slope: stress * slope * thermal,
+        }
     }
 }
 
+impl LaneStrength for JohnsonCookLaw {
+    #[inline(always)]
+    fn thermal(&self, temperature: f64) -> f64 {
+        self.softening(temperature)
+    }
+
+    #[inline(always)]
+    fn flow_stress(&self, thermal: f64, state: &FlowState) -> FlowStress {
+        let ratio = state.strain_rate * self.per_rate;
+        let least = larger(ratio, 1.0);
+        let slope = self.c * self.per_rate / least;
+        let rate = [
+            1.0 + self.c * ln_of_normal(least),
+            if ratio > 1.0 { slope } else { 0.0 },
+        ];
+        self.at(state.plastic_strain, thermal, rate)
+    }
+
+    #[inline(always)]
+    fn depends_on_strain_only(&self) -> bool {
+        false
+    }
+}
+
+impl LaneStrength for ModifiedJohnsonCookLaw {
+    #[inline(always)]
+    fn thermal(&self, temperature: f64) -> f64 {
+        self.law.softening(temperature)
+    }
+
+    #[inline(always)]
+    fn flow_stress(&self, thermal: f64, state: &FlowState) -> FlowStress {
+        let law = &self.law;
+        let raised = 1.0 + state.strain_rate * law.per_rate;
+        let factor = power_here(raised, law.c);
+        let rate = [factor, law.c * law.per_rate * factor / raised];
+        law.at(state.plastic_strain, thermal, rate)
+    }
+
+    #[inline(always)]
+    fn depends_on_strain_only(&self) -> bool {
+        false
+    }
+}
+
+#[derive(Debug)]
+struct Prepared(LaneLaw);
+
 impl PreparedStrength for Prepared {
     fn flow_stress(&self, state: &FlowState) -> FlowStress {
-        let strain = state.plastic_strain.max(SMALLEST_STRAIN);
-        let hardened = self.b * power(strain, self.n);
-        let ratio = state.strain_rate / self.reference_rate;
-        let (rate_factor, rate_slope) = match self.rate_form {
-            RateForm::Logarithmic if ratio > 1.0 => {
-                (1.0 + self.c * ratio.ln(), self.c / state.strain_rate)
-            }
-            RateForm::Logarithmic => (1.0, 0.0),
-            RateForm::Power => {
-                let factor = power(1.0 + ratio, self.c);
-                (
-                    factor,
-                    self.c * factor / (self.reference_rate * (1.0 + ratio)),
-                )
-            }
-        };
-        let homologous =
-            ((state.temperature - self.room_temperature) / self.melting_range).clamp(0.0, 1.0);
-        let thermal = 1.0 - power(homologous, self.m);
-        FlowStress {
-            stress: (self.a + hardened) * rate_factor * thermal,
-            strain_slope: self.n * hardened / strain * rate_factor * thermal,
-            rate_slope: (self.a + hardened) * rate_slope * thermal,
-        }
+        self.0.flow_stress(state)
+    }
+
+    fn in_lanes(&self) -> Option<LaneLaw> {
+        Some(self.0)
     }
 }
 
 impl StrengthLaw for JohnsonCook {
     fn prepare(&self, material: &Material, factor: f64) -> Box<dyn PreparedStrength> {
         let room = material.room_temperature.si();
-        Box::new(Prepared {
+        let law = JohnsonCookLaw {
             a: factor * self.a.si(),
             b: factor * self.b.si(),
             n: self.n,
             c: self.c,
             m: self.m,
-            reference_rate: self.reference_rate.si(),
-            rate_form: self.rate_form,
+            per_rate: 1.0 / self.reference_rate.si(),
             room_temperature: room,
             melting_range: material
                 .melting_temperature
                 .map_or(f64::INFINITY, |melting| melting.si() - room),
-        })
+        };
+        Box::new(Prepared(match self.rate_form {
+            RateForm::Logarithmic => LaneLaw::JohnsonCook(law),
+            RateForm::Power => LaneLaw::ModifiedJohnsonCook(ModifiedJohnsonCookLaw { law }),
+        }))
     }
 
     fn flow_stress_at_unit_strain(&self, _: &Material) -> Option<f64> {

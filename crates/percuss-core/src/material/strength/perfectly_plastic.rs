@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{FlowState, FlowStress, Hardening, PreparedStrength, StrengthLaw};
+use super::{FlowState, FlowStress, Hardening, LaneLaw, PreparedStrength, StrengthLaw};
 use crate::{
     check::{Check, limits},
     material::Material,
@@ -34,8 +34,8 @@ impl PreparedStrength for Prepared {
         true
     }
 
-    fn hardening(&self) -> Option<Hardening> {
-        Some(Hardening::none(self.flow_stress))
+    fn in_lanes(&self) -> Option<LaneLaw> {
+        Some(LaneLaw::Hardening(Hardening::none(self.flow_stress)))
     }
 }
 

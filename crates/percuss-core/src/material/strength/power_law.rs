@@ -1,11 +1,12 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{FlowState, FlowStress, PreparedStrength, StrengthLaw};
+use super::{FlowState, FlowStress, LaneLaw, LaneStrength, PreparedStrength, StrengthLaw};
 use crate::{
     check::{Check, limits},
+    lanes::Real,
     material::Material,
-    power::{power, power_here},
+    power::power_here,
     units::Pressure,
 };
 
@@ -29,15 +30,17 @@ impl PowerLaw {
     }
 }
 
-/// `Y = K (ε_0 + ε_p)ⁿ`: a flow stress that is a power of the plastic strain, or constant where `n` is 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hardening {
-    /// Stress at unit strain K, constraint factor included [Pa].
-    pub coefficient: f64,
-    /// Exponent n.
-    pub exponent: f64,
-    /// Strain where the plastic strain is 0, ε_0.
-    pub first_strain: f64,
+crate::per_lane! {
+    /// `Y = K (ε_0 + ε_p)ⁿ`: a flow stress that is a power of the plastic strain, or constant where `n` is 0.
+    #[derive(Debug, Clone, Copy, Default, PartialEq)]
+    pub struct Hardening<R: Real = f64> {
+        /// Stress at unit strain K, constraint factor included [Pa].
+        pub coefficient: R,
+        /// Exponent n.
+        pub exponent: R,
+        /// Strain where the plastic strain is 0, ε_0.
+        pub first_strain: R,
+    }
 }
 
 impl Hardening {
@@ -50,28 +53,24 @@ impl Hardening {
         }
     }
 
-    /// Flow stress and its slope with the plastic strain [Pa].
-    pub fn at(&self, plastic_strain: f64) -> (f64, f64) {
-        self.by(power, plastic_strain)
-    }
-
-    /// The same for code that has been dispatched to an instruction set.
+    /// Flow stress and its slope with the plastic strain [Pa], for code that has been dispatched to an instruction set.
     #[inline(always)]
-    pub fn at_here(&self, plastic_strain: f64) -> (f64, f64) {
-        self.by(power_here, plastic_strain)
-    }
-
-    #[inline(always)]
-    fn by(&self, power: impl Fn(f64, f64) -> f64, plastic_strain: f64) -> (f64, f64) {
+    pub(crate) fn at_here(&self, plastic_strain: f64) -> (f64, f64) {
         let strain = self.first_strain + plastic_strain;
-        let stress = self.coefficient * power(strain, self.exponent);
+        let stress = self.coefficient * power_here(strain, self.exponent);
         (stress, self.exponent * stress / strain)
     }
 }
 
-impl PreparedStrength for Hardening {
-    fn flow_stress(&self, state: &FlowState) -> FlowStress {
-        let (stress, strain_slope) = self.at(state.plastic_strain);
+impl LaneStrength for Hardening {
+    #[inline(always)]
+    fn thermal(&self, _: f64) -> f64 {
+        1.0
+    }
+
+    #[inline(always)]
+    fn flow_stress(&self, _: f64, state: &FlowState) -> FlowStress {
+        let (stress, strain_slope) = self.at_here(state.plastic_strain);
         FlowStress {
             stress,
             strain_slope,
@@ -79,12 +78,23 @@ impl PreparedStrength for Hardening {
         }
     }
 
+    #[inline(always)]
+    fn depends_on_strain_only(&self) -> bool {
+        true
+    }
+}
+
+impl PreparedStrength for Hardening {
+    fn flow_stress(&self, state: &FlowState) -> FlowStress {
+        LaneLaw::Hardening(*self).flow_stress(state)
+    }
+
     fn depends_on_strain_only(&self) -> bool {
         true
     }
 
-    fn hardening(&self) -> Option<Hardening> {
-        Some(*self)
+    fn in_lanes(&self) -> Option<LaneLaw> {
+        Some(LaneLaw::Hardening(*self))
     }
 }
 

@@ -1,10 +1,12 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{FlowState, FlowStress, PreparedStrength, StrengthLaw};
+use super::{FlowState, FlowStress, LaneLaw, LaneStrength, PreparedStrength, StrengthLaw};
 use crate::{
     check::{Check, limits},
+    lanes::{Real, larger, smaller},
     material::Material,
+    power::power_here,
     units::{InversePressure, InverseTemperature, Pressure},
 };
 
@@ -45,49 +47,91 @@ fn no_temperature_effect() -> InverseTemperature {
 
 const REFERENCE_TEMPERATURE: f64 = 300.0;
 
-#[derive(Debug)]
-struct Prepared {
-    law: SteinbergGuinan,
-    factor: f64,
-}
-
-impl SteinbergGuinan {
-    fn work_hardened(&self, plastic_strain: f64) -> f64 {
-        let hardened =
-            (1.0 + self.beta * (self.initial_plastic_strain + plastic_strain)).powf(self.n);
-        (self.y0.si() * hardened).min(self.y_max.si())
+crate::per_lane! {
+    /// A Steinberg–Cochran–Guinan law made ready for one constraint factor.
+    #[derive(Debug, Clone, Copy, Default)]
+    pub struct SteinbergGuinanLaw<R: Real = f64> {
+        y0: R,
+        y_max: R,
+        beta: R,
+        n: R,
+        initial_plastic_strain: R,
+        pressure_coefficient: R,
+        temperature_coefficient: R,
+        factor: R,
     }
 }
 
-impl PreparedStrength for Prepared {
-    fn flow_stress(&self, state: &FlowState) -> FlowStress {
-        let law = &self.law;
-        let softening =
-            law.temperature_coefficient.si() * (state.temperature - REFERENCE_TEMPERATURE);
-        let stiffening = law.pressure_coefficient.si() * state.pressure.max(0.0);
-        let scale = self.factor * (1.0 + stiffening - softening).max(0.0);
-        let hardened = law.work_hardened(state.plastic_strain);
-        let strain_slope = if hardened < law.y_max.si() {
-            law.n * law.beta * hardened
-                / (1.0 + law.beta * (law.initial_plastic_strain + state.plastic_strain))
-        } else {
-            0.0
-        };
+impl LaneStrength for SteinbergGuinanLaw {
+    #[inline(always)]
+    fn thermal(&self, temperature: f64) -> f64 {
+        self.temperature_coefficient * (temperature - REFERENCE_TEMPERATURE)
+    }
+
+    #[inline(always)]
+    fn flow_stress(&self, thermal: f64, state: &FlowState) -> FlowStress {
+        let stiffening = self.pressure_coefficient * larger(state.pressure, 0.0);
+        let scale = self.factor * larger(1.0 + stiffening - thermal, 0.0);
+        let strain = 1.0 + self.beta * (self.initial_plastic_strain + state.plastic_strain);
+        let hardened = self.y0 * power_here(strain, self.n);
+        let slope = self.n * self.beta * hardened / strain;
+        let is_below = hardened < self.y_max;
         FlowStress {
-            stress: hardened * scale,
-            strain_slope: strain_slope * scale,
+            stress: smaller(hardened, self.y_max) * scale,
+            strain_slope: if is_below { slope * scale } else { 0.0 },
             rate_slope: 0.0,
         }
     }
 
+    #[inline(always)]
+    fn depends_on_strain_only(&self) -> bool {
+        false
+    }
+}
+
+impl SteinbergGuinan {
+    fn with_factor(&self, factor: f64) -> SteinbergGuinanLaw {
+        SteinbergGuinanLaw {
+            y0: self.y0.si(),
+            y_max: self.y_max.si(),
+            beta: self.beta,
+            n: self.n,
+            initial_plastic_strain: self.initial_plastic_strain,
+            pressure_coefficient: self.pressure_coefficient.si(),
+            temperature_coefficient: self.temperature_coefficient.si(),
+            factor,
+        }
+    }
+
+    /// Flow stress at room temperature without pressure [Pa].
+    fn work_hardened(&self, plastic_strain: f64) -> f64 {
+        let state = FlowState {
+            plastic_strain,
+            strain_rate: 0.0,
+            temperature: REFERENCE_TEMPERATURE,
+            pressure: 0.0,
+        };
+        PreparedStrength::flow_stress(&self.with_factor(1.0), &state).stress
+    }
+}
+
+impl PreparedStrength for SteinbergGuinanLaw {
+    fn flow_stress(&self, state: &FlowState) -> FlowStress {
+        LaneLaw::SteinbergGuinan(*self).flow_stress(state)
+    }
+
+    fn in_lanes(&self) -> Option<LaneLaw> {
+        Some(LaneLaw::SteinbergGuinan(*self))
+    }
+
     fn depends_on_pressure(&self) -> bool {
-        self.law.pressure_coefficient.si() != 0.0
+        self.pressure_coefficient != 0.0
     }
 }
 
 impl StrengthLaw for SteinbergGuinan {
     fn prepare(&self, _: &Material, factor: f64) -> Box<dyn PreparedStrength> {
-        Box::new(Prepared { law: *self, factor })
+        Box::new(self.with_factor(factor))
     }
 
     fn flow_stress_at_unit_strain(&self, _: &Material) -> Option<f64> {
