@@ -20,6 +20,7 @@ pub use choice::{ChosenModel, DEFAULT_MODEL, choose, default_model};
 pub use recommend::recommend;
 pub use recommend::{Choice, Recommendation};
 
+pub use crate::solver::memory;
 pub use crate::solver::{
     Checkpoints, Control, CostClass, Model, OnFrame, Progress, applicability, run, run_explained,
 };

@@ -237,3 +237,30 @@ fn every_solver_gives_its_fields_from_the_start_to_the_end() {
         assert!(times.is_sorted() && times[times.len() - 1] <= result.end_time.unwrap());
     }
 }
+
+/// A changed bit is found wherever it is: in what a checkpoint says of itself, and in the state.
+#[test]
+fn a_changed_bit_of_a_checkpoint_is_found() {
+    let scenario = scenario(COLUMN_WITHOUT_EROSION);
+    let kept = interrupted("chain", &scenario, 3).unwrap();
+    let continued = |bytes: &[u8]| {
+        let mut control = Control {
+            resume: Some(bytes),
+            ..Control::recording()
+        };
+        run("chain", &scenario, &mut control)
+    };
+    let mut changed = kept.clone();
+    // All of the first bytes, and every 997th bit of the rest.
+    let bits = (0..8 * 80).chain((8 * 80..8 * kept.len()).step_by(997));
+    for bit in bits {
+        changed[bit / 8] ^= 1 << (bit % 8);
+        let error = continued(&changed).unwrap_err();
+        assert!(
+            matches!(error, Error::Checkpoint { .. }),
+            "bit {bit}: {error}"
+        );
+        changed[bit / 8] ^= 1 << (bit % 8);
+    }
+    assert!(continued(&kept).is_ok());
+}

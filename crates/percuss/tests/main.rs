@@ -29,6 +29,7 @@ mod plastic_wave;
 mod plugging;
 mod prototype;
 mod published;
+mod random_cases;
 mod regime;
 mod remnant;
 mod renamed;

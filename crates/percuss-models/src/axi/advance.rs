@@ -14,11 +14,11 @@ use super::{
     mesh::{Places, cell_lengths},
     rates::Rates,
 };
-use crate::lanes::{LANES, Lanes, lanes, settled};
+use crate::lanes::{LANES, Lanes, lanes, larger, settled};
 
 /// Moves and deforms the particles of a chunk; a time step of 0 leaves them as they are.
 ///
-/// Compiled for each width of vectors and chosen when it runs. Nothing is fused or summed in another order, so every processor
+/// Compiled for each width of vectors and chosen when it runs. What is fused and in which order sums are made is fixed, so every processor
 /// comes to the same bits.
 pub(super) fn advance(task: &mut Task<'_>, pass: &Pass) -> Sums {
     pulp::Arch::new().dispatch(Advance { task, pass })
@@ -55,13 +55,13 @@ impl pulp::NullaryFnOnce for Advance<'_, '_> {
         let Scratch { moving, shares, .. } = scratch;
         share_means(shares, group_ends);
         let mut sums = Sums::default();
+        let mut lane_sums = LaneSums::default();
         for (number, (block, moving)) in blocks.iter_mut().zip(moving).enumerate() {
             let Moving { rates, places } = moving;
             let mut work = Work::NONE;
             if pass.time_step > 0.0 {
                 let [expansion, pressure, shear] = means(
-                    shares,
-                    number,
+                    &shares[number],
                     block,
                     [rates.expansion, block.pressure, NONE],
                 );
@@ -70,8 +70,9 @@ impl pulp::NullaryFnOnce for Advance<'_, '_> {
                 let lengths = cell_lengths(pass.mesh.cell, places);
                 work = law.deform(block, rates, pass.time_step, &lengths);
             }
-            add_up(block, places, &work, law, pass, &mut sums);
+            lane_sums.add(block, places, &work, law, pass, &mut sums);
         }
+        lane_sums.fold(&mut sums);
         sums
     }
 }
@@ -80,11 +81,11 @@ impl pulp::NullaryFnOnce for Advance<'_, '_> {
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
     moving: Vec<Moving>,
-    /// What means of groups are made of, then the means: volumes, or 0 where a particle has failed or left, and times these the rates
-    /// of volume, pressures and rates of shear.
-    shares: Vec<[f64; 4]>,
+    /// What means of groups are made of, then the means, by block: volumes, or 0 where a particle has failed or left, and times these the
+    /// rates of volume, pressures and rates of shear.
+    shares: Vec<[Lanes; 4]>,
     /// The same for the pressures that nodes get.
-    pub(super) pressures: Vec<[f64; 2]>,
+    pub(super) pressures: Vec<[Lanes; 2]>,
 }
 
 const NONE: Lanes = Lanes::all(0.0);
@@ -95,16 +96,15 @@ impl Scratch {
     fn start(&mut self, blocks: usize) {
         self.moving.clear();
         self.moving.reserve(blocks);
-        self.shares.resize(blocks * LANES, [0.0; 4]);
+        self.shares.resize(blocks, [NONE; 4]);
     }
 
     /// Notes what means are to be made of.
     #[inline(always)]
     fn note(&mut self, number: usize, block: &Block, rates: &Rates) {
-        let shear = rates.shear();
+        let shear = settled(rates.shear());
         note(
-            &mut self.shares,
-            number,
+            &mut self.shares[number],
             block,
             [&rates.expansion, &block.pressure, &shear],
         );
@@ -114,43 +114,34 @@ impl Scratch {
 /// Notes weights and weighted values of a block.
 #[inline(always)]
 pub(super) fn note<const N: usize, const M: usize>(
-    shares: &mut [[f64; N]],
-    number: usize,
+    shares: &mut [Lanes; N],
     block: &Block,
     values: [&Lanes; M],
 ) {
     let weight = settled(block.weights());
     let mass = block.mass;
+    shares[0] = weight;
     let mut weighted = [NONE; M];
     for (weighted, values) in weighted.iter_mut().zip(values) {
         let values = *values;
         // What has left may be no number any more.
         *weighted = lanes(|l| weight[l] * if mass[l] > 0.0 { values[l] } else { 0.0 });
     }
-    let weighted = settled(weighted);
-    let shares = &mut shares[number * LANES..][..LANES];
-    for (l, share) in shares.iter_mut().enumerate() {
-        share[0] = weight[l];
-        for (entry, values) in share[1..].iter_mut().zip(&weighted) {
-            *entry = values[l];
-        }
-    }
+    shares[1..].copy_from_slice(&settled(weighted));
 }
 
 /// Means of the groups for the particles of a block that share them, and the own values of the others.
 #[inline(always)]
 pub(super) fn means<const N: usize, const M: usize>(
-    shares: &[[f64; N]],
-    number: usize,
+    shares: &[Lanes; N],
     block: &Block,
     own: [Lanes; M],
 ) -> [Lanes; M] {
-    let shares = &shares[number * LANES..][..LANES];
     let (weight, lone) = (block.weights(), block.lone);
-    let total = settled(lanes(|l| shares[l][0]));
+    let total = shares[0];
     let mut means = own;
-    for (k, means) in means.iter_mut().enumerate() {
-        let (mean, own) = (settled(lanes(|l| shares[l][k + 1])), *means);
+    for (mean, means) in shares[1..].iter().zip(&mut means) {
+        let (mean, own) = (*mean, *means);
         *means = lanes(|l| {
             let is_shared = (weight[l] > 0.0) & (lone[l] == 0.0) & (total[l] > 0.0);
             if is_shared { mean[l] } else { own[l] }
@@ -183,97 +174,139 @@ fn moved(block: &mut Block, law: &Law, field: &Field, pass: &Pass) -> Moving {
 
 /// Replaces what means are made of by the means, in groups of more than one particle.
 #[inline(always)]
-pub(super) fn share_means<const N: usize>(shares: &mut [[f64; N]], group_ends: &[usize]) {
+pub(super) fn share_means<const N: usize>(shares: &mut [[Lanes; N]], group_ends: &[usize]) {
     let mut from = 0;
     for &to in group_ends {
         if to - from > 1 {
-            let own = &mut shares[from..to];
             let mut sums = [0.0; N];
-            for share in &*own {
+            for place in from..to {
+                let share = &shares[place / LANES];
                 for (sum, entry) in sums.iter_mut().zip(share) {
-                    *sum += entry;
+                    *sum += entry[place % LANES];
                 }
             }
-            let weight = sums[0];
+            let per_weight = 1.0 / sums[0];
             for sum in &mut sums[1..] {
-                *sum /= weight;
+                *sum *= per_weight;
             }
-            own.fill(sums);
+            for place in from..to {
+                let share = &mut shares[place / LANES];
+                for (sum, entry) in sums.iter().zip(share) {
+                    entry[place % LANES] = *sum;
+                }
+            }
         }
         from = to;
     }
 }
 
-/// Takes out the particles of a block that have left the body, and adds the others up.
-#[inline(always)]
-fn add_up(
-    block: &mut Block,
-    places: &Places,
-    work: &Work,
-    law: &Law,
-    pass: &Pass,
-    sums: &mut Sums,
-) {
-    let kinetic = block.kinetic_energy(places, pass.mesh.cell);
-    let wave_squared = law.wave_speed_squared(block);
-    let [radius, depth] = block.position;
-    let Block {
-        mass,
-        pressure,
-        damage,
-        plastic_strain,
-        velocity: [v_r, v_z],
-        ..
-    } = *block;
-    let (limits, [most_damage, most_strain]) = (pass.limits, law.erosion());
-    let stays = settled(lanes(|l| {
-        // A comparison with what is no number fails, so this finds those too.
-        let is_finite = (kinetic[l] + pressure[l] + depth[l] + radius[l]).abs() < f64::INFINITY;
-        let is_inside =
-            (radius[l] <= limits.radius) & (depth[l] >= limits.back) & (depth[l] <= limits.front);
-        let erodes = (damage[l] >= most_damage) | (plastic_strain[l] >= most_strain);
-        let stays = is_finite & is_inside & !erodes;
-        if stays { 1.0 } else { 0.0 }
-    }));
-    let was = |values: Lanes| lanes(|l| if mass[l] > 0.0 { values[l] } else { 0.0 });
-    let stayed = |values: Lanes| {
-        lanes(|l| {
-            let stayed = (mass[l] > 0.0) & (stays[l] > 0.0);
-            if stayed { values[l] } else { 0.0 }
-        })
-    };
-    let done = [
-        was(work.total),
-        was(work.plastic),
-        was(work.viscous),
-        was(work.failure),
-        was(work.power_at_start),
-    ];
-    let kept = [
-        stayed(work.power_at_end),
-        stayed(mass),
-        stayed(lanes(|l| mass[l] * v_z[l])),
-        stayed(kinetic),
-        stayed(lanes(|l| v_r[l] * v_r[l] + v_z[l] * v_z[l])),
-        stayed(wave_squared),
-    ];
-    let [total, plastic, viscous, failure, at_start] = settled(done);
-    let [at_end, present, momentum, moving, speed, wave] = settled(kept);
-    for l in 0..LANES {
-        sums.work.total += total[l];
-        sums.work.plastic += plastic[l];
-        sums.work.viscous += viscous[l];
-        sums.work.failure += failure[l];
-        sums.work.power_at_start += at_start[l];
-        if (mass[l] > 0.0) & (stays[l] == 0.0) {
+/// [`Sums`] of a chunk, lane by lane.
+#[derive(Default)]
+struct LaneSums {
+    /// Work of the step: total, plastic, viscous, of failure, power at its start and its end; mass, axial momentum and kinetic energy.
+    sums: [Lanes; 9],
+    /// Squares of speeds: of particles and of waves.
+    most: [Lanes; 2],
+}
+
+impl LaneSums {
+    /// Takes out the particles of a block that have left the body, and adds the others up.
+    #[inline(always)]
+    fn add(
+        &mut self,
+        block: &mut Block,
+        places: &Places,
+        work: &Work,
+        law: &Law,
+        pass: &Pass,
+        sums: &mut Sums,
+    ) {
+        let kinetic = block.kinetic_energy(places, pass.mesh.cell);
+        let wave_squared = law.wave_speed_squared(block);
+        let [radius, depth] = block.position;
+        let Block {
+            mass,
+            pressure,
+            damage,
+            plastic_strain,
+            velocity: [v_r, v_z],
+            ..
+        } = *block;
+        let (limits, [most_damage, most_strain]) = (pass.limits, law.erosion());
+        let stays = settled(lanes(|l| {
+            // A comparison with what is no number fails, so this finds those too.
+            let is_finite = (kinetic[l] + pressure[l] + depth[l] + radius[l]).abs() < f64::INFINITY;
+            let is_inside = (radius[l] <= limits.radius)
+                & (depth[l] >= limits.back)
+                & (depth[l] <= limits.front);
+            let erodes = (damage[l] >= most_damage) | (plastic_strain[l] >= most_strain);
+            let stays = is_finite & is_inside & !erodes;
+            if stays { 1.0 } else { 0.0 }
+        }));
+        let was = |values: Lanes| lanes(|l| if mass[l] > 0.0 { values[l] } else { 0.0 });
+        let stayed = |values: Lanes| {
+            lanes(|l| {
+                let stayed = (mass[l] > 0.0) & (stays[l] > 0.0);
+                if stayed { values[l] } else { 0.0 }
+            })
+        };
+        let more = settled([
+            was(work.total),
+            was(work.plastic),
+            was(work.viscous),
+            was(work.failure),
+            was(work.power_at_start),
+            stayed(work.power_at_end),
+            stayed(mass),
+            stayed(lanes(|l| mass[l] * v_z[l])),
+            stayed(kinetic),
+        ]);
+        for (sum, more) in self.sums.iter_mut().zip(&more) {
+            let before = *sum;
+            *sum = lanes(|l| before[l] + more[l]);
+        }
+        let speed = stayed(lanes(|l| v_r[l] * v_r[l] + v_z[l] * v_z[l]));
+        let squares = settled([speed, stayed(wave_squared)]);
+        for (most, squared) in self.most.iter_mut().zip(squares) {
+            let before = *most;
+            *most = lanes(|l| larger(squared[l], before[l]));
+        }
+        let mut leaving = 0;
+        for l in 0..LANES {
+            leaving |= u8::from((mass[l] > 0.0) & (stays[l] == 0.0)) << l;
+        }
+        for l in (0..LANES).filter(|l| leaving >> l & 1 == 1) {
             take_out(block, l, kinetic[l], law, sums);
         }
-        sums.work.power_at_end += at_end[l];
-        sums.mass += present[l];
-        sums.momentum += momentum[l];
-        sums.kinetic += moving[l];
-        sums.speed_squared = sums.speed_squared.max(speed[l]);
-        sums.wave_squared = sums.wave_squared.max(wave[l]);
+    }
+
+    /// Adds the lanes up, one after the other.
+    #[inline(always)]
+    fn fold(&self, sums: &mut Sums) {
+        let [
+            total,
+            plastic,
+            viscous,
+            failure,
+            at_start,
+            at_end,
+            mass,
+            momentum,
+            kinetic,
+        ] = self.sums.map(|sum| sum.iter().sum::<f64>());
+        sums.work.total += total;
+        sums.work.plastic += plastic;
+        sums.work.viscous += viscous;
+        sums.work.failure += failure;
+        sums.work.power_at_start += at_start;
+        sums.work.power_at_end += at_end;
+        sums.mass += mass;
+        sums.momentum += momentum;
+        sums.kinetic += kinetic;
+        let [speed, wave] = self
+            .most
+            .map(|most| most.iter().copied().fold(0.0, f64::max));
+        (sums.speed_squared, sums.wave_squared) = (speed, wave);
     }
 }
 

@@ -8,7 +8,7 @@ use super::{
     transfer::{Motion, gather},
 };
 use crate::{
-    lanes::{LANES, Lanes, each_of, lanes, one, settled},
+    lanes::{LANES, Lanes, PerLane, each_of, lanes, one, settled},
     material::{FlowState, YieldPoint},
     solver::Particle,
 };
@@ -29,8 +29,6 @@ pub(super) struct Block {
     pub(super) mass: Lanes,
     pub(super) volume: Lanes,
     pub(super) plastic_strain: Lanes,
-    /// Equivalent stress up to which a particle is known to be elastic [Pa]: what its yield point says.
-    pub(super) elastic_to: Lanes,
     pub(super) temperature: Lanes,
     pub(super) energy: Lanes,
     pub(super) damage: Lanes,
@@ -38,7 +36,7 @@ pub(super) struct Block {
     pub(super) sides: [Lanes; 2],
     /// Whether a particle is alone in its group: 1 if it is.
     pub(super) lone: Lanes,
-    pub(super) yield_point: [YieldPoint; LANES],
+    pub(super) yield_point: YieldPoint<Lanes>,
 }
 
 /// Motion of the nodes at the particles of a block in a step.
@@ -66,7 +64,7 @@ impl Block {
             mass: self.mass[lane],
             volume: self.volume[lane],
             plastic_strain: self.plastic_strain[lane],
-            yield_point: self.yield_point[lane],
+            yield_point: self.yield_point.lane(lane),
             temperature: self.temperature[lane],
             energy: self.energy[lane],
             damage: self.damage[lane],
@@ -87,19 +85,12 @@ impl Block {
         self.mass[lane] = particle.mass;
         self.volume[lane] = particle.volume;
         self.plastic_strain[lane] = particle.plastic_strain;
-        self.set_yield_point(lane, particle.yield_point);
+        self.yield_point.set_lane(lane, particle.yield_point);
         self.temperature[lane] = particle.temperature;
         self.energy[lane] = particle.energy;
         self.damage[lane] = particle.damage;
         self.localization[lane] = particle.localization;
         set_one(&mut self.sides, lane, particle.sides);
-    }
-
-    /// Replaces the yield point of a particle.
-    #[inline(always)]
-    pub(super) fn set_yield_point(&mut self, lane: usize, point: YieldPoint) {
-        self.yield_point[lane] = point;
-        self.elastic_to[lane] = point.elastic_to();
     }
 
     /// What the strength of a particle depends on before it flows.

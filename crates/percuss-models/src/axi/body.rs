@@ -11,7 +11,7 @@ use super::{
 use crate::{lanes::LANES, solver::Particle};
 
 /// Least number of particles that one task takes. It does not depend on the number of threads, so sums come out the same on any.
-const CHUNK: usize = 1024;
+const CHUNK: usize = 512;
 
 /// A body with a velocity field of its own.
 #[derive(Debug)]

@@ -6,8 +6,8 @@ use super::{
     rates::Rates,
 };
 use crate::{
-    lanes::{LANES, Lanes, each_of, lanes, one, settled},
-    material::{Hardening, Trial, YieldPoint, first_return},
+    lanes::{LANES, Lanes, PerLane, each_of, lanes, one, settled},
+    material::{LaneStrength, LaneTrial, LawVisitor, Trial, YieldPoint, plastic_increments},
     solver::equivalent,
 };
 
@@ -72,7 +72,8 @@ impl Law {
         let size = settled(lanes(|l| equivalent(&one(&trial, l))));
         let mut trial = settled(trial);
         let mean_volume = lanes(|l| 0.5 * (volume_before[l] + volume[l]));
-        let (damage, elastic_to, present) = (block.damage, block.elastic_to, block.mass);
+        let elastic_to = block.yield_point.elastic_to();
+        let (damage, present) = (block.damage, block.mass);
         let flows = settled(lanes(|l| {
             let is_elastic = (size[l] <= elastic_to[l]) | (damage[l] >= 1.0);
             let flows = (present[l] > 0.0) & !is_elastic;
@@ -85,8 +86,12 @@ impl Law {
         let mut plastic = Lanes::all(0.0);
         let mut increments = Lanes::all(0.0);
         if flows.contains(&1.0) {
-            let before = settled(lanes(|l| block.yield_point[l].stress()));
-            increments = settled(self.flows(block, &size, flows.map(|flow| flow > 0.0), time_step));
+            let before = lanes(|l| block.yield_point.lane(l).stress());
+            let mut places = 0;
+            for l in 0..LANES {
+                places |= u8::from(flows[l] > 0.0) << l;
+            }
+            increments = settled(self.flows(block, &size, places, time_step));
             let modulus = 3.0 * self.shear_modulus;
             // Without flow the stress stays as it is; one of 0 has no direction to return along.
             let after = lanes(|l| size[l] - modulus * increments[l]);
@@ -147,9 +152,9 @@ impl Law {
         let total = lanes(|l| shear_work[l] + volume_work[l] + viscous[l]);
         if self.strength.depends_on_pressure() {
             for l in 0..LANES {
-                let mut point = block.yield_point[l];
+                let mut point = block.yield_point.lane(l);
                 point.forget();
-                block.set_yield_point(l, point);
+                block.yield_point.set_lane(l, point);
             }
         }
         let mut failure = Lanes::all(0.0);
@@ -178,72 +183,51 @@ impl Law {
 
     /// Returns trial stresses to the yield surface, radially, in lanes that flow; gives the increments of plastic strain, 0 in others.
     #[inline(always)]
-    fn flows(
-        &self,
-        block: &mut Block,
-        size: &Lanes,
-        mut flows: [bool; LANES],
-        time_step: f64,
-    ) -> Lanes {
-        let mut increments = Lanes::all(0.0);
-        if let Some(law) = self.strength.hardening() {
-            increments = self.first_flows(block, law, size, &mut flows);
-        }
-        for l in 0..LANES {
-            if flows[l] {
-                increments[l] = self.flow(block, l, size[l], time_step);
-            }
-        }
-        increments
-    }
-
-    /// The same for a power of the plastic strain where one step of Newton's method is enough; what is left flows no more.
-    #[inline(always)]
-    fn first_flows(
-        &self,
-        block: &mut Block,
-        law: Hardening,
-        size: &Lanes,
-        flows: &mut [bool; LANES],
-    ) -> Lanes {
-        let modulus = 3.0 * self.shear_modulus;
-        let stress = settled(lanes(|l| block.yield_point[l].stress()));
-        let slope = settled(lanes(|l| block.yield_point[l].strain_slope()));
+    fn flows(&self, block: &mut Block, size: &Lanes, flows: u8, time_step: f64) -> Lanes {
+        let per_time = if self.rate_effects {
+            1.0 / time_step
+        } else {
+            0.0
+        };
+        let trial = LaneTrial {
+            stress: *size,
+            modulus: Lanes::all(3.0 * self.shear_modulus),
+            pressure_fall: Lanes::all(0.0),
+            per_time: Lanes::all(per_time),
+            plastic_strain: block.plastic_strain,
+            temperature: block.temperature,
+            pressure: block.pressure,
+        };
+        let increments = match self.strength.in_lanes() {
+            Some(law) => law.visit(Return {
+                points: &mut block.yield_point,
+                trial: &trial,
+                flows,
+            }),
+            None => self.flow_one_by_one(block, size, flows, time_step),
+        };
         let strain = block.plastic_strain;
-        let [increment, slope, is_last] = settled(each_of(|l| {
-            let first = first_return(law, [stress[l], slope[l]], strain[l], size[l], modulus);
-            let most = size[l] / modulus;
-            let is_last = if first.is_last { 1.0 } else { 0.0 };
-            [first.increment.min(most), first.strain_slope, is_last]
-        }));
-        let mut increments = Lanes::all(0.0);
-        for l in 0..LANES {
-            if flows[l] & (is_last[l] > 0.0) {
-                flows[l] = false;
-                increments[l] = increment[l];
-                let stress = size[l] - modulus * increment[l];
-                block.set_yield_point(l, YieldPoint::known(stress, slope[l]));
-            }
-        }
         block.plastic_strain = lanes(|l| strain[l] + increments[l]);
         increments
     }
 
-    /// Returns the trial stress of a particle to the yield surface; gives the increment of plastic strain.
-    #[inline]
-    fn flow(&self, block: &mut Block, lane: usize, size: f64, time_step: f64) -> f64 {
-        let state = block.flow_state(lane);
-        let trial = Trial {
-            stress: size,
-            modulus: 3.0 * self.shear_modulus,
-            pressure_fall: 0.0,
-            elapsed: self.rate_effects.then_some(time_step),
-        };
-        let mut point = block.yield_point[lane];
-        let increment = point.plastic_increment(&*self.strength, &state, &trial);
-        block.set_yield_point(lane, point);
-        block.plastic_strain[lane] += increment;
-        increment
+    /// The same for a law of the caller's own.
+    #[cold]
+    fn flow_one_by_one(&self, block: &mut Block, size: &Lanes, flows: u8, time_step: f64) -> Lanes {
+        let mut increments = Lanes::all(0.0);
+        for l in (0..LANES).filter(|l| flows >> l & 1 == 1) {
+            let trial = Trial {
+                stress: size[l],
+                modulus: 3.0 * self.shear_modulus,
+                pressure_fall: 0.0,
+                elapsed: self.rate_effects.then_some(time_step),
+            };
+            let mut point = block.yield_point.lane(l);
+            let state = block.flow_state(l);
+            increments[l] = point.plastic_increment(&*self.strength, &state, &trial);
+            block.yield_point.set_lane(l, point);
+        }
+        increments
     }
 
     /// Artificial viscosity [Pa].
@@ -305,6 +289,26 @@ impl Law {
         block.pressure = pressure;
         block.energy = energy;
         done
+    }
+}
+
+/// Return of the trial stresses of a block.
+struct Return<'a> {
+    points: &'a mut YieldPoint<Lanes>,
+    trial: &'a LaneTrial<Lanes>,
+    flows: u8,
+}
+
+impl LawVisitor<f64> for Return<'_> {
+    type Output = Lanes;
+
+    #[inline(always)]
+    fn visit<L>(self, law: &L) -> Lanes
+    where
+        L: PerLane + Copy + Default,
+        L::One: LaneStrength,
+    {
+        plastic_increments(law, self.points, self.trial, self.flows)
     }
 }
 

@@ -7,7 +7,7 @@ use super::{
     mesh::Mesh,
     transfer::deposit_block,
 };
-use crate::lanes::{LANES, Lanes, lanes, larger, settled, smaller};
+use crate::lanes::{Lanes, lanes, larger, smaller};
 
 /// Adds the particles of a chunk to its nodes.
 pub(super) fn deposit(task: &mut Task<'_>, mesh: &Mesh) {
@@ -34,25 +34,21 @@ impl pulp::NullaryFnOnce for ToNodes<'_, '_> {
             scratch,
         } = &mut **chunk;
         let shares = &mut scratch.pressures;
-        shares.resize(blocks.len() * LANES, [0.0; 2]);
-        let (mut least, mut most, mut widest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
+        shares.resize(blocks.len(), [Lanes::all(0.0); 2]);
+        let (mut least, mut most) = (Lanes::all(f64::INFINITY), Lanes::all(f64::NEG_INFINITY));
+        let mut widest = Lanes::all(0.0);
         for (number, block) in blocks.iter().enumerate() {
-            note(shares, number, block, [&block.whole_pressure()]);
+            note(&mut shares[number], block, [&block.whole_pressure()]);
             let ([radius, depth], mass) = (block.position, block.mass);
-            let or = |values: &Lanes, other: f64| {
-                let values = *values;
-                settled(lanes(|l| if mass[l] > 0.0 { values[l] } else { other }))
-            };
-            for depth in *or(&depth, f64::INFINITY) {
-                least = smaller(least, depth);
-            }
-            for depth in *or(&depth, f64::NEG_INFINITY) {
-                most = larger(most, depth);
-            }
-            for radius in *or(&radius, 0.0) {
-                widest = larger(widest, radius);
-            }
+            let (lower, upper, wide) = (least, most, widest);
+            let present = |new: f64, l: usize, old: f64| if mass[l] > 0.0 { new } else { old };
+            least = lanes(|l| present(smaller(lower[l], depth[l]), l, lower[l]));
+            most = lanes(|l| present(larger(upper[l], depth[l]), l, upper[l]));
+            widest = lanes(|l| present(larger(wide[l], radius[l]), l, wide[l]));
         }
+        let least = least.iter().copied().fold(f64::INFINITY, smaller);
+        let most = most.iter().copied().fold(f64::NEG_INFINITY, larger);
+        let widest = widest.iter().copied().fold(0.0, larger);
         if least > most {
             strip.open(0, 0, 0);
             return;
@@ -62,7 +58,7 @@ impl pulp::NullaryFnOnce for ToNodes<'_, '_> {
         let [_, last] = mesh.indices([widest, most]).map(|index| nearest(index).1);
         strip.open(first - 1, (last - first) as usize + 3, columns as usize + 3);
         for (number, block) in blocks.iter().enumerate() {
-            let [pressure] = means(shares, number, block, [block.whole_pressure()]);
+            let [pressure] = means(&shares[number], block, [block.whole_pressure()]);
             deposit_block(
                 block,
                 &pressure,

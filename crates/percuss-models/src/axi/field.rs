@@ -1,6 +1,6 @@
 //! Nodes of one body: masses, momenta and forces come in from particles, velocities go back.
 
-use super::body::Chunk;
+use super::{body::Chunk, kernel::Stencil};
 
 /// What particles add to a node: mass [kg], momentum radial and axial [kg m/s], volume [m3], force radial and axial [N].
 ///
@@ -91,6 +91,15 @@ impl Field {
     pub(super) fn index(&self, row: isize, column: usize) -> Option<usize> {
         let row = usize::try_from(row - self.first_row).ok()?;
         (row < self.rows && column < self.columns).then(|| row * self.columns + column)
+    }
+
+    /// Whether the window has all nodes of a stencil.
+    pub(super) fn has(&self, [radial, axial]: &[Stencil; 2]) -> bool {
+        let column = |first: isize| usize::try_from(first + 1).ok();
+        let corner = |row: isize, first: isize| {
+            column(first).is_some_and(|column| self.index(row, column).is_some())
+        };
+        corner(axial.first, radial.first) && corner(axial.first + 2, radial.first + 2)
     }
 
     /// What contact takes from the node in this step [N s].

@@ -41,10 +41,10 @@ impl Floor {
             let nearest = struck
                 .field
                 .node(row.round() as isize, column.round() as usize + 1);
+            let stencils = [column, row].map(Stencil::at);
             // A point whose material is gone stays where it was.
-            if nearest[MASS] > 0.0 {
-                let [radial, axial, ..] =
-                    gather([column, row].map(Stencil::at), &struck.field).velocity;
+            if nearest[MASS] > 0.0 && struck.field.has(&stencils) {
+                let [radial, axial, ..] = gather(stencils, &struck.field).velocity;
                 *point = [(point[0] + time * radial).abs(), point[1] + time * axial];
             }
         }

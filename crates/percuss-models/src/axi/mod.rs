@@ -12,6 +12,7 @@ mod deform;
 mod deposit;
 mod end;
 mod field;
+mod fill;
 mod floor;
 mod kernel;
 mod law;
@@ -45,6 +46,9 @@ use crate::{
 #[derive(Debug, Clone, Copy)]
 pub struct Axi;
 
+/// Memory of a particle with its share of the nodes [bytes].
+const PARTICLE: f64 = 1200.0;
+
 /// Thick metal targets, where one dimension has no crater.
 const fn resolves(projectile: ProjectileRegime) -> FirstChoice {
     FirstChoice {
@@ -57,7 +61,7 @@ const fn resolves(projectile: ProjectileRegime) -> FirstChoice {
 }
 
 /// Number of particles that a run of a case begins with, for estimates of its cost. A nose that is not flat has fewer.
-pub fn particles(scenario: &Scenario) -> usize {
+pub fn particles(scenario: &Scenario) -> f64 {
     setup::particles(scenario)
 }
 
@@ -105,6 +109,10 @@ impl Model for Axi {
 
     fn is_two_dimensional(&self) -> bool {
         true
+    }
+
+    fn memory(&self, scenario: &Scenario) -> f64 {
+        PARTICLE * particles(scenario)
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {

@@ -1,11 +1,10 @@
 //! From a case to bodies of particles.
 
-use std::f64::consts::PI;
-
 use super::{
     body::{Body, Limits},
     boundary::{BoundaryCondition, BoundaryConditions},
     contact::Contact,
+    fill::{Division, fill},
     law::{Law, Pressure},
     mesh::{Axis, Mesh},
     solver::{Accumulators, DeferredWork, Grid},
@@ -156,34 +155,12 @@ fn law(material: &Material, scenario: &Scenario) -> Law {
     }
 }
 
-/// Sides of the rings or layers of particles between two positions: evenly spaced, and one to a cell where cells grow.
-fn sides(axis: &Axis, (from, to): (f64, f64), per_cell: u32) -> Vec<f64> {
-    let [start, end] = [from, to].map(|position| axis.index(position));
-    // Rounding of a position on the last even node must not leave a sliver behind it.
-    let even_to = if end < axis.even_to() + 0.5 {
-        end
-    } else {
-        axis.even_to().max(start)
-    };
-    let per_cell = f64::from(per_cell);
-    let even = (((even_to - start) * per_cell).round() as usize).max(usize::from(even_to == end));
-    let far = (end - even_to).ceil() as usize;
-    let mut sides = vec![from];
-    sides.extend(
-        (1..=even).map(|k| axis.position(start + (even_to - start) * k as f64 / even as f64)),
-    );
-    sides.extend(
-        (1..=far).map(|k| axis.position(even_to + (end - even_to) * k as f64 / far as f64)),
-    );
-    sides
-}
-
 /// Number of particles of a case before its nose is cut to shape, without building it.
-pub(super) fn particles(scenario: &Scenario) -> usize {
+pub(super) fn particles(scenario: &Scenario) -> f64 {
     let (mesh, per_cell) = (mesh(scenario), scenario.options.axi.particles_per_side());
     let count = |radius: f64, span: (f64, f64)| {
-        let rings = sides(&mesh.radial, (0.0, radius), per_cell).len() - 1;
-        rings * (sides(&mesh.axial, span, per_cell).len() - 1)
+        Division::new(&mesh.radial, (0.0, radius), per_cell).count()
+            * Division::new(&mesh.axial, span, per_cell).count()
     };
     let rod = &scenario.projectile;
     let mut sum = count(0.5 * rod.diameter, (-rod.length, 0.0));
@@ -195,66 +172,6 @@ pub(super) fn particles(scenario: &Scenario) -> usize {
         }
     }
     sum
-}
-
-/// Fills a body of revolution with particles.
-///
-/// Particles stand in rings and in layers that fit the body, of equal width and height where cells are; a ring that the surface cuts has
-/// the part of its mass that lies inside.
-pub(super) fn fill(
-    law: &Law,
-    radius: f64,
-    (from, to): (f64, f64),
-    (mesh, per_cell): (&Mesh, u32),
-    velocity: f64,
-    temperature: f64,
-    inside: impl Fn(f64, f64) -> f64,
-) -> Vec<Particle> {
-    let rings = sides(&mesh.radial, (0.0, radius), per_cell);
-    let layers = sides(&mesh.axial, (from, to), per_cell);
-    let mut particles = Vec::with_capacity(rings.len() * layers.len());
-    for layer in layers.windows(2) {
-        let (depth, height) = (0.5 * (layer[0] + layer[1]), layer[1] - layer[0]);
-        for ring in rings.windows(2) {
-            let (at, width) = (0.5 * (ring[0] + ring[1]), ring[1] - ring[0]);
-            let part = inside_part(at, depth, width, height, &inside);
-            if part <= 0.0 {
-                continue;
-            }
-            let volume = part * 2.0 * PI * at * width * height;
-            let mut particle = Particle {
-                position: [at, depth],
-                velocity: [0.0, velocity],
-                mass: law.density * volume,
-                volume,
-                temperature,
-                sides: [width, height],
-                ..Particle::default()
-            };
-            particle.yield_point = law.slow_yield_point(&particle);
-            particles.push(particle);
-        }
-    }
-    particles
-}
-
-/// Part of a ring's section whose surface radius, at a depth, is beyond it.
-fn inside_part(
-    at: f64,
-    depth: f64,
-    width: f64,
-    height: f64,
-    surface: &impl Fn(f64, f64) -> f64,
-) -> f64 {
-    const SAMPLES: u32 = 16;
-    let sum: f64 = (0..SAMPLES)
-        .map(|sample| {
-            let offset = (f64::from(sample) + 0.5) / f64::from(SAMPLES) - 0.5;
-            let edge = surface(depth + offset * height, at);
-            ((edge - (at - 0.5 * width)) / width).clamp(0.0, 1.0)
-        })
-        .sum();
-    sum / f64::from(SAMPLES)
 }
 
 fn projectile(rod: &Rod, law: &Law, mesh: (&Mesh, u32), speed: f64) -> Vec<Particle> {

@@ -85,35 +85,64 @@ pub(super) fn deposit_block(
         deposit.along_r.0 = [0.0, r_rr[l], r_zr[l], 0.0, r_pull[l], r_shear[l], 0.0, 0.0];
         deposit.along_z.0 = [0.0, z_rz[l], z_zz[l], 0.0, z_shear[l], z_pull[l], 0.0, 0.0];
     }
+    let mut patch = Patch::default();
     for (l, deposit) in deposits.iter().enumerate() {
         if mass[l] > 0.0 {
-            deposit.add_to([radial.of(l), axial.of(l)], strip);
+            let (radial, axial) = (radial.of(l), axial.of(l));
+            let row = (axial.first - strip.first_row) as usize;
+            let first = row * strip.columns + (radial.first + 1) as usize;
+            if patch.first != Some(first) {
+                patch.add_to(strip);
+                patch = Patch {
+                    first: Some(first),
+                    ..Patch::default()
+                };
+            }
+            patch.add(deposit, &radial, &axial);
         }
     }
+    patch.add_to(strip);
 }
 
-impl Deposit {
-    /// Adds it to the nodes.
+/// Sums at nine nodes: those of neighbours that reach the same ones are made before they go there.
+#[derive(Clone, Copy, Default)]
+struct Patch {
+    /// Index of the first node; none before there is a particle.
+    first: Option<usize>,
+    /// By row, then column.
+    sums: [[Lanes; 3]; 3],
+}
+
+impl Patch {
     #[inline(always)]
-    fn add_to(&self, [radial, axial]: [Stencil; 2], strip: &mut Strip) {
-        let first =
-            (axial.first - strip.first_row) as usize * strip.columns + (radial.first + 1) as usize;
-        let mut start = self.corner.0;
+    fn add(&mut self, deposit: &Deposit, radial: &Stencil, axial: &Stencil) {
+        let (along_r, along_z) = (Lanes(deposit.along_r.0), Lanes(deposit.along_z.0));
+        let mut start = Lanes(deposit.corner.0);
+        for row in 0..3 {
+            let mut value = start;
+            for column in 0..3 {
+                let weight = radial.weights[column] * axial.weights[row];
+                let (sum, added) = (self.sums[row][column], value);
+                self.sums[row][column] = lanes(|k| weight.mul_add(added[k], sum[k]));
+                value = lanes(|k| added[k] + along_r[k]);
+            }
+            let before = start;
+            start = lanes(|k| before[k] + along_z[k]);
+        }
+    }
+
+    #[inline(always)]
+    fn add_to(&self, strip: &mut Strip) {
+        let Some(first) = self.first else {
+            return;
+        };
         for row in 0..3 {
             let at = first + row * strip.columns;
             let nodes: &mut [Node] = &mut strip.nodes[at..at + 3];
-            let mut value = start;
-            for (column, node) in nodes.iter_mut().enumerate() {
-                let weight = radial.weights[column] * axial.weights[row];
-                for (entry, value) in node.iter_mut().zip(&value) {
-                    *entry += weight * value;
+            for (node, sum) in nodes.iter_mut().zip(&self.sums[row]) {
+                for (entry, more) in node.iter_mut().zip(&**sum) {
+                    *entry += more;
                 }
-                for (value, step) in value.iter_mut().zip(&*self.along_r) {
-                    *value += step;
-                }
-            }
-            for (entry, step) in start.iter_mut().zip(&*self.along_z) {
-                *entry += step;
             }
         }
     }
@@ -137,18 +166,31 @@ pub(super) fn gather([radial, axial]: [Stencil; 2], field: &Field) -> Motion {
     for row in 0..3 {
         let at = first + row * field.columns;
         let nodes = &field.velocity[at..at + 3];
-        let (mut sum, mut arms) = ([0.0; 4], [0.0; 4]);
-        for (column, node) in nodes.iter().enumerate() {
-            for k in 0..4 {
-                sum[k] += radial.weights[column] * node[k];
-                arms[k] += radial.arms[column] * node[k];
-            }
-        }
-        for k in 0..4 {
-            motion.velocity[k] += axial.weights[row] * sum[k];
-            motion.along_r[k] += axial.weights[row] * arms[k];
-            motion.along_z[k] += axial.arms[row] * sum[k];
-        }
+        let [a, b, c] = [nodes[0], nodes[1], nodes[2]];
+        let along = |by: [f64; 3]| fused(by[2], c, fused(by[1], b, scaled(by[0], a)));
+        let (sum, arms) = (along(radial.weights), along(radial.arms));
+        motion.velocity = fused(axial.weights[row], sum, motion.velocity);
+        motion.along_r = fused(axial.weights[row], arms, motion.along_r);
+        motion.along_z = fused(axial.arms[row], sum, motion.along_z);
     }
     motion
+}
+
+#[inline(always)]
+fn scaled(weight: f64, values: [f64; 4]) -> [f64; 4] {
+    let mut scaled = values;
+    for value in &mut scaled {
+        *value *= weight;
+    }
+    scaled
+}
+
+/// Values times a weight, added to sums.
+#[inline(always)]
+fn fused(weight: f64, values: [f64; 4], sums: [f64; 4]) -> [f64; 4] {
+    let mut fused = sums;
+    for (sum, value) in fused.iter_mut().zip(values) {
+        *sum = weight.mul_add(value, *sum);
+    }
+    fused
 }

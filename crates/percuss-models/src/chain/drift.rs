@@ -4,7 +4,7 @@ use pulp::{Arch, NullaryFnOnce};
 
 use super::{
     element::approach_rate,
-    flow::{FlowLaw, FlowingElements, YieldStress},
+    flow::{FlowConstants, FlowingElements},
     part::Section,
     penetration::Limit,
     solver::{StepControl, strain_limited_step},
@@ -13,7 +13,7 @@ use super::{
 use crate::{
     error::NumericalError,
     lanes::{LANES, Lanes, PerLane},
-    material::Hardening,
+    material::{LaneStrength, LawVisitor},
     options::Kinematics,
 };
 
@@ -120,8 +120,8 @@ impl State {
         let is_viscous = control.is_viscous();
         let first_element = segment.elements().start;
         let limit = limit.filter(|limit| segment.elements().contains(&limit.element));
-        // What flows by a power of the plastic strain waits until it can do so side by side, in logarithmic strain.
-        let law = part.strength.hardening();
+        // What flows by a law with known equations waits until it can do so side by side, in logarithmic strain.
+        let law = part.strength.in_lanes();
         let law = law.filter(|_| is_logarithmic && !is_viscous && limit.is_none());
         let mut plastic_work = 0.0;
         let working = &mut self.working;
@@ -179,8 +179,13 @@ impl State {
             }
             found.allow(limit);
         }
-        if let Some(law) = law {
-            flow_together(elements, working, part, law, time_step);
+        if let Some(law) = law.filter(|_| working.iter().any(|working| working.flows)) {
+            law.visit(FlowTogether {
+                elements: &mut *elements,
+                working: &*working,
+                part,
+                time_step,
+            });
         }
         for working in working {
             let element = &mut elements[working.element];
@@ -193,63 +198,81 @@ impl State {
 }
 
 /// Lets those elements flow that do.
-#[inline(always)]
-fn flow_together(
-    elements: &mut [Element],
-    working: &[YieldingElement],
-    part: &Section,
-    law: Hardening,
+pub(super) struct FlowTogether<'a> {
+    elements: &'a mut [Element],
+    working: &'a [YieldingElement],
+    part: &'a Section,
     time_step: f64,
-) {
-    let mut waiting = working.iter().filter(|working| working.flows);
-    loop {
-        let mut places = [0; LANES];
-        let mut count = 0;
-        while count < LANES
-            && let Some(working) = waiting.next()
-        {
-            places[count] = working.element;
-            count += 1;
-        }
-        if count == 0 {
-            return;
-        }
-        let last = places[count - 1];
-        places[count..].fill(last);
-        flow_eight(elements, &places, count, part, law, time_step);
+}
+
+impl LawVisitor<f64> for FlowTogether<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<L>(mut self, law: &L)
+    where
+        L: PerLane + Copy + Default,
+        L::One: LaneStrength,
+    {
+        self.flow(*law);
     }
 }
 
-/// Lets elements flow side by side: of the places, so many count.
-#[inline(always)]
-fn flow_eight(
-    elements: &mut [Element],
-    places: &[usize; LANES],
-    count: usize,
-    part: &Section,
-    law: Hardening,
-    time_step: f64,
-) {
-    let mut flowing = FlowingElements {
-        per_time: Lanes::all(1.0 / time_step),
-        ..FlowingElements::default()
-    };
-    let law = FlowLaw::new(law, part.modulus, part.heating);
-    for (p, &place) in places.iter().enumerate() {
-        let element = &elements[place];
-        flowing.law.set_lane(p, law);
-        flowing.spring.set_lane(p, element.spring);
-        flowing.plastic.set_lane(p, element.plastic);
-        flowing
-            .yields
-            .set_lane(p, YieldStress::of(&element.yield_point));
+impl FlowTogether<'_> {
+    #[inline(always)]
+    fn flow<L>(&mut self, law: L)
+    where
+        L: PerLane + Copy + Default,
+        L::One: LaneStrength,
+    {
+        let working = self.working;
+        let mut waiting = working.iter().filter(|working| working.flows);
+        loop {
+            let mut places = [0; LANES];
+            let mut count = 0;
+            while count < LANES
+                && let Some(working) = waiting.next()
+            {
+                places[count] = working.element;
+                count += 1;
+            }
+            if count == 0 {
+                return;
+            }
+            let last = places[count - 1];
+            places[count..].fill(last);
+            self.flow_eight(&places, count, law);
+        }
     }
-    flowing.flow(u8::MAX, |p| elements[places[p]].length);
-    for (p, &place) in places[..count].iter().enumerate() {
-        let element = &mut elements[place];
-        element.spring = flowing.spring.lane(p);
-        element.plastic = flowing.plastic.lane(p);
-        element.yield_point = flowing.yields.lane(p).point();
+
+    /// Lets elements flow side by side: of the places, so many count.
+    #[inline(always)]
+    fn flow_eight<L>(&mut self, places: &[usize; LANES], count: usize, law: L)
+    where
+        L: PerLane + Copy + Default,
+        L::One: LaneStrength,
+    {
+        let Self { elements, part, .. } = self;
+        let mut flowing = FlowingElements {
+            law,
+            per_time: Lanes::all(1.0 / self.time_step),
+            ..FlowingElements::default()
+        };
+        let constants = FlowConstants::of(part);
+        for (p, &place) in places.iter().enumerate() {
+            let element = &elements[place];
+            flowing.constants.set_lane(p, constants);
+            flowing.spring.set_lane(p, element.spring);
+            flowing.plastic.set_lane(p, element.plastic);
+            flowing.points.set_lane(p, element.yield_point);
+        }
+        flowing.flow(u8::MAX);
+        for (p, &place) in places[..count].iter().enumerate() {
+            let element = &mut elements[place];
+            element.spring = flowing.spring.lane(p);
+            element.plastic = flowing.plastic.lane(p);
+            element.yield_point = flowing.points.lane(p);
+        }
     }
 }
 

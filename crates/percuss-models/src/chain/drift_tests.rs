@@ -1,12 +1,14 @@
 use super::*;
 use crate::{case, chain::mesh};
 
-/// A chain at rest, of a projectile that hardens by a power of the strain.
-fn chain() -> State {
-    let text = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '200 m/s' }\n\
-                target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n\
-                [chain]\ntarget_resistance = 'column'\nprojectile_elements = 27\ntarget_elements = 5\n";
-    mesh::build(&case::load_str("shot", text).unwrap_or_else(|error| panic!("{error}")))
+/// A chain at rest, of a projectile of a metal.
+fn chain(metal: &str) -> State {
+    let text = format!(
+        "projectile = {{ material = '{metal}', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '200 m/s' }}\n\
+         target = {{ material = 'aluminium-2024-t351', thickness = '25 mm' }}\n\
+         [chain]\ntarget_resistance = 'column'\nprojectile_elements = 27\ntarget_elements = 5\n"
+    );
+    mesh::build(&case::load_str("shot", &text).unwrap_or_else(|error| panic!("{error}")))
 }
 
 /// Everything that flow changes.
@@ -27,10 +29,20 @@ fn bits(element: &Element) -> [u64; 9] {
 
 #[test]
 fn elements_that_flow_side_by_side_do_so_to_the_bits_of_each_by_itself() {
+    for metal in [
+        "copper-woodward",
+        "ofhc-copper-johnson-cook",
+        "tungsten-alloy-steinberg",
+    ] {
+        flow_both_ways(metal);
+    }
+}
+
+fn flow_both_ways(metal: &str) {
     const TIME_STEP: f64 = 1e-8;
-    let mut state = chain();
+    let mut state = chain(metal);
     let part = &state.parts[0];
-    let law = part.strength.hardening().unwrap();
+    let law = part.strength.in_lanes().unwrap();
     let together = &mut state.elements[..part.elements];
     let mut alone = together.to_vec();
     let (mut flowed, mut iterated) = (0, 0);
@@ -54,7 +66,12 @@ fn elements_that_flow_side_by_side_do_so_to_the_bits_of_each_by_itself() {
                 other.flow(part, TIME_STEP);
             }
         }
-        flow_together(together, &working, part, law, TIME_STEP);
+        law.visit(FlowTogether {
+            elements: together,
+            working: &working,
+            part,
+            time_step: TIME_STEP,
+        });
         for (one, other) in together.iter().zip(&alone) {
             assert_eq!(bits(one), bits(other), "step {step}: {one:?} {other:?}");
         }

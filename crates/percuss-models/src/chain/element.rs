@@ -7,7 +7,7 @@ use crate::{
     lanes::{larger, smaller},
     material::{FlowState, Trial},
     options::Kinematics,
-    power::{exponential, log_ratio, small_exponential},
+    power::{exponential, log_ratio},
 };
 
 percuss_core::per_lane! {
@@ -52,7 +52,7 @@ impl Spring {
     }
 
     /// Lets a trial stress flow by an increment of plastic strain; `heating` is the rise in temperature per plastic work per volume, and
-    /// `per_time` the inverse of the time step. False where the unloaded length has still to be found by [`Spring::shrink`].
+    /// `per_time` the inverse of the time step.
     #[inline(always)]
     pub(super) fn flow_by(
         &mut self,
@@ -60,23 +60,15 @@ impl Spring {
         plastic: &mut Plastic,
         [modulus, heating]: [f64; 2],
         per_time: f64,
-    ) -> bool {
+    ) {
         plastic.step = increment.copysign(self.stress);
         self.stress -= modulus * plastic.step;
-        let (shrinking, is_exact) = small_exponential(-plastic.step);
-        self.unloaded_length *= shrinking;
+        self.unloaded_length *= exponential(-plastic.step);
         plastic.axial += plastic.step;
         plastic.strain += increment;
         plastic.largest_rate = larger(increment * per_time, plastic.largest_rate);
         let work = 0.5 * (self.stress_before + self.stress).abs() * increment;
         plastic.temperature += heating * work;
-        is_exact
-    }
-
-    /// Sets the unloaded length after a large plastic step.
-    #[cold]
-    pub(super) fn shrink(&mut self, unloaded_length: f64, plastic_step: f64) {
-        self.unloaded_length = unloaded_length * exponential(-plastic_step);
     }
 
     /// Plastic work between the half steps around the current time, per volume.
@@ -168,13 +160,9 @@ impl Element {
         );
         if increment != 0.0 {
             let constants = [part.modulus, part.heating];
-            let (per_time, unloaded) = (1.0 / time_step, self.spring.unloaded_length);
-            if !self
-                .spring
-                .flow_by(increment, &mut self.plastic, constants, per_time)
-            {
-                self.spring.shrink(unloaded, self.plastic.step);
-            }
+            let per_time = 1.0 / time_step;
+            self.spring
+                .flow_by(increment, &mut self.plastic, constants, per_time);
         }
     }
 

@@ -1,169 +1,84 @@
-//! Return of eight trial stresses to the yield surface where strength is a power of the plastic strain.
+//! Return of eight trial stresses to the yield surface, for every strength law that rides in lanes.
 
-use super::element::{Plastic, Spring};
+use super::{
+    element::{Plastic, Spring},
+    part::Section,
+};
 use crate::{
     lanes::{LANES, Lanes, PerLane},
-    material::{FlowState, Hardening, Trial, YieldPoint, first_return},
-    power::log_ratio,
+    material::{LaneStrength, LaneTrial, YieldPoint, plastic_increments},
 };
 
-/// Elastic strain from which a trial is worked out once more: less than the one up to which it is exact.
-const LARGE: f64 = 0.09;
-
 percuss_core::per_lane! {
-    /// What flow needs of a material.
+    /// What flow needs of a body besides its strength.
     #[derive(Debug, Clone, Copy, Default)]
-    pub(super) struct FlowLaw<R = f64> {
+    pub(super) struct FlowConstants<R = f64> {
         pub(super) modulus: R,
         /// Temperature rise per plastic work per volume.
         pub(super) heating: R,
-        pub(super) coefficient: R,
-        pub(super) exponent: R,
-        pub(super) first_strain: R,
+        /// 1 where the strength depends on the strain rate, or 0.
+        pub(super) rate_effects: R,
     }
 }
 
-impl FlowLaw {
-    pub(super) fn new(law: Hardening, modulus: f64, heating: f64) -> Self {
+impl FlowConstants {
+    pub(super) fn of(part: &Section) -> Self {
         Self {
-            modulus,
-            heating,
-            coefficient: law.coefficient,
-            exponent: law.exponent,
-            first_strain: law.first_strain,
-        }
-    }
-
-    #[inline(always)]
-    fn hardening(&self) -> Hardening {
-        Hardening {
-            coefficient: self.coefficient,
-            exponent: self.exponent,
-            first_strain: self.first_strain,
+            modulus: part.modulus,
+            heating: part.heating,
+            rate_effects: f64::from(u8::from(part.rate_effects)),
         }
     }
 }
 
-percuss_core::per_lane! {
-    /// Yield stress and its slope with the plastic strain [Pa].
-    #[derive(Debug, Clone, Copy, Default)]
-    pub(super) struct YieldStress<R = f64> {
-        pub(super) stress: R,
-        pub(super) slope: R,
-    }
-}
-
-/// Eight elements that flow.
+/// Eight elements that flow, of bodies with the same law.
 #[derive(Clone, Copy, Default)]
-pub(super) struct FlowingElements {
+pub(super) struct FlowingElements<L> {
     pub(super) spring: Spring<Lanes>,
     pub(super) plastic: Plastic<Lanes>,
-    pub(super) yields: YieldStress<Lanes>,
-    pub(super) law: FlowLaw<Lanes>,
+    pub(super) points: YieldPoint<Lanes>,
+    pub(super) constants: FlowConstants<Lanes>,
+    pub(super) law: L,
     /// Inverse of the time step [1/s].
     pub(super) per_time: Lanes,
 }
 
-impl YieldStress {
-    pub(super) fn of(point: &YieldPoint) -> Self {
-        Self {
-            stress: point.stress(),
-            slope: point.strain_slope(),
-        }
-    }
-
-    pub(super) fn point(self) -> YieldPoint {
-        YieldPoint::known(self.stress, self.slope)
-    }
-}
-
-impl FlowingElements {
+impl<L> FlowingElements<L>
+where
+    L: PerLane,
+    L::One: LaneStrength,
+{
     /// Returns the trial stresses to the yield surface; what is in places whose bits are not set stays as it is.
     #[inline(always)]
-    pub(super) fn flow(&mut self, places: u8, length: impl Fn(usize) -> f64) {
-        let Self {
-            spring,
-            plastic,
-            yields: before,
-            law,
-            per_time,
-        } = *self;
-        let mut trial = spring.stress;
-        let mut increment = Lanes::all(0.0);
-        let mut yields = before;
-        let mut left_over = 0;
+    pub(super) fn flow(&mut self, places: u8) {
+        let (spring, plastic, constants) = (self.spring, self.plastic, self.constants);
+        let per_time = self.per_time;
+        let mut trial = LaneTrial::<Lanes>::default();
         for p in 0..LANES {
-            let (law, point) = (law.lane(p), before.lane(p));
-            let size = trial.0[p].abs();
-            let point = [point.stress, point.slope];
-            let strain = plastic.strain.0[p];
-            let returned = first_return(law.hardening(), point, strain, size, law.modulus);
-            let is_last = returned.is_last & (size <= law.modulus * LARGE);
-            left_over |= u8::from(!is_last) << p;
-            increment.0[p] = returned.increment;
-            yields.stress.0[p] = size - law.modulus * returned.increment;
-            yields.slope.0[p] = returned.strain_slope;
+            let (stress, constants) = (spring.stress.0[p], constants.lane(p));
+            trial.set_lane(
+                p,
+                LaneTrial {
+                    stress: stress.abs(),
+                    modulus: constants.modulus,
+                    pressure_fall: constants.modulus.copysign(stress) / 3.0,
+                    per_time: per_time.0[p] * constants.rate_effects,
+                    plastic_strain: plastic.strain.0[p],
+                    temperature: plastic.temperature.0[p],
+                    pressure: stress / 3.0,
+                },
+            );
         }
-        left_over &= places;
-        if left_over != 0 {
-            for p in (0..LANES).filter(|p| left_over >> p & 1 == 1) {
-                let (law, strain) = (law.lane(p), plastic.strain.0[p]);
-                trial.0[p] = law.modulus * log_ratio(spring.unloaded_length.0[p], length(p));
-                let (next, point) = iterate(law, before.lane(p), strain, trial.0[p]);
-                increment.0[p] = next;
-                yields.set_lane(p, point);
-            }
-        }
-        let mut flowed = *self;
-        let mut is_large = 0;
+        let increment = plastic_increments(&self.law, &mut self.points, &trial, places);
+        let (mut flowed, mut strained) = (spring, plastic);
         for p in 0..LANES {
-            let (mut next, mut strained) = (spring.lane(p), plastic.lane(p));
-            next.stress = trial.0[p];
-            let constants = [law.modulus.0[p], law.heating.0[p]];
-            let time = per_time.0[p];
-            let is_exact = next.flow_by(increment.0[p], &mut strained, constants, time);
-            is_large |= u8::from(!is_exact) << p;
-            let flows = places >> p & 1 == 1;
-            flowed.spring.choose(p, flows, next, spring.lane(p));
-            flowed.plastic.choose(p, flows, strained, plastic.lane(p));
-            flowed
-                .yields
-                .choose(p, flows, yields.lane(p), before.lane(p));
+            let (mut next, mut strain) = (spring.lane(p), plastic.lane(p));
+            let constants = [constants.modulus.0[p], constants.heating.0[p]];
+            next.flow_by(increment.0[p], &mut strain, constants, per_time.0[p]);
+            let flows = increment.0[p] != 0.0;
+            flowed.choose(p, flows, next, spring.lane(p));
+            strained.choose(p, flows, strain, plastic.lane(p));
         }
-        *self = flowed;
-        is_large &= places;
-        if is_large != 0 {
-            for p in (0..LANES).filter(|p| is_large >> p & 1 == 1) {
-                let mut flowed = self.spring.lane(p);
-                flowed.shrink(spring.unloaded_length.0[p], self.plastic.step.0[p]);
-                self.spring.set_lane(p, flowed);
-            }
-        }
+        (self.spring, self.plastic) = (flowed, strained);
     }
-}
-
-/// The return of a single element: plastic increment, and where it ends.
-#[cold]
-#[inline(never)]
-fn iterate(
-    law: FlowLaw,
-    before: YieldStress,
-    plastic_strain: f64,
-    trial: f64,
-) -> (f64, YieldStress) {
-    let mut point = before.point();
-    let start = FlowState {
-        plastic_strain,
-        strain_rate: 0.0,
-        temperature: 0.0,
-        pressure: 0.0,
-    };
-    let trial = Trial {
-        stress: trial.abs(),
-        modulus: law.modulus,
-        pressure_fall: 0.0,
-        elapsed: None,
-    };
-    let increment = point.plastic_increment(&law.hardening(), &start, &trial);
-    (increment, YieldStress::of(&point))
 }

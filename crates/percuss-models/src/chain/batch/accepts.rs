@@ -1,5 +1,6 @@
 //! Which shots can be computed side by side.
 
+use super::bundle::law;
 use crate::{
     material::Material,
     options::{
@@ -10,17 +11,14 @@ use crate::{
 };
 
 /// Whether a shot is one of those that can be computed side by side: a column of one layer, logarithmic strain, border shear by
-/// friction, no damping and no failure, and strength that is a power of the plastic strain.
+/// friction, no damping and no failure, and strength laws whose equations ride in lanes.
 pub fn accepts(scenario: &Scenario) -> bool {
-    let is_power = |material: &Material| {
-        let prepared = material.strength.law().prepare(material, 1.0);
-        prepared.hardening().is_some()
-    };
+    let rides = |material: &Material| law(material).is_some();
     scenario.resistance.is_none()
         && scenario.impact_velocity > 0.0
         && accepts_options(&scenario.options.chain)
-        && single_layer(&scenario.target).is_some_and(is_power)
-        && is_power(&scenario.projectile.material)
+        && single_layer(&scenario.target).is_some_and(rides)
+        && rides(&scenario.projectile.material)
 }
 
 /// Whether the batch computes what the options ask for.

@@ -20,7 +20,7 @@ impl Bundle {
                 of_body.add_node(mass, &node.velocity);
             }
             for spring in &self.springs[elements] {
-                of_body.add_spring(spring, &body.volume, &body.law.modulus);
+                of_body.add_spring(spring, &body.volume, &body.flow.modulus);
             }
             sums[b] = of_body;
         }

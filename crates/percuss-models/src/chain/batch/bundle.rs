@@ -6,9 +6,10 @@ use super::{interfaces::Interface, scalars::RunScalars};
 use crate::{
     chain::{
         element::{Plastic, Spring},
-        flow::FlowLaw,
+        flow::FlowConstants,
     },
     lanes::{LANES, Lanes},
+    material::{LaneLaw, LawKind, Material, YieldPoint},
     problem::RearFaceCondition,
     scenario::{Scenario, TargetBody},
 };
@@ -20,16 +21,24 @@ pub(super) struct Mesh {
     pub(super) elements: [usize; 2],
     /// What holds the back of the target.
     pub(super) back: RearFaceCondition,
+    /// Equations of their strength.
+    pub(super) laws: [LawKind; 2],
 }
 
 impl Mesh {
     pub(super) fn of(scenario: &Scenario) -> Self {
         let chain = &scenario.options.chain;
-        let back = match &scenario.target {
-            TargetBody::Layers { back_face, .. } => *back_face,
-            _ => RearFaceCondition::Free,
+        let (back, target) = match &scenario.target {
+            TargetBody::Layers {
+                back_face, layers, ..
+            } => (*back_face, layers.first().map(|plate| &plate.material)),
+            _ => (RearFaceCondition::Free, None),
         };
+        let kind = |material: &Material| law(material).map(|law| law.kind());
+        let projectile = kind(&scenario.projectile.material);
         Self {
+            laws: [projectile, target.and_then(|material| kind(material))]
+                .map(|kind| kind.unwrap_or(LawKind::Hardening)),
             elements: [chain.projectile_elements(), chain.target_elements()],
             back,
         }
@@ -48,6 +57,11 @@ impl Mesh {
             _ => projectile..projectile + target,
         }
     }
+}
+
+/// Strength of a material if it rides in lanes, without a constraint.
+pub(super) fn law(material: &Material) -> Option<LaneLaw> {
+    material.strength.law().prepare(material, 1.0).in_lanes()
 }
 
 /// Stable time steps that are compared at once.
@@ -75,7 +89,7 @@ percuss_core::per_lane! {
     /// What is the same for all of a projectile or target.
     #[derive(Debug, Clone, Copy, Default)]
     pub(super) struct Body<R = f64> {
-        pub(super) law: FlowLaw<R>,
+        pub(super) flow: FlowConstants<R>,
         pub(super) compliance: R,
         pub(super) slowness: R,
         /// Volume of an element.
@@ -102,9 +116,7 @@ pub(super) struct Bundle {
     pub(super) springs: Vec<Spring<Lanes>>,
     pub(super) forces: Vec<Lanes>,
     pub(super) plastics: Vec<Plastic<Lanes>>,
-    /// Yield stresses, and their slopes with the plastic strain.
-    pub(super) yields: Vec<Lanes>,
-    pub(super) slopes: Vec<Lanes>,
+    pub(super) points: Vec<YieldPoint<Lanes>>,
     /// Whether a node moves in any lane.
     pub(super) moves: Vec<bool>,
     /// Masses of the nodes, and largest friction on them.
@@ -131,6 +143,8 @@ pub(super) struct Bundle {
     /// Where single lanes of elements flow: elements and lanes.
     pub(super) gathered: Vec<(u32, u32)>,
     pub(super) bodies: [Body<Lanes>; 2],
+    /// Their strength.
+    pub(super) laws: Vec<LaneLaw<Lanes>>,
     pub(super) scalars: RunScalars<Lanes>,
 }
 
@@ -143,8 +157,7 @@ impl Bundle {
             springs: vec![Spring::default(); elements],
             forces: vec![Lanes::default(); elements],
             plastics: vec![Plastic::default(); elements],
-            yields: vec![Lanes::default(); elements],
-            slopes: vec![Lanes::default(); elements],
+            points: vec![YieldPoint::default(); elements],
             moves: vec![false; elements + 2],
             masses: vec![Lanes::default(); elements + 2],
             frictions: vec![Lanes::default(); elements + 2],
@@ -160,6 +173,7 @@ impl Bundle {
             steps_before: vec![Lanes::default(); elements],
             gathered: vec![(0, 0); (elements + 1) * LANES],
             bodies: [Body::default(); 2],
+            laws: mesh.laws.map(LaneLaw::of_kind).to_vec(),
             scalars: RunScalars::default(),
         };
         for lane in 0..LANES {

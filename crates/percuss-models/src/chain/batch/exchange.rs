@@ -8,11 +8,11 @@ use crate::{
     chain::{
         column::ColumnRun,
         element::{Plastic, Spring},
-        flow::FlowLaw,
+        flow::FlowConstants,
         state::State,
     },
     lanes::PerLane,
-    material::{Hardening, YieldPoint},
+    material::YieldPoint,
     power::log_ratio,
 };
 
@@ -34,10 +34,12 @@ impl Bundle {
             self.springs[e].set_lane(lane, from.spring);
             self.forces[e].set_lane(lane, from.axial_force);
             self.plastics[e].set_lane(lane, from.plastic);
-            self.yields[e].set_lane(lane, from.yield_point.stress());
-            self.slopes[e].set_lane(lane, from.yield_point.strain_slope());
+            self.points[e].set_lane(lane, from.yield_point);
         }
         for (b, body) in self.bodies.iter_mut().enumerate() {
+            if let Some(law) = state.parts[b].strength.in_lanes() {
+                self.laws[b].set_lane(lane, law);
+            }
             let elements = self.mesh.elements_of(b);
             let stretch = run.solver.control.erosion_strain.exp();
             body.set_lane(
@@ -78,8 +80,7 @@ impl Bundle {
                 to.spring = self.springs[e].lane(lane);
                 to.axial_force = self.forces[e].lane(lane);
                 to.plastic = self.plastics[e].lane(lane);
-                let (stress, slope) = (self.yields[e].lane(lane), self.slopes[e].lane(lane));
-                to.yield_point = YieldPoint::known(stress, slope);
+                to.yield_point = self.points[e].lane(lane);
                 to.strain = to.plastic.axial + log_ratio(to.spring.unloaded_length, to.length);
             }
         }
@@ -115,8 +116,7 @@ impl Bundle {
             );
             self.forces[e].set_lane(lane, 0.0);
             self.plastics[e].set_lane(lane, Plastic::default());
-            self.yields[e].set_lane(lane, f64::INFINITY);
-            self.slopes[e].set_lane(lane, 0.0);
+            self.points[e].set_lane(lane, YieldPoint::known(f64::INFINITY, 0.0));
         }
         for body in &mut self.bodies {
             body.set_lane(lane, Body::idle());
@@ -132,10 +132,9 @@ impl Body {
     fn of(state: &State, b: usize, first: usize, count: usize, stretch: f64) -> Self {
         let (part, element) = (&state.parts[b], &state.elements[first]);
         let nodes = &state.nodes[first + b..=first + b + count];
-        let law = part.strength.hardening().unwrap_or(Hardening::none(0.0));
         let half = element.end_masses[0];
         Self {
-            law: FlowLaw::new(law, part.modulus, part.heating),
+            flow: FlowConstants::of(part),
             compliance: part.compliance,
             slowness: part.slowness,
             volume: element.volume,
@@ -152,7 +151,10 @@ impl Body {
     /// That of a lane in which nothing ever happens.
     fn idle() -> Self {
         Self {
-            law: FlowLaw::new(Hardening::none(0.0), 1.0, 0.0),
+            flow: FlowConstants {
+                modulus: 1.0,
+                ..FlowConstants::default()
+            },
             compliance: 1.0,
             slowness: 1.0,
             volume: 1.0,

@@ -98,6 +98,84 @@ fn shots() -> Vec<Scenario> {
     shots
 }
 
+/// Numbers from 0 to 1 without a pattern.
+struct Chance(u64);
+
+impl Chance {
+    fn between(&mut self, least: f64, most: f64) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        least + (most - least) * (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Text of a strength law with constants of its own.
+    fn law(&mut self) -> String {
+        let kind = self.between(0.0, 5.0) as u32;
+        let (first, second) = (self.between(80.0, 600.0), self.between(100.0, 700.0));
+        let n = self.between(0.1, 0.6);
+        let (c, m) = (self.between(0.0, 0.04), self.between(0.7, 1.4));
+        match kind {
+            // Beyond these a power law would yield at once.
+            0 => format!(
+                "power_law = {{ coefficient = '{} MPa', exponent = {} }}",
+                300.0 + second,
+                0.4 * n
+            ),
+            1 => format!("perfectly_plastic = {{ flow_stress = '{first} MPa' }}"),
+            2 | 3 => {
+                let form = if kind == 2 { "logarithmic" } else { "power" };
+                let rate = 10.0_f64.powf(self.between(-3.0, 0.0));
+                format!(
+                    "johnson_cook = {{ a = '{first} MPa', b = '{second} MPa', n = {n}, c = {c}, m = {m}, \
+                     reference_rate = '{rate} 1/s', rate_form = '{form}' }}"
+                )
+            }
+            _ => {
+                let (beta, pressure) = (self.between(2.0, 50.0), self.between(1e-12, 4e-11));
+                format!(
+                    "steinberg_guinan = {{ y0 = '{first} MPa', y_max = '1500 MPa', beta = {beta}, n = {n}, \
+                     pressure_coefficient = '{pressure} 1/Pa', temperature_coefficient = '{} 1/K' }}",
+                    1e-5 * beta
+                )
+            }
+        }
+    }
+
+    /// A shot of two such metals.
+    fn shot(&mut self) -> Scenario {
+        let metal = |name: &str, law: &str, [modulus, density, room]: [f64; 3]| {
+            format!(
+                "[materials.{name}]\nname = '{name}'\ndensity = '{density} kg/m3'\nyoungs_modulus = '{modulus} GPa'\n\
+                 poissons_ratio = 0.3\nspecific_heat = '450 J/(kg K)'\nroom_temperature = '{room} K'\n\
+                 melting_temperature = '1300 K'\nstrength.{law}\n"
+            )
+        };
+        let mut numbers = || {
+            [
+                self.between(70.0, 210.0),
+                self.between(2700.0, 9000.0),
+                self.between(250.0, 600.0),
+            ]
+        };
+        let constants = [numbers(), numbers()];
+        let (rod, target) = (self.law(), self.law());
+        let (velocity, shear) = (self.between(50.0, 900.0), self.between(0.0, 0.6));
+        let erosion = self.between(0.3, 1.5);
+        let [rate_effects, heating] = [0, 1].map(|_| self.between(0.0, 1.0) < 0.8);
+        let text = format!(
+            "projectile = {{ material = 'rod', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '{velocity} m/s' }}\n\
+             target = {{ material = 'plate', thickness = '25 mm' }}\n[chain]\ntarget_resistance = 'column'\n\
+             projectile_elements = 8\ntarget_elements = 15\nborder_shear = {shear}\nerosion_strain = {erosion}\n\
+             rate_effects = {rate_effects}\nadiabatic_heating = {heating}\n{}{}",
+            metal("rod", &rod, constants[0]),
+            metal("plate", &target, constants[1]),
+        );
+        case::load_str("shot", &text).unwrap_or_else(|error| panic!("{error}\n{text}"))
+    }
+}
+
 /// Everything that a run says, in words that are the same only for the same bits.
 fn words(result: &Result<crate::outcome::RunResult, Error>) -> String {
     format!("{result:?}")
@@ -159,6 +237,21 @@ fn a_shot_knows_nothing_of_its_company() {
     backwards.truncate(5);
     backwards.extend(all.iter().take(2));
     assert_eq!(together(&backwards)[5..], expected[..2]);
+}
+
+#[test]
+fn every_strength_law_has_the_bits_of_single_runs() {
+    let mut chance = Chance(5);
+    let shots: Vec<Scenario> = (0..120).map(|_| chance.shot()).collect();
+    assert!(shots.iter().all(accepts));
+    let results = together(&shots.iter().collect::<Vec<_>>());
+    let mut penetrated = 0;
+    for (shot, result) in shots.iter().zip(&results) {
+        let alone = ColumnRun::new(shot).and_then(|mut run| run.run(&mut Control::default()));
+        penetrated += usize::from(alone.is_ok());
+        assert_eq!(result, &words(&alone), "{shot:?}");
+    }
+    assert!(penetrated > 100, "{penetrated}");
 }
 
 #[test]

@@ -10,7 +10,8 @@ use super::{
 use crate::{
     chain::element::{Spring, approach_rate},
     lanes::{LANES, Lanes, PerLane, larger, smaller},
-    power::small_log_ratio,
+    material::{LaneStrength, LawVisitor},
+    power::log_ratio,
 };
 
 /// The lanes whose bits are set in a number, and after them others.
@@ -34,6 +35,27 @@ const SET_LANES: [[u32; LANES]; 256] = {
 /// Lanes from which it is cheaper to let an element flow where it is than to gather what flows from several elements.
 const MANY: u32 = 3;
 
+/// Flow of the elements of a body.
+struct Flow<'a> {
+    bundle: &'a mut Bundle,
+    b: usize,
+    working: usize,
+    step: &'a Step,
+}
+
+impl LawVisitor<Lanes> for Flow<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<L>(self, law: &L)
+    where
+        L: PerLane + Copy + Default,
+        L::One: LaneStrength,
+    {
+        self.bundle.flow(law, self.b, self.working, self.step);
+    }
+}
+
 impl Bundle {
     /// Updates the elements: first all of them as if elastic, then those that flow. Nothing has to be guessed that way.
     #[inline(always)]
@@ -46,7 +68,19 @@ impl Bundle {
         for b in 0..self.bodies.len() {
             let elements = self.mesh.elements_of(b);
             let working = self.respond(b, elements, &mut estimate);
-            self.flow(b, working, step);
+            if working > 0 {
+                // The laws are apart from what flows by them.
+                let laws = std::mem::take(&mut self.laws);
+                if let Some(law) = laws.get(b) {
+                    law.visit(Flow {
+                        bundle: self,
+                        b,
+                        working,
+                        step,
+                    });
+                }
+                self.laws = laws;
+            }
         }
         estimate.stable_step = self.stable_step();
         estimate
@@ -62,13 +96,13 @@ impl Bundle {
         let ends = ends.zip(moves.iter().zip(&moves[1..]));
         let springs = self.springs[elements.clone()].iter_mut();
         let springs = springs.zip(&mut self.forces[elements.clone()]);
-        let springs = springs.zip(&self.yields[elements.clone()]);
+        let springs = springs.zip(&self.points[elements.clone()]);
         let marks = self.marks[elements.clone()].iter_mut();
         let marks = marks.zip(&mut self.limits[elements.clone()]);
         let mut fastest = estimate.fastest;
         let mut is_eroding = false;
         let mut working = 0;
-        for (e, ((((spring, force), yields), (mark, limit)), (ends, moves))) in
+        for (e, ((((spring, force), point), (mark, limit)), (ends, moves))) in
             elements.zip(springs.zip(marks).zip(ends))
         {
             // Where no wave has come, or border shear holds, nothing changes.
@@ -77,8 +111,8 @@ impl Bundle {
             }
             let ends = [ends.0, ends.1];
             let response = match mark.gone {
-                0 => respond::<false>(spring, yields, ends, &body, 0),
-                gone => respond::<true>(spring, yields, ends, &body, gone),
+                0 => respond::<false>(spring, &point.elastic_to(), ends, &body, 0),
+                gone => respond::<true>(spring, &point.elastic_to(), ends, &body, gone),
             };
             (*force, *limit) = (response.force, response.limit);
             for l in 0..LANES {
@@ -98,10 +132,11 @@ impl Bundle {
 
     /// Lets the elements of a body flow that are beyond the yield surface, and settles those that flowed in the last step.
     #[inline(always)]
-    fn flow(&mut self, b: usize, working: usize, step: &Step) {
-        if working == 0 {
-            return;
-        }
+    fn flow<L>(&mut self, law: &L, b: usize, working: usize, step: &Step)
+    where
+        L: PerLane + Copy + Default,
+        L::One: LaneStrength,
+    {
         let mut gathered = 0;
         for w in 0..working {
             let e = self.working[w];
@@ -111,29 +146,27 @@ impl Bundle {
             if !self.marks[e].flowed {
                 continue;
             }
-            let lanes = self.flowing(b, e) & !self.marks[e].gone;
+            let lanes = self.flowing(e) & !self.marks[e].gone;
             if lanes.count_ones() >= MANY {
-                self.flow_in_place(b, e, lanes, step);
+                self.flow_in_place(law, [b, e], lanes, step);
             } else {
                 let places = SET_LANES[usize::from(lanes)].map(|lane| (e as u32, lane));
                 self.gathered[gathered..gathered + LANES].copy_from_slice(&places);
                 gathered += lanes.count_ones() as usize;
             }
         }
-        self.flow_gathered(b, gathered, step);
+        self.flow_gathered(law, b, gathered, step);
         self.settle(b, working);
     }
 
-    /// A bit for every lane in which an element flows, or has to be looked at, after a response.
+    /// A bit for every lane in which an element flows after a response.
     #[inline(always)]
-    fn flowing(&self, b: usize, e: usize) -> u8 {
-        let [back, front] = [e + b, e + b + 1].map(|node| self.nodes[node].position.0);
-        let (spring, yield_stress) = (&self.springs[e], self.yields[e].0);
-        let (stress, unloaded) = (spring.stress.0, spring.unloaded_length.0);
+    fn flowing(&self, e: usize) -> u8 {
+        let elastic_to = self.points[e].elastic_to();
+        let stress = self.springs[e].stress.0;
         let mut flows = 0;
         for l in 0..LANES {
-            let (_, is_exact) = small_log_ratio(unloaded[l], front[l] - back[l]);
-            flows |= u8::from((stress[l].abs() > yield_stress[l]) | !is_exact) << l;
+            flows |= u8::from(stress[l].abs() > elastic_to.0[l]) << l;
         }
         flows
     }
@@ -204,7 +237,7 @@ struct Response {
     limit: Lanes,
     /// Speed at which its ends approach or part, as a part of the length.
     approach: Lanes,
-    /// Whether any lane flows, or has to be looked at.
+    /// Whether any lane flows.
     flows: bool,
     /// Whether the stress of any lane has changed.
     changes: bool,
@@ -216,14 +249,14 @@ struct Response {
 #[inline(always)]
 fn respond<const ERODED: bool>(
     spring: &mut Spring<Lanes>,
-    yields: &Lanes,
+    elastic_to: &Lanes,
     [back, front]: [&Node; 2],
     body: &Body<Lanes>,
     gone: u8,
 ) -> Response {
     let positions = [back.position.0, front.position.0];
     let velocities = [back.velocity.0, front.velocity.0];
-    let (before, yield_stress) = (*spring, yields.0);
+    let (before, elastic_to) = (*spring, elastic_to.0);
     let mut after = before;
     let [mut force, mut limit, mut approach] = [Lanes::all(0.0); 3];
     let (mut flows, mut changes, mut erodes) = (false, false, false);
@@ -231,9 +264,9 @@ fn respond<const ERODED: bool>(
         let is_here = !ERODED || gone >> l & 1 == 0;
         let length = positions[1][l] - positions[0][l];
         let mut one = before.lane(l);
-        let (elastic, is_exact) = small_log_ratio(one.unloaded_length, length);
-        one.bear(body.law.modulus.0[l] * elastic);
-        flows |= is_here & ((one.stress.abs() > yield_stress[l]) | !is_exact);
+        let elastic = log_ratio(one.unloaded_length, length);
+        one.bear(body.flow.modulus.0[l] * elastic);
+        flows |= is_here & (one.stress.abs() > elastic_to[l]);
         changes |= is_here & (one.stress != one.stress_before);
         erodes |= is_here & ((length <= body.shortest.0[l]) | (length >= body.longest.0[l]));
         let stable = one.stable_step(length, body.compliance.0[l], body.slowness.0[l]);

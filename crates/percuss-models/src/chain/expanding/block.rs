@@ -1,8 +1,4 @@
-//! Eight slices of a projectile side by side: [`Slice::deform`] where strength is a power of the plastic strain, and what limits the
-//! next step, with the same bits.
-
-// Loops over the places run along many arrays at once.
-#![allow(clippy::needless_range_loop)]
+//! A step of a rod in blocks of eight lanes, and what limits the next step.
 
 #[cfg(test)]
 #[path = "block_tests.rs"]
@@ -11,165 +7,248 @@ mod tests;
 use pulp::NullaryFnOnce;
 
 use super::{
+    blocks::{ahead, behind, first_lanes, sum},
     node::Node,
-    rod::Fastest,
-    slice::{Metal, Slice},
+    respond::{Stage, Step},
+    rod::{Fastest, Rod},
+    slice::{Metal, Slice, axial_stress},
 };
-use crate::{
-    lanes::{LANES, Lanes, lanes, larger},
-    material::{Hardening, YieldPoint, first_return},
-};
+use crate::lanes::{LANES, Lanes, PerLane, lanes, larger, settled, smaller};
 
-/// Slices that have their lengths and radii, and go on to the stresses that belong to them; slice `i` is between the nodes `i` and
-/// `i + 1`.
-pub(super) struct Respond<'a> {
-    pub(super) nodes: &'a [Node],
-    pub(super) slices: &'a mut [Slice],
-    pub(super) metal: &'a Metal,
-    pub(super) law: Hardening,
+/// Moves a rod on; gives the plastic work between the half steps around the current time [J], or the first slice that was crushed.
+pub(super) struct Drift<'a> {
+    pub(super) rod: &'a mut Rod,
     pub(super) time_step: f64,
 }
 
-impl NullaryFnOnce for Respond<'_> {
-    type Output = (f64, Fastest);
+impl NullaryFnOnce for Drift<'_> {
+    type Output = Result<f64, usize>;
 
-    /// Gives the plastic work between the half steps around the current time [J], and what limits the next step.
     #[inline(always)]
-    fn call(self) -> (f64, Fastest) {
-        let Self { metal, nodes, .. } = self;
-        let mut work = 0.0;
-        let mut limits = [Lanes::all(0.0); 2];
-        let (blocks, rest) = self.slices.as_chunks_mut();
-        let of_rest = blocks.len() * LANES;
-        for (b, slices) in blocks.iter_mut().enumerate() {
-            let nodes = &nodes[b * LANES..=(b + 1) * LANES];
-            let (done, next) = respond(slices, nodes, metal, self.law, self.time_step);
-            for p in 0..LANES {
-                work += done[p];
-            }
-            for (limit, next) in limits.iter_mut().zip(next) {
-                for p in 0..LANES {
-                    limit[p] = larger(next[p], limit[p]);
-                }
+    fn call(self) -> Result<f64, usize> {
+        let Self { rod, time_step } = self;
+        rod.nodes.drift(time_step);
+        let count = rod.slices.len();
+        let step = Step {
+            metal: &rod.metal,
+            size: &rod.size,
+            hardening: rod.metal.strength.hardening(),
+            time_step,
+        };
+        let nodes = rod.nodes.blocks();
+        rod.stages.resize(nodes.len(), Stage::default());
+        let here = |b: usize| count.saturating_sub(b * LANES).min(LANES);
+        // One loop for each stage: the chains of dependent operations are shorter, so that a processor works on several blocks at a time.
+        // In memory: what a loop adds to would be taken apart into single numbers.
+        let mut least = Lanes::all(f64::INFINITY);
+        let least = settled(&mut least);
+        for (b, (slices, stage)) in rod.slices.each_mut().zip(&mut rod.stages).enumerate() {
+            let ends = Ends::of(nodes, b);
+            let sizes = step.resize(slices, stage, &ends, first_lanes(here(b)));
+            let before = *least;
+            *least = lanes(|l| smaller(sizes[l], before[l]));
+            let from = (b * LANES).min(count);
+            step.strain(slices, stage, &mut rod.particulars[from..from + here(b)]);
+        }
+        if least.iter().any(|size| *size <= 0.0) {
+            let is_crushed = |slice: Slice| slice.length <= 0.0 || slice.radius <= 0.0;
+            return Err(rod.slices.iter().position(is_crushed).unwrap_or(0));
+        }
+        if let Some(law) = step.hardening {
+            let stages = rod.slices.each().zip(&mut rod.stages);
+            for (slices, stage) in stages.filter(|(_, stage)| stage.flows) {
+                step.first_return(slices, stage, law);
             }
         }
-        let [stiffness, rate] = limits.map(|limit| limit.iter().copied().fold(0.0, f64::max));
-        let mut fastest = Fastest { stiffness, rate };
-        for (slice, nodes) in rest.iter_mut().zip(nodes[of_rest..].windows(2)) {
-            work += slice.deform(metal, self.time_step);
-            fastest.follow(slice, nodes, metal);
+        let (mut work, mut limits) = (Lanes::all(0.0), Limits::default());
+        let (work, limits) = (settled(&mut work), settled(&mut limits));
+        for (b, (slices, stage)) in rod.slices.each_mut().zip(&rod.stages).enumerate() {
+            let from = (b * LANES).min(count);
+            let particulars = &mut rod.particulars[from..from + here(b)];
+            add(work, &step.respond(slices, stage, particulars));
+            let present = first_lanes(here(b));
+            let ends = Ends::of(nodes, b);
+            limits.follow(step.metal, slices, &stage.inverse, &ends, present);
         }
-        (work, fastest)
+        rod.fastest = Some(limits.fastest());
+        let shears = rod.shears.each_mut();
+        step.shear(rod.slices.blocks(), shears, count, work);
+        Ok(sum(work))
     }
 }
 
-#[inline(always)]
-fn gather(slices: &[Slice; LANES], number: impl Fn(&Slice) -> f64) -> Lanes {
-    lanes(|p| number(&slices[p]))
+/// Looks at what limits the next step of a rod.
+pub(super) struct Look<'a>(pub(super) &'a Rod);
+
+impl NullaryFnOnce for Look<'_> {
+    type Output = Fastest;
+
+    #[inline(always)]
+    fn call(self) -> Fastest {
+        let rod = self.0;
+        let mut limits = Limits::default();
+        let limits = settled(&mut limits);
+        for (b, slices) in rod.slices.each().enumerate() {
+            let present = first_lanes(rod.slices.len().saturating_sub(b * LANES));
+            let ends = Ends::of(rod.nodes.blocks(), b);
+            limits.follow(&rod.metal, slices, &Inverse::of(slices), &ends, present);
+        }
+        limits.fastest()
+    }
 }
 
-/// Plastic work of eight slices; their stiffness and their rates of strain.
-#[inline(always)]
-fn respond(
-    slices: &mut [Slice; LANES],
-    nodes: &[Node],
-    metal: &Metal,
-    law: Hardening,
-    time_step: f64,
-) -> (Lanes, [Lanes; 2]) {
-    let axial = gather(slices, Slice::strain);
-    let radial = gather(slices, Slice::radial_strain);
-    let length = gather(slices, |slice| slice.length);
-    let radius = gather(slices, |slice| slice.radius);
-    let volume = gather(slices, Slice::rest_volume);
-    let radial_velocity = gather(slices, |slice| slice.radial_velocity);
-    let mut plastic_axial = gather(slices, |slice| slice.plastic_axial);
-    let mut plastic_strain = gather(slices, |slice| slice.plastic_strain);
-    let step_before = gather(slices, |slice| slice.plastic_step);
-    let difference_before = gather(slices, |slice| slice.difference[1]);
-    let mut yield_stress = gather(slices, Slice::yield_stress);
-    let mut slope = gather(slices, |slice| slice.yield_point.strain_slope());
-    let mut largest_rate = gather(slices, |slice| slice.largest_rate);
-    let mut temperature = gather(slices, |slice| slice.temperature);
-    let velocity: [f64; LANES + 1] = std::array::from_fn(|p| nodes[p].velocity);
+/// New velocities of all nodes but the tip, and of the widening of the slices.
+pub(super) struct Kick<'a> {
+    pub(super) rod: &'a mut Rod,
+    pub(super) kick: f64,
+}
 
-    let modulus = 3.0 * metal.shear_modulus;
-    let mut pressure = Lanes::all(0.0);
-    let mut difference = Lanes::all(0.0);
-    let mut flows = 0_u8;
-    for p in 0..LANES {
-        pressure[p] = metal.bulk_modulus * (axial[p] + 2.0 * radial[p]);
-        let elastic = axial[p] - radial[p] - 1.5 * plastic_axial[p];
-        difference[p] = 2.0 * metal.shear_modulus * elastic;
-        flows |= u8::from(difference[p].abs() > yield_stress[p]) << p;
-    }
-    let trial = difference;
-    let mut plastic_step = Lanes::all(0.0);
-    let mut left_over = 0;
-    if flows != 0 {
-        for p in 0..LANES {
-            let size = trial[p].abs();
-            let before = [yield_stress[p], slope[p]];
-            let returned = first_return(law, before, plastic_strain[p], size, modulus);
-            let increment = returned.increment;
-            let step = increment.copysign(trial[p]);
-            let stress = trial[p] - modulus * step;
-            let mean = 0.5 * (difference_before[p] + stress).abs();
-            let is_flowing = size > yield_stress[p];
-            left_over |= u8::from(is_flowing & !returned.is_last) << p;
-            // What does not flow stays what it was.
-            let or = |next: f64, before: f64| if is_flowing { next } else { before };
-            plastic_step[p] = or(step, 0.0);
-            difference[p] = or(stress, trial[p]);
-            plastic_axial[p] = or(plastic_axial[p] + step, plastic_axial[p]);
-            plastic_strain[p] = or(plastic_strain[p] + increment, plastic_strain[p]);
-            let rate = larger(increment / time_step, largest_rate[p]);
-            largest_rate[p] = or(rate, largest_rate[p]);
-            let warm = temperature[p] + metal.heating * mean * increment;
-            temperature[p] = or(warm, temperature[p]);
-            slope[p] = or(returned.strain_slope, slope[p]);
-            yield_stress[p] = or(size - modulus * increment, yield_stress[p]);
+impl NullaryFnOnce for Kick<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { rod, kick } = self;
+        let tip = rod.nodes.last();
+        rod.nodes.kick(kick);
+        if let Some(tip) = tip {
+            rod.nodes.set_last(tip);
+        }
+        let ratio = kick / rod.size.radial_mass();
+        let shears = rod.shears.each().map(|shears| shears.force);
+        let shears = shears.chain(std::iter::repeat(Lanes::all(0.0)));
+        let mut last = 0.0;
+        for (slices, ahead) in rod.slices.each_mut().zip(shears) {
+            let (own, behind) = (slices.radial_force, behind(&ahead, last));
+            let before = slices.radial_velocity;
+            slices.radial_velocity = lanes(|l| before[l] + (own[l] - behind[l] + ahead[l]) * ratio);
+            last = ahead[LANES - 1];
         }
     }
-    for p in (0..LANES).filter(|p| left_over >> p & 1 == 1) {
-        let slice = &mut slices[p];
-        // Such a strength does not depend on the pressure.
-        slice.plastic_step = 0.0;
-        difference[p] = slice.flow(metal, trial[p], time_step);
-        plastic_step[p] = slice.plastic_step;
-        plastic_axial[p] = slice.plastic_axial;
-        plastic_strain[p] = slice.plastic_strain;
-        largest_rate[p] = slice.largest_rate;
-        temperature[p] = slice.temperature;
-        yield_stress[p] = slice.yield_stress();
-        slope[p] = slice.yield_point.strain_slope();
+}
+
+/// Collects the forces of the slices on the nodes.
+pub(super) struct Collect<'a>(pub(super) &'a mut Rod);
+
+impl NullaryFnOnce for Collect<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Rod { nodes, slices, .. } = self.0;
+        nodes.collect(slices.each().map(|slices| slices.axial_force));
+    }
+}
+
+/// Sums up kinetic and elastic energy of a rod [J].
+pub(super) struct Energies<'a>(pub(super) &'a Rod);
+
+impl NullaryFnOnce for Energies<'_> {
+    type Output = [f64; 2];
+
+    #[inline(always)]
+    fn call(self) -> [f64; 2] {
+        let Rod {
+            metal, size, nodes, ..
+        } = self.0;
+        let (slices, shears) = (&self.0.slices, &self.0.shears);
+        let radial = slices.sum(|slices| lanes(|l| slices.lane(l).radial_energy(size)));
+        let elastic = slices.sum(|slices| lanes(|l| slices.lane(l).elastic_energy(metal, size)));
+        let sheared = shears.sum(|shears| lanes(|l| shears.lane(l).elastic_energy(metal, size)));
+        [nodes.kinetic_energy() + radial, elastic + sheared]
+    }
+}
+
+/// Adds numbers lane by lane.
+#[inline(always)]
+pub(super) fn add(total: &mut Lanes, more: &Lanes) {
+    let before = *total;
+    *total = lanes(|l| before[l] + more[l]);
+}
+
+/// Inverses of lengths and radii of a block of slices [1/m].
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Inverse {
+    pub(super) length: Lanes,
+    pub(super) radius: Lanes,
+}
+
+impl Inverse {
+    #[inline(always)]
+    pub(super) fn of(slices: &Slice<Lanes>) -> Self {
+        let (length, radius) = (slices.length, slices.radius);
+        // One division for both.
+        let both = lanes(|l| 1.0 / (length[l] * radius[l]));
+        Self {
+            length: lanes(|l| both[l] * radius[l]),
+            radius: lanes(|l| both[l] * length[l]),
+        }
+    }
+}
+
+/// Ends of the slices of a block.
+pub(super) struct Ends<'a> {
+    pub(super) back: &'a Node<Lanes>,
+    pub(super) front_position: Lanes,
+    front_velocity: Lanes,
+}
+
+impl<'a> Ends<'a> {
+    #[inline(always)]
+    fn of(nodes: &'a [Node<Lanes>], b: usize) -> Self {
+        let back = &nodes[b];
+        let next = nodes.get(b + 1).map(|nodes| nodes.lane(0));
+        let next = next.unwrap_or(Node::INERT);
+        Self {
+            back,
+            front_position: ahead(&back.position, next.position),
+            front_velocity: ahead(&back.velocity, next.velocity),
+        }
+    }
+}
+
+/// What limits the next step in each lane.
+#[derive(Default)]
+struct Limits {
+    stiffness: Lanes,
+    rate: Lanes,
+}
+
+impl Limits {
+    /// Looks at the slices of a block in the lanes of which there is a 1 in `present`.
+    #[inline(always)]
+    fn follow(
+        &mut self,
+        metal: &Metal,
+        slices: &Slice<Lanes>,
+        inverse: &Inverse,
+        ends: &Ends<'_>,
+        present: &Lanes,
+    ) {
+        let (length, radius, widening) = (inverse.length, inverse.radius, slices.radial_velocity);
+        let ([_, pressure], [_, difference]) = (slices.pressure, slices.difference);
+        let (back, front) = (ends.back.velocity, ends.front_velocity);
+        let Self {
+            stiffness: stiffest,
+            rate: fastest,
+        } = *self;
+        self.stiffness = lanes(|l| {
+            let axial_stress = axial_stress(pressure[l], difference[l]);
+            let stiffness = metal.stiffness(axial_stress, [length[l], radius[l]]);
+            larger(present[l] * stiffness, stiffest[l])
+        });
+        self.rate = lanes(|l| {
+            let approach = (back[l] - front[l]).abs() * length[l];
+            let rate = larger(widening[l].abs() * radius[l], approach);
+            larger(present[l] * rate, fastest[l])
+        });
     }
 
-    let mut axial_force = Lanes::all(0.0);
-    let mut radial_force = Lanes::all(0.0);
-    let mut work = Lanes::all(0.0);
-    let mut stiffness = Lanes::all(0.0);
-    let mut rate = Lanes::all(0.0);
-    for p in 0..LANES {
-        let axial_stress = pressure[p] + difference[p] / 1.5;
-        axial_force[p] = axial_stress * volume[p] / length[p];
-        radial_force[p] = 2.0 * (pressure[p] - difference[p] / 3.0) * volume[p] / radius[p];
-        work[p] = 0.5 * volume[p] * difference_before[p] * (step_before[p] + plastic_step[p]);
-        stiffness[p] = metal.stiffness(axial_stress, length[p], radius[p]);
-        let approach = (velocity[p] - velocity[p + 1]).abs() / length[p];
-        rate[p] = larger(radial_velocity[p].abs() / radius[p], approach);
+    #[inline(always)]
+    fn fastest(&self) -> Fastest {
+        Fastest {
+            stiffness: self.stiffness.iter().copied().fold(0.0, f64::max),
+            rate: self.rate.iter().copied().fold(0.0, f64::max),
+        }
     }
-    for (p, slice) in slices.iter_mut().enumerate() {
-        slice.pressure = [slice.pressure[1], pressure[p]];
-        slice.difference = [difference_before[p], difference[p]];
-        slice.plastic_step = plastic_step[p];
-        slice.plastic_axial = plastic_axial[p];
-        slice.plastic_strain = plastic_strain[p];
-        slice.largest_rate = largest_rate[p];
-        slice.temperature = temperature[p];
-        slice.yield_point = YieldPoint::known(yield_stress[p], slope[p]);
-        slice.axial_force = axial_force[p];
-        slice.radial_force = radial_force[p];
-    }
-    (work, [stiffness, rate])
 }

@@ -47,8 +47,9 @@ pub(super) struct CraterFloor {
     resistance_law: TargetResistance,
     /// Area of the undeformed projectile [m2].
     area: f64,
-    /// Density of the target [kg/m3].
+    /// Density of the target [kg/m3], and mass of it that moves with the floor [kg].
     density: f64,
+    added_mass: f64,
     pub(super) contact: Contact,
     pub(super) depth: f64,
     /// Speed at which it advances into the far field, never negative [m/s].
@@ -81,6 +82,7 @@ impl CraterFloor {
             resistance_law,
             area,
             density,
+            added_mass: ADDED_MASS * density * (area / std::f64::consts::PI).powf(1.5),
             contact: Contact::Closed,
             depth: 0.0,
             speed: 0.0,
@@ -90,7 +92,7 @@ impl CraterFloor {
 
     /// Mass of target that moves with the floor [kg].
     pub(super) fn added_mass(&self) -> f64 {
-        ADDED_MASS * self.density * (self.area / std::f64::consts::PI).powf(1.5)
+        self.added_mass
     }
 
     /// Inverse of the inertia of the floor against an impulse on it [1/kg]; none as long as it stands.

@@ -1,6 +1,6 @@
 //! Past values of a quantity at even times.
 
-use std::collections::VecDeque;
+use std::{collections::VecDeque, ops::RangeInclusive};
 
 use serde::{Deserialize, Serialize};
 
@@ -52,42 +52,66 @@ impl DelayLine {
 
     /// Value at a time, by the cubic through four samples (Catmull and Rom), which has a continuous slope.
     pub(super) fn at(&self, time: f64) -> f64 {
-        self.interpolate(time / self.spacing)
+        let place = Place::new(time / self.spacing);
+        self.interpolate(&place, place.before)
     }
 
-    /// Values at the times `time - k delay spacing` for k = 1, 2, … back to time 0, at most so many.
+    /// Values at the times `time - k delay spacing` for some rising numbers k, as long as they are not before time 0.
     pub(super) fn delayed(
         &self,
         time: f64,
-        delay: f64,
-        most: usize,
+        delay: i64,
+        numbers: RangeInclusive<i64>,
     ) -> impl Iterator<Item = f64> + '_ {
-        let now = time / self.spacing;
-        (1..=most)
-            .map(move |k| now - k as f64 * delay)
-            .take_while(|place| *place > -1.0)
-            .map(|place| self.interpolate(place))
+        // Whole numbers of samples apart, all of them have the same place between two samples.
+        let place = Place::new(time / self.spacing);
+        numbers
+            .map(move |k| place.before - k * delay)
+            .take_while(|before| *before >= -1)
+            .map(move |before| self.interpolate(&place, before))
     }
 
-    fn interpolate(&self, place: f64) -> f64 {
-        let before = place.floor();
-        let x = place - before;
-        let [a, b, c, d] = [-1.0, 0.0, 1.0, 2.0].map(|k| self.sample(before + k));
-        let slope = [0.5 * (c - a), 0.5 * (d - b)];
-        let (square, cube) = (x * x, x * x * x);
-        b * (2.0 * cube - 3.0 * square + 1.0)
-            + c * (3.0 * square - 2.0 * cube)
-            + slope[0] * (cube - 2.0 * square + x)
-            + slope[1] * (cube - square)
+    /// Value at a place behind the sample of a number.
+    fn interpolate(&self, place: &Place, before: i64) -> f64 {
+        let [a, b, c, d] = [-1, 0, 1, 2].map(|k| self.sample(before + k));
+        let [behind, ahead, slope_behind, slope_ahead] = place.weights;
+        b * behind + c * ahead + 0.5 * (c - a) * slope_behind + 0.5 * (d - b) * slope_ahead
     }
 
-    fn sample(&self, number: f64) -> f64 {
-        if number < 0.0 {
+    fn sample(&self, number: i64) -> f64 {
+        let Ok(number) = usize::try_from(number) else {
             return 0.0;
-        }
-        let place = (number as usize).saturating_sub(self.dropped);
+        };
+        let place = number.saturating_sub(self.dropped);
         let last = self.samples.len() - 1;
         self.samples[place.min(last)]
+    }
+}
+
+/// A place between two samples.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    /// Number of the sample before it.
+    before: i64,
+    /// Weights of the sample before and of the one after it, and of the slopes there.
+    weights: [f64; 4],
+}
+
+impl Place {
+    /// At a time over the time between two samples.
+    fn new(place: f64) -> Self {
+        let before = place.floor();
+        let x = place - before;
+        let (square, cube) = (x * x, x * x * x);
+        Self {
+            before: before as i64,
+            weights: [
+                2.0 * cube - 3.0 * square + 1.0,
+                3.0 * square - 2.0 * cube,
+                cube - 2.0 * square + x,
+                cube - square,
+            ],
+        }
     }
 }
 
@@ -117,7 +141,7 @@ mod tests {
         for i in 1..=400 {
             line.push(f64::from(i) * 0.05, (f64::from(i) * 0.05).sin());
         }
-        let values: Vec<f64> = line.delayed(19.03, 50.0, 10).collect();
+        let values: Vec<f64> = line.delayed(19.03, 50, 1..=10).collect();
         assert_eq!(values.len(), 3);
         for (value, k) in values.iter().zip(1..) {
             assert_eq!(*value, line.at(19.03 - 5.0 * f64::from(k)));

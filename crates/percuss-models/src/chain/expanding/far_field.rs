@@ -1,14 +1,19 @@
 //! The target away from the crater: an elastic cone that is as stiff as a half-space under the projectile.
 
+use pulp::{Arch, NullaryFnOnce};
 use serde::{Deserialize, Serialize};
 
-use super::node::{Dashpot, Node};
+use super::{
+    blocks::{Blocks, ahead},
+    node::{Dashpot, Node, Nodes},
+};
 use crate::{
     Error,
     chain::{
         cone::{Cone, Grading},
-        solver::StepControl,
+        solver::{OpenEnd, StepControl},
     },
+    lanes::{Lanes, lanes},
     solver::archive::Archive,
 };
 
@@ -16,8 +21,9 @@ use crate::{
 /// up as the cone beyond would: [`RearFace`](super::rear_face::RearFace) sends them back.
 #[derive(Debug)]
 pub(super) struct FarField {
-    pub(super) nodes: Vec<Node>,
-    springs: Vec<Spring>,
+    pub(super) nodes: Nodes,
+    springs: Blocks<Spring<Lanes>>,
+    arch: Arch,
     /// Of the cone beyond the last node: impedance [kg/s] and static stiffness [N/m].
     beyond: [f64; 2],
     /// Inverse of its wave speed [s/m].
@@ -30,17 +36,22 @@ pub(super) struct FarField {
     pub(super) passed_work: f64,
 }
 
-#[derive(Debug, Serialize, Deserialize)]
-struct Spring {
-    stiffness: f64,
-    /// Over one of these the strain is 1 [m].
-    length: f64,
-    /// Initial position of its middle [m].
-    middle: f64,
-    /// Area [m2].
-    area: f64,
-    /// Now and a step before [N].
-    force: [f64; 2],
+percuss_core::per_lane! {
+    /// A spring between two nodes, or one in every lane.
+    #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+    struct Spring<R = f64> {
+        stiffness: R,
+        /// Inverse of the stiffness [m/N].
+        compliance: R,
+        /// Over one of these the strain is 1 [m].
+        length: R,
+        /// Initial position of its middle [m].
+        middle: R,
+        /// Area [m2].
+        area: R,
+        /// Now and a step before [N].
+        force: [R; 2],
+    }
 }
 
 /// A spring as histories show it.
@@ -69,8 +80,8 @@ impl Strained {
 impl FarField {
     /// Everything that a step changes.
     pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
-        archive.item(&mut self.nodes)?;
-        archive.item(&mut self.springs)?;
+        self.nodes.archive(archive)?;
+        self.springs.archive(archive)?;
         archive.item(&mut self.passing_force)?;
         archive.item(&mut self.passed_impulse)?;
         archive.item(&mut self.passed_work)
@@ -85,15 +96,17 @@ impl FarField {
         beyond: [f64; 2],
     ) -> Self {
         let depths = grading.nodes(0.0, thickness, count);
-        let mut nodes = vec![Node::default(); count + 1];
+        let mut masses = vec![0.0; count + 1];
         let mut springs = Vec::with_capacity(count);
         for (i, pair) in depths.windows(2).enumerate() {
             let volumes = cone.volumes_between(pair[0], pair[1]);
-            nodes[i].mass += density * volumes[0];
-            nodes[i + 1].mass += density * volumes[1];
+            masses[i] += density * volumes[0];
+            masses[i + 1] += density * volumes[1];
             let area = cone.area_between(pair[0], pair[1]);
+            let stiffness = modulus * area / (pair[1] - pair[0]);
             springs.push(Spring {
-                stiffness: modulus * area / (pair[1] - pair[0]),
+                stiffness,
+                compliance: 1.0 / stiffness,
                 length: pair[1] - pair[0],
                 middle: 0.5 * (pair[0] + pair[1]),
                 area,
@@ -101,8 +114,12 @@ impl FarField {
             });
         }
         Self {
-            nodes,
-            springs,
+            nodes: Blocks::new(
+                masses.into_iter().map(|mass| Node::new(mass, 0.0, 0.0)),
+                Node::INERT,
+            ),
+            springs: Blocks::new(springs, Spring::default()),
+            arch: Arch::new(),
             beyond,
             slowness: (density / modulus).sqrt(),
             temperature,
@@ -112,95 +129,159 @@ impl FarField {
         }
     }
 
+    /// The first node: the mouth of the cone, which carries the crater floor.
+    #[inline(always)]
+    pub(super) fn mouth(&self) -> Node {
+        self.nodes.get(0)
+    }
+
+    /// Forces of the springs on the nodes.
     pub(super) fn collect(&mut self) {
-        for node in &mut self.nodes {
-            node.force = 0.0;
-            node.damping = 0.0;
-        }
-        for (i, spring) in self.springs.iter().enumerate() {
-            self.nodes[i].force -= spring.force[1];
-            self.nodes[i + 1].force += spring.force[1];
-        }
+        self.arch.dispatch(Collect(self));
     }
 
     /// Adds damping; `pushed` is the force from outside on the first node [N].
     pub(super) fn damp(&mut self, control: &StepControl, pushed: f64) {
-        for (spring, i) in self.springs.iter().zip(0..) {
+        for (i, spring) in self.springs.iter().enumerate() {
             let dashpot = Dashpot {
                 slowness: self.slowness,
                 impedance: spring.stiffness * spring.length * self.slowness,
             };
-            let (behind, ahead) = self.nodes.split_at_mut(i + 1);
-            if let (Some(behind), Some(ahead)) = (behind.last_mut(), ahead.first_mut()) {
-                dashpot.damp(control, behind, ahead);
-            }
+            self.nodes.damp(i, &dashpot, control);
         }
-        for (i, node) in self.nodes.iter_mut().enumerate() {
+        self.nodes.change(|i, node| {
             let outside = if i == 0 { pushed } else { 0.0 };
             let accelerating = node.whole_force() + outside;
             node.damp_locally(control.local_damping, accelerating);
-        }
+        });
     }
 
     /// New velocities of all but the first node.
     pub(super) fn kick(&mut self, kick: f64) {
-        let last = self.nodes.len() - 1;
-        for node in &mut self.nodes[1..last] {
-            node.kick(node.whole_force() * kick);
-        }
-        let node = &mut self.nodes[last];
-        let [impedance, stiffness] = self.beyond;
-        let inertia = node.mass / kick;
-        let before = node.velocity;
-        let spring = stiffness * node.position;
-        node.velocity = ((inertia - 0.5 * impedance) * before + node.whole_force() - spring)
-            / (inertia + 0.5 * impedance);
-        let mean = 0.5 * (before + node.velocity);
-        self.passing_force = impedance * mean + spring;
-        self.passed_impulse += self.passing_force * kick;
-        self.passed_work += self.passing_force * mean * kick;
+        self.arch.dispatch(Kick {
+            far_field: self,
+            kick,
+        });
     }
 
     pub(super) fn drift(&mut self, time_step: f64) {
-        for node in &mut self.nodes {
-            node.position += node.velocity * time_step;
-        }
-        for (pair, spring) in self.nodes.windows(2).zip(&mut self.springs) {
-            let force = spring.stiffness * (pair[0].position - pair[1].position);
-            spring.force = [spring.force[1], force];
-        }
+        self.arch.dispatch(Drift {
+            far_field: self,
+            time_step,
+        });
     }
 
     pub(super) fn momentum(&self) -> f64 {
-        self.nodes
-            .iter()
-            .map(|node| node.mass * node.velocity)
-            .sum()
+        self.nodes.momentum()
     }
 
     /// Kinetic and elastic energy [J].
     pub(super) fn energies(&self) -> [f64; 2] {
-        let elastic =
-            |spring: &Spring| spring.force[0] * spring.force[1] / (2.0 * spring.stiffness);
-        [
-            self.nodes.iter().map(Node::kinetic_energy).sum(),
-            self.springs.iter().map(elastic).sum(),
-        ]
+        self.arch.dispatch(Energies(self))
     }
 
     pub(super) fn strained(&self) -> impl Iterator<Item = Strained> + '_ {
+        let ends = self.nodes.iter().zip(self.nodes.iter().skip(1));
         self.springs
             .iter()
-            .zip(self.nodes.windows(2))
-            .map(|(spring, pair)| Strained {
+            .zip(ends)
+            .map(|(spring, (near, far))| Strained {
                 middle: spring.middle,
-                displacement: 0.5 * (pair[0].position + pair[1].position),
-                velocity: 0.5 * (pair[0].velocity + pair[1].velocity),
+                displacement: 0.5 * (near.position + far.position),
+                velocity: 0.5 * (near.velocity + far.velocity),
                 length: spring.length,
-                strain: (pair[0].position - pair[1].position) / spring.length,
+                strain: (near.position - far.position) / spring.length,
                 stress: spring.force[1] / spring.area,
                 area: spring.area,
                 modulus: spring.stiffness * spring.length / spring.area,
             })
+    }
+}
+
+/// Collects the forces of the springs on the nodes.
+struct Collect<'a>(&'a mut FarField);
+
+impl NullaryFnOnce for Collect<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let FarField { nodes, springs, .. } = self.0;
+        nodes.collect(springs.each().map(|springs| springs.force[1]));
+    }
+}
+
+/// New velocities of all but the first node.
+struct Kick<'a> {
+    far_field: &'a mut FarField,
+    kick: f64,
+}
+
+impl NullaryFnOnce for Kick<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { far_field, kick } = self;
+        let nodes = &mut far_field.nodes;
+        let (mouth, last) = (nodes.get(0), nodes.last());
+        nodes.kick(kick);
+        nodes.set(0, mouth);
+        let Some(mut last) = last else {
+            return;
+        };
+        let [impedance, stiffness] = far_field.beyond;
+        let end = OpenEnd {
+            impedance,
+            spring: stiffness * last.position,
+        };
+        let [after, mean, force] = end.kick(last.mass(), last.velocity, last.whole_force(), kick);
+        last.velocity = after;
+        nodes.set_last(last);
+        far_field.passing_force = force;
+        far_field.passed_impulse += force * kick;
+        far_field.passed_work += force * mean * kick;
+    }
+}
+
+/// Moves the nodes on, to new forces of the springs.
+struct Drift<'a> {
+    far_field: &'a mut FarField,
+    time_step: f64,
+}
+
+impl NullaryFnOnce for Drift<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let FarField { nodes, springs, .. } = self.far_field;
+        nodes.drift(self.time_step);
+        let nodes = nodes.blocks();
+        for (b, springs) in springs.each_mut().enumerate() {
+            let near = nodes[b].position;
+            let next = nodes.get(b + 1).map_or(0.0, |nodes| nodes.position[0]);
+            let far = ahead(&near, next);
+            let (stiffness, before) = (springs.stiffness, springs.force[1]);
+            let force = lanes(|l| stiffness[l] * (near[l] - far[l]));
+            springs.force = [before, force];
+        }
+    }
+}
+
+/// Sums up kinetic and elastic energy [J].
+struct Energies<'a>(&'a FarField);
+
+impl NullaryFnOnce for Energies<'_> {
+    type Output = [f64; 2];
+
+    #[inline(always)]
+    fn call(self) -> [f64; 2] {
+        let FarField { nodes, springs, .. } = self.0;
+        let elastic = springs.sum(|springs| {
+            let ([before, now], compliance) = (springs.force, springs.compliance);
+            lanes(|l| 0.5 * before[l] * now[l] * compliance[l])
+        });
+        [nodes.kinetic_energy(), elastic]
     }
 }

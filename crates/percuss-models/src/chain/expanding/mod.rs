@@ -4,6 +4,7 @@
 //! It has a solver of its own: no part of the column is left in it.
 
 mod block;
+mod blocks;
 mod crater_floor;
 mod delay_line;
 mod far_field;
@@ -15,6 +16,7 @@ mod plate_tests;
 mod projectile;
 mod rear_face;
 mod resistance;
+mod respond;
 mod results;
 mod rod;
 mod slice;
@@ -236,7 +238,7 @@ impl<'a> Solver<'a> for Cavity<'a> {
     }
 
     fn is_at_rest(&self) -> bool {
-        self.state.rod.motion().1 <= 0.0
+        self.state.rod.momentum() <= 0.0
     }
 
     fn energy(&self) -> EnergyLedger {

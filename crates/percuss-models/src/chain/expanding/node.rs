@@ -1,29 +1,65 @@
-//! A point mass on the axis.
+//! Point masses on the axis.
 
+use pulp::NullaryFnOnce;
 use serde::{Deserialize, Serialize};
 
-use crate::chain::{damping::against, solver::StepControl};
+use super::blocks::{Blocks, behind};
+use crate::{
+    chain::{damping::against, solver::StepControl},
+    lanes::{LANES, Lanes, PerLane, lanes},
+};
 
-/// Its velocity stands half a step behind its position.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(super) struct Node {
-    pub(super) position: f64,
-    pub(super) velocity: f64,
-    pub(super) mass: f64,
-    /// Force of the springs on it [N].
-    pub(super) force: f64,
-    /// Force of damping on it [N], and its velocity before the kick that this belongs to [m/s].
-    pub(super) damping: f64,
-    velocity_before: f64,
+percuss_core::per_lane! {
+    /// A point mass, or one in every lane. Its velocity stands half a step behind its position.
+    #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+    pub(super) struct Node<R = f64> {
+        pub(super) position: R,
+        pub(super) velocity: R,
+        mass: R,
+        /// Inverse of its mass [1/kg].
+        mobility: R,
+        /// Force of the springs on it [N].
+        pub(super) force: R,
+        /// Force of damping on it [N], and its velocity before the kick that this belongs to [m/s].
+        pub(super) damping: R,
+        velocity_before: R,
+    }
 }
 
 impl Node {
+    /// What stands in a lane without a node: it never moves and has no inertia to add.
+    pub(super) const INERT: Self = Self {
+        position: 0.0,
+        velocity: 0.0,
+        mass: 0.0,
+        mobility: 0.0,
+        force: 0.0,
+        damping: 0.0,
+        velocity_before: 0.0,
+    };
+
+    #[inline(always)]
     pub(super) fn kick(&mut self, impulse: f64) {
         self.velocity_before = self.velocity;
-        self.velocity += impulse / self.mass;
+        self.velocity += impulse * self.mobility;
+    }
+
+    pub(super) fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    pub(super) fn set_mass(&mut self, mass: f64) {
+        self.mass = mass;
+        self.mobility = 1.0 / mass;
+    }
+
+    /// Change of its velocity per impulse [1/kg].
+    pub(super) fn mobility(&self) -> f64 {
+        self.mobility
     }
 
     /// Force of springs and damping on it [N].
+    #[inline(always)]
     pub(super) fn whole_force(&self) -> f64 {
         self.force + self.damping
     }
@@ -47,6 +83,7 @@ impl Node {
         ]
     }
 
+    #[inline(always)]
     pub(super) fn kinetic_energy(&self) -> f64 {
         0.5 * self.mass * self.velocity * self.velocity
     }
@@ -60,16 +97,98 @@ impl Node {
         self.velocity += change;
         before - self.kinetic_energy() + 0.5 * drift * self.force * change
     }
-}
 
-impl Node {
-    /// At a position [m], with a velocity [m/s].
-    pub(super) fn at(position: f64, velocity: f64) -> Self {
-        Self {
+    /// Of a mass [kg] at a position [m], with a velocity [m/s].
+    pub(super) fn new(mass: f64, position: f64, velocity: f64) -> Self {
+        let mut node = Self {
             position,
             velocity,
-            ..Self::default()
+            ..Self::INERT
+        };
+        node.set_mass(mass);
+        node
+    }
+}
+
+/// Nodes one behind the other.
+pub(super) type Nodes = Blocks<Node<Lanes>>;
+
+impl Nodes {
+    /// Takes the forces of what is ahead of each node [N], one block after the other; behind their end there is nothing.
+    #[inline(always)]
+    pub(super) fn collect(&mut self, forces: impl Iterator<Item = Lanes>) {
+        let forces = forces.chain(std::iter::repeat(Lanes::all(0.0)));
+        let mut last = 0.0;
+        for (nodes, ahead) in self.each_mut().zip(forces) {
+            let behind = behind(&ahead, last);
+            nodes.force = lanes(|l| behind[l] - ahead[l]);
+            nodes.damping = Lanes::all(0.0);
+            last = ahead[LANES - 1];
         }
+    }
+
+    /// Adds the force of the dashpot between a node and the one ahead of it.
+    pub(super) fn damp(&mut self, i: usize, dashpot: &Dashpot, control: &StepControl) {
+        let (mut behind, mut ahead) = (self.get(i), self.get(i + 1));
+        dashpot.damp(control, &mut behind, &mut ahead);
+        self.set(i, behind);
+        self.set(i + 1, ahead);
+    }
+
+    /// New velocities of all nodes.
+    #[inline(always)]
+    pub(super) fn kick(&mut self, kick: f64) {
+        for nodes in self.each_mut() {
+            let after = |lane: usize| {
+                let mut one = nodes.lane(lane);
+                one.kick(one.whole_force() * kick);
+                one.velocity
+            };
+            let after = lanes(after);
+            nodes.velocity_before = nodes.velocity;
+            nodes.velocity = after;
+        }
+    }
+
+    /// New positions of all nodes.
+    #[inline(always)]
+    pub(super) fn drift(&mut self, time_step: f64) {
+        for nodes in self.each_mut() {
+            let (position, velocity) = (nodes.position, nodes.velocity);
+            nodes.position = lanes(|l| position[l] + velocity[l] * time_step);
+        }
+    }
+
+    /// Mass [kg].
+    pub(super) fn mass(&self) -> f64 {
+        self.sum(|nodes| nodes.mass)
+    }
+
+    /// Momentum [N s].
+    #[inline(always)]
+    pub(super) fn momentum(&self) -> f64 {
+        self.sum(|nodes| {
+            let (mass, velocity) = (nodes.mass, nodes.velocity);
+            lanes(|l| mass[l] * velocity[l])
+        })
+    }
+
+    /// Kinetic energy [J].
+    #[inline(always)]
+    pub(super) fn kinetic_energy(&self) -> f64 {
+        self.sum(|nodes| lanes(|l| nodes.lane(l).kinetic_energy()))
+    }
+}
+
+/// Sums up the momentum of nodes [N s].
+pub(super) struct Momentum<'a>(pub(super) &'a Nodes);
+
+impl NullaryFnOnce for Momentum<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        self.0.momentum()
     }
 }
 
@@ -83,7 +202,7 @@ pub(super) struct Dashpot {
 
 impl Dashpot {
     /// Adds its force to a node and the one ahead of it.
-    pub(super) fn damp(&self, control: &StepControl, behind: &mut Node, ahead: &mut Node) {
+    fn damp(&self, control: &StepControl, behind: &mut Node, ahead: &mut Node) {
         let approach = behind.velocity - ahead.velocity;
         let ratio = control.viscous_ratio(approach, self.slowness);
         let force = ratio * self.impedance * approach;

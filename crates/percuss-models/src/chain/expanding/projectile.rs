@@ -3,7 +3,7 @@
 use super::{
     node::Node,
     rod::{Loss, Rod},
-    slice::Slice,
+    slice::{Particulars, Slice},
 };
 use crate::{
     Error,
@@ -84,18 +84,21 @@ impl Projectile {
         behind.chain(std::iter::once(&mut self.front))
     }
 
-    pub(super) fn tail(&self) -> Option<&Node> {
+    pub(super) fn tail(&self) -> Option<Node> {
         self.rods().next().and_then(|rod| rod.nodes.first())
     }
 
-    pub(super) fn nodes(&self) -> impl Iterator<Item = &Node> {
-        self.rods().flat_map(|rod| &rod.nodes)
+    pub(super) fn nodes(&self) -> impl Iterator<Item = Node> {
+        self.rods().flat_map(|rod| rod.nodes.iter())
     }
 
-    /// Slices, each with its two nodes.
-    pub(super) fn slices(&self) -> impl Iterator<Item = (&Slice, &[Node])> {
-        self.rods()
-            .flat_map(|rod| rod.slices.iter().zip(rod.nodes.windows(2)))
+    /// Slices, each with what it has by itself and with its two nodes.
+    pub(super) fn slices(&self) -> impl Iterator<Item = (Slice, &Particulars, [Node; 2])> {
+        self.rods().flat_map(|rod| {
+            let ends = rod.nodes.iter().zip(rod.nodes.iter().skip(1));
+            let slices = rod.slices.iter().zip(&rod.particulars).zip(ends);
+            slices.map(|((slice, own), (back, front))| (slice, own, [back, front]))
+        })
     }
 
     /// Forces of the slices on the nodes.
@@ -106,9 +109,10 @@ impl Projectile {
         for i in 0..self.behind.len() {
             let gap = self.gap(i);
             let pull = self.behind[i].interface.pull_at(gap);
-            if let Some((behind, ahead)) = self.ends(i) {
+            if let Some((mut behind, mut ahead)) = self.ends(i) {
                 behind.damping += pull;
                 ahead.damping -= pull;
+                self.set_ends(i, behind, ahead);
             }
         }
     }
@@ -126,8 +130,9 @@ impl Projectile {
         self.front.kick(kick);
         for piece in &mut self.behind {
             piece.rod.kick(kick);
-            if let Some(tip) = piece.rod.nodes.last_mut() {
+            if let Some(mut tip) = piece.rod.tip() {
                 tip.kick(tip.whole_force() * kick);
+                piece.rod.nodes.set_last(tip);
             }
         }
     }
@@ -138,16 +143,17 @@ impl Projectile {
         for i in 0..self.behind.len() {
             let gap = self.gap(i).max(0.0);
             let Interface { closed, bond, pull } = self.behind[i].interface;
-            let Some((behind, ahead)) = self.ends(i) else {
+            let Some((mut behind, mut ahead)) = self.ends(i) else {
                 continue;
             };
             let opening = ahead.mean_velocity() - behind.mean_velocity();
             let change = behind.velocity - ahead.velocity - gap / time_step;
-            let wanted = change / (1.0 / behind.mass + 1.0 / ahead.mass);
+            let wanted = change / (behind.mobility() + ahead.mobility());
             let least = if closed { -bond.holds() * kick } else { 0.0 };
             let impulse = wanted.max(least);
-            let mut loss = behind.jump(-impulse / behind.mass, time_step);
-            loss += ahead.jump(impulse / ahead.mass, time_step);
+            let mut loss = behind.jump(-impulse * behind.mobility(), time_step);
+            loss += ahead.jump(impulse * ahead.mobility(), time_step);
+            self.set_ends(i, behind, ahead);
             let drifts = (ahead.velocity - behind.velocity) * time_step;
             let touches = wanted >= 0.0 || wanted > least;
             if touches {
@@ -164,21 +170,24 @@ impl Projectile {
 
     /// Distance between a piece and the one ahead of it [m].
     fn gap(&self, i: usize) -> f64 {
-        let rods: Vec<&Rod> = self.rods().skip(i).take(2).collect();
-        match rods[..] {
-            [behind, ahead] => {
-                let tip = behind.tip().map_or(0.0, |node| node.position);
-                ahead.nodes.first().map_or(0.0, |node| node.position) - tip
-            }
-            _ => 0.0,
-        }
+        let ends = self.ends(i);
+        ends.map_or(0.0, |(behind, ahead)| ahead.position - behind.position)
     }
 
     /// The two nodes at the interface ahead of a piece.
-    fn ends(&mut self, i: usize) -> Option<(&mut Node, &mut Node)> {
-        let mut rods = self.rods_mut().skip(i);
+    fn ends(&self, i: usize) -> Option<(Node, Node)> {
+        let mut rods = self.rods().skip(i);
         let (behind, ahead) = (rods.next()?, rods.next()?);
-        Some((behind.nodes.last_mut()?, ahead.nodes.first_mut()?))
+        Some((behind.nodes.last()?, ahead.nodes.first()?))
+    }
+
+    /// Replaces them.
+    fn set_ends(&mut self, i: usize, behind: Node, ahead: Node) {
+        let mut rods = self.rods_mut().skip(i);
+        if let (Some(rod), Some(next)) = (rods.next(), rods.next()) {
+            rod.nodes.set_last(behind);
+            next.nodes.set(0, ahead);
+        }
     }
 
     /// Moves on and gives the plastic work [J]; an error names a slice that was crushed.
@@ -207,8 +216,8 @@ impl Projectile {
             };
             rod.damage(&*failure.law, time_step);
             if let Some(node) = rod.weakest_node() {
-                let ahead = &rod.slices[node];
-                cracks.push(ahead.initial_position - 0.5 * ahead.rest_length);
+                let ahead = &rod.particulars[node];
+                cracks.push(ahead.initial_position - 0.5 * rod.size.length);
                 let (strength, area) = rod.pull_at(node);
                 let (rod, energy) = rod.split(node);
                 self.contact_loss += energy;
@@ -239,6 +248,11 @@ impl Projectile {
             self.front.remember(reached);
         }
         loss
+    }
+
+    /// Momentum [N s].
+    pub(super) fn momentum(&self) -> f64 {
+        self.rods().map(Rod::momentum).sum()
     }
 
     /// Mass [kg] and momentum [N s].
@@ -292,15 +306,26 @@ impl Projectile {
 
 fn fragment(rod: &Rod) -> Fragment {
     let (mass, momentum) = rod.motion();
-    let moment: f64 = rod.nodes.iter().map(|node| node.mass * node.position).sum();
+    let moment: f64 = rod
+        .nodes
+        .iter()
+        .map(|node| node.mass() * node.position)
+        .sum();
     let (mut length, mut radius) = (0.0, 0.0_f64);
     let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
-    for slice in &rod.slices {
-        let (own, widest) = slice.unloaded();
+    let half = 0.5 * rod.size.length;
+    for (
+        slice,
+        Particulars {
+            initial_position, ..
+        },
+    ) in rod.slices.iter().zip(&rod.particulars)
+    {
+        let (own, widest) = slice.unloaded(&rod.size);
         length += own;
         radius = radius.max(widest);
-        from = from.min(slice.initial_position - 0.5 * slice.rest_length);
-        to = to.max(slice.initial_position + 0.5 * slice.rest_length);
+        from = from.min(initial_position - half);
+        to = to.max(initial_position + half);
     }
     Fragment {
         origin: "projectile".to_owned(),

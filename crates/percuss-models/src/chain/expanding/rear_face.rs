@@ -18,7 +18,9 @@ use crate::{Error, chain::cone::Cone, problem::RearFaceCondition, solver::archiv
 /// Samples of a delay line per transit of the thickness.
 const SAMPLES: usize = 64;
 /// Reflections that are summed up: the last ones are below 0.3 % of the first wave in a plate of one diameter.
-const MOST_ECHOES: usize = 200;
+const MOST_ECHOES: i64 = 200;
+/// Samples of a delay line from one echo to the next.
+const DELAY: i64 = 2 * SAMPLES as i64;
 
 /// A rear face that reflects.
 #[derive(Debug)]
@@ -29,6 +31,8 @@ pub(super) struct RearFace {
     thickness: f64,
     /// Speed of waves in the cone [m/s].
     speed: f64,
+    /// Amplitudes of the waves from the images at the mouth, with their signs.
+    shares: Vec<f64>,
     /// Displacement of the mouth in the outgoing wave [m], sampled.
     outgoing: DelayLine,
     /// Impulse of the contact force [N s], sampled.
@@ -66,12 +70,15 @@ impl RearFace {
             RearFaceCondition::NonReflecting => return None,
         };
         let lines = speeds.map(|speed| {
-            let most = 2 * SAMPLES * (MOST_ECHOES + 1);
+            let most = 2 * SAMPLES * (MOST_ECHOES as usize + 1);
             DelayLine::new(thickness / (speed * SAMPLES as f64), most)
         });
         let [outgoing, impulse] = lines;
+        let image = |j: i64| 2.0 * j as f64 * thickness;
+        let shares = (1..=MOST_ECHOES).map(|j| sign_of(sign, j) / cone.stretch(image(j)));
         Some(Self {
             sign,
+            shares: shares.collect(),
             cone,
             thickness,
             speed: speeds[0],
@@ -114,42 +121,36 @@ impl RearFace {
 
     /// Displacement of the mouth by reflected waves at a time [m].
     fn echo(&self, time: f64) -> f64 {
-        let delay = 2.0 * SAMPLES as f64;
-        let echoes = self.outgoing.delayed(time, delay, MOST_ECHOES);
-        2.0 * echoes
-            .zip(1..)
-            .map(|(value, j)| self.share(j) * value)
-            .sum::<f64>()
+        let echoes = self.outgoing.delayed(time, DELAY, 1..=MOST_ECHOES);
+        let echoes = echoes.zip(&self.shares);
+        2.0 * echoes.map(|(value, share)| share * value).sum::<f64>()
     }
 
     /// `2 Σ_j s^j g(t − (2j + 1)h/c)`: what arrives at the rear face.
     fn reflections(&self, line: &DelayLine, time: f64) -> f64 {
         let shifted = time - SAMPLES as f64 * line.spacing();
-        let first = line.at(shifted);
-        let delay = 2.0 * SAMPLES as f64;
-        let later = line.delayed(shifted, delay, MOST_ECHOES);
-        let signed = later.zip(1..).map(|(value, j)| self.sign.powi(j) * value);
+        let mut values = line.delayed(shifted, DELAY, 0..=MOST_ECHOES);
+        let first = values.next().unwrap_or(0.0);
+        let signed = values
+            .zip(1..)
+            .map(|(value, j)| sign_of(self.sign, j) * value);
         2.0 * (first + signed.sum::<f64>())
-    }
-
-    /// Amplitude of the wave from the `j`-th image at the mouth, with its sign.
-    fn share(&self, j: i32) -> f64 {
-        self.sign.powi(j) / self.cone.stretch(2.0 * f64::from(j) * self.thickness)
     }
 
     /// Displacement [m], compressive strain and velocity [m/s] that reflected waves add at a depth [m].
     pub(super) fn reflected(&self, depth: f64, time: f64) -> [f64; 3] {
         let transits = time * self.speed / self.thickness;
-        let echoes = (0.5 * (transits + 1.0)).ceil() as i32;
+        let echoes = (0.5 * (transits + 1.0)).ceil() as i64;
         let mut sum = [0.0; 3];
-        for j in 1..=echoes.min(MOST_ECHOES as i32) {
-            let image = 2.0 * f64::from(j) * self.thickness;
+        for j in 1..=echoes.min(MOST_ECHOES) {
+            let image = 2.0 * j as f64 * self.thickness;
+            let sign = sign_of(self.sign, j);
             // One of the two waves runs towards the struck face: the other way round, so that its strain has the other sign.
             for (place, direction) in [(image + depth, 1.0), (image - depth, -1.0)] {
                 let [displacement, strain, velocity] = self.outgoing_at(place, time);
-                sum[0] += self.sign.powi(j) * displacement;
-                sum[1] += self.sign.powi(j) * direction * strain;
-                sum[2] += self.sign.powi(j) * velocity;
+                sum[0] += sign * displacement;
+                sum[1] += sign * direction * strain;
+                sum[2] += sign * velocity;
             }
         }
         sum
@@ -179,4 +180,9 @@ impl RearFace {
         };
         (place(time) - place(time - past)) / past
     }
+}
+
+/// Sign of the `j`-th reflection at a face that reflects with a sign.
+fn sign_of(sign: f64, j: i64) -> f64 {
+    if j % 2 == 0 { 1.0 } else { sign }
 }

@@ -13,6 +13,8 @@
 //! (for a constant flow stress `2Y ln(c/a)`, as for a thick shell \[hill1950\]). In the direction θ from the line of flight the
 //! face is at `c = h/cos θ`; the pressure is the mean over all directions ahead, each taken by itself.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use crate::material::{FlowState, Material};
 
 /// Strain at the wall beyond which the pressure does not grow any more.
@@ -24,7 +26,7 @@ const POINTS: usize = 400;
 pub(super) struct Resistance {
     radius: f64,
     /// Permanent advance over the radius, rising, and pressure [Pa].
-    curve: Vec<(f64, f64)>,
+    curve: Curve,
     /// What a free rear face takes away, where there is one.
     relief: Option<Relief>,
     /// Elastic advance over the radius, per pressure [1/Pa].
@@ -36,7 +38,7 @@ pub(super) struct Resistance {
 struct Relief {
     thickness: f64,
     /// Whole advance over the radius, rising, and the mean `∫₀¹ P(x μ³) dμ` over all directions ahead [Pa].
-    means: Vec<(f64, f64)>,
+    means: Curve,
 }
 
 impl Resistance {
@@ -87,10 +89,10 @@ impl Resistance {
         }
         Some(Self {
             radius,
-            curve,
+            curve: Curve::new(curve),
             relief: free_rear_face.map(|thickness| Relief {
                 thickness,
-                means: means_over_directions(&whole),
+                means: Curve::new(means_over_directions(&whole)),
             }),
             compliance: 1.0 / twice_shear,
         })
@@ -99,7 +101,7 @@ impl Resistance {
     /// Pressure [Pa] on the floor of a crater of a permanent depth [m].
     pub(super) fn at(&self, depth: f64) -> f64 {
         let advance = depth / self.radius;
-        let pressure = interpolate(&self.curve, advance);
+        let pressure = self.curve.at(advance);
         let Some(relief) = &self.relief else {
             return pressure;
         };
@@ -107,12 +109,12 @@ impl Resistance {
         let distance = ((relief.thickness - depth) / self.radius).max(0.0);
         // Nearer than the radius of the cavity, it is open in all directions within h/a of the line of flight.
         let cube = distance.max(1.0).powi(3);
-        distance.min(1.0) * (pressure - interpolate(&relief.means, whole / cube))
+        distance.min(1.0) * (pressure - relief.means.at(whole / cube))
     }
 
     /// Pressure of steady penetration [Pa].
     pub(super) fn steady(&self) -> f64 {
-        self.curve.last().map_or(0.0, |point| point.1)
+        self.curve.points.last().map_or(0.0, |point| point.1)
     }
 }
 
@@ -134,17 +136,47 @@ fn means_over_directions(pressures: &[(f64, f64)]) -> Vec<(f64, f64)> {
     means
 }
 
-/// Value of a curve of rising places, constant beyond its ends.
-fn interpolate(curve: &[(f64, f64)], place: f64) -> f64 {
-    let next = curve.partition_point(|point| point.0 <= place);
-    let Some(&(to, upper)) = curve.get(next) else {
-        return curve.last().map_or(0.0, |point| point.1);
-    };
-    let (from, lower) = curve[next.saturating_sub(1)];
-    if to == from {
-        return lower;
+/// Points of a curve at rising places.
+#[derive(Debug)]
+struct Curve {
+    points: Vec<(f64, f64)>,
+    /// The first point beyond the place that was asked for last: the next one is mostly near.
+    next: AtomicUsize,
+}
+
+impl Curve {
+    fn new(points: Vec<(f64, f64)>) -> Self {
+        Self {
+            points,
+            next: AtomicUsize::new(0),
+        }
     }
-    lower + (upper - lower) * ((place - from) / (to - from)).clamp(0.0, 1.0)
+
+    /// Number of the first point beyond a place.
+    fn next_to(&self, place: f64) -> usize {
+        let last = self.next.load(Ordering::Relaxed);
+        let is_beyond = |i: usize| self.points.get(i).is_none_or(|point| point.0 > place);
+        let is_near = is_beyond(last) && (last == 0 || !is_beyond(last - 1));
+        if is_near {
+            return last;
+        }
+        let next = self.points.partition_point(|point| point.0 <= place);
+        self.next.store(next, Ordering::Relaxed);
+        next
+    }
+
+    /// Value at a place, constant beyond the ends.
+    fn at(&self, place: f64) -> f64 {
+        let next = self.next_to(place);
+        let Some(&(to, upper)) = self.points.get(next) else {
+            return self.points.last().map_or(0.0, |point| point.1);
+        };
+        let (from, lower) = self.points[next.saturating_sub(1)];
+        if to == from {
+            return lower;
+        }
+        lower + (upper - lower) * ((place - from) / (to - from)).clamp(0.0, 1.0)
+    }
 }
 
 #[cfg(test)]
@@ -212,7 +244,7 @@ mod tests {
                 }
             })
             .sum();
-        let mean = interpolate(&relief.means, x);
+        let mean = relief.means.at(x);
         let expected = sum / f64::from(count);
         assert!((mean / expected - 1.0).abs() < 5e-3, "{mean} {expected}");
     }

@@ -8,7 +8,8 @@ use super::{
         warnings::{Reached, warnings_of_cavity},
     },
     Cavity, forces,
-    slice::Slice,
+    node::Node,
+    slice::{Slice, Undeformed},
     state::State,
 };
 use crate::{
@@ -28,6 +29,8 @@ const QUIET_FRACTION: f64 = 1e-6;
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Window {
     start: f64,
+    /// When it is over at the earliest.
+    end: f64,
     depth: f64,
     pub(super) touched: bool,
 }
@@ -40,9 +43,13 @@ impl Window {
         scenario: &Scenario,
         monitor: &RunMonitor,
     ) -> Option<Termination> {
+        if state.time < self.end {
+            return None;
+        }
         let rod = &scenario.projectile;
         let window = 2.0 * rod.length.max(rod.diameter) / rod.material.bar_wave_speed();
         if state.time < self.start + window {
+            self.end = self.start + window;
             return None;
         }
         let sinks =
@@ -119,7 +126,10 @@ pub(super) fn outcome(
 pub(super) fn complete(cavity: &Cavity<'_>, result: &mut RunResult, monitor: &RunMonitor) {
     let (scenario, state) = (cavity.scenario, &cavity.state);
     let (mass, momentum) = state.rod.motion();
-    let remnant = Remnant::of(state.rod.slices().map(|(slice, _)| slice));
+    let remnant = Remnant::of(
+        state.rod.slices().map(|(slice, ..)| slice),
+        &state.rod.front.size,
+    );
     result.depth_of_penetration = Some(state.floor.depth);
     result.largest_depth = Some(monitor.largest_depth);
     result.permanent_depth = Some(state.floor.depth);
@@ -175,12 +185,12 @@ struct Remnant {
 }
 
 impl Remnant {
-    fn of<'a>(slices: impl Iterator<Item = &'a Slice>) -> Self {
+    fn of(slices: impl Iterator<Item = Slice>, size: &Undeformed) -> Self {
         slices.fold(Self::default(), |remnant, slice| {
-            let (length, radius) = slice.unloaded();
-            let stretch = length / slice.rest_length;
+            let (length, radius) = slice.unloaded(size);
+            let stretch = length / size.length;
             let parted = stretch.ln() > PARTED;
-            let counted = if parted { slice.rest_length } else { length };
+            let counted = if parted { size.length } else { length };
             Self {
                 slices: remnant.slices + 1,
                 parted: remnant.parted + usize::from(parted),
@@ -220,8 +230,8 @@ fn warning_of_target_failure(state: &State) -> Option<String> {
 pub(super) fn sample(state: &State) -> Sample {
     let (mass, momentum) = state.rod.motion();
     let (tail, tip) = (state.rod.tail(), state.rod.front.tip());
-    let velocity = |node: Option<&super::node::Node>| node.map_or(f64::NAN, |n| n.velocity);
-    let place = |node: Option<&super::node::Node>| node.map_or(f64::NAN, |n| n.position);
+    let velocity = |node: Option<Node>| node.map_or(f64::NAN, |n| n.velocity);
+    let place = |node: Option<Node>| node.map_or(f64::NAN, |n| n.position);
     let mut sample = Sample::default();
     sample.time = state.time;
     sample.step = state.step;
@@ -248,13 +258,13 @@ pub(super) fn sample(state: &State) -> Sample {
 }
 
 pub(super) fn profile(state: &State) -> Profile {
-    let rod = state.rod.slices().map(|(slice, nodes)| ElementState {
+    let rod = state.rod.slices().map(|(slice, own, nodes)| ElementState {
         part: 0,
-        initial_position: slice.initial_position,
+        initial_position: own.initial_position,
         position: 0.5 * (nodes[0].position + nodes[1].position) + state.floor.lost_length,
         length: slice.length,
         stress: slice.axial_stress(),
-        strain: slice.strain(),
+        strain: slice.strain,
         plastic_strain: slice.plastic_strain,
         diameter: 2.0 * slice.radius,
         temperature: slice.temperature,

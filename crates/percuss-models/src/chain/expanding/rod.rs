@@ -6,26 +6,37 @@ use pulp::Arch;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    block::Respond,
-    node::{Dashpot, Node},
+    block::{Collect, Drift, Energies, Kick, Look},
+    blocks::Blocks,
+    node::{Dashpot, Momentum, Node, Nodes},
     projectile::failure_state,
-    slice::{Metal, Shear, Slice},
+    respond::Stage,
+    slice::{Metal, Particulars, Shear, Slice, Undeformed},
 };
 use crate::{
-    Error, chain::solver::StepControl, material::PreparedFailure, solver::archive::Archive,
+    Error,
+    chain::solver::StepControl,
+    lanes::Lanes,
+    material::{FlowState, PreparedFailure, YieldPoint},
+    solver::archive::Archive,
 };
 
 /// From its tail to its tip; what erodes leaves from the tip.
 #[derive(Debug)]
 pub(super) struct Rod {
     pub(super) metal: Arc<Metal>,
-    pub(super) nodes: Vec<Node>,
-    pub(super) slices: Vec<Slice>,
-    /// `shears[i]` is between the slices `i` and `i + 1`.
-    shears: Vec<Shear>,
+    pub(super) size: Undeformed,
+    /// Slice `i` is between the nodes `i` and `i + 1`.
+    pub(super) nodes: Nodes,
+    pub(super) slices: Blocks<Slice<Lanes>>,
+    pub(super) particulars: Vec<Particulars>,
+    /// Shear `i` is between the slices `i` and `i + 1`.
+    pub(super) shears: Blocks<Shear<Lanes>>,
+    /// Between the stages of a step only.
+    pub(super) stages: Vec<Stage>,
     arch: Arch,
     /// What limits the next step, where it is known from the last one.
-    fastest: Option<Fastest>,
+    pub(super) fastest: Option<Fastest>,
     /// What eroded: largest plastic strain, plastic strain rate and temperature of its slices.
     lost: [f64; 3],
 }
@@ -37,16 +48,6 @@ pub(super) struct Fastest {
     pub(super) stiffness: f64,
     /// Rate of strain [1/s].
     pub(super) rate: f64,
-}
-
-impl Fastest {
-    /// Looks at a slice and its two nodes.
-    pub(super) fn follow(&mut self, slice: &Slice, nodes: &[Node], metal: &Metal) {
-        let approach = (nodes[0].velocity - nodes[1].velocity).abs() / slice.length;
-        let widening = slice.radial_velocity.abs() / slice.radius;
-        self.rate = self.rate.max(approach).max(widening);
-        self.stiffness = self.stiffness.max(slice.stiffness(metal));
-    }
 }
 
 /// What left with a slice.
@@ -63,9 +64,12 @@ impl Rod {
     pub(super) fn of_same_metal(&self) -> Self {
         Self {
             metal: Arc::clone(&self.metal),
-            nodes: Vec::new(),
-            slices: Vec::new(),
-            shears: Vec::new(),
+            size: self.size,
+            nodes: self.nodes.like([]),
+            slices: self.slices.like([]),
+            particulars: Vec::new(),
+            shears: self.shears.like([]),
+            stages: Vec::new(),
             arch: self.arch,
             fastest: None,
             lost: [0.0; 3],
@@ -74,9 +78,10 @@ impl Rod {
 
     /// Everything that a step changes.
     pub(super) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
-        archive.item(&mut self.nodes)?;
-        archive.item(&mut self.slices)?;
-        archive.item(&mut self.shears)?;
+        self.nodes.archive(archive)?;
+        self.slices.archive(archive)?;
+        archive.item(&mut self.particulars)?;
+        self.shears.archive(archive)?;
         archive.item(&mut self.fastest)?;
         archive.item(&mut self.lost)
     }
@@ -89,46 +94,49 @@ impl Rod {
         temperature: f64,
         speed: f64,
     ) -> Self {
-        let size = length / count as f64;
-        let radius = (area / PI).sqrt();
-        let slices: Vec<Slice> = (0..count)
-            .map(|i| {
-                let middle = size * (i as f64 + 0.5) - length;
-                Slice::new(&metal, size, radius, temperature, middle)
-            })
-            .collect();
-        let mut nodes: Vec<Node> = (0..=count)
-            .map(|i| Node::at(-size * (count - i) as f64, speed))
-            .collect();
-        for (i, slice) in slices.iter().enumerate() {
-            nodes[i].mass += 0.5 * slice.mass;
-            nodes[i + 1].mass += 0.5 * slice.mass;
-        }
+        let spacing = length / count as f64;
+        let size = Undeformed::new(&metal, spacing, (area / PI).sqrt());
+        let at_rest = FlowState {
+            plastic_strain: 0.0,
+            strain_rate: 0.0,
+            temperature,
+            pressure: 0.0,
+        };
+        let yield_point = YieldPoint::slow(&*metal.strength, &at_rest);
+        let slice = Slice::new(&size, &yield_point, temperature);
+        let particulars = (0..count).map(|i| Particulars {
+            initial_position: spacing * (i as f64 + 0.5) - length,
+            damage: 0.0,
+            parted: false,
+            yield_point,
+        });
+        let nodes = (0..=count).map(|i| {
+            let is_end = i == 0 || i == count;
+            let mass = if is_end { 0.5 * size.mass } else { size.mass };
+            Node::new(mass, -spacing * (count - i) as f64, speed)
+        });
+        let shears = std::iter::repeat_n(Shear::default(), count.saturating_sub(1));
         Self {
+            stages: Vec::new(),
             arch: Arch::new(),
             fastest: None,
-            shears: vec![Shear::default(); count.saturating_sub(1)],
+            shears: Blocks::new(shears, Shear::default()),
             metal: Arc::new(metal),
-            nodes,
-            slices,
+            size,
+            nodes: Blocks::new(nodes, Node::INERT),
+            slices: Blocks::new(std::iter::repeat_n(slice, count), slice),
+            particulars: particulars.collect(),
             lost: [0.0; 3],
         }
     }
 
-    pub(super) fn tip(&self) -> Option<&Node> {
+    pub(super) fn tip(&self) -> Option<Node> {
         self.nodes.last()
     }
 
     /// Forces of the slices on the nodes.
     pub(super) fn collect(&mut self) {
-        for node in &mut self.nodes {
-            node.force = 0.0;
-            node.damping = 0.0;
-        }
-        for (i, slice) in self.slices.iter().enumerate() {
-            self.nodes[i].force -= slice.axial_force;
-            self.nodes[i + 1].force += slice.axial_force;
-        }
+        self.arch.dispatch(Collect(self));
     }
 
     /// Adds damping of the axial motion; `pushed` is the force from outside on the tip [N].
@@ -139,79 +147,33 @@ impl Rod {
                 slowness,
                 impedance: self.metal.density / slowness * slice.area(),
             };
-            let (behind, ahead) = self.nodes.split_at_mut(i + 1);
-            if let (Some(behind), Some(ahead)) = (behind.last_mut(), ahead.first_mut()) {
-                dashpot.damp(control, behind, ahead);
-            }
+            self.nodes.damp(i, &dashpot, control);
         }
         let tip = self.nodes.len().saturating_sub(1);
-        for (i, node) in self.nodes.iter_mut().enumerate() {
+        self.nodes.change(|i, node| {
             let outside = if i == tip { pushed } else { 0.0 };
             let accelerating = node.whole_force() + outside;
             node.damp_locally(control.local_damping, accelerating);
-        }
+        });
     }
 
     /// New velocities of all but the tip.
     pub(super) fn kick(&mut self, kick: f64) {
-        let count = self.nodes.len().saturating_sub(1);
-        for node in &mut self.nodes[..count] {
-            node.kick(node.whole_force() * kick);
-        }
-        for (i, shear) in self.shears.iter().enumerate() {
-            self.slices[i].radial_force += shear.force;
-            self.slices[i + 1].radial_force -= shear.force;
-        }
-        for slice in &mut self.slices {
-            slice.radial_velocity += slice.radial_force * kick / slice.radial_mass();
-        }
+        self.arch.dispatch(Kick { rod: self, kick });
     }
 
     /// Moves on and gives the plastic work [J]; an error names a slice that was crushed.
     pub(super) fn drift(&mut self, time_step: f64) -> Result<f64, usize> {
-        for node in &mut self.nodes {
-            node.position += node.velocity * time_step;
-        }
-        for (i, (pair, slice)) in self.nodes.windows(2).zip(&mut self.slices).enumerate() {
-            slice.length = pair[1].position - pair[0].position;
-            slice.radius += slice.radial_velocity * time_step;
-            if slice.length <= 0.0 || slice.radius <= 0.0 {
-                return Err(i);
-            }
-        }
-        let metal = &*self.metal;
-        let mut plastic = match metal.strength.hardening() {
-            Some(law) => {
-                let (work, fastest) = self.arch.dispatch(Respond {
-                    nodes: &self.nodes,
-                    slices: &mut self.slices,
-                    metal,
-                    law,
-                    time_step,
-                });
-                self.fastest = Some(fastest);
-                work
-            }
-            None => {
-                let slices = self.slices.iter_mut();
-                slices.fold(0.0, |work, slice| work + slice.deform(metal, time_step))
-            }
-        };
-        for (pair, shear) in self.slices.windows(2).zip(&mut self.shears) {
-            plastic += shear.deform(&self.metal, &pair[0], &pair[1], time_step);
-        }
-        Ok(plastic)
+        self.arch.dispatch(Drift {
+            rod: self,
+            time_step,
+        })
     }
 
     /// Largest stable step [s], in which no slice changes its size by more than a part either.
     pub(super) fn stable_step(&self, largest_strain: f64) -> f64 {
-        let fastest = self.fastest.unwrap_or_else(|| {
-            let mut fastest = Fastest::default();
-            for (pair, slice) in self.nodes.windows(2).zip(&self.slices) {
-                fastest.follow(slice, pair, &self.metal);
-            }
-            fastest
-        });
+        let look = || self.arch.dispatch(Look(self));
+        let fastest = self.fastest.unwrap_or_else(look);
         let frequency = (fastest.stiffness / self.metal.density).sqrt();
         (2.0 / frequency).min(largest_strain / fastest.rate)
     }
@@ -221,13 +183,15 @@ impl Rod {
         let (Some(slice), Some(tip)) = (self.slices.pop(), self.nodes.pop()) else {
             return Loss::default();
         };
+        self.particulars.pop();
         let shear = self.shears.pop();
         self.fastest = None;
-        let half = 0.5 * slice.mass;
+        let (metal, size) = (&self.metal, &self.size);
+        let half = 0.5 * size.mass;
         let mut loss = Loss {
-            energy: slice.elastic_energy(&self.metal)
-                + slice.radial_energy()
-                + shear.map_or(0.0, |shear| shear.elastic_energy(&self.metal)),
+            energy: slice.elastic_energy(metal, size)
+                + slice.radial_energy(size)
+                + shear.map_or(0.0, |shear| shear.elastic_energy(metal, size)),
             momentum: 0.0,
             length: slice.length,
         };
@@ -236,11 +200,12 @@ impl Rod {
             loss.energy += 0.5 * half * velocity * velocity;
             loss.momentum += half * velocity;
         }
-        if let Some(node) = self.nodes.last_mut() {
-            node.mass -= half;
+        if let Some(mut node) = self.nodes.last() {
+            node.set_mass(node.mass() - half);
+            self.nodes.set_last(node);
         }
         if self.slices.is_empty() {
-            self.nodes.clear();
+            self.nodes.truncate(0);
         }
         self.remember(reached(&slice));
         loss
@@ -248,63 +213,58 @@ impl Rod {
 
     /// Brings the damage of its slices up to the end of a step [s].
     pub(super) fn damage(&mut self, law: &dyn PreparedFailure, time_step: f64) {
-        for slice in &mut self.slices {
-            slice.damage = law.damage(slice.damage, &failure_state(slice), time_step);
+        for (slice, own) in self.slices.iter().zip(&mut self.particulars) {
+            own.damage = law.damage(own.damage, &failure_state(&slice), time_step);
         }
     }
 
     /// The node at which it parts, if it does: one of the two slices has failed and something pulls.
     pub(super) fn weakest_node(&self) -> Option<usize> {
-        let damage = |i: usize| self.slices[i - 1].damage + self.slices[i].damage;
+        let own = &self.particulars;
+        let damage = |i: usize| own[i - 1].damage + own[i].damage;
         let fails = |i: &usize| {
-            let pair = &self.slices[i - 1..=*i];
-            self.pull_at(*i).0 > 0.0
-                && pair
-                    .iter()
-                    .any(|slice| slice.damage >= 1.0 && !slice.parted)
+            let has_failed = |slice: &Particulars| slice.damage >= 1.0 && !slice.parted;
+            self.pull_at(*i).0 > 0.0 && own[i - 1..=*i].iter().any(has_failed)
         };
         (1..self.slices.len())
             .filter(fails)
             .max_by(|&a, &b| damage(a).total_cmp(&damage(b)))
     }
 
-    /// Tension at a node between two slices [N] and the smaller area at rest [m2].
+    /// Tension at a node between two slices [N] and their area at rest [m2].
     pub(super) fn pull_at(&self, node: usize) -> (f64, f64) {
-        let (behind, ahead) = (&self.slices[node - 1], &self.slices[node]);
-        let area = |slice: &Slice| slice.rest_volume() / slice.rest_length;
-        (
-            -0.5 * (behind.axial_force + ahead.axial_force),
-            area(behind).min(area(ahead)),
-        )
+        let forces = [node - 1, node].map(|i| self.slices.get(i).axial_force);
+        (-0.5 * (forces[0] + forces[1]), self.size.area())
     }
 
     /// Parts at a node between two slices, keeps what is ahead and gives what is behind, with the elastic energy of the shear between the
     /// two [J].
     pub(super) fn split(&mut self, node: usize) -> (Self, f64) {
-        for slice in &mut self.slices[node - 1..=node] {
+        for slice in &mut self.particulars[node - 1..=node] {
             slice.parted |= slice.damage >= 1.0;
         }
-        let ahead = self.slices.split_off(node);
-        let mut nodes = self.nodes.split_off(node);
-        let own = 0.5 * ahead[0].mass;
-        let mut end = nodes[0];
-        end.mass -= own;
-        nodes[0].mass = own;
-        let shears = self.shears.split_off(node);
-        let lost = self.shears.pop();
-        let behind = Self {
-            metal: Arc::clone(&self.metal),
-            nodes: self.nodes.drain(..).chain([end]).collect(),
-            slices: std::mem::replace(&mut self.slices, ahead),
-            shears: std::mem::replace(&mut self.shears, shears),
-            arch: self.arch,
-            fastest: None,
+        let lost = self.shears.get(node - 1);
+        let particulars = self.particulars.split_off(node);
+        let mut ahead = Self {
+            slices: self.slices.like(self.slices.iter().skip(node)),
+            nodes: self.nodes.like(self.nodes.iter().skip(node)),
+            shears: self.shears.like(self.shears.iter().skip(node)),
+            particulars,
             lost: self.lost,
+            ..self.of_same_metal()
         };
-        self.nodes = nodes;
+        self.slices.truncate(node);
+        self.nodes.truncate(node + 1);
+        self.shears.truncate(node - 1);
+        let own = 0.5 * self.size.mass;
+        let mut end = ahead.nodes.get(0);
+        end.set_mass(end.mass() - own);
+        self.nodes.set_last(end);
+        end.set_mass(own);
+        ahead.nodes.set(0, end);
         self.fastest = None;
-        let energy = lost.map_or(0.0, |shear| shear.elastic_energy(&self.metal));
-        (behind, energy)
+        let behind = std::mem::replace(self, ahead);
+        (behind, lost.elastic_energy(&self.metal, &self.size))
     }
 
     /// Keeps the extremes of slices that are gone.
@@ -314,26 +274,24 @@ impl Rod {
         }
     }
 
+    /// Momentum [N s].
+    pub(super) fn momentum(&self) -> f64 {
+        self.arch.dispatch(Momentum(&self.nodes))
+    }
+
     /// Mass [kg] and momentum [N s].
     pub(super) fn motion(&self) -> (f64, f64) {
-        self.nodes.iter().fold((0.0, 0.0), |(mass, momentum), n| {
-            (mass + n.mass, momentum + n.mass * n.velocity)
-        })
+        (self.nodes.mass(), self.momentum())
     }
 
     /// Kinetic and elastic energy [J].
     pub(super) fn energies(&self) -> [f64; 2] {
-        let axial: f64 = self.nodes.iter().map(Node::kinetic_energy).sum();
-        let radial: f64 = self.slices.iter().map(Slice::radial_energy).sum();
-        let metal = &self.metal;
-        let slices: f64 = self.slices.iter().map(|s| s.elastic_energy(metal)).sum();
-        let shears: f64 = self.shears.iter().map(|s| s.elastic_energy(metal)).sum();
-        [axial + radial, slices + shears]
+        self.arch.dispatch(Energies(self))
     }
 
     /// Largest plastic strain, plastic strain rate [1/s] and temperature [K] so far.
     pub(super) fn reached(&self) -> [f64; 3] {
-        let slices = self.slices.iter().map(reached);
+        let slices = self.slices.iter().map(|slice| reached(&slice));
         slices.fold(self.lost, |most, value| {
             std::array::from_fn(|k| most[k].max(value[k]))
         })

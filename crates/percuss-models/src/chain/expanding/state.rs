@@ -130,7 +130,7 @@ impl State {
         self.time_step = time_step;
         self.step += 1;
         if let Some(face) = &mut self.rear_face {
-            let outgoing = self.far_field.nodes[0].position;
+            let outgoing = self.far_field.mouth().position;
             face.end_step(
                 self.time,
                 time_step,
@@ -176,7 +176,7 @@ impl State {
     }
 
     fn account_for_damping(&mut self, kick: f64) {
-        for node in self.rod.nodes().chain(&self.far_field.nodes) {
+        for node in self.rod.nodes().chain(self.far_field.nodes.iter()) {
             let [impulse, work] = node.taken_by_damping(kick);
             self.accumulated.damping_impulse += impulse;
             self.accumulated.damping_work += work;
@@ -192,7 +192,7 @@ impl State {
             area: slice.area(),
             flow_stress: slice.flow_stress(),
             density: self.rod.front.metal.density,
-            closing: (self.rod.front.nodes[0].velocity - node.velocity).max(0.0),
+            closing: (self.rod.front.nodes.get(0).velocity - node.velocity).max(0.0),
         }
     }
 
@@ -204,7 +204,7 @@ impl State {
 
     /// Velocity of the ground under the floor [m/s].
     pub(super) fn far_field_velocity(&self) -> f64 {
-        self.far_field.nodes[0].velocity + self.echo_velocity()
+        self.far_field.mouth().velocity + self.echo_velocity()
     }
 
     /// Part of it that reflected waves bring along [m/s].
@@ -220,13 +220,14 @@ impl State {
         let change = self.approach() - allowed;
         let mobility = self.floor.mobility();
         let before = self.floor.kinetic_energy();
-        let Some(tip) = self.rod.front.nodes.last_mut() else {
+        let (Some(mut tip), mut far_field) = (self.rod.front.tip(), self.far_field.mouth()) else {
             return;
         };
-        let far_field = &mut self.far_field.nodes[0];
-        let impulse = change / (1.0 / tip.mass + 1.0 / far_field.mass + mobility);
-        let mut loss = tip.jump(-impulse / tip.mass, drift);
-        loss += far_field.jump(impulse / far_field.mass, drift);
+        let impulse = change / (tip.mobility() + far_field.mobility() + mobility);
+        let mut loss = tip.jump(-impulse * tip.mobility(), drift);
+        loss += far_field.jump(impulse * far_field.mobility(), drift);
+        self.rod.front.nodes.set_last(tip);
+        self.far_field.nodes.set(0, far_field);
         self.floor.speed = (self.floor.speed + impulse * mobility).max(0.0);
         let reflected = impulse * self.echo_velocity();
         self.accumulated.contact_impulse += impulse;
@@ -241,23 +242,23 @@ impl State {
         let echo_pull = echo_gain / kick;
         let resisting = self.floor.resistance(self.tip());
         let tip = self.rod.front.tip();
-        let (tip_force, tip_mass) = tip.map_or((0.0, 0.0), |n| (n.whole_force(), n.mass));
-        let far_field = self.far_field.nodes[0];
+        let (tip_force, tip_mass) = tip.map_or((0.0, 0.0), |n| (n.whole_force(), n.mass()));
+        let mut far_field = self.far_field.mouth();
         let far_field_force = far_field.whole_force();
         let force = match self.floor.contact {
             Contact::Open => None,
             Contact::Closed => {
-                let together = (tip_force + far_field_force + far_field.mass * echo_pull)
-                    / (tip_mass + far_field.mass);
+                let together = (tip_force + far_field_force + far_field.mass() * echo_pull)
+                    / (tip_mass + far_field.mass());
                 let held = tip_force - tip_mass * together;
                 if self.floor.speed == 0.0 && held <= resisting {
                     Some((held, 0.0))
                 } else {
                     let added = self.floor.added_mass();
                     let pull = (tip_force - resisting) / tip_mass
-                        - (resisting + far_field_force) / far_field.mass
+                        - (resisting + far_field_force) / far_field.mass()
                         - echo_pull;
-                    let gain = pull / (1.0 + added * (1.0 / tip_mass + 1.0 / far_field.mass));
+                    let gain = pull / (1.0 + added * (1.0 / tip_mass + 1.0 / far_field.mass()));
                     Some((resisting + added * gain, gain))
                 }
             }
@@ -266,24 +267,25 @@ impl State {
             self.floor.contact = Contact::Open;
             self.contact_force = 0.0;
             self.accumulated.plastic[Role::Target as usize] += self.floor.coast(kick);
-            if let Some(tip) = self.rod.front.nodes.last_mut() {
+            if let Some(mut tip) = tip {
                 tip.kick(tip_force * kick);
+                self.rod.front.nodes.set_last(tip);
             }
-            self.far_field.nodes[0].kick(far_field_force * kick);
+            far_field.kick(far_field_force * kick);
+            self.far_field.nodes.set(0, far_field);
             return;
         };
         self.contact_force = force;
         let before = self.floor.speed;
         let after = before + gain * kick;
-        let (Some(tip), far_field) = (
-            self.rod.front.nodes.last_mut(),
-            &mut self.far_field.nodes[0],
-        ) else {
+        let Some(mut tip) = tip else {
             return;
         };
         if after >= 0.0 {
             tip.kick((tip_force - force) * kick);
             far_field.kick((far_field_force + force) * kick);
+            self.rod.front.nodes.set_last(tip);
+            self.far_field.nodes.set(0, far_field);
             self.floor.speed = after;
             self.accumulated.contact_impulse += force * kick;
             self.accumulated.reflected_work += force * kick * echo_mean;
@@ -294,18 +296,20 @@ impl State {
         // The floor comes to rest on the way: tip and ground go on together, and the target has taken what they lose.
         let kinetic =
             tip.kinetic_energy() + far_field.kinetic_energy() + self.floor.kinetic_energy();
-        let momentum = tip.mass * tip.velocity
-            + far_field.mass * far_field.velocity
+        let momentum = tip.mass() * tip.velocity
+            + far_field.mass() * far_field.velocity
             + (tip_force + far_field_force) * kick;
-        let common = (momentum + far_field.mass * echo) / (tip.mass + far_field.mass);
+        let common = (momentum + far_field.mass() * echo) / (tip.mass() + far_field.mass());
         let below = common - echo;
         let work = kick
             * 0.5
             * (tip_force * (tip.velocity + common)
                 + far_field_force * (far_field.velocity + below));
-        let impulse = far_field.mass * (below - far_field.velocity) - far_field_force * kick;
+        let impulse = far_field.mass() * (below - far_field.velocity) - far_field_force * kick;
         tip.velocity = common;
         far_field.velocity = below;
+        self.rod.front.nodes.set_last(tip);
+        self.far_field.nodes.set(0, far_field);
         self.floor.speed = 0.0;
         let left = tip.kinetic_energy() + far_field.kinetic_energy();
         self.accumulated.contact_impulse += impulse;
@@ -336,7 +340,7 @@ impl State {
             .front
             .slices
             .last()
-            .is_some_and(|slice| slice.strain() >= limit)
+            .is_some_and(|slice| slice.strain >= limit)
         {
             let loss = self.rod.erode_tip();
             self.accumulated.eroded_energy += loss.energy;
@@ -355,7 +359,7 @@ impl State {
             .rear_face
             .as_ref()
             .map_or(0.0, |face| face.displacement);
-        self.far_field.nodes[0].position + echo + self.floor.depth
+        self.far_field.mouth().position + echo + self.floor.depth
     }
 
     /// Force on what holds the rear face [N].
@@ -395,7 +399,7 @@ impl State {
         };
         let mut momentum = MomentumLedger::default();
         momentum.initial = self.accumulated.initial_momentum;
-        momentum.projectile = self.rod.motion().1;
+        momentum.projectile = self.rod.momentum();
         momentum.target = self.far_field.momentum() + (passed - support);
         momentum.support = support;
         momentum.border_shear = 0.0;

@@ -43,10 +43,15 @@ fn elastic_rod(slices: usize) -> Rod {
 fn advance(rod: &mut Rod, step: f64) {
     rod.collect();
     rod.kick(step);
-    if let Some(tip) = rod.nodes.last_mut() {
-        tip.kick(tip.force * step);
-    }
+    kick_tip(rod, step);
     rod.drift(step).unwrap();
+}
+
+/// A tip that nothing pushes.
+fn kick_tip(rod: &mut Rod, step: f64) {
+    let mut tip = rod.tip().unwrap();
+    tip.kick(tip.whole_force() * step);
+    rod.nodes.set_last(tip);
 }
 
 /// Square of the circular frequency of waves of a wave number, over ρ: the lower root of
@@ -82,9 +87,9 @@ fn a_bar_vibrates_as_mindlin_and_herrmann_have_it() {
     for mode in [1.0, 3.0] {
         let mut rod = elastic_rod(200);
         let wave_number = mode * PI / LENGTH;
-        for node in &mut rod.nodes {
+        rod.nodes.change(|_, node| {
             node.velocity = (wave_number * (node.position + LENGTH)).cos();
-        }
+        });
         let exact = 2.0 * PI / (dispersion(&rod.metal, wave_number) / rod.metal.density).sqrt();
         let step = 0.5 * rod.stable_step(1.0);
         // Quarter periods of the tail: its velocity passes zero at 1/4 and at 17/4 of a period.
@@ -96,7 +101,7 @@ fn a_bar_vibrates_as_mindlin_and_herrmann_have_it() {
             let after: f64 = rod
                 .nodes
                 .iter()
-                .map(|n| n.mass * n.velocity * (wave_number * (n.position + LENGTH)).cos())
+                .map(|n| n.mass() * n.velocity * (wave_number * (n.position + LENGTH)).cos())
                 .sum();
             if before.signum() != after.signum() && time > step {
                 crossings.push(time - step * after / (after - before));
@@ -115,23 +120,20 @@ fn a_bar_vibrates_as_mindlin_and_herrmann_have_it() {
 fn momentum_peaks(control: &StepControl, slices: usize, half_periods: usize) -> Vec<f64> {
     let mut rod = elastic_rod(slices);
     let shape = |position: f64| (PI / LENGTH * (position + LENGTH)).cos();
-    for node in &mut rod.nodes {
-        node.velocity = shape(node.position);
-    }
+    rod.nodes
+        .change(|_, node| node.velocity = shape(node.position));
     let step = 0.3 * rod.stable_step(1.0);
     let (mut peaks, mut largest, mut before) = (Vec::new(), 0.0_f64, 1.0_f64);
     while peaks.len() < half_periods {
         rod.collect();
         rod.damp(control, 0.0);
         rod.kick(step);
-        if let Some(tip) = rod.nodes.last_mut() {
-            tip.kick(tip.whole_force() * step);
-        }
+        kick_tip(&mut rod, step);
         rod.drift(step).unwrap();
         let momentum: f64 = rod
             .nodes
             .iter()
-            .map(|n| n.mass * n.velocity * shape(n.position))
+            .map(|n| n.mass() * n.velocity * shape(n.position))
             .sum();
         if momentum.signum() != before.signum() {
             peaks.push(std::mem::take(&mut largest));
@@ -205,10 +207,10 @@ fn an_impact_begins_in_uniaxial_strain() {
     // Before a wave from the side arrives, the end of a rod that is stopped is under ρ c_p V.
     let mut rod = elastic_rod(800);
     let speed = 1.0;
-    for node in &mut rod.nodes {
-        node.velocity = speed;
-    }
-    rod.nodes.last_mut().unwrap().velocity = 0.0;
+    rod.nodes.change(|_, node| node.velocity = speed);
+    let mut tip = rod.tip().unwrap();
+    tip.velocity = 0.0;
+    rod.nodes.set_last(tip);
     let wave_speed = ((rod.metal.bulk_modulus + rod.metal.shear_modulus / 0.75) / 7850.0).sqrt();
     let step = 0.2 * rod.stable_step(1.0);
     let mut stresses = Vec::new();
