@@ -1,5 +1,6 @@
 //! Estimated cost of a run of `axi`, before it starts.
 
+use super::plan::on_cells;
 use crate::{Scenario, axi};
 
 /// Processor time that an axisymmetric answer may take unasked [s].
@@ -15,7 +16,6 @@ const STEPS: (f64, f64) = (30.0, 60.0);
 pub fn seconds(scenario: &Scenario, cells_per_radius: u32) -> f64 {
     let slenderness = scenario.projectile.length / scenario.projectile.diameter;
     let steps = f64::from(cells_per_radius) * (STEPS.0 + STEPS.1 * slenderness);
-    let mut scenario = scenario.clone();
-    scenario.options.axi.cells_per_radius = Some(cells_per_radius);
-    axi::particles(&scenario) as f64 * steps / RATE
+    let scenario = on_cells(scenario, cells_per_radius);
+    axi::particles(&scenario) * steps / RATE
 }

@@ -176,14 +176,14 @@ pub fn answer(
     Ok(found)
 }
 
-fn on_mesh(
+/// Result of one mesh.
+pub(crate) fn on_mesh(
     axi: &dyn Model,
     scenario: &Scenario,
     cells: u32,
     watch: &mut dyn FnMut(model::Progress) -> ControlFlow<()>,
 ) -> Result<(MeshResult, RunResult), Error> {
-    let mut scenario = scenario.clone();
-    scenario.options.axi.cells_per_radius = Some(cells);
+    let scenario = plan::on_cells(scenario, cells);
     let mut control = Control {
         progress: Some(watch),
         ..Control::default()
@@ -276,7 +276,7 @@ pub fn main_number(scenario: &Scenario, outcome: Outcome) -> BandQuantity {
 }
 
 /// Value of a number if the impact changed nothing, in the unit of its name.
-fn untouched(scenario: &Scenario, quantity: BandQuantity) -> f64 {
+pub(crate) fn untouched(scenario: &Scenario, quantity: BandQuantity) -> f64 {
     let si = match quantity {
         BandQuantity::ProjectileFinalLength => scenario.projectile.length,
         BandQuantity::ResidualVelocity => scenario.impact_velocity,

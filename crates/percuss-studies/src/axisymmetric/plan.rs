@@ -5,7 +5,10 @@ use std::ops::ControlFlow;
 use serde::Serialize;
 
 use super::{AxisymmetricAnswer, MODEL, answer, seconds};
-use crate::{Error, Refusal, Scenario, model};
+use crate::{
+    Error, Refusal, Scenario,
+    model::{self, memory},
+};
 
 /// Meshes of an axisymmetric answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -67,6 +70,11 @@ pub fn plan(
     let axi = model::model(MODEL).map_err(|error| Refusal::new(error.to_string()))?;
     model::applicability(axi, scenario)?;
     let all = reference.cells();
+    // The meshes are run side by side.
+    let memory = all.map(|cells| axi.memory(&on_cells(scenario, cells)));
+    if let Some(refusal) = memory::refusal(memory.iter().sum()) {
+        return Err(refusal);
+    }
     let cost = |cells: &[u32]| cells.iter().map(|&n| seconds(scenario, n)).sum::<f64>();
     let whole = cost(&all);
     let within = |cost: f64| budget.is_none_or(|budget| cost <= budget);
@@ -91,6 +99,13 @@ pub fn plan(
         });
     }
     Err(Refusal::new(format!("the runs take {}", expected(whole))).with_remedy(remedy))
+}
+
+/// A case on a mesh.
+pub(super) fn on_cells(scenario: &Scenario, cells_per_radius: u32) -> Scenario {
+    let mut scenario = scenario.clone();
+    scenario.options.axi.cells_per_radius = Some(cells_per_radius);
+    scenario
 }
 
 /// A time as `90 s`, `5 min` or `2 h`.

@@ -214,3 +214,25 @@ fn the_caller_can_stop_the_runs() {
     // Each run reports once at most before it stops.
     assert!((1..=3).contains(&calls), "{calls}");
 }
+
+/// Meshes that each fit into the limit of the memory are refused where they do not fit side by side.
+#[test]
+fn meshes_count_together_against_the_memory() {
+    let text = r#"
+        projectile = { material = "copper", length = "5 mm", diameter = "5 mm", impact_velocity = "200 m/s" }
+        target = { rigid_wall = true }
+    "#;
+    let mut scenario = case::load_str("long rod", text).unwrap();
+    let axi = model::model("axi").unwrap();
+    let memory = |scenario: &Scenario, cells: u32| axi.memory(&plan::on_cells(scenario, cells));
+    let limit = model::memory::memory_limit() as f64;
+    scenario.projectile.length *= 0.8 * limit / memory(&scenario, 6);
+    assert!(memory(&scenario, 6) < limit);
+    let reason = plan(&scenario, ReferenceMeshes::Standard, None).unwrap_err();
+    assert!(
+        reason
+            .to_string()
+            .contains("of memory, more than the limit"),
+        "{reason}"
+    );
+}

@@ -19,7 +19,9 @@
 //! # Ok::<(), percuss::Error>(())
 //! ```
 
+mod axisymmetric;
 mod calibrated;
+mod correction;
 mod diagnostics;
 mod fit;
 mod identifiability;
@@ -45,6 +47,7 @@ use std::{
 
 use serde::Serialize;
 
+pub use axisymmetric::CorrectionRecord;
 pub use calibrated::Calibrated;
 pub use diagnostics::{bulk_effective_size, r_hat, tail_effective_size};
 pub use identifiability::{Unidentified, Weakness};
@@ -56,7 +59,7 @@ pub use predictive::{Prediction, Quality};
 pub use problem::Problem;
 pub use record::{CalibratedRecord, records};
 pub use sampler::{Sample, Sampling};
-pub use stage::Stage;
+pub use stage::{Stage, Stages};
 
 use crate::Error;
 
@@ -122,6 +125,8 @@ pub struct Calibration {
     pub seed: u64,
     /// Runs of the model.
     pub runs: u64,
+    /// How the model was corrected to axisymmetric answers; null where it was not.
+    pub correction: Option<CorrectionRecord>,
     /// What was fitted.
     pub parameters: Vec<ParameterRecord>,
     /// Scatter of the measured values.
@@ -224,6 +229,7 @@ pub fn run(
             .map(Marginal::exponential),
     };
     let mut warnings = fit.warnings.clone();
+    warnings.extend(problem.correction.and_then(|record| record.warning()));
     warnings.extend(not_blind(problem));
     warnings.extend(posterior::warnings(&parameters, &scatter));
     Ok(Calibration {
@@ -231,6 +237,7 @@ pub fn run(
         model: problem.model.name(),
         seed: settings.seed,
         runs: problem.runs.load(Ordering::Relaxed),
+        correction: problem.correction,
         parameters,
         scatter,
         correlations: correlations

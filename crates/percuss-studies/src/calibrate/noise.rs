@@ -9,7 +9,8 @@ use super::Observation;
 /// Scatter of measured values about the model, Gaussian and independent.
 ///
 /// The variance of a value is `u² + (s c)²`: u is its stated standard deviation, 0 where there is none; s is a relative scatter that
-/// stands for test and model alike; c is the measured value, or the impact velocity for a residual velocity.
+/// stands for test and model alike; c is the measured value, or the impact velocity for a residual velocity. Where the model is corrected
+/// to axisymmetric answers, their discretisation uncertainty counts to u.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Noise {
@@ -56,7 +57,8 @@ impl FromStr for Noise {
 /// Standard deviation of a measured value for a relative scatter [m or m/s].
 pub(super) fn deviation(observation: &Observation, scatter: f64) -> f64 {
     let stated = observation.uncertainty.unwrap_or(0.0);
-    stated.hypot(scatter * observation.scale())
+    let of_meshes = observation.correction.map_or(0.0, |c| c.first.uncertainty);
+    stated.hypot(of_meshes).hypot(scatter * observation.scale())
 }
 
 /// The scatter with which residuals (model less measured) have as many standard deviations, squared and summed, as there are degrees

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Fitted, problem::refuse};
+use super::{Fitted, correction::Correction, problem::refuse};
 use crate::{
     Error, Scenario,
     case::{self, Document, Template},
@@ -30,6 +30,7 @@ pub struct Observation {
     /// Whether it is kept out of the fit, to test it.
     pub held_out: bool,
     pub(super) template: Template,
+    pub(super) correction: Option<Correction>,
 }
 
 /// A measured value that is not used.
@@ -75,6 +76,7 @@ impl Observations {
                 uncertainty: experiment.uncertainty,
                 held_out: false,
                 template: template.clone(),
+                correction: None,
             });
         }
         Ok(())
@@ -127,6 +129,7 @@ impl Observations {
                 uncertainty: test.uncertainty,
                 held_out: false,
                 template: Template::of_case(&test.id, &test.case(&record, library), library)?,
+                correction: None,
             });
         }
         Ok(())
@@ -193,6 +196,12 @@ impl Observation {
             words.collect::<Vec<_>>().join("; ")
         })?;
         Ok(scenario.at_impact_velocity(self.impact_velocity))
+    }
+
+    /// What is predicted for it where the model gives a value [m or m/s].
+    pub(super) fn predicted(&self, model: f64) -> f64 {
+        self.correction
+            .map_or(model, |correction| correction.of(self.quantity, model))
     }
 
     /// What a relative scatter is a part of: the measured value, or the impact velocity for a residual velocity, which may be 0.

@@ -35,10 +35,12 @@ pub struct Prediction {
     pub measured: f64,
     /// Its standard deviation, where it is stated.
     pub uncertainty: Option<f64>,
-    /// What the model gives for the case as it is written.
+    /// What the model gives for the case as it is written, uncorrected.
     pub before: Option<f64>,
-    /// What it gives with the best values.
+    /// What it gives with the best values, corrected where the calibration is.
     pub best: Option<f64>,
+    /// Axisymmetric answer at the values of the last round, and its discretisation uncertainty; null without a correction.
+    pub axisymmetric: Option<[f64; 2]>,
     /// `(best − measured)/measured`, relative to the impact velocity for a residual velocity.
     pub relative_error: Option<f64>,
     /// Where the model's value lies with a probability of 95 %, the parameters being uncertain.
@@ -149,6 +151,9 @@ pub(super) fn predictions(
             uncertainty: observation.uncertainty.map(unit),
             before: problem.as_written(observation).map(unit),
             best: found.map(unit),
+            axisymmetric: observation
+                .correction
+                .map(|c| [c.value, c.first.uncertainty].map(unit)),
             relative_error: found.map(|value| (value - observation.measured) / observation.scale()),
             model_band: band(&|probability| quantile(&model, probability))
                 .map(|[low, _, high]| [low, high]),

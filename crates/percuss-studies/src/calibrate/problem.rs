@@ -11,7 +11,7 @@ use std::{
 use rayon::prelude::*;
 
 use super::{
-    Fitted, LeftOut, Noise, Observation, Observations, cancelled,
+    CorrectionRecord, Fitted, LeftOut, Noise, Observation, Observations, cancelled,
     least_squares::{Bounds, Unable},
     noise::{SCATTER, deviation},
 };
@@ -35,6 +35,7 @@ pub struct Problem {
     pub noise: Noise,
     pub(super) stop: Arc<AtomicBool>,
     pub(super) runs: AtomicU64,
+    pub(super) correction: Option<CorrectionRecord>,
 }
 
 /// Why a model gives no value.
@@ -95,29 +96,36 @@ impl Problem {
             noise,
             stop,
             runs: AtomicU64::new(0),
+            correction: None,
         };
         problem.leave_out()?;
-        let training = problem.training().count();
+        problem.check_count()?;
+        Ok(problem)
+    }
+
+    /// Makes sure that there are enough values to fit to.
+    pub(super) fn check_count(&self) -> Result<(), Error> {
+        let training = self.training().count();
         if training == 0 {
             return Err(refuse(
                 "there is no measured value to fit to".to_owned(),
-                match problem.left_out.last() {
+                match self.left_out.last() {
                     Some(left) => format!("`{}`, for example, is left out: {}", left.id, left.reason),
                     None => "give cases with [[experiments]], or --data with tests of the material that is fitted".to_owned(),
                 },
             ));
         }
-        if noise == Noise::Estimated && training <= problem.fitted.len() {
+        if self.noise == Noise::Estimated && training <= self.fitted.len() {
             return Err(refuse(
                 format!(
                     "{training} measured values cannot give {} parameters and their own scatter",
-                    problem.fitted.len()
+                    self.fitted.len()
                 ),
                 "add data, fit fewer parameters, or give the scatter with --noise \"2 %\""
                     .to_owned(),
             ));
         }
-        Ok(problem)
+        Ok(())
     }
 
     /// Leaves out what the model does not give and what has no standard deviation.
@@ -179,7 +187,7 @@ impl Problem {
         self.fitted.iter().map(Fitted::bounds).collect()
     }
 
-    /// What the model gives for a measured value [m or m/s].
+    /// What the model gives for a measured value, corrected where it is [m or m/s].
     pub(super) fn prediction(
         &self,
         observation: &Observation,
@@ -188,16 +196,21 @@ impl Problem {
         let scenario = observation
             .scenario(&self.fitted, values)
             .map_err(Silent::Here)?;
-        self.compute(&scenario, observation.quantity)
+        let value = self.compute(&scenario, observation.quantity)?;
+        Ok(observation.predicted(value))
     }
 
-    /// What the model gives for the case as it is written.
+    /// What the model gives for the case as it is written, uncorrected [m or m/s].
     pub(super) fn as_written(&self, observation: &Observation) -> Option<f64> {
         let scenario = observation.scenario(&[], &[]).ok()?;
         self.compute(&scenario, observation.quantity).ok()
     }
 
-    fn compute(&self, scenario: &Scenario, quantity: BandQuantity) -> Result<f64, Silent> {
+    pub(super) fn compute(
+        &self,
+        scenario: &Scenario,
+        quantity: BandQuantity,
+    ) -> Result<f64, Silent> {
         let mut observer = |_| match self.stop.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),

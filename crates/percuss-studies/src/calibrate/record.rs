@@ -135,8 +135,12 @@ fn stamped(problem: &Problem, calibration: &Calibration, id: &str, material: Mat
             format!(" Caution: {}.", words.join("; "))
         }
     };
+    let corrected = match calibration.correction {
+        Some(_) => ", corrected to axisymmetric answers",
+        None => "",
+    };
     let note = format!(
-        "Calibrated from {} of {} with the model `{}` (percuss {}, seed {}): {}. RMS relative error {:.1} %.{determined} \
+        "Calibrated from {} of {} with the model `{}`{corrected} (percuss {}, seed {}): {}. RMS relative error {:.1} %.{determined} \
          The other constants are those of `{id}`{others}",
         counted(tests.len()),
         sources.join(", "),
