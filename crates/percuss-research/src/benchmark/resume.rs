@@ -13,6 +13,7 @@ use std::{
 
 use percuss::{
     Error,
+    input_file::{self, MAX_TABLE_BYTES},
     model::{Control, Progress},
 };
 use serde::{Serialize, de::DeserializeOwned};
@@ -40,13 +41,13 @@ pub type Report<'a, Row> = dyn Fn(usize, usize, Result<&Row, String>) + Sync + '
 /// # Errors
 /// [`Error::Read`].
 pub(crate) fn rows<Row: DeserializeOwned>(file: &Path) -> Result<Vec<Row>, Error> {
-    match std::fs::File::open(file) {
+    match input_file::open(file, MAX_TABLE_BYTES) {
         Ok(text) => csv::Reader::from_reader(text)
             .deserialize()
             .collect::<Result<_, _>>()
             .map_err(|error| unreadable(file, &error)),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(Vec::new()),
-        Err(error) => Err(unreadable(file, &error)),
+        Err(error) => Err(input_file::unreadable(file, error)),
     }
 }
 
