@@ -15,6 +15,10 @@ use crate::{ReportError, column::File};
 /// # Errors
 /// [`ReportError::Write`].
 pub fn replace_file(folder: &Path, name: &str, content: &[u8]) -> Result<PathBuf, ReportError> {
+    fs::create_dir_all(folder).map_err(|source| ReportError::Write {
+        path: folder.to_owned(),
+        source,
+    })?;
     replace(folder, name, |file| file.write_all(content))
 }
 
@@ -29,7 +33,9 @@ pub fn replace_files(folder: &Path, files: Vec<File>) -> Result<Vec<PathBuf>, Re
         .collect()
 }
 
-/// Writes a file as [`replace_file`] does, and it is on the disk when this returns: it outlives a loss of power.
+/// Writes a file as [`replace_file`] does in a folder that is there, and it is on the disk when this returns: it outlives a loss of power.
+///
+/// A folder that someone removed is not made again: it would lack whatever else it held.
 pub(crate) fn replace_file_durably(
     folder: &Path,
     name: &str,
@@ -64,10 +70,6 @@ fn replace(
     write: impl FnOnce(&mut fs::File) -> io::Result<()>,
 ) -> Result<PathBuf, ReportError> {
     static COUNTER: AtomicU64 = AtomicU64::new(0);
-    fs::create_dir_all(folder).map_err(|source| ReportError::Write {
-        path: folder.to_owned(),
-        source,
-    })?;
     let path = folder.join(name);
     let number = COUNTER.fetch_add(1, Ordering::Relaxed);
     let temporary = folder.join(format!(".{name}.{}-{number}.tmp", process::id()));

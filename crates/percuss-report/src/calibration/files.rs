@@ -88,6 +88,10 @@ fn prediction_columns() -> Vec<Column<Prediction>> {
         end("uncertainty", |p| p.uncertainty),
         end("before", |p| p.before),
         end("best", |p| p.best),
+        end("axisymmetric", |p| p.axisymmetric.map(|[value, _]| value)),
+        end("axisymmetric_uncertainty", |p| {
+            p.axisymmetric.map(|[_, uncertainty]| uncertainty)
+        }),
         end("relative_error", |p| p.relative_error),
         end("model_2_5", |p| p.model_band.map(|band| band[0])),
         end("model_97_5", |p| p.model_band.map(|band| band[1])),

@@ -6,7 +6,11 @@ use std::{
     sync::Mutex,
 };
 
-use percuss::{Scenario, scenario::TargetBody};
+use percuss::{
+    Scenario,
+    input_file::{self, MAX_OWN_BYTES},
+    scenario::TargetBody,
+};
 use rayon::prelude::*;
 
 use super::{
@@ -146,7 +150,7 @@ fn clear(folder: &Path) {
 }
 
 fn read(file: &Path, quantity: FieldQuantity) -> Result<Points, ReportError> {
-    let bytes = fs::read(file).map_err(|error| ReportError::Read {
+    let bytes = input_file::bytes(file, MAX_OWN_BYTES).map_err(|error| ReportError::Read {
         path: file.to_owned(),
         reason: error.to_string(),
     })?;

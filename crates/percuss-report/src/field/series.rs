@@ -6,7 +6,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use percuss::frames::Frame;
+use percuss::{
+    frames::Frame,
+    input_file::{self, MAX_TABLE_BYTES},
+};
 
 use super::{FrameSelection, vtp};
 use crate::{ReportError, replace_file::replace_file};
@@ -44,7 +47,7 @@ impl FieldSeries {
     /// # Errors
     /// [`ReportError::Write`].
     pub fn resume(folder: &Path, most: usize, time: f64) -> Result<Self, ReportError> {
-        let text = fs::read_to_string(folder.join(COLLECTION)).unwrap_or_default();
+        let text = input_file::text(&folder.join(COLLECTION), MAX_TABLE_BYTES).unwrap_or_default();
         let (entries, later): (Vec<Entry>, Vec<Entry>) = text
             .lines()
             .filter_map(Entry::read)

@@ -2,20 +2,23 @@
 
 use std::path::{Path, PathBuf};
 
-use percuss::sweep::{AxisymmetricRow, Sweep};
+use percuss::{
+    input_file::{self, MAX_TABLE_BYTES},
+    sweep::{AxisymmetricRow, Sweep},
+};
 
 use crate::{ReportError, replace_file::replace_file};
 
 /// Error of the CSV writer.
 fn table(source: csv::Error) -> ReportError {
     ReportError::Table {
-        table: FILE.to_owned(),
+        table: NAME.to_owned(),
         source: source.into(),
     }
 }
 
 /// Name of the file.
-const FILE: &str = "axisymmetric.csv";
+pub(super) const NAME: &str = "axisymmetric.csv";
 
 /// Axisymmetric answers in a folder of a sweep: `axisymmetric.csv`, one row per run, replaced as each row is added.
 #[derive(Debug)]
@@ -48,7 +51,7 @@ impl AxisymmetricFile {
             heading,
             rows: Vec::new(),
         };
-        let path = folder.join(FILE);
+        let path = folder.join(NAME);
         if path.exists() {
             file.read(&path).map_err(|reason| ReportError::Sweep {
                 path,
@@ -61,7 +64,8 @@ impl AxisymmetricFile {
 
     fn read(&mut self, path: &Path) -> Result<(), String> {
         let words = |error: csv::Error| error.to_string();
-        let mut reader = csv::Reader::from_path(path).map_err(words)?;
+        let file = input_file::open(path, MAX_TABLE_BYTES).map_err(|error| error.to_string())?;
+        let mut reader = csv::Reader::from_reader(file);
         if reader.headers().map_err(words)? != self.heading.as_slice() {
             return Err("its columns are not those of this sweep".to_owned());
         }
@@ -119,6 +123,6 @@ impl AxisymmetricFile {
         let content = text
             .into_inner()
             .map_err(|error| table(error.into_error().into()))?;
-        replace_file(&self.folder, FILE, &content)
+        replace_file(&self.folder, NAME, &content)
     }
 }

@@ -1,6 +1,6 @@
-//! Checksum and identity of the file of a block, which reveal damaged and foreign files.
+//! Checksum and identity of the files of a sweep's folder, which reveal damaged and foreign files.
 //!
-//! Both are in the key-value metadata of the Parquet file, which readers ignore.
+//! Those of a block are in the key-value metadata of the Parquet file, which readers ignore.
 
 use flate2::Crc;
 
@@ -16,11 +16,20 @@ const OPEN: &[u8] = b"00000000";
 
 /// The notes that a block's file gets; the checksum is open until [`close`].
 pub(super) fn notes(manifest: &Manifest, block: u64) -> [(&'static str, String); 2] {
-    let open = [MARK, OPEN].concat();
-    [
-        (BLOCK, block_name(manifest, block)),
-        (CHECKSUM, String::from_utf8_lossy(&open).into_owned()),
-    ]
+    [(BLOCK, block_name(manifest, block)), (CHECKSUM, open())]
+}
+
+/// The open checksum of a file that is not complete yet.
+pub(super) fn open() -> String {
+    String::from_utf8_lossy(&[MARK, OPEN].concat()).into_owned()
+}
+
+/// A text with its open checksum computed.
+pub(super) fn closed(text: String) -> String {
+    let mut bytes = text.into_bytes();
+    close(&mut bytes);
+    // Digits take the place of digits.
+    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 /// Writes the checksum of all the file (CRC-32, with its own digits as zeros) into it.

@@ -9,7 +9,10 @@ use std::{
 
 use bytes::Bytes;
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use percuss::sweep::{Kernel, Sweep, SweepRow};
+use percuss::{
+    input_file::{self, MAX_OWN_BYTES},
+    sweep::{Kernel, Sweep, SweepRow},
+};
 use rayon::prelude::*;
 
 use super::{
@@ -20,7 +23,7 @@ use super::{
 use crate::{ReportError, column, replace_file::replace_file_durably};
 
 /// Name of the file that the computing process holds locked; the system lets go of it however the process ends.
-const LOCK: &str = "lock";
+pub(super) const LOCK: &str = "lock";
 
 /// A folder that this process alone writes results to.
 #[derive(Debug)]
@@ -141,6 +144,10 @@ impl SweepFolder {
             .with_max_len(1)
             .try_for_each(|block| self.compute_block(sweep, kernel, *block, stop, done));
         match result {
+            Ok(()) if !self.path.join(manifest::NAME).exists() => Err(ReportError::Write {
+                path: self.path.clone(),
+                source: std::io::Error::new(ErrorKind::NotFound, "the folder was removed"),
+            }),
             Ok(()) => Ok(true),
             Err(None) => Ok(false),
             Err(Some(error)) => Err(error),
@@ -233,7 +240,7 @@ pub fn status(path: &Path) -> Result<Status, ReportError> {
         done: Vec::new(),
         damaged: Vec::new(),
         // A folder that cannot be written to cannot be computed either.
-        running: File::open(path.join(LOCK))
+        running: input_file::open(&path.join(LOCK), MAX_OWN_BYTES)
             .is_ok_and(|lock| matches!(lock.try_lock_shared(), Err(TryLockError::WouldBlock))),
         manifest,
     };
@@ -265,7 +272,7 @@ pub(super) enum State {
 
 /// What there is of a block. Its checksum tells whether a byte was lost or changed, its name whether it is this block.
 pub(super) fn state(folder: &Path, manifest: &Manifest, block: u64) -> State {
-    let content = match fs::read(folder.join(block_file(block))) {
+    let content = match input_file::bytes(&folder.join(block_file(block)), MAX_OWN_BYTES) {
         Ok(content) => content,
         Err(error) if error.kind() == ErrorKind::NotFound => return State::Missing,
         Err(_) => return State::Damaged,
@@ -295,6 +302,11 @@ fn state_of(content: Bytes, manifest: &Manifest, block: u64) -> State {
 }
 
 fn lock_file(folder: &Path) -> std::io::Result<File> {
+    // A pipe in its place would block.
+    match input_file::open(&folder.join(LOCK), MAX_OWN_BYTES) {
+        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+        _ => {}
+    }
     File::options()
         .create(true)
         .truncate(false)

@@ -1,11 +1,14 @@
 //! Manifest of a folder: identity of its sweep.
 
-use std::{fs, path::Path};
+use std::path::Path;
 
-use percuss::sweep::{Axis, Sweep};
+use percuss::{
+    input_file::{self, MAX_TABLE_BYTES},
+    sweep::{Axis, Sweep},
+};
 use serde::{Deserialize, Serialize};
 
-use super::columns::columns;
+use super::{checksum, columns::columns};
 use crate::ReportError;
 
 /// Name of the file.
@@ -77,7 +80,7 @@ impl Manifest {
             kind: column.kind().to_owned(),
         };
         Self {
-            format: 2,
+            format: 3,
             percuss_version: env!("CARGO_PKG_VERSION").to_owned(),
             title: sweep.title.clone(),
             case: sweep.case().to_owned(),
@@ -106,15 +109,23 @@ impl Manifest {
     /// Reads the manifest of a folder; `None` when it has none.
     pub(super) fn read(folder: &Path) -> Result<Option<Self>, ReportError> {
         let path = folder.join(NAME);
-        let text = match fs::read_to_string(&path) {
-            Ok(text) => text,
+        let bytes = match input_file::bytes(&path, MAX_TABLE_BYTES) {
+            Ok(bytes) => bytes,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             Err(error) => {
                 let reason = error.to_string();
                 return Err(ReportError::Read { path, reason });
             }
         };
-        match serde_json::from_str::<Self>(&text) {
+        if !checksum::is_whole(&bytes) {
+            return Err(ReportError::Sweep {
+                path,
+                reason: "it is damaged: its checksum is that of another content".to_owned(),
+                remedy: "remove it: `percuss sweep SWEEP.toml --out DIR --resume` writes it again and keeps the whole blocks"
+                    .to_owned(),
+            });
+        }
+        match serde_json::from_slice::<Self>(&bytes) {
             Ok(manifest) if manifest.block_size > 0 && manifest.shots > 0 => Ok(Some(manifest)),
             Ok(_) => Err(unreadable(&path, "it counts no shots")),
             Err(error) => Err(unreadable(&path, &error.to_string())),
@@ -122,8 +133,20 @@ impl Manifest {
     }
 
     pub(super) fn text(&self) -> String {
+        /// The manifest and its checksum, in one object.
+        #[derive(Serialize)]
+        struct Checked<'a> {
+            #[serde(flatten)]
+            manifest: &'a Manifest,
+            checksum: String,
+        }
+        let checked = Checked {
+            manifest: self,
+            checksum: checksum::open(),
+        };
         // Numbers and texts always make JSON.
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+        let text = serde_json::to_string_pretty(&checked).unwrap_or_default() + "\n";
+        checksum::closed(text)
     }
 
     /// What another manifest says otherwise, in words: the first difference.

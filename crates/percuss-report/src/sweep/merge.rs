@@ -1,7 +1,7 @@
 //! Merge of all rows into one file.
 
 use std::{
-    fs::File,
+    fs::{self, File},
     io,
     path::{Path, PathBuf},
     sync::Arc,
@@ -18,7 +18,9 @@ use parquet::{
     },
 };
 
-use super::{block_file, manifest::Manifest, parts::Parts};
+use percuss::input_file::{self, MAX_OWN_BYTES};
+
+use super::{block_file, is_sweep_file, manifest::Manifest, parts::Parts};
 use crate::{ReportError, replace_file::replace_file_durably};
 
 /// Joins the blocks of folders that hold parts of one sweep into one Parquet file, in the order of the shots: a row group a
@@ -47,6 +49,17 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<u64, ReportError> {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     };
+    if is_part(folders, folder, &name) {
+        return Err(ReportError::Sweep {
+            path: out.to_owned(),
+            reason: "this is a file of a folder that is merged".to_owned(),
+            remedy: "give `--out` another name".to_owned(),
+        });
+    }
+    fs::create_dir_all(folder).map_err(|source| ReportError::Write {
+        path: folder.to_owned(),
+        source,
+    })?;
     replace_file_durably(folder, &name, |file| {
         // What is wrong with the blocks comes out as an error of the system too: their footers were read before.
         join(&files, &parts.manifest, file).map_err(io::Error::other)
@@ -54,10 +67,21 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<u64, ReportError> {
     Ok(parts.manifest.shots)
 }
 
+/// Whether a name in a folder is that of a file that a sweep's folder holds, one of `folders`.
+fn is_part(folders: &[PathBuf], folder: &Path, name: &str) -> bool {
+    let real = |path: &Path| path.canonicalize().ok();
+    let is_merged = folders
+        .iter()
+        .any(|merged| real(merged).is_some_and(|merged| Some(merged) == real(folder)));
+    is_merged && is_sweep_file(name)
+}
+
 /// Copies the encoded columns: nothing is decoded, and memory stays flat.
 fn join(files: &[PathBuf], manifest: &Manifest, out: &mut File) -> Result<(), ParquetError> {
-    let open =
-        |path: &PathBuf| File::open(path).map_err(|error| ParquetError::General(error.to_string()));
+    let open = |path: &PathBuf| {
+        input_file::open(path, MAX_OWN_BYTES)
+            .map_err(|error| ParquetError::General(error.to_string()))
+    };
     let Some(first) = files.first() else {
         return Ok(());
     };

@@ -27,3 +27,9 @@ pub use table::rows_csv;
 fn block_file(block: u64) -> String {
     format!("block-{block:06}.parquet")
 }
+
+/// Whether a file of this name belongs to the folder of a sweep.
+fn is_sweep_file(name: &str) -> bool {
+    let is_block = name.starts_with("block-") && name.ends_with(".parquet");
+    is_block || [manifest::NAME, folder::LOCK, axisymmetric::NAME].contains(&name)
+}

@@ -1,6 +1,6 @@
 //! Reading a few columns of a sweep.
 
-use std::{fs::File, path::Path};
+use std::path::Path;
 
 use parquet::{
     column::reader::ColumnReader,
@@ -9,6 +9,7 @@ use parquet::{
     file::reader::{FileReader, SerializedFileReader},
 };
 use percuss::{
+    input_file::{self, MAX_OWN_BYTES},
     outcome::Outcome,
     sweep::{Sweep, SweepRow},
 };
@@ -83,7 +84,7 @@ impl Rows {
 
     fn add(&mut self, parts: &Parts<'_>, quantity: &str, path: &Path) -> Result<(), ParquetError> {
         let manifest = &parts.manifest;
-        let reader = SerializedFileReader::new(File::open(path)?)?;
+        let reader = SerializedFileReader::new(input_file::open(path, MAX_OWN_BYTES)?)?;
         let group = reader.get_row_group(0)?;
         let column = |name: &str| {
             let mut names = manifest.columns.iter();
@@ -114,7 +115,7 @@ impl Rows {
 
 /// Whether a column of a block has any number; the file says so without being read.
 pub(super) fn has_numbers(path: &Path, column: usize) -> bool {
-    let reader = File::open(path).map(SerializedFileReader::new);
+    let reader = input_file::open(path, MAX_OWN_BYTES).map(SerializedFileReader::new);
     reader.is_ok_and(|reader| {
         reader.is_ok_and(|reader| {
             let group = reader.metadata().row_group(0);
