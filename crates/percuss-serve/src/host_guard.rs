@@ -9,7 +9,7 @@ use axum::{
     response::{IntoResponse, Response},
 };
 
-use crate::{Options, http, problem::Problem};
+use crate::{Options, connection::Visitor, http, problem::Problem};
 
 /// Name of the cookie that holds the token.
 const COOKIE: &str = "percuss_token";
@@ -43,7 +43,12 @@ impl HostGuard {
         next: Next,
     ) -> Response {
         let mut response = match guard.check(request.method(), request.uri(), request.headers()) {
-            Ok(()) => next.run(request).await,
+            Ok(()) => {
+                if let Some(visitor) = request.extensions().get::<Visitor>() {
+                    visitor.welcome();
+                }
+                next.run(request).await
+            }
             Err(refusal) => *refusal,
         };
         http::protect(response.headers_mut());

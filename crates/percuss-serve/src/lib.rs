@@ -15,6 +15,7 @@
 
 mod assets;
 mod cases;
+mod connection;
 mod constants;
 mod edit;
 mod events;

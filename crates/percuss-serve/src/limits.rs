@@ -14,8 +14,14 @@ pub(crate) const LARGEST_READ_BODY: usize = 4 << 20;
 pub(crate) const ARRIVAL: Duration = Duration::from_secs(10);
 /// Largest time that a request waits for a worker.
 pub(crate) const QUEUE_TIME: Duration = Duration::from_secs(3);
-/// Largest number of connections.
+/// Largest number of connections, of those whose client has not shown the token of the server, and of the latter from one peer.
 pub(crate) const CONNECTIONS: usize = 256;
+pub(crate) const CONNECTIONS_OF_PEER: usize = 64;
+pub(crate) const CONNECTIONS_WITHOUT_TOKEN: usize = 192;
+/// Largest time that a client may keep the server waiting before it takes a response.
+pub(crate) const PATIENCE: Duration = Duration::from_secs(10);
+/// Largest time of a connection whose client does not show the token.
+pub(crate) const INTRODUCTION: Duration = Duration::from_secs(20);
 /// Largest number of layers.
 const LAYERS: usize = 40;
 /// Largest number of cells along the radius of a projectile.

@@ -164,8 +164,11 @@ async fn body(request: Request) -> Result<Vec<u8>, Problem> {
         )
     };
     match time::timeout(ARRIVAL, whole(request.into_body())).await {
-        Ok(Some(bytes)) => Ok(bytes),
-        Ok(None) => Err(too_large()),
+        Ok(Ok(bytes)) => Ok(bytes),
+        Ok(Err(Unread::TooLarge)) => Err(too_large()),
+        Ok(Err(Unread::Broken)) => Err(Problem::bad_request(
+            "the body of the request is broken".to_owned(),
+        )),
         Err(_) => Err(Problem::with_status(
             StatusCode::REQUEST_TIMEOUT,
             &format!(
@@ -177,22 +180,31 @@ async fn body(request: Request) -> Result<Vec<u8>, Problem> {
     }
 }
 
-/// Whole body; `None` if it is too large or incomplete.
-async fn whole(mut body: Body) -> Option<Vec<u8>> {
+/// Why a body is not read.
+enum Unread {
+    TooLarge,
+    Broken,
+}
+
+/// Whole body.
+async fn whole(mut body: Body) -> Result<Vec<u8>, Unread> {
     let (mut bytes, mut length) = (Vec::new(), 0_usize);
     while let Some(frame) = poll_fn(|context| Pin::new(&mut body).poll_frame(context)).await {
-        let Ok(data) = frame.ok()?.into_data() else {
+        let Ok(data) = frame.map_err(|_| Unread::Broken)?.into_data() else {
             continue;
         };
         length += data.len();
         if length > LARGEST_READ_BODY {
-            return None;
+            return Err(Unread::TooLarge);
         }
         if length <= BODY {
             bytes.extend_from_slice(&data);
         }
     }
-    (length <= BODY).then_some(bytes)
+    match length <= BODY {
+        true => Ok(bytes),
+        false => Err(Unread::TooLarge),
+    }
 }
 
 /// Reads a request.

@@ -1,9 +1,9 @@
 //! The server: address, routes and connections.
 
-use std::{net::SocketAddr, sync::Arc, time::Duration};
+use std::{future, net::SocketAddr, sync::Arc, time::Duration};
 
 use axum::{
-    Router,
+    Extension, Router,
     extract::FromRef,
     middleware,
     response::IntoResponse,
@@ -15,14 +15,15 @@ use hyper_util::{
     service::TowerToHyperService,
 };
 use tokio::{
-    net::TcpListener,
+    net::{TcpListener, TcpStream},
     runtime::{Builder, Runtime},
-    sync::Semaphore,
     time,
 };
 
 use crate::{
-    Options, ServeError, assets, cases, files,
+    Options, ServeError, assets, cases,
+    connection::{Patient, Place, Places},
+    files,
     host_guard::HostGuard,
     index::Index,
     job::{Stop, Workers},
@@ -157,27 +158,44 @@ fn routes(shared: Shared, guard: HostGuard) -> Router {
 
 /// Accepts connections, a limited number at a time.
 async fn accept(listener: TcpListener, routes: Router) -> ! {
-    let places = Arc::new(Semaphore::new(limits::CONNECTIONS));
+    let places = Places::new();
     loop {
-        // The semaphore is never closed.
-        let Ok(place) = Arc::clone(&places).acquire_owned().await else {
+        let Some(free) = places.free().await else {
             continue;
         };
-        let Ok((stream, _)) = listener.accept().await else {
+        let Ok((stream, peer)) = listener.accept().await else {
             time::sleep(PAUSE).await;
             continue;
         };
-        // Without this option small responses are delayed.
-        let _ = stream.set_nodelay(true);
-        let service = TowerToHyperService::new(routes.clone());
-        tokio::spawn(async move {
-            let _place = place;
-            // A broken connection needs no action.
-            let _ = http1::Builder::new()
-                .timer(TokioTimer::new())
-                .header_read_timeout(limits::ARRIVAL)
-                .serve_connection(TokioIo::new(stream), service)
-                .await;
-        });
+        // Where the peer has its share, the connection is closed.
+        if let Some(place) = places.give(free, peer.ip()) {
+            tokio::spawn(serve(stream, place, routes.clone()));
+        }
+    }
+}
+
+/// Serves a connection to its end. A client that does not show the token is given up after a while.
+async fn serve(stream: TcpStream, place: Place, routes: Router) {
+    // Without this option small responses are delayed.
+    let _ = stream.set_nodelay(true);
+    let visitor = place.visitor();
+    let service = TowerToHyperService::new(routes.layer(Extension(visitor.clone())));
+    let connection = http1::Builder::new()
+        .timer(TokioTimer::new())
+        .header_read_timeout(limits::ARRIVAL)
+        .serve_connection(
+            TokioIo::new(Patient::new(stream, limits::PATIENCE)),
+            service,
+        );
+    let introduction = async {
+        time::sleep(limits::INTRODUCTION).await;
+        if visitor.is_known() {
+            future::pending::<()>().await;
+        }
+    };
+    // A broken connection needs no action.
+    tokio::select! {
+        _ = connection => {}
+        () = introduction => {}
     }
 }

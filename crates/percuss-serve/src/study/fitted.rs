@@ -11,6 +11,7 @@ use std::{
 use percuss::{
     calibrate::{
         Calibrated, Fitted, Noise, Observations, Problem as Calibration, Sampling, Settings, Stage,
+        Stages,
     },
     case::Document,
 };
@@ -72,9 +73,13 @@ pub(super) fn fitted(job: &Job<'_>) -> Result<Study, Problem> {
     few(observations.used.len(), MOST_VALUES, "measured values")?;
 
     let ended = Arc::new(AtomicBool::new(false));
+    let stages = Stages {
+        sampled: steps.is_some(),
+        ..Stages::default()
+    };
     let hear = |stage: Stage, part: f64, runs: u64| {
         job.events
-            .progress(stage.of_whole(part, steps.is_some()), &stage.describe(runs));
+            .progress(stages.of_whole(stage, part), &stage.describe(runs));
         match ended.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),

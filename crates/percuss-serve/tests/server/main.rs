@@ -1,6 +1,7 @@
 //! A server on a free port, asked by its own page and by others.
 
 mod calibrations;
+mod connections;
 mod host_guard;
 mod limits;
 mod refinement;

@@ -31,6 +31,12 @@ fn bodies_have_a_size_and_a_form() {
     }
     chunked.extend_from_slice(b"0\r\n\r\n");
     assert_eq!(served.raw(&chunked).status, 413);
+    // A length that is none.
+    let place = chunked.windows(6).position(|part| part == b"4000\r\n");
+    chunked.truncate(place.unwrap());
+    chunked.extend_from_slice(b"zz\r\n{}\r\n0\r\n\r\n");
+    let broken = served.raw(&chunked);
+    assert_eq!(broken.status, 400, "{}", broken.text());
     let deep = "[".repeat(100_000);
     let nested = format!("{{\"case\":{deep}");
     for bad in [

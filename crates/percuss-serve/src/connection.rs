@@ -1,0 +1,226 @@
+//! Connections: how many, from whom, and for how long they may keep the server waiting.
+
+#[cfg(test)]
+#[path = "connection_tests.rs"]
+mod tests;
+
+use std::{
+    collections::HashMap,
+    io,
+    net::IpAddr,
+    pin::Pin,
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    task::{Context, Poll},
+    time::Duration,
+};
+
+use tokio::{
+    io::{AsyncRead, AsyncWrite, ReadBuf},
+    sync::{OwnedSemaphorePermit, Semaphore},
+    time::{Instant, Sleep, sleep_until},
+};
+
+use crate::limits::{CONNECTIONS, CONNECTIONS_OF_PEER, CONNECTIONS_WITHOUT_TOKEN};
+
+/// Bytes that a client has to take per second of waiting for it, beyond its patience.
+const LEAST_RATE: f64 = 16_384.0;
+
+/// Places for connections.
+#[derive(Debug, Clone)]
+pub(crate) struct Places {
+    all: Arc<Semaphore>,
+    /// For connections that have not shown the token.
+    unknown: Arc<Semaphore>,
+    /// Connections of each peer that have not shown the token.
+    peers: Arc<Mutex<HashMap<IpAddr, usize>>>,
+}
+
+/// Place that nobody has yet.
+#[derive(Debug)]
+pub(crate) struct FreePlace {
+    any: OwnedSemaphorePermit,
+    unknown: OwnedSemaphorePermit,
+}
+
+/// Place of a connection, free again when this is dropped.
+#[derive(Debug)]
+pub(crate) struct Place {
+    visitor: Visitor,
+    _any: OwnedSemaphorePermit,
+}
+
+/// Whether the client of a connection is known: it has shown the token, or none is needed.
+#[derive(Debug, Clone)]
+pub(crate) struct Visitor(Arc<Mutex<Option<Stranger>>>);
+
+/// Place among the connections that have not shown the token.
+#[derive(Debug)]
+struct Stranger {
+    peer: IpAddr,
+    peers: Arc<Mutex<HashMap<IpAddr, usize>>>,
+    _unknown: OwnedSemaphorePermit,
+}
+
+impl Places {
+    pub(crate) fn new() -> Self {
+        Self {
+            all: Arc::new(Semaphore::new(CONNECTIONS)),
+            unknown: Arc::new(Semaphore::new(CONNECTIONS_WITHOUT_TOKEN)),
+            peers: Arc::default(),
+        }
+    }
+
+    /// Waits for a free place.
+    pub(crate) async fn free(&self) -> Option<FreePlace> {
+        // The semaphores are never closed.
+        Some(FreePlace {
+            unknown: Arc::clone(&self.unknown).acquire_owned().await.ok()?,
+            any: Arc::clone(&self.all).acquire_owned().await.ok()?,
+        })
+    }
+
+    /// Gives a free place to a peer; none where its clients without the token have their share.
+    pub(crate) fn give(&self, free: FreePlace, peer: IpAddr) -> Option<Place> {
+        let mut peers = lock(&self.peers);
+        let count = peers.entry(peer).or_default();
+        // All programs of this machine have one address, and so has whoever comes through a proxy on it.
+        if *count >= CONNECTIONS_OF_PEER && !peer.is_loopback() {
+            return None;
+        }
+        *count += 1;
+        let stranger = Stranger {
+            peer,
+            peers: Arc::clone(&self.peers),
+            _unknown: free.unknown,
+        };
+        Some(Place {
+            visitor: Visitor(Arc::new(Mutex::new(Some(stranger)))),
+            _any: free.any,
+        })
+    }
+}
+
+impl Place {
+    pub(crate) fn visitor(&self) -> Visitor {
+        self.visitor.clone()
+    }
+}
+
+impl Drop for Stranger {
+    fn drop(&mut self) {
+        let mut peers = lock(&self.peers);
+        if let Some(count) = peers.get_mut(&self.peer) {
+            *count -= 1;
+            if *count == 0 {
+                peers.remove(&self.peer);
+            }
+        }
+    }
+}
+
+impl Visitor {
+    /// The client is known from now on, and its place among the unknown is free.
+    pub(crate) fn welcome(&self) {
+        lock(&self.0).take();
+    }
+
+    pub(crate) fn is_known(&self) -> bool {
+        lock(&self.0).is_none()
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // What it guards is whole after every statement.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Connection whose client has to take what it asked for: all the waiting for it is a patience and a second per [`LEAST_RATE`] bytes.
+pub(crate) struct Patient<S> {
+    stream: S,
+    patience: Duration,
+    /// Time that may still be waited.
+    left: Duration,
+    waiting: Option<(Instant, Pin<Box<Sleep>>)>,
+}
+
+impl<S> Patient<S> {
+    pub(crate) fn new(stream: S, patience: Duration) -> Self {
+        Self {
+            stream,
+            patience,
+            left: patience,
+            waiting: None,
+        }
+    }
+
+    /// Ends the waiting after some bytes were written, or goes on with it.
+    fn wait(
+        &mut self,
+        written: Poll<io::Result<usize>>,
+        context: &mut Context<'_>,
+    ) -> Poll<io::Result<usize>> {
+        match &written {
+            Poll::Ready(result) => {
+                if let Some((since, _)) = self.waiting.take() {
+                    self.left = self.left.saturating_sub(since.elapsed());
+                }
+                let bytes = result.as_ref().map_or(0, |bytes| *bytes);
+                let earned = Duration::from_secs_f64(bytes as f64 / LEAST_RATE);
+                self.left = (self.left + earned).min(self.patience);
+                written
+            }
+            Poll::Pending => {
+                let left = self.left;
+                let (_, end) = self.waiting.get_or_insert_with(|| {
+                    let now = Instant::now();
+                    (now, Box::pin(sleep_until(now + left)))
+                });
+                end.as_mut()
+                    .poll(context)
+                    .map(|()| Err(io::ErrorKind::TimedOut.into()))
+            }
+        }
+    }
+}
+
+impl<S: AsyncRead + Unpin> AsyncRead for Patient<S> {
+    fn poll_read(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+        buffer: &mut ReadBuf<'_>,
+    ) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.stream).poll_read(context, buffer)
+    }
+}
+
+impl<S: AsyncWrite + Unpin> AsyncWrite for Patient<S> {
+    fn poll_write(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+        bytes: &[u8],
+    ) -> Poll<io::Result<usize>> {
+        let written = Pin::new(&mut self.stream).poll_write(context, bytes);
+        self.wait(written, context)
+    }
+
+    fn poll_write_vectored(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+        parts: &[io::IoSlice<'_>],
+    ) -> Poll<io::Result<usize>> {
+        let written = Pin::new(&mut self.stream).poll_write_vectored(context, parts);
+        self.wait(written, context)
+    }
+
+    fn is_write_vectored(&self) -> bool {
+        self.stream.is_write_vectored()
+    }
+
+    fn poll_flush(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.stream).poll_flush(context)
+    }
+
+    fn poll_shutdown(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.stream).poll_shutdown(context)
+    }
+}
