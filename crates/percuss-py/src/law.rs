@@ -8,7 +8,7 @@ use percuss::{
     material::{FlowState, FlowStress, Material, OwnLaw, PreparedStrength, Strength, StrengthLaw},
     scenario::TargetBody,
 };
-use pyo3::prelude::*;
+use pyo3::{exceptions::PyValueError, prelude::*};
 
 use crate::{first_error::FirstError, resistance::resistance};
 
@@ -18,6 +18,8 @@ const STAND_IN: f64 = 1e6;
 const STEP: f64 = 1e-6;
 const RATE_STEP: f64 = 1e-2;
 const PART: f64 = 1e-4;
+/// Relative rounding of a stress.
+const ROUNDING: f64 = 1e-12;
 
 /// The laws that take the place of a case's own.
 #[derive(Default)]
@@ -59,6 +61,7 @@ impl Laws {
             function: Arc::new(law.clone_ref(py)),
             error: self.error.clone(),
             room_temperature: material.room_temperature.si(),
+            stiffness: 3.0 * material.shear_modulus(),
         };
         Arc::new(Material {
             // Warnings name the material.
@@ -88,6 +91,8 @@ struct Law {
     function: Arc<Py<PyAny>>,
     error: FirstError,
     room_temperature: f64,
+    /// Three times the shear modulus [Pa].
+    stiffness: f64,
 }
 
 #[derive(Debug)]
@@ -101,7 +106,14 @@ impl Law {
     fn stress(&self, strain: f64, rate: f64, temperature: f64) -> f64 {
         let called = Python::attach(|py| {
             let stress = self.function.call1(py, (strain, rate, temperature))?;
-            stress.extract::<f64>(py)
+            let stress: f64 = stress.extract(py)?;
+            if stress.is_finite() && stress >= 0.0 {
+                return Ok(stress);
+            }
+            Err(PyValueError::new_err(format!(
+                "the strength law gives {stress} Pa at {}; allowed: 0 or more",
+                place(strain, rate, temperature)
+            )))
         });
         match called {
             Ok(stress) => stress,
@@ -113,17 +125,43 @@ impl Law {
     }
 }
 
+impl Law {
+    /// Refuses slopes for which the flow stress of a step has no single value.
+    fn check_slopes(&self, flow: &FlowStress, state: &FlowState) {
+        let fall = match flow {
+            // Rounding of a law that is flat.
+            _ if flow.rate_slope * RATE_STEP < -ROUNDING * flow.stress => "with the strain rate",
+            _ if flow.strain_slope <= -self.stiffness => {
+                "with the plastic strain by more than three times the shear modulus"
+            }
+            _ => return,
+        };
+        let place = place(state.plastic_strain, state.strain_rate, state.temperature);
+        self.error.set(PyValueError::new_err(format!(
+            "the strength law falls {fall} at {place}; a step has no single flow stress then"
+        )));
+    }
+}
+
+fn place(strain: f64, rate: f64, temperature: f64) -> String {
+    format!(
+        "a plastic strain of {strain}, a strain rate of {rate} 1/s and a temperature of {temperature} K"
+    )
+}
+
 impl PreparedStrength for Prepared {
     fn flow_stress(&self, state: &FlowState) -> FlowStress {
         let (strain, rate) = (state.plastic_strain, state.strain_rate);
         let at = |strain, rate| self.factor * self.law.stress(strain, rate, state.temperature);
         let stress = at(strain, rate);
         let (step, rate_step) = (STEP + PART * strain, RATE_STEP + PART * rate);
-        FlowStress {
+        let flow = FlowStress {
             stress,
             strain_slope: (at(strain + step, rate) - stress) / step,
             rate_slope: (at(strain, rate + rate_step) - stress) / rate_step,
-        }
+        };
+        self.law.check_slopes(&flow, state);
+        flow
     }
 }
 

@@ -7,6 +7,7 @@ mod command;
 mod errors;
 mod field;
 mod first_error;
+mod fork;
 mod history;
 mod law;
 mod monitor;
@@ -31,6 +32,12 @@ mod _percuss {
         sweep::{Sweep, SweepFolder, compute_sweep},
         tables::toml_text,
     };
+
+    #[pymodule_init]
+    fn init(_module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        crate::fork::remember_process();
+        Ok(())
+    }
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -15,7 +15,7 @@ use std::{
 use percuss_cli::Failure;
 use pyo3::prelude::*;
 
-use crate::errors::raise;
+use crate::{errors::raise, fork::with_threads};
 
 /// Interval of progress reports and signal checks.
 const INTERVAL: Duration = Duration::from_millis(50);
@@ -106,7 +106,7 @@ pub fn run_monitored<T: Send>(
             let worker = scope.spawn(|| {
                 // Dropped when the work ends, in whatever way.
                 let _done = done;
-                work(&progress_state)
+                with_threads(|| work(&progress_state))
             });
             while let Err(RecvTimeoutError::Timeout) = ended.recv_timeout(INTERVAL) {
                 let (fraction, words) = {

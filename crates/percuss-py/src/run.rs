@@ -19,6 +19,7 @@ use pyo3::{exceptions::PyValueError, prelude::*};
 use crate::{
     case::Case,
     errors::raise,
+    fork::with_threads,
     history::Column,
     law::Laws,
     monitor::{PythonMonitor, run_monitored},
@@ -67,11 +68,12 @@ pub fn run(
         resistance: resistance_law,
         ..Laws::default()
     };
+    percuss_cli::limit_memory().map_err(|failure| raise(py, failure))?;
     let scenario = laws.put_into(py, &case.get().scenario);
     let chosen = model::choose(model, &scenario).map_err(|error| raise(py, error))?;
     let mut monitor = PythonMonitor::new(progress.as_ref());
     let mut solver_time = Duration::ZERO;
-    let result = py.detach(|| {
+    let mut compute = || {
         let mut on_progress = |now: Progress| -> ControlFlow<()> {
             laws.flow()?;
             monitor.report(now.fraction, || {
@@ -87,7 +89,8 @@ pub fn run(
         let result = chosen.run(&scenario, &mut control).map_err(Failure::from);
         solver_time = start.elapsed();
         result
-    });
+    };
+    let result = py.detach(|| with_threads(&mut compute));
     if let Some(error) = laws.into_error() {
         return Err(error);
     }

@@ -8,12 +8,15 @@ use std::{
     },
 };
 
-use percuss::sweep::{BatchKernel, Sweep as Loaded, SweepRow};
+use percuss::{
+    document::read_text,
+    sweep::{BatchKernel, Sweep as Loaded, SweepRow},
+};
 use percuss_cli::Failure;
 use percuss_report::sweep::{Block, SweepFolder as Folder};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyBytes};
 
-use crate::{errors::raise, monitor::run_monitored};
+use crate::{errors::raise, fork::with_threads, monitor::run_monitored};
 
 /// A sweep that was read and checked.
 #[pyclass(frozen, module = "percuss._percuss")]
@@ -38,10 +41,11 @@ impl Sweep {
     }
 
     /// The files that it rests on: itself, its base case and the material files of that.
-    fn files(&self) -> PyResult<Vec<PathBuf>> {
+    fn files(&self, py: Python<'_>) -> PyResult<Vec<PathBuf>> {
         let base = &self.sweep.base;
         let mut files = vec![self.path.clone(), base.clone()];
-        let case: toml::Table = std::fs::read_to_string(base)?
+        let text = read_text(base).map_err(|error| raise(py, error))?;
+        let case: toml::Table = text
             .parse()
             .map_err(|error: toml::de::Error| PyValueError::new_err(error.to_string()))?;
         let materials = case.get("material_files").and_then(toml::Value::as_array);
@@ -61,7 +65,8 @@ impl Sweep {
         }
         let stop = AtomicBool::new(false);
         let kernel = BatchKernel::new(self.sweep.model);
-        let computed = py.detach(|| Block::compute(&self.sweep, &kernel, block, &stop));
+        let computed =
+            py.detach(|| with_threads(|| Block::compute(&self.sweep, &kernel, block, &stop)));
         match computed.map_err(|error| raise(py, error))? {
             Some(computed) => Ok(PyBytes::new(py, &computed.content)),
             None => Err(PyValueError::new_err("the block was stopped")),

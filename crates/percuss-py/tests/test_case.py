@@ -104,3 +104,36 @@ def test_what_has_no_place_in_a_case_is_refused(value: Any, error: type[Exceptio
     with pytest.raises(error) as caught:
         percuss.Case(projectile={**COPPER, "diameter": value}, target=PLATE)
     assert words in str(caught.value)
+
+
+def test_what_holds_itself_or_is_too_deep_is_refused() -> None:
+    own: dict[str, Any] = {}
+    own["inside"] = own
+    ring: list[Any] = []
+    ring.append(ring)
+    deep: dict[str, Any] = {}
+    inside = deep
+    for _ in range(100_000):
+        inside["a"] = inside = {}
+    long: list[Any] = []
+    for _ in range(100_000):
+        long = [long]
+    wide: list[Any] = [0.0]
+    for _ in range(20):
+        wide = [wide] * 10
+
+    class Endless:
+        def tolist(self) -> Endless:
+            return self
+
+    case = percuss.Case(projectile=COPPER, target=PLATE)
+    for value in (own, ring, deep, long, Endless()):
+        for build in (
+            lambda value=value: percuss.Case(projectile=value, target=PLATE),
+            lambda value=value: case.replace({"projectile.length": value}),
+            lambda value=value: percuss.sweep({"base": case, "parameter": [value]}, "nowhere"),
+        ):
+            with pytest.raises(ValueError, match="is nested more than 32 levels deep"):
+                build()
+    with pytest.raises(ValueError, match="more than 1000000 values in all"):
+        percuss.Case(projectile=wide, target=PLATE)

@@ -125,9 +125,11 @@ def test_what_is_wrong_with_a_sweep_or_a_worker_is_said(
 
 
 def test_a_scheduler_that_is_lost_is_said_and_the_sweep_goes_on(
-    local: tuple[Path, dict[str, str]], tmp_path: Path
+    tmp_path: Path,
 ) -> None:
-    path, expected = local
+    # Blocks that take longer than it takes to stop the scheduler.
+    path = sweep_file(tmp_path, elements=160)
+    expected = contents(percuss.sweep(path, tmp_path / "local").folder)
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         address = f"127.0.0.1:{free.getsockname()[1]}"

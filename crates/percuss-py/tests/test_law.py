@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 from typing import Any
 
 import percuss
@@ -121,3 +122,64 @@ def test_where_there_is_no_crater_floor_a_law_of_resistance_is_refused() -> None
     for case, model in [(thick(150.0), "fdm"), (thick(150.0, target_resistance="column"), "chain"), (shot({"rigid_wall": True}), "chain")]:
         with pytest.raises(percuss.NotApplicableError, match="resistance law"):
             percuss.run(case, model, resistance_law=lambda _depth, _speed: 1e9)
+
+
+@pytest.mark.parametrize("wrong", [math.nan, math.inf, -math.inf, -1e9, -1e-300])
+@pytest.mark.parametrize("late", [False, True])
+def test_a_stress_that_is_none_is_refused_with_its_arguments(wrong: float, late: bool) -> None:
+    def law(strain: float, _rate: float, _temperature: float) -> float:
+        return wrong if not late or strain > 0.01 else 300e6
+
+    with pytest.raises(ValueError, match=r"the strength law gives .* Pa at a plastic strain of .* and a temperature of .* K"):
+        percuss.run(shot({"rigid_wall": True}), projectile_law=law)
+    target = shot({"material": "mine", "thickness": 0.02})
+    with pytest.raises(ValueError, match="allowed: 0 or more"):
+        percuss.run(target, target_law=law)
+
+
+def test_a_law_without_a_single_flow_stress_is_refused() -> None:
+    case = shot({"rigid_wall": True})
+    with pytest.raises(ValueError, match="falls with the strain rate"):
+        percuss.run(case, projectile_law=lambda _strain, rate, _temperature: 300e6 / (1.0 + 1e-3 * rate))
+    with pytest.raises(ValueError, match="falls with the plastic strain by more than three times the shear modulus"):
+        percuss.run(case, projectile_law=lambda strain, *_: max(300e6 - 2e11 * strain, 0.0))
+    # Softening that a step can follow is allowed.
+    percuss.run(case, projectile_law=lambda strain, *_: 300e6 * math.exp(-0.2 * strain))
+
+
+def test_laws_at_random_give_a_result_or_an_error() -> None:
+    """A hundred laws with random values, each wrong in some way at some place or not at all: no number comes out of a wrong one."""
+    draw = random.Random(1)
+    wrong_values = [math.nan, math.inf, -1e6]
+    refused = 0
+    for _ in range(100):
+        start, hardening, rate_part = draw.uniform(1e8, 1e9), draw.uniform(0.0, 1e9), draw.uniform(0.0, 1e4)
+        wrong = draw.choice([*wrong_values, None])
+        beyond = draw.choice([0.0, 1e-3, 0.02])
+        hit = False
+
+        def law(
+            strain: float, rate: float, _temperature: float,
+            *, a: float = start, b: float = hardening, c: float = rate_part, w: float | None = wrong, place: float = beyond,
+        ) -> float:
+            nonlocal hit
+            if w is not None and strain >= place:
+                hit = True
+                return w
+            return a + b * strain + c * rate
+
+        case = percuss.Case(
+            projectile={"material": "mine", "length": 0.02, "diameter": 0.005, "impact_velocity": 100.0},
+            target={"rigid_wall": True},
+            chain={"projectile_elements": 4},
+            materials={"mine": MINE},
+        )
+        try:
+            found = percuss.run(case, projectile_law=law)
+        except ValueError:
+            refused += 1
+            assert hit
+        else:
+            assert not hit
+            assert 0.0 < (found.projectile_final_length_mm or 0.0) <= 20.0
+    assert 40 < refused < 90

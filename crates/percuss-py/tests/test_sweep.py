@@ -31,10 +31,10 @@ def contents(folder: Path) -> dict[str, str]:
     return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in names}
 
 
-def sweep_file(folder: Path) -> Path:
-    """The sweep as a file, with its case beside it."""
+def sweep_file(folder: Path, elements: int = 10) -> Path:
+    """The sweep as a file, with its case beside it, which has so many elements along the projectile and twice as many in the target."""
     case = percuss.load("cases/paper-table1/scenario.toml")
-    case.replace({"chain.projectile_elements": 10, "chain.target_elements": 20}).save(folder / "small.toml")
+    case.replace({"chain.projectile_elements": elements, "chain.target_elements": 2 * elements}).save(folder / "small.toml")
     text = percuss._percuss.toml_text({**SWEEP, "base": "small.toml"})
     path = folder / "sweep.toml"
     path.write_text(text)

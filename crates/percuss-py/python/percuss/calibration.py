@@ -35,6 +35,8 @@ class Calibration(Result):
         Name of the model.
     runs : int
         Number of runs.
+    correction : Record or None
+        Correction to axisymmetric answers: ``reference``, ``rounds``, ``answers``, the last relative ``difference``, ``converged``.
     parameters : list of Record
         Calibrated parameters: ``key``, ``unit``, ``prior`` (2.5, 50 and 97.5 %), ``best`` with its ``standard_error``, and the ``posterior`` with
         ``mean``, ``standard_deviation``, ``quantiles`` (2.5, 50 and 97.5 %), ``r_hat``, ``bulk_effective_size`` and ``tail_effective_size``. Values are in
@@ -49,7 +51,7 @@ class Calibration(Result):
         Errors on the fitted and the held-out values: ``count``, ``rms_before``, ``rms``, ``bias``
         (relative errors) and the number ``inside`` their 95 % intervals.
     predictions : list of Record
-        Measured and predicted values, in ``unit``.
+        Measured and predicted values, in ``unit``; ``axisymmetric`` is the answer of a correction with its uncertainty.
     left_out : list of Record
         Values that were not used, with the reason.
     materials : Record
@@ -62,6 +64,7 @@ class Calibration(Result):
     model: str
     seed: int
     runs: int
+    correction: Record | None
     parameters: list[Record]
     scatter: Record
     correlations: list[list[float]]
@@ -147,6 +150,7 @@ def calibrate(
     source: str | Sequence[str] | None = None,
     hold_out: str | Sequence[str] | None = None,
     model: str | None = None,
+    reference: str | None = None,
     noise: str | float | None = None,
     least_squares: bool = False,
     ensembles: int | None = None,
@@ -177,6 +181,8 @@ def calibrate(
         Sources that are not fitted and test the result.
     model : str, optional
         Model to calibrate; ``chain`` when not given.
+    reference : {"standard", "fine"}, optional
+        Corrects the model to axisymmetric answers on 3, 4 and 6 or 6, 8 and 12 cells, at the best values.
     noise : str or float, optional
         Relative scatter of measured values about the model: ``"estimated"`` (the default), ``"stated"`` for the stated uncertainties alone, or
         a fraction such as ``"2 %"`` or 0.02.
@@ -229,6 +235,7 @@ def calibrate(
         source=several(source),
         hold_out=several(hold_out),
         model=model,
+        reference=reference,
         noise=f"{100 * noise!r} %" if isinstance(noise, (int, float)) else noise,
         least_squares=least_squares,
         ensembles=ensembles,

@@ -1,0 +1,39 @@
+"""Commands with threads in processes that were forked, spawned or started by a server of them."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT
+
+SCRIPT = """
+import multiprocessing, sys
+import percuss
+
+def depths(speed):
+    case = percuss.load("cases/paper-table1/scenario.toml").replace({"projectile.impact_velocity": f"{speed} m/s"})
+    compared = percuss.compare(case, model=["chain", "taylor"], fast=True).to_dict()
+    axisymmetric = percuss.run(case.replace({"axi.max_steps": 20, "axi.cells_per_radius": 2}), "axi").to_dict()
+    for of_run in (compared, axisymmetric):
+        of_run.pop("solver_time_s", None)
+    return repr(compared), axisymmetric["depth_of_penetration_mm"]
+
+if __name__ == "__main__":
+    # The pool of threads is there before the fork.
+    own = [depths(230), depths(400)]
+    with multiprocessing.get_context(sys.argv[1]).Pool(2) as pool:
+        others = pool.map_async(depths, [230, 400]).get(timeout=100)
+    assert own == others, (own, others)
+    print("equal")
+"""
+
+
+@pytest.mark.parametrize("method", ["fork", "spawn", "forkserver"])
+def test_other_processes_give_the_same_numbers(method: str, tmp_path: object) -> None:
+    script = f"{tmp_path}/script.py"
+    with open(script, "w", encoding="utf-8") as file:
+        file.write(SCRIPT)
+    done = subprocess.run([sys.executable, script, method], capture_output=True, text=True, timeout=300, cwd=ROOT)
+    assert done.stdout == "equal\n", done.stderr
