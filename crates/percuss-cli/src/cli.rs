@@ -14,6 +14,7 @@ use crate::{
         Reproduce, Run, Schema, Serve, Sweep, Uncertainty, Validate,
     },
     failure::Failure,
+    memory::limit_memory,
     response::{ProgressCallback, Response, VirtualFiles},
 };
 
@@ -155,6 +156,7 @@ pub fn execute(
     stop: &AtomicBool,
     on_progress: ProgressCallback<'_>,
 ) -> Result<Response, Failure> {
+    limit_memory()?;
     let cli = Cli::parse_line(words).map_err(Failure::CommandLine)?;
     match cli.command {
         Command::Run(command) => command.execute(virtual_files, stop, on_progress),

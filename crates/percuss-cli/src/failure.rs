@@ -84,6 +84,12 @@ impl From<ReportError> for Failure {
                 let message = error.to_string();
                 Self::Usage { message, help }
             }
+            ReportError::Read { path, reason } => Self::Library(Error::Read {
+                path,
+                reason,
+                remedy: String::new(),
+                source: None,
+            }),
             other => Self::Report(other),
         }
     }

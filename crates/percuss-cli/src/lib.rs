@@ -8,6 +8,7 @@ mod failure;
 mod file_list;
 mod fragment_table;
 mod material_card;
+mod memory;
 mod output;
 mod progress;
 mod response;
@@ -21,12 +22,17 @@ mod terminal;
 mod validation_table;
 mod workers;
 
-use std::{ffi::OsString, process::ExitCode};
+use std::{
+    ffi::OsString,
+    io::{self, Write},
+    process::ExitCode,
+};
 
 use clap::CommandFactory;
 
 pub use cli::execute;
 pub use failure::Failure;
+pub use memory::limit_memory;
 pub use response::{ProgressCallback, Response, ResponseData, VirtualFiles};
 pub use run_output::RunOutput;
 
@@ -40,16 +46,27 @@ pub fn main(words: impl IntoIterator<Item = OsString>) -> ExitCode {
     let cli = match cli::Cli::parse_line(words) {
         Ok(cli) => cli,
         Err(error) => {
-            // A failure to print cannot be reported.
-            let _ = error.print();
-            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+            return answer_of_parser(&error);
         }
     };
-    match cli.command.run() {
+    match limit_memory().and_then(|()| cli.command.run()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             failure.report();
             failure.exit_code()
         }
+    }
+}
+
+/// Prints the help or the error of the parser; returns the exit code.
+fn answer_of_parser(error: &clap::Error) -> ExitCode {
+    let printed = error.print().and_then(|()| io::stdout().flush());
+    match printed {
+        Err(failure) if !error.use_stderr() && failure.kind() != io::ErrorKind::BrokenPipe => {
+            let failure = Failure::Output(failure);
+            failure.report();
+            failure.exit_code()
+        }
+        _ => ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2)),
     }
 }

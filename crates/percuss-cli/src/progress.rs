@@ -9,6 +9,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// Time before the progress is shown.
 const DELAY: Duration = Duration::from_secs(1);
+/// Time after which the time left is estimated from less than a hundredth.
+const PATIENCE: Duration = Duration::from_secs(10);
 const STEPS: u64 = 1000;
 
 /// Progress bar that appears after a delay, if standard error is a terminal.
@@ -71,13 +73,33 @@ impl Progress {
 }
 
 fn time_left(elapsed: Duration, first: f64, fraction: f64) -> String {
-    if fraction - first < 0.01 {
+    let done = fraction - first;
+    // A little progress says little, but a run of days has no more after a while.
+    if done < 0.01 && (elapsed < PATIENCE || done <= 0.0) {
         return String::new();
     }
-    let seconds = elapsed.as_secs_f64() * (1.0 - fraction) / (fraction - first);
+    let seconds = elapsed.as_secs_f64() * (1.0 - fraction) / done;
     match seconds {
         ..90.0 => format!(", about {} s left", seconds.ceil()),
         ..5400.0 => format!(", about {:.0} min left", seconds / 60.0),
-        _ => format!(", about {:.1} h left", seconds / 3600.0),
+        ..172_800.0 => format!(", about {:.1} h left", seconds / 3600.0),
+        _ => format!(", about {:.0} days left", seconds / 86_400.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_is_shown_once_it_says_something() {
+        let left =
+            |seconds: u64, done: f64| time_left(Duration::from_secs(seconds), 0.1, 0.1 + done);
+        assert_eq!(left(5, 0.001), "");
+        assert_eq!(left(60, 0.0), "");
+        assert_eq!(left(10, 0.1), ", about 80 s left");
+        assert_eq!(left(60, 0.01), ", about 89 min left");
+        assert_eq!(left(60, 0.001), ", about 15.0 h left");
+        assert_eq!(left(60, 1e-5), ", about 62 days left");
     }
 }

@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::support::percuss;
+use crate::support::{flat, percuss};
 
 const CASE: &str = r#"
 projectile = { material = "copper", length = "6 mm", diameter = "4 mm", impact_velocity = "400 m/s" }
@@ -181,4 +181,39 @@ fn options_of_fields_are_refused_where_there_are_none() {
     );
     let said = run.stderr;
     assert!(said.contains("for example 60s"), "{said}");
+}
+
+/// A case that would fill the machine is refused before anything is allocated; the limit is the user's.
+#[test]
+fn a_run_that_would_fill_the_memory_is_refused_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    for (length, diameter) in [("50 m", "5 mm"), ("100 m", "10 um")] {
+        let long = CASE
+            .replace("6 mm", length)
+            .replacen("4 mm", diameter, 1)
+            .replace("cells_per_radius = 3", "cells_per_radius = 16");
+        let path = case(folder.path(), &long);
+        let run = percuss(folder.path(), ["run", &*path, "--model", "axi"]);
+        assert_eq!(run.code, 2, "{}", run.stderr);
+        let said = flat(&run.stderr);
+        assert!(said.contains("more than the limit of 4 GiB"), "{said}");
+        assert!(said.contains("set PERCUSS_MEMORY_LIMIT"), "{said}");
+    }
+    let path = case(folder.path(), CASE);
+    let limited = |limit: &str| {
+        let output = std::process::Command::new(assert_cmd::cargo::cargo_bin!("percuss"))
+            .args(["run", &*path, "--model", "axi"])
+            .env("PERCUSS_MEMORY_LIMIT", limit)
+            .output()
+            .unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        (output.status.code(), flat(&said))
+    };
+    assert_eq!(limited("100 MiB"), (Some(0), String::new()));
+    let (code, said) = limited("100 KiB");
+    assert_eq!(code, Some(2));
+    assert!(said.contains("more than the limit of 100 KiB"), "{said}");
+    let (code, said) = limited("plenty");
+    assert_eq!(code, Some(2));
+    assert!(said.contains("`plenty` is no size"), "{said}");
 }

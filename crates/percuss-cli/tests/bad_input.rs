@@ -180,7 +180,7 @@ fn a_long_line_does_not_flood_the_terminal() {
 #[test]
 fn a_file_that_is_too_large_is_not_read() {
     let message = refused_bytes(&vec![b'#'; (1 << 20) + 1], 4);
-    assert!(message.contains("larger than 1024 KiB"), "{message}");
+    assert!(message.contains("larger than 1 MiB"), "{message}");
 }
 
 #[test]

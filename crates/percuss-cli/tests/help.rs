@@ -87,3 +87,27 @@ fn a_reader_that_goes_away_is_no_failure() {
         assert_eq!(output.stderr, b"");
     }
 }
+
+/// Help that cannot be written is a failure, as any other output.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_a_failure_of_the_help() {
+    for arguments in [&["--help"][..], &["run", "--help"], &["--version"]] {
+        let output = Command::new(assert_cmd::cargo::cargo_bin!("percuss"))
+            .args(arguments)
+            .stdout(
+                std::fs::File::options()
+                    .write(true)
+                    .open("/dev/full")
+                    .unwrap(),
+            )
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(4), "{arguments:?}");
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            said.starts_with("error: cannot write the output:"),
+            "{said}"
+        );
+    }
+}

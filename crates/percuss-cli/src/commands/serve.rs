@@ -1,16 +1,22 @@
 //! `percuss serve`: the interactive page.
 
 use std::{
-    fs,
     net::{IpAddr, Ipv4Addr, SocketAddr},
     path::{Path, PathBuf},
 };
 
 use clap::Args;
-use percuss::case;
+use percuss::{
+    case,
+    document::read_text,
+    model::memory::{MEMORY_VARIABLE, set_memory_limit},
+};
 use percuss_serve::{Options, RequestLimits, ServeError, Server, StartCase};
 
 use crate::{failure::Failure, output};
+
+/// Largest memory of a run of the page [bytes], unless the environment sets another one.
+const RUN_MEMORY: u64 = 1 << 30;
 
 const LONG_ABOUT: &str = "\
 Serve a page that recomputes the case while its sliders move: the case as a form
@@ -70,6 +76,10 @@ pub struct Serve {
 
 impl Serve {
     pub fn run(&self) -> Result<(), Failure> {
+        // Others may open the page, and several runs go on at once.
+        if std::env::var_os(MEMORY_VARIABLE).is_none() {
+            set_memory_limit(RUN_MEMORY);
+        }
         let bounds = RequestLimits::default();
         let options = Options {
             address: SocketAddr::new(self.address, self.port),
@@ -100,7 +110,7 @@ impl Serve {
 
 /// The first line of a file.
 fn token(path: &Path) -> Result<String, Failure> {
-    let text = read(path)?;
+    let text = read_text(path)?;
     Ok(text.lines().next().unwrap_or_default().trim().to_owned())
 }
 
@@ -109,18 +119,7 @@ fn start_case(path: &Path) -> Result<StartCase, Failure> {
     let scenario = case::load(path)?;
     Ok(StartCase {
         name: scenario.name,
-        text: read(path)?,
-    })
-}
-
-fn read(path: &Path) -> Result<String, Failure> {
-    fs::read_to_string(path).map_err(|error| {
-        Failure::Library(percuss::Error::Read {
-            path: path.to_path_buf(),
-            reason: error.to_string(),
-            remedy: String::new(),
-            source: Some(error),
-        })
+        text: read_text(path)?,
     })
 }
 

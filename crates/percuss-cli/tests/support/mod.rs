@@ -198,3 +198,20 @@ pub fn blocks(page: &str, language: &str) -> Vec<String> {
         .map(|part| part.split("```").next().unwrap_or_default().to_owned())
         .collect()
 }
+
+/// Numbers that look drawn, the same in every run.
+pub struct Draw(pub u64);
+
+impl Draw {
+    pub fn below(&mut self, end: usize) -> usize {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) as usize % end
+    }
+
+    pub fn of<'a, T: ?Sized>(&mut self, words: &[&'a T]) -> &'a T {
+        words[self.below(words.len())]
+    }
+}

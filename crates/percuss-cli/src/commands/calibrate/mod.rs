@@ -13,8 +13,10 @@ use std::{
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Error,
+    axisymmetric::{ReferenceMeshes, Request},
     calibrate::{
         Calibrated, Fitted, Noise, Observations, Observer, Problem, Sampling, Settings, Stage,
+        Stages,
     },
     case,
     experiments::Kind,
@@ -49,6 +51,12 @@ Least squares (Levenberg-Marquardt) give the best fit; an ensemble sampler
 the stated standard deviation, and a relative scatter that is estimated unless
 --noise gives it. Sources of --hold-out are not fitted; they test the result.
 Parameters that the data do not identify are reported.
+
+With --reference the model is corrected to the axisymmetric model `axi`: each
+depth or length by the factor axi/model at the best values, each residual
+velocity by the difference. Fits and axisymmetric runs alternate until they
+agree to 1 %. The best values are then those of `axi`, at a few of its runs.
+Their discretisation uncertainty adds to the standard deviations.
 
 With --out DIR the result (calibration.json), tables of parameters and
 predictions, the sample (sample.parquet), the calibrated materials
@@ -97,6 +105,10 @@ pub struct Calibrate {
     #[arg(long, value_name = "NAME", default_value = "chain")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: String,
+    /// Correct the model to axisymmetric answers on these meshes, at the best values
+    #[arg(long, value_name = "MESHES")]
+    #[arg(value_parser = PossibleValuesParser::new(ReferenceMeshes::ALL.map(ReferenceMeshes::name)))]
+    reference: Option<String>,
     /// Relative scatter about the model: `estimated`, a percentage such as "2 %", or `stated` for the stated uncertainties alone
     #[arg(long, value_name = "SCATTER", default_value = "estimated", value_parser = str::parse::<Noise>)]
     noise: Noise,
@@ -136,7 +148,7 @@ impl Calibrate {
         let problem = self.problem(&VirtualFiles::default())?;
         let settings = self.settings(&problem)?;
         let folder = RunFolder::wanted(self.out.as_deref(), None)?;
-        let found = self.watched(&problem, &settings)?;
+        let found = self.watched(problem, &settings)?;
         let files = written(folder, &found)?;
         self.print(&found, &files)
     }
@@ -150,11 +162,11 @@ impl Calibrate {
         let problem = self.problem(virtual_files)?;
         let settings = self.settings(&problem)?;
         let folder = RunFolder::wanted(self.out.as_deref(), None)?;
-        let sampled = settings.sampling.is_some();
+        let stages = self.stages();
         let on_progress = Mutex::new(on_progress);
-        let found = self.solve(&problem, &settings, &|stage, part, runs| {
+        let found = self.solve(problem, &settings, &|stage, part, runs| {
             let mut on_progress = on_progress.lock().unwrap_or_else(PoisonError::into_inner);
-            on_progress(stage.of_whole(part, sampled), &stage.describe(runs))
+            on_progress(stages.of_whole(stage, part), &stage.describe(runs))
         })?;
         let files = written(folder, &found)?;
         Ok(Response {
@@ -220,18 +232,43 @@ impl Calibrate {
 
     fn solve(
         &self,
-        problem: &Problem,
+        problem: Problem,
         settings: &Settings,
         watch: Observer<'_>,
     ) -> Result<Calibrated, Failure> {
         let name = self.name.as_deref();
-        Ok(Calibrated::of(problem, settings, name, watch)?)
+        let problem = match self.meshes() {
+            None => problem,
+            Some(meshes) => {
+                let request = Request {
+                    meshes,
+                    budget: None,
+                };
+                problem.corrected(request, self.seed, watch)?
+            }
+        };
+        Ok(Calibrated::of(&problem, settings, name, watch)?)
+    }
+
+    fn meshes(&self) -> Option<ReferenceMeshes> {
+        self.reference.as_deref().and_then(ReferenceMeshes::named)
+    }
+
+    fn stages(&self) -> Stages {
+        Stages {
+            corrected: self.meshes().is_some(),
+            sampled: !self.least_squares,
+        }
     }
 
     /// Solves the problem with a progress bar per phase.
-    fn watched(&self, problem: &Problem, settings: &Settings) -> Result<Calibrated, Failure> {
+    fn watched(&self, problem: Problem, settings: &Settings) -> Result<Calibrated, Failure> {
         let stop = workers::stop_on_request();
-        let board = Mutex::new((Stage::LeastSquares, Progress::new(!self.quiet)));
+        let first = match self.meshes() {
+            Some(_) => Stage::Correcting,
+            None => Stage::LeastSquares,
+        };
+        let board = Mutex::new((first, Progress::new(!self.quiet)));
         let watch = |stage: Stage, part: f64, runs: u64| {
             // Another thread is drawing the bar: this update is left out.
             if let Ok(mut board) = board.try_lock() {

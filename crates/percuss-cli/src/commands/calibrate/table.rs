@@ -1,7 +1,7 @@
 //! Terminal output of a calibration.
 
 use percuss::{
-    calibrate::{Calibration, Marginal, ParameterRecord},
+    calibrate::{Calibration, CorrectionRecord, Marginal, ParameterRecord},
     units::significant,
 };
 use percuss_report::table::Table;
@@ -23,6 +23,7 @@ pub fn text(calibration: &Calibration) -> String {
     for parameter in &calibration.parameters {
         text += &format!("  {}\n", parameter.key);
     }
+    text += &calibration.correction.map_or_else(String::new, correction);
     text += &parameters(calibration);
     text += &quality(calibration);
     text += &sample(calibration);
@@ -52,6 +53,16 @@ pub fn lines(calibration: &Calibration) -> String {
         line + "\n"
     };
     calibration.parameters.iter().map(line).collect()
+}
+
+fn correction(record: CorrectionRecord) -> String {
+    let [coarse, medium, fine] = record.reference.cells();
+    format!(
+        "corrected to `axi` on {coarse}, {medium} and {fine} cells: {} in {}, last difference {:.1} %\n",
+        counted(record.answers, "answer"),
+        counted(record.rounds, "round"),
+        100.0 * record.difference
+    )
 }
 
 /// Row of the table of parameters.

@@ -58,7 +58,7 @@ pub fn range(text: &str) -> Result<Range, ValueError> {
             _ => Velocity::from_str(end),
         };
         let speed = speed.map_err(ValueError::Speed)?;
-        match (IMPACT_VELOCITY.min..=IMPACT_VELOCITY.max).contains(&speed.si()) {
+        match IMPACT_VELOCITY.allow(speed.si()) {
             true => Ok(speed.si()),
             false => Err(ValueError::OutOfRange(speed)),
         }

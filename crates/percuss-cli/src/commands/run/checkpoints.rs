@@ -9,7 +9,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-use percuss::model::Checkpoints;
+use percuss::{
+    input_file::{self, MAX_OWN_BYTES},
+    model::Checkpoints,
+};
 
 use crate::failure::Failure;
 
@@ -24,7 +27,7 @@ pub fn file(folder: &Path) -> PathBuf {
 /// Bytes of a folder's checkpoint, if it has one.
 pub fn load(folder: &Path) -> Result<Option<Vec<u8>>, Failure> {
     let path = file(folder);
-    match fs::read(&path) {
+    match input_file::bytes(&path, MAX_OWN_BYTES) {
         Ok(bytes) => Ok(Some(bytes)),
         // A folder that cannot be written is reported where it is made.
         Err(error)
@@ -35,12 +38,7 @@ pub fn load(folder: &Path) -> Result<Option<Vec<u8>>, Failure> {
         {
             Ok(None)
         }
-        Err(error) => Err(Failure::Library(percuss::Error::Read {
-            path,
-            reason: error.to_string(),
-            remedy: String::new(),
-            source: Some(error),
-        })),
+        Err(error) => Err(input_file::unreadable(&path, error).into()),
     }
 }
 

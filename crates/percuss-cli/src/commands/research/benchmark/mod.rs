@@ -6,7 +6,10 @@ mod table;
 use std::{path::PathBuf, sync::atomic::AtomicBool};
 
 use clap::{Args, ValueEnum};
-use percuss::model_error::ErrorRecord;
+use percuss::{
+    input_file::{self, MAX_TABLE_BYTES},
+    model_error::ErrorRecord,
+};
 use percuss_research::{
     benchmark::{
         self, CheckedReference, Design, Group, Grouping, Reference, RefusedReference, reference,
@@ -277,16 +280,8 @@ impl Benchmark {
         let (references, name) = match &self.reference {
             Some(file) => {
                 // A misspelt name is an error, not an empty file.
-                let text = std::fs::File::open(file).map_err(|source| percuss::Error::Read {
-                    path: file.clone(),
-                    reason: match source.kind() {
-                        std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
-                        _ => source.to_string(),
-                    },
-                    remedy: String::new(),
-                    source: Some(source),
-                })?;
-                drop(text);
+                input_file::open(file, MAX_TABLE_BYTES)
+                    .map_err(|error| input_file::unreadable(file, error))?;
                 (reference::read_file(file)?, file.display().to_string())
             }
             None => (reference::built_in(), "data of the program".to_owned()),

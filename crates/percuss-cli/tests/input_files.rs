@@ -1,0 +1,106 @@
+//! Inputs that are no files: pipes that block, devices that never end, and links to them. Each is refused at once.
+#![cfg(unix)]
+
+use std::{
+    os::unix::fs::symlink,
+    path::Path,
+    process::Command,
+    thread,
+    time::{Duration, Instant},
+};
+
+use tempfile::TempDir;
+
+use crate::support::{CASE, flat, folder_with, percuss, spawn};
+
+fn make_pipe(path: &Path) {
+    let made = Command::new("mkfifo").arg(path).status().unwrap();
+    assert!(made.success());
+}
+
+const SWEEP: &str = "base = 'scenario.toml'\nmodel = 'chain'\ndesign = 'grid'\nblock_size = 2
+[[parameter]]\nkey = 'projectile.impact_velocity'\nvalues = ['200 m/s', '210 m/s', '220 m/s']\n";
+
+fn folder() -> TempDir {
+    let folder = folder_with(&[("scenario.toml", CASE), ("sweep.toml", SWEEP)]);
+    make_pipe(&folder.path().join("pipe"));
+    symlink("/dev/zero", folder.path().join("link")).unwrap();
+    folder
+}
+
+/// Exit code and standard error of a command that may not take longer than half a minute: a pipe would block for ever.
+fn ended(folder: &Path, arguments: &[&str]) -> (i32, String) {
+    let mut child = spawn(folder, arguments);
+    let start = Instant::now();
+    while child.try_wait().unwrap().is_none() {
+        if start.elapsed() > Duration::from_secs(30) {
+            child.kill().unwrap();
+            child.wait().unwrap();
+            panic!("{arguments:?} does not end");
+        }
+        thread::sleep(Duration::from_millis(5));
+    }
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    (output.status.code().unwrap_or(-1), said)
+}
+
+#[test]
+fn pipes_and_devices_are_refused_wherever_a_file_is_named() {
+    let folder = folder();
+    let commands: [&[&str]; 7] = [
+        &["run"],
+        &["limit", "--shots"],
+        &["sweep", "--out", "rows"],
+        &[
+            "calibrate",
+            "--fit",
+            "chain.constraint_factor=1..4",
+            "--data",
+        ],
+        &["benchmark", "--reference"],
+        &["benchmark", "--paper-case"],
+        &["serve", "--port", "0", "--token-file"],
+    ];
+    for command in commands {
+        for file in ["pipe", "link", "/dev/zero"] {
+            let (code, said) = ended(folder.path(), &[command, &[file]].concat());
+            assert_eq!(code, 4, "{command:?} {file}: {said}");
+            assert!(
+                flat(&said).contains("it is not a regular file"),
+                "{command:?} {file}: {said}"
+            );
+        }
+    }
+}
+
+/// A pipe in the place of a file of the program's own ends with an error or counts as damaged.
+#[test]
+fn pipes_in_a_folder_of_results_are_refused() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let sweep = ["sweep", "sweep.toml", "--out", "rows", "--quiet"];
+    percuss(folder.path(), sweep).ok();
+    for name in ["manifest.json", "lock"] {
+        std::fs::rename(at("rows").join(name), at("kept")).unwrap();
+        make_pipe(&at("rows").join(name));
+        let (code, said) = ended(folder.path(), &[&sweep[..], &["--resume"]].concat());
+        assert_eq!(code, 4, "{name}: {said}");
+        assert!(said.contains("it is not a regular file"), "{name}: {said}");
+        std::fs::rename(at("kept"), at("rows").join(name)).unwrap();
+    }
+    let block = at("rows").join("block-000001.parquet");
+    let bytes = std::fs::read(&block).unwrap();
+    std::fs::remove_file(&block).unwrap();
+    make_pipe(&block);
+    let (code, said) = ended(folder.path(), &[&sweep[..], &["--resume"]].concat());
+    assert_eq!(code, 0, "{said}");
+    assert_eq!(std::fs::read(&block).unwrap(), bytes);
+
+    std::fs::create_dir(at("out")).unwrap();
+    make_pipe(&at("out").join("checkpoint.percuss"));
+    let resumed = ["run", "scenario.toml", "--out", "out", "--resume", "--fast"];
+    let (code, said) = ended(folder.path(), &resumed);
+    assert_eq!(code, 4, "{said}");
+    assert!(said.contains("it is not a regular file"), "{said}");
+}

@@ -1,0 +1,188 @@
+//! Requests at random: each gets a whole response, and the memory of the server stays where it was.
+//!
+//! `PERCUSS_REQUESTS` sets how many.
+
+#![cfg(target_os = "linux")]
+
+use std::{
+    collections::BTreeMap,
+    fs,
+    io::{BufRead, BufReader, Read, Write},
+    net::{Shutdown, TcpStream},
+    process::{Child, Command, Stdio},
+    time::Duration,
+};
+
+use serde_json::{Value, json};
+
+use crate::support::Draw;
+
+const PAPER: &str = include_str!("../../../cases/paper-table1/scenario.toml");
+
+/// A server in a process of its own, whose memory is nobody else's.
+struct Served {
+    process: Child,
+    address: String,
+}
+
+impl Served {
+    fn new() -> Self {
+        let mut process = Command::new(env!("CARGO_BIN_EXE_percuss"))
+            .args(["serve", "--port", "0", "--max-seconds", "2"])
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        let stdout = process.stdout.take().unwrap();
+        BufReader::new(stdout).read_line(&mut line).unwrap();
+        let address = line.trim().strip_prefix("serving http://").unwrap();
+        Self {
+            address: address.to_owned(),
+            process,
+        }
+    }
+
+    /// Sends bytes as they are; gives the status, 0 for none, and the response.
+    fn raw(&self, request: &[u8], goes_away: bool) -> (u32, Vec<u8>) {
+        let mut stream = TcpStream::connect(&self.address).unwrap();
+        stream
+            .set_read_timeout(Some(Duration::from_secs(120)))
+            .unwrap();
+        // A server may refuse a request before it has read all of it, and close before the end.
+        let _ = stream.write_all(request);
+        if goes_away {
+            let _ = stream.shutdown(Shutdown::Write);
+        }
+        let mut response = Vec::new();
+        let _ = stream.read_to_end(&mut response);
+        let head = String::from_utf8_lossy(&response[..response.len().min(20)]).into_owned();
+        let status = head.split(' ').nth(1).and_then(|code| code.parse().ok());
+        (status.unwrap_or(0), response)
+    }
+
+    /// Its memory [bytes].
+    fn memory(&self) -> u64 {
+        let status = fs::read_to_string(format!("/proc/{}/status", self.process.id())).unwrap();
+        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+        let kib = line.and_then(|line| line.split_whitespace().next());
+        kib.unwrap().parse::<u64>().unwrap() * 1024
+    }
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+const PATHS: [&str; 10] = [
+    "/api/answer",
+    "/api/answer",
+    "/api/file",
+    "/api/refinement",
+    "/api/study/compare",
+    "/api/study/sweep",
+    "/api/study/nothing",
+    "/api/uncertainty-example",
+    "/api/validation",
+    "/",
+];
+
+/// A body: valid, with some bytes changed, or with a value of another kind somewhere.
+fn body(draw: &mut Draw) -> Vec<u8> {
+    let quick = PAPER.replace("= 40", "= 4").replace("= 80", "= 8");
+    let mut asked = json!({
+        "name": "shot",
+        "case": quick,
+        "model": draw.of(&["chain", "crater_energy", "fdm", "none"]),
+        "speeds": [100.0, 200.0, 2],
+    });
+    let others = [
+        Value::Null,
+        json!(-1),
+        json!(1e308),
+        json!("\u{0}\u{ffff}"),
+        json!([[[[[]]]]]),
+        json!({ "a": {} }),
+        json!("x".repeat(2000)),
+    ];
+    if draw.below(3) == 0 {
+        let key = draw.of(&["name", "case", "model", "speeds", "sweep", "uncertainty"]);
+        asked[key] = others[draw.below(others.len())].clone();
+    }
+    let mut bytes = asked.to_string().into_bytes();
+    if draw.below(2) == 0 {
+        for _ in 0..=draw.below(6) {
+            let place = draw.below(bytes.len());
+            match draw.below(3) {
+                0 => bytes[place] = draw.below(256) as u8,
+                1 => {
+                    bytes.remove(place);
+                }
+                _ => bytes.insert(place, draw.below(256) as u8),
+            }
+        }
+    }
+    bytes
+}
+
+/// A request, often a broken one, and whether its client goes away in the middle of it.
+fn request(draw: &mut Draw, served: &Served) -> (Vec<u8>, bool) {
+    let path = draw.of(&PATHS);
+    let body = body(draw);
+    let mut request = format!(
+        "POST {path} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\nContent-Type: application/json\r\nContent-Length: {}\r\n\r\n",
+        served.address,
+        body.len()
+    )
+    .into_bytes();
+    request.extend_from_slice(&body);
+    match draw.below(6) {
+        0 => {
+            request.truncate(draw.below(request.len()));
+            return (request, true);
+        }
+        1 => {
+            for _ in 0..=draw.below(4) {
+                let place = draw.below(request.len().min(200));
+                request[place] = draw.below(256) as u8;
+            }
+        }
+        _ => return (request, false),
+    }
+    // A length that was changed would be waited for.
+    (request, true)
+}
+
+#[test]
+fn requests_at_random_are_answered_in_flat_memory() {
+    let count: usize = std::env::var("PERCUSS_REQUESTS").map_or(500, |text| text.parse().unwrap());
+    let served = Served::new();
+    let mut draw = Draw(11);
+    let mut by_status = BTreeMap::new();
+    let mut settled = 0;
+    for number in 0..count {
+        let (bytes, goes_away) = request(&mut draw, &served);
+        let (status, response) = served.raw(&bytes, goes_away);
+        *by_status.entry(status).or_insert(0) += 1;
+        assert!(status != 500, "{}", String::from_utf8_lossy(&bytes));
+        assert!(
+            status < 400 || response.len() < 20_000,
+            "{}",
+            String::from_utf8_lossy(&response)
+        );
+        if number == count / 2 {
+            settled = served.memory();
+        }
+    }
+    let grown = served.memory().saturating_sub(settled);
+    println!("{by_status:?}, memory grown by {grown} bytes from {settled}");
+    assert!(by_status.contains_key(&200) && by_status.contains_key(&400));
+    assert!(grown < 32 << 20, "{grown}");
+    let page = format!(
+        "GET / HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n",
+        served.address
+    );
+    assert_eq!(served.raw(page.as_bytes(), false).0, 200);
+}
