@@ -349,7 +349,7 @@ pub(super) fn failure_state(slice: &Slice) -> FailureState {
         } else {
             0.0
         },
-        plastic_strain_increment: slice.plastic_step.abs(),
-        temperature: slice.temperature,
+        plastic_strain_increment: slice.plastic.step.abs(),
+        temperature: slice.plastic.temperature,
     }
 }

@@ -103,12 +103,11 @@ impl Rod {
             pressure: 0.0,
         };
         let yield_point = YieldPoint::slow(&*metal.strength, &at_rest);
-        let slice = Slice::new(&size, &yield_point, temperature);
+        let slice = Slice::new(&size, yield_point, temperature);
         let particulars = (0..count).map(|i| Particulars {
             initial_position: spacing * (i as f64 + 0.5) - length,
             damage: 0.0,
             parted: false,
-            yield_point,
         });
         let nodes = (0..=count).map(|i| {
             let is_end = i == 0 || i == count;
@@ -299,5 +298,6 @@ impl Rod {
 }
 
 fn reached(slice: &Slice) -> [f64; 3] {
-    [slice.plastic_strain, slice.largest_rate, slice.temperature]
+    let plastic = &slice.plastic;
+    [plastic.strain, plastic.largest_rate, plastic.temperature]
 }
