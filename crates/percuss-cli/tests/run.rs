@@ -112,10 +112,15 @@ fn quiet_is_one_line_with_the_values_of_json() {
             }
             "outcome" | "model" => assert_eq!(value, result[name].as_str().unwrap()),
             _ if value == "null" => assert!(result[name].is_null(), "{pair}"),
-            _ => assert_eq!(
-                value.parse::<f64>().unwrap(),
-                result[name].as_f64().unwrap()
-            ),
+            // The JSON reader of this test may miss the last digit.
+            _ => {
+                let (value, of_json) = (value.parse::<f64>().unwrap(), result[name].as_f64());
+                let of_json = of_json.unwrap();
+                assert!(
+                    (value - of_json).abs() <= f64::EPSILON * of_json.abs(),
+                    "{pair}"
+                );
+            }
         }
     }
     for name in ["depth_of_penetration_mm", "ballistic_limit_m_s"] {

@@ -159,6 +159,39 @@ impl NullaryFnOnce for Energies<'_> {
     }
 }
 
+/// Sums up what a change of the time step comes to: forces on the degrees of freedom of a rod times the changes of their velocities in
+/// the last kick [N m/s].
+pub(super) struct ForcedChange<'a> {
+    pub(super) rod: &'a Rod,
+    pub(super) kick: f64,
+}
+
+impl NullaryFnOnce for ForcedChange<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let Self { rod, kick } = self;
+        let ratio = kick / rod.size.radial_mass();
+        let mut last = 0.0;
+        let shears = rod.shears.each().map(|shears| shears.force);
+        let mut shears = shears.chain(std::iter::repeat(Lanes::all(0.0)));
+        let mut widening = 0.0;
+        for (b, slices) in rod.slices.each().enumerate() {
+            let ahead = shears.next().unwrap_or_default();
+            let (own, behind) = (slices.radial_force, behind(&ahead, last));
+            let present = first_lanes(rod.slices.len().saturating_sub(b * LANES));
+            let squares = lanes(|l| {
+                let force = own[l] - behind[l] + ahead[l];
+                present[l] * force * force
+            });
+            widening += sum(&squares);
+            last = ahead[LANES - 1];
+        }
+        rod.nodes.forced_change() + ratio * widening
+    }
+}
+
 /// Adds numbers lane by lane.
 #[inline(always)]
 pub(super) fn add(total: &mut Lanes, more: &Lanes) {

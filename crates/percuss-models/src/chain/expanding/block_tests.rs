@@ -45,7 +45,11 @@ fn step(rod: &mut Rod, time: f64) -> f64 {
 fn bits(rod: &Rod) -> Vec<u64> {
     let of = |slice: Slice| {
         let shape = [slice.length, slice.radius, slice.strain];
-        let forces = [slice.axial_force, slice.radial_force, slice.yield_point.stress()];
+        let forces = [
+            slice.axial_force,
+            slice.radial_force,
+            slice.yield_point.stress(),
+        ];
         let reached = [
             slice.plastic.strain,
             slice.plastic.largest_rate,

@@ -190,6 +190,11 @@ impl Projectile {
         }
     }
 
+    /// Forces times the changes of velocities in the last kick [N m/s].
+    pub(super) fn forced_change(&self, kick: f64) -> f64 {
+        self.rods().map(|rod| rod.forced_change(kick)).sum()
+    }
+
     /// Moves on and gives the plastic work [J]; an error names a slice that was crushed.
     pub(super) fn drift(&mut self, time_step: f64) -> Result<f64, usize> {
         let mut work = 0.0;

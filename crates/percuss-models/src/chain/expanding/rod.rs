@@ -6,7 +6,7 @@ use pulp::Arch;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    block::{Collect, Drift, Energies, Kick, Look},
+    block::{Collect, Drift, Energies, ForcedChange, Kick, Look},
     blocks::Blocks,
     node::{Dashpot, Momentum, Node, Nodes},
     projectile::failure_state,
@@ -159,6 +159,11 @@ impl Rod {
     /// New velocities of all but the tip.
     pub(super) fn kick(&mut self, kick: f64) {
         self.arch.dispatch(Kick { rod: self, kick });
+    }
+
+    /// Forces times the changes of velocities in the last kick [N m/s].
+    pub(super) fn forced_change(&self, kick: f64) -> f64 {
+        self.arch.dispatch(ForcedChange { rod: self, kick })
     }
 
     /// Moves on and gives the plastic work [J]; an error names a slice that was crushed.
