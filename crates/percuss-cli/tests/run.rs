@@ -272,7 +272,7 @@ fn a_numerical_failure_has_its_own_exit_code() {
     // Elements that never erode are compressed to nothing at this speed.
     let case = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '9 km/s' }\n\
                 target = { material = 'aluminium-2024-t351', thickness = 'semi-infinite' }\n\
-                chain = { erosion_strain = 'never', courant = 1.0 }";
+                chain = { target_resistance = 'column', erosion_strain = 'never', courant = 1.0 }";
     let folder = shot(case);
     let said = percuss(folder.path(), ["run", "--fast", "shot.toml"]);
     assert_eq!(
