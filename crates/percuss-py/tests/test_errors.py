@@ -80,7 +80,7 @@ def test_a_numerical_failure_has_time_step_and_element(program: Program, tmp_pat
     failing.write_text(
         "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '9 km/s' }\n"
         "target = { material = 'aluminium-2024-t351', thickness = 'semi-infinite' }\n"
-        "chain = { erosion_strain = 'never', courant = 1.0 }"
+        "chain = { target_resistance = 'column', erosion_strain = 'never', courant = 1.0 }"
     )
     printed = program("run", failing)
     assert printed.returncode == 3, printed.stderr

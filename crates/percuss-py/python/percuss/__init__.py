@@ -12,7 +12,7 @@ Examples
 ... )
 >>> result = percuss.run(case)
 >>> result.outcome, round(result.depth_of_penetration_mm, 4)
-('rebounded', 0.2034)
+('rebounded', 0.2033)
 """
 
 from typing import NoReturn

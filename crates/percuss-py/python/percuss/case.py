@@ -41,7 +41,7 @@ class Case:
     >>> case.impact_velocity_m_s
     230.0
     >>> round(percuss.run(case).depth_of_penetration_mm, 4)
-    0.2034
+    0.2033
     """
 
     _native: _percuss.Case

@@ -10,8 +10,9 @@ test("a study shows its progress and can be cancelled", async () => {
   const alone = await serve("--max-runs", "1");
   try {
     const page = await open("/", {}, alone.address);
-    // A mesh that keeps a study busy for many seconds.
-    await page.locator("#field-chain-target_elements").fill("400");
+    // A time step that keeps a study busy for seconds.
+    await page.locator("details").evaluateAll((all) => all.forEach((details) => (details.open = true)));
+    await page.locator("#field-chain-courant").fill("0.01");
     await answered(page, 2);
     // Models side by side take the only place first.
     await page.locator("#comparison-body table").waitFor();
