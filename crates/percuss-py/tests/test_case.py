@@ -135,5 +135,6 @@ def test_what_holds_itself_or_is_too_deep_is_refused() -> None:
         ):
             with pytest.raises(ValueError, match="is nested more than 32 levels deep"):
                 build()
+    assert not Path("nowhere").exists()
     with pytest.raises(ValueError, match="more than 1000000 values in all"):
         percuss.Case(projectile=wide, target=PLATE)

@@ -235,18 +235,23 @@ def plot(
 
 def _written(sweep: Mapping[str, Any], out: FilePath) -> FilePath:
     """The sweep file of a mapping, with its case beside it."""
-    out.mkdir(parents=True, exist_ok=True)
     tables = dict(sweep)
     base = tables.get("base")
+    own: tuple[Case, str] | None = None
     if isinstance(base, Case):
         if base.path is not None:
             base = base.path
         else:
-            name = f"{base.name}.toml"
-            base.save(out / name)
-            tables["base"] = name
+            own = base, f"{base.name}.toml"
+            tables["base"] = own[1]
     if isinstance(base, os.PathLike):
         tables["base"] = os.path.relpath(base, out)
+    # What is refused leaves no folder.
+    text = _percuss.toml_text(tables)
+    out.mkdir(parents=True, exist_ok=True)
+    if own is not None:
+        case, name = own
+        case.save(out / name)
     path = out / "sweep.toml"
-    path.write_text(_percuss.toml_text(tables), encoding="utf-8")
+    path.write_text(text, encoding="utf-8")
     return path
