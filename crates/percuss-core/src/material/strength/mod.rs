@@ -68,14 +68,6 @@ pub trait PreparedStrength: fmt::Debug + Send + Sync {
         None
     }
 
-    /// The law as a power of the plastic strain alone, if it is one.
-    fn hardening(&self) -> Option<Hardening> {
-        match self.in_lanes() {
-            Some(LaneLaw::Hardening(law)) => Some(law),
-            _ => None,
-        }
-    }
-
     /// Whether the flow stress changes with the pressure, without any flow.
     fn depends_on_pressure(&self) -> bool {
         false

@@ -3,7 +3,7 @@ use super::super::{
     rod::Rod,
     slice::{Metal, Shear, Slice},
 };
-use crate::material::{FlowState, FlowStress, Hardening, PreparedStrength};
+use crate::material::{FlowState, FlowStress, Hardening, LaneLaw, PreparedStrength};
 
 /// A law of which nobody knows that it is a power of the plastic strain.
 #[derive(Debug)]
@@ -63,7 +63,9 @@ fn bits(rod: &Rod) -> Vec<u64> {
 
 #[test]
 fn flow_of_eight_slices_has_the_bits_of_flow_one_by_one() {
-    let law = metal().strength.hardening().unwrap();
+    let Some(LaneLaw::Hardening(law)) = metal().strength.in_lanes() else {
+        panic!("a power law");
+    };
     let mut one_by_one = metal();
     one_by_one.strength = Box::new(Unknown(law));
     let (mut rod, mut other) = (shaken(metal(), 11), shaken(one_by_one, 11));

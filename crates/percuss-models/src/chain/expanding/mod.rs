@@ -8,6 +8,7 @@ mod blocks;
 mod crater_floor;
 mod delay_line;
 mod far_field;
+mod floor_contact;
 mod forces;
 mod node;
 mod plane_impact;
